@@ -1,0 +1,26 @@
+# Language, warnings, sanitizers and where outputs go: the same for every part.
+
+set(CMAKE_C_STANDARD 17)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
+endif()
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+
+option(TRAX_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(TRAX_WERROR "Warnings are errors" ON)
+
+# What every target of ours links: warnings for our own code only, never for LLVM's headers. Host arithmetic must be
+# IEEE 754: no contraction, no fast-math.
+add_library(trax_flags INTERFACE)
+target_compile_options(trax_flags INTERFACE -Wall -Wextra -ffp-contract=off $<$<BOOL:${TRAX_WERROR}>:-Werror>)
+if(TRAX_SANITIZE)
+  target_compile_options(trax_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(trax_flags INTERFACE -fsanitize=address,undefined)
+endif()

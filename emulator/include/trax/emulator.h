@@ -1,0 +1,101 @@
+/* The timing emulator as a library. One machine runs one program once:
+
+     trax_config *config = trax_config_create();             the default: one TP
+     trax_config_preset(config, "4x32", &error);
+     trax_config_set(config, "memory.bandwidth_gbps", "16", &error);
+     trax_machine *machine = trax_machine_create(config, &error);
+     trax_machine_load_elf(machine, "program", &error);
+     trax_machine_bind(machine, "scene", bytes, size, &error);
+     trax_machine_run(machine, &options, &error);
+     trax_machine_read_buffer(machine, "image", ...);
+     trax_stats_write_json(machine, "stats.json", &error);
+
+   Functions return TRAX_OK, or another status with the reason in *error; the library never exits and prints nothing but
+   what the guest prints through options.output. */
+#ifndef TRAX_EMULATOR_H
+#define TRAX_EMULATOR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum trax_status {
+  TRAX_OK = 0,
+  TRAX_ERROR,       /* bad input: the message names the place */
+  TRAX_FAULT,       /* the guest did what it must not; trax_machine_fault tells */
+  TRAX_INTERRUPTED, /* options.interrupt became true; statistics are partial */
+  TRAX_STUCK        /* the watchdog: max_cycles passed; statistics are partial */
+} trax_status;
+
+typedef struct trax_error {
+  char message[1024];
+} trax_error;
+
+/* --- configuration: emulator/host/config.c; keys are listed by trax_config_describe and in docs/emulator.md --- */
+typedef struct trax_config trax_config;
+
+trax_config *trax_config_create(void); /* 1 TM of 1 TP, everything else as in the paper */
+void trax_config_destroy(trax_config *config);
+/* One of the paper's fifteen chips by name ("1x32" ... "8x64"), or a libconfig file if the name is none of them. */
+trax_status trax_config_load(trax_config *config, const char *preset_or_path, trax_error *error);
+trax_status trax_config_preset(trax_config *config, const char *name, trax_error *error);
+/* key as "memory.latency_cycles"; the value is checked for type and range, the message says what is allowed. */
+trax_status trax_config_set(trax_config *config, const char *key, const char *value, trax_error *error);
+/* Checks that hold between keys; trax_machine_create calls it. */
+trax_status trax_config_check(const trax_config *config, trax_error *error);
+void trax_config_print(const trax_config *config, FILE *out);    /* a file that trax_config_load reads back */
+void trax_config_describe(FILE *out);                            /* every key: type, range, default, unit, meaning */
+const char *const *trax_config_presets(void);                    /* NULL-terminated */
+
+/* --- machine --- */
+typedef struct trax_machine trax_machine;
+
+trax_machine *trax_machine_create(const trax_config *config, trax_error *error); /* copies config */
+void trax_machine_destroy(trax_machine *machine);
+trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error);
+
+/* Fills the trax_buffer object called symbol (docs/abi.md). bytes may be NULL for zeros. */
+trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const void *bytes, uint32_t size, trax_error *error);
+trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, const char *path, trax_error *error);
+/* The bytes of a bound buffer, valid until the machine is destroyed. */
+trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
+                                     trax_error *error);
+
+typedef struct trax_progress {
+  uint64_t cycle;
+  uint64_t instructions;
+  uint64_t items;       /* counted by the program's "items" trap */
+  uint64_t total_items; /* from options; 0 if unknown */
+  double host_seconds;
+} trax_progress;
+
+typedef struct trax_run_options {
+  FILE *output;                                                 /* guest output; NULL discards it */
+  uint64_t max_cycles;                                          /* 0: no limit */
+  uint64_t total_items;                                         /* for progress */
+  void (*progress)(void *context, const trax_progress *status); /* about ten times a second; may be NULL */
+  void *progress_context;
+  const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
+} trax_run_options;
+
+trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
+
+int trax_machine_exit_status(const trax_machine *machine);
+/* The report of the fault that ended the run: address, instruction, symbol, source line, thread, TM, cycle, registers. */
+void trax_machine_print_fault(const trax_machine *machine, FILE *out);
+
+/* --- statistics: declared once in emulator/core/stats.h; names are stable --- */
+/* A single figure by its JSON name ("cycles", "mrps", "l1.hits"); false if there is none of that name. */
+bool trax_stats_get(const trax_machine *machine, const char *name, double *value);
+void trax_stats_print(const trax_machine *machine, FILE *out);
+trax_status trax_stats_write_json(const trax_machine *machine, const char *path, trax_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

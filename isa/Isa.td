@@ -1,0 +1,9 @@
+//===- Isa.td - the ISA alone, as the generator reads it -----------------===//
+include "llvm/Target/Target.td"
+include "TraxRegisters.td"
+include "TraxUnits.td"
+include "TraxFormats.td"
+include "TraxInstructions.td"
+
+def TraxInstrInfo : InstrInfo;
+def Trax : Target { let InstructionSet = TraxInstrInfo; }

@@ -1,0 +1,174 @@
+//===- TraxFormats.td - instruction formats ------------------------------===//
+//
+// Every instruction is one 32-bit little-endian word. The major opcode is in bits 31..26; register fields are five bits
+// wide. Bits that no field covers are zero: a word with another value there is illegal.
+//
+//        31    26 25  21 20  16 15  11 10      6 5       0
+//   R   | opcode |  rd  |  ra  |  rb  |    0    |  func   |   register-register
+//   R1  | opcode |  rd  |  ra  |  0   |    0    |  func   |   one operand
+//   I   | opcode |  rd  |  ra  |          imm16           |   immediate, load, jalr
+//   SH  | opcode |  rd  |  ra  |      0      |   imm5     |   shift by a constant
+//   U   | opcode |  rd  |  0   |          imm16           |   upper immediate, special register
+//   S   | opcode |  rb  |  ra  |          imm16           |   store
+//   B   | opcode |  ra  |  rb  |        offset16          |   conditional branch
+//   J   | opcode |  rd  |            offset21             |   jump and link
+//   T   | opcode |  0   |  ra  |          imm16           |   trap
+//   N   | opcode |                   0                    |   no operand
+//
+// The assembler's operand order is the destination first; memory operands are written imm(ra).
+
+//--- operands ---------------------------------------------------------------
+
+class TraxImmAsmOperand<string name, string diagnostic> : AsmOperandClass {
+  let Name = name;
+  let RenderMethod = "addImmOperands";
+  let DiagnosticString = diagnostic;
+}
+
+def simm16 : Operand<i32>, ImmLeaf<i32, [{ return isInt<16>(Imm); }]> {
+  let ParserMatchClass = TraxImmAsmOperand<"SImm16",
+      "immediate must be an integer in the range [-32768, 32767], %lo(symbol) or %abs(symbol)">;
+  let EncoderMethod = "encodeImm16";
+  let DecoderMethod = "decodeSImm16";
+}
+// The upper half of a constant; written as an unsigned number.
+def uimm16 : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm); }]> {
+  let ParserMatchClass = TraxImmAsmOperand<"UImm16",
+      "immediate must be an integer in the range [0, 65535] or %hi(symbol)">;
+  let EncoderMethod = "encodeImm16";
+}
+def uimm5 : Operand<i32>, ImmLeaf<i32, [{ return isUInt<5>(Imm); }]> {
+  let ParserMatchClass = TraxImmAsmOperand<"UImm5", "shift amount must be an integer in the range [0, 31]">;
+}
+def srnum : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
+  let ParserMatchClass = TraxImmAsmOperand<"SRNum",
+      "special register must be thread, tm, tp, threads, cycle, cycleh or a number in the range [0, 5]">;
+  let PrintMethod = "printSpecialRegister";
+}
+def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
+  let ParserMatchClass = TraxImmAsmOperand<"TrapCode",
+      "trap code must be exit, putc, abort, rays, items, puts or a number in the range [0, 5]">;
+  let PrintMethod = "printTrapCode";
+}
+def brtarget : Operand<OtherVT> {
+  let ParserMatchClass = TraxImmAsmOperand<"BrTarget",
+      "branch target must be a symbol or a multiple of 4 in the range [-131072, 131068]">;
+  let EncoderMethod = "encodeBrTarget";
+  let DecoderMethod = "decodeBrTarget";
+  let PrintMethod = "printPCRelOperand";
+  let OperandType = "OPERAND_PCREL";
+}
+def jaltarget : Operand<OtherVT> {
+  let ParserMatchClass = TraxImmAsmOperand<"JalTarget",
+      "jump target must be a symbol or a multiple of 4 in the range [-4194304, 4194300]">;
+  let EncoderMethod = "encodeJalTarget";
+  let DecoderMethod = "decodeJalTarget";
+  let PrintMethod = "printPCRelOperand";
+  let OperandType = "OPERAND_PCREL";
+}
+
+//--- formats ----------------------------------------------------------------
+
+class TraxFormat<string name> { string FormatName = name; }
+def FormatR  : TraxFormat<"R">;
+def FormatR1 : TraxFormat<"R1">;
+def FormatI  : TraxFormat<"I">;
+def FormatSH : TraxFormat<"SH">;
+def FormatU  : TraxFormat<"U">;
+def FormatS  : TraxFormat<"S">;
+def FormatB  : TraxFormat<"B">;
+def FormatJ  : TraxFormat<"J">;
+def FormatT  : TraxFormat<"T">;
+def FormatN  : TraxFormat<"N">;
+
+// The root of every real instruction. Semantics is a C statement over RD (an lvalue), RA, RB, IMM (sign extended where
+// the operand is signed; branch offsets in bytes), PC (address of the instruction), NEXT_PC (an lvalue, PC + 4 on
+// entry) and the functions of isa/include/trax/semantics.h. Manual is the sentence of docs/isa.md.
+class TraxInst<TraxFormat format, bits<6> opcode, dag outs, dag ins, string asm, TraxUnit unit, code semantics,
+               string manual> : Instruction {
+  field bits<32> Inst;
+  field bits<32> SoftFail = 0;
+  let Namespace = "Trax";
+  let DecoderNamespace = "Trax";
+  let Size = 4;
+  let Inst{31-26} = opcode;
+  let OutOperandList = outs;
+  let InOperandList = ins;
+  let AsmString = asm;
+  let Pattern = [];
+  let SchedRW = [unit];
+  let hasSideEffects = false;
+  let mayLoad = false;
+  let mayStore = false;
+
+  TraxFormat Format = format;
+  TraxUnit Unit = unit;
+  code Semantics = semantics;
+  string Manual = manual;
+  bit IsFlop = false;       // counts in the paper's GFLOPS (adds and multiplies)
+  bit MayWriteLocal = false;
+  int AccessBytes = 0;      // memory access size
+  bit IsNontemporal = false;
+  bit IsAtomic = false;
+  bit ReadsRD = false;      // RD is an input too (conditional moves)
+}
+
+// bits<5> fields are filled from the operand of the same name.
+class InstR<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, code semantics, string manual>
+    : TraxInst<FormatR, op, (outs GPR:$rd), (ins GPR:$ra, GPR:$rb), mnemonic#"\t$rd, $ra, $rb", unit, semantics, manual> {
+  bits<5> rd; bits<5> ra; bits<5> rb;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-11} = rb; let Inst{10-6} = 0; let Inst{5-0} = func;
+}
+class InstR1<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, code semantics, string manual>
+    : TraxInst<FormatR1, op, (outs GPR:$rd), (ins GPR:$ra), mnemonic#"\t$rd, $ra", unit, semantics, manual> {
+  bits<5> rd; bits<5> ra;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-6} = 0; let Inst{5-0} = func;
+}
+// Conditional move: rd keeps its value where the condition does not hold.
+class InstCMov<bits<6> op, bits<6> func, string mnemonic, code semantics, string manual>
+    : TraxInst<FormatR, op, (outs GPR:$rd), (ins GPR:$old, GPR:$ra, GPR:$rb), mnemonic#"\t$rd, $ra, $rb", UnitInt, semantics,
+               manual> {
+  bits<5> rd; bits<5> ra; bits<5> rb;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-11} = rb; let Inst{10-6} = 0; let Inst{5-0} = func;
+  let Constraints = "$rd = $old";
+  let ReadsRD = true;
+}
+class InstI<bits<6> op, string mnemonic, code semantics, string manual>
+    : TraxInst<FormatI, op, (outs GPR:$rd), (ins GPR:$ra, simm16:$imm), mnemonic#"\t$rd, $ra, $imm", UnitInt, semantics, manual> {
+  bits<5> rd; bits<5> ra; bits<16> imm;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-0} = imm;
+}
+class InstSH<bits<6> op, string mnemonic, code semantics, string manual>
+    : TraxInst<FormatSH, op, (outs GPR:$rd), (ins GPR:$ra, uimm5:$imm), mnemonic#"\t$rd, $ra, $imm", UnitInt, semantics, manual> {
+  bits<5> rd; bits<5> ra; bits<5> imm;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-5} = 0; let Inst{4-0} = imm;
+}
+class InstU<bits<6> op, string mnemonic, Operand operand, TraxUnit unit, code semantics, string manual>
+    : TraxInst<FormatU, op, (outs GPR:$rd), (ins operand:$imm), mnemonic#"\t$rd, $imm", unit, semantics, manual> {
+  bits<5> rd; bits<16> imm;
+  let Inst{25-21} = rd; let Inst{20-16} = 0; let Inst{15-0} = imm;
+}
+class InstLoad<bits<6> op, int bytes, string mnemonic, code semantics, string manual>
+    : TraxInst<FormatI, op, (outs GPR:$rd), (ins GPR:$ra, simm16:$imm), mnemonic#"\t$rd, ${imm}(${ra})", UnitMemory, semantics,
+               manual> {
+  bits<5> rd; bits<5> ra; bits<16> imm;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-0} = imm;
+  let mayLoad = true;
+  let AccessBytes = bytes;
+}
+class InstStore<bits<6> op, int bytes, string mnemonic, code semantics, string manual>
+    : TraxInst<FormatS, op, (outs), (ins GPR:$rb, GPR:$ra, simm16:$imm), mnemonic#"\t$rb, ${imm}(${ra})", UnitMemory, semantics,
+               manual> {
+  bits<5> rb; bits<5> ra; bits<16> imm;
+  let Inst{25-21} = rb; let Inst{20-16} = ra; let Inst{15-0} = imm;
+  let mayStore = true;
+  let AccessBytes = bytes;
+}
+class InstB<bits<6> op, string mnemonic, code semantics, string manual>
+    : TraxInst<FormatB, op, (outs), (ins GPR:$ra, GPR:$rb, brtarget:$offset), mnemonic#"\t$ra, $rb, $offset", UnitControl,
+               semantics, manual> {
+  bits<5> ra; bits<5> rb; bits<16> offset;
+  let Inst{25-21} = ra; let Inst{20-16} = rb; let Inst{15-0} = offset;
+  let isBranch = true;
+  let isTerminator = true;
+}

@@ -1,0 +1,42 @@
+/* Numbers shared by compiler, linker, runtime, emulator and host; docs/abi.md says what they mean.
+   Plain macros: included by C, C++ and assembly. */
+#ifndef TRAX_ABI_H
+#define TRAX_ABI_H
+
+#define TRAX_EM 0x7472 /* e_machine; unofficial: 't' 'r' */
+
+/* Relocations: name, number. */
+#define TRAX_RELOCATIONS(X)                                                                                            \
+  X(R_TRAX_NONE, 0)                                                                                                    \
+  X(R_TRAX_32, 1)                                                                                                      \
+  X(R_TRAX_16, 2)                                                                                                      \
+  X(R_TRAX_8, 3)                                                                                                       \
+  X(R_TRAX_PC32, 4)                                                                                                    \
+  X(R_TRAX_HI16, 5)                                                                                                    \
+  X(R_TRAX_LO16, 6)                                                                                                    \
+  X(R_TRAX_IMM16, 7)                                                                                                   \
+  X(R_TRAX_BR16, 8)                                                                                                    \
+  X(R_TRAX_JAL21, 9)
+
+#define TRAX_NULL_END 0x00001000u    /* first valid global address */
+#define TRAX_LOCAL_BASE 0xFFFFFE00u  /* first byte of local memory */
+#define TRAX_LOCAL_SIZE 512u         /* bytes */
+#define TRAX_NUM_REGISTERS 32
+
+#define TRAX_SR_THREAD 0
+#define TRAX_SR_TM 1
+#define TRAX_SR_TP 2
+#define TRAX_SR_THREADS 3
+#define TRAX_SR_CYCLE 4
+#define TRAX_SR_CYCLEH 5
+#define TRAX_SR_COUNT 6
+
+#define TRAX_TRAP_EXIT 0
+#define TRAX_TRAP_PUTC 1
+#define TRAX_TRAP_ABORT 2
+#define TRAX_TRAP_RAYS 3
+#define TRAX_TRAP_ITEMS 4
+#define TRAX_TRAP_PUTS 5
+#define TRAX_TRAP_COUNT 6
+
+#endif
