@@ -1,0 +1,99 @@
+/* The scene file: what the host writes and the device traverses in place. Little endian, 32-bit fields, no pointers:
+   every reference is a byte offset from the first byte of the file, so the device adds it to the address where the
+   host bound the file (64-byte aligned) and nothing is relocated.
+
+     byte   0  struct trax_scene_header, 3 lines of 64 bytes
+     byte 192  the sections, each 64-byte aligned, zero bytes between them
+
+   A 64-byte line is the machine's unit of traffic, so the format spends as few of them per ray as it can:
+   - a BVH node holds both children's boxes and is one line;
+   - a leaf's triangles are contiguous, 40 bytes each, their material with them, in the order in which a depth-first
+     traversal meets the leaves, so that neighbouring leaves share lines.
+   The section table is indexed by kind. A section that a program does not read may be absent: offset, count and
+   size 0.
+
+   References (trax_scene_ref): nodes are 64-byte and triangles 8-byte aligned, which leaves the low three bits for the
+   number of triangles:
+     0                nothing: only as the root of a scene without triangles
+     offset | 0       an inner node at that offset
+     offset | 1..7    a leaf: so many triangles, the first at that offset
+   Included by C for the TP, C for the host, and C++. */
+#ifndef TRAX_SCENE_FORMAT_H
+#define TRAX_SCENE_FORMAT_H
+
+#include <stdint.h>
+
+#define TRAX_SCENE_MAGIC 0x53585254u /* the bytes "TRXS" */
+#define TRAX_SCENE_VERSION 1u
+#define TRAX_SCENE_ALIGNMENT 64u
+#define TRAX_SCENE_MAX_LEAF 7u   /* triangles in a leaf, at most */
+#define TRAX_SCENE_MAX_DEPTH 48u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
+
+typedef uint32_t trax_scene_ref;
+#define TRAX_SCENE_REF_COUNT(ref) ((ref)&7u)     /* triangles of a leaf; 0: an inner node */
+#define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
+
+enum trax_scene_section_kind {
+  TRAX_SCENE_NODES = 0,      /* struct trax_bvh_node, depth first, the root first */
+  TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in leaf order without gaps */
+  TRAX_SCENE_MATERIALS = 2,  /* struct trax_material; at least one if there are triangles */
+  TRAX_SCENE_SOURCE_IDS = 3, /* uint32_t per triangle: its number in the imported mesh; for the host only */
+  TRAX_SCENE_SECTIONS = 8    /* slots in the table; kinds 4..7 are absent in this version */
+};
+
+struct trax_scene_section {
+  uint32_t offset;      /* bytes from the start of the file, a multiple of 64; 0: absent */
+  uint32_t size;        /* bytes: count * record_size */
+  uint32_t count;       /* records */
+  uint32_t record_size; /* bytes */
+};
+
+struct trax_scene_header {
+  uint32_t magic;          /* TRAX_SCENE_MAGIC */
+  uint32_t version;        /* TRAX_SCENE_VERSION */
+  uint32_t file_size;      /* bytes, header included, a multiple of 64 */
+  uint32_t checksum;       /* CRC-32 (ISO 3309, as in zlib) of the whole file with this field zero */
+  trax_scene_ref root;     /* an inner node; a leaf if that holds all triangles; 0 if there are none */
+  uint32_t max_depth;      /* most inner nodes on a path from the root; a traversal that pushes one child per inner
+                              node never has more entries on its stack */
+  uint32_t max_leaf;       /* most triangles in one leaf */
+  uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
+  float bounds_min[3];     /* of all triangles; zeros if there are none */
+  float bounds_max[3];
+  uint32_t reserved[2]; /* zero */
+  struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
+};
+
+/* box[c] bounds every triangle below child[c], exactly: the least and the greatest of its vertices' coordinates, never
+   rounded outwards. Allowing for the rounding of a ray's own arithmetic is the traversal's part. */
+struct trax_bvh_node {
+  struct {
+    float min[3], max[3];
+  } box[2];
+  trax_scene_ref child[2]; /* never 0 */
+  uint32_t reserved[2];    /* zero */
+};
+
+struct trax_triangle {
+  float v0[3], v1[3], v2[3]; /* finite; winding as in the mesh */
+  uint32_t material;         /* index into the materials */
+};
+
+struct trax_material {
+  float diffuse[3];  /* linear RGB reflectance, 0 to 1 */
+  uint32_t reserved; /* zero */
+};
+
+#ifdef __cplusplus
+#define TRAX_SCENE_ASSERT_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " has no padding")
+#else
+#define TRAX_SCENE_ASSERT_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type " has no padding")
+#endif
+TRAX_SCENE_ASSERT_SIZE(struct trax_scene_section, 16);
+TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
+TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
+TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
+TRAX_SCENE_ASSERT_SIZE(struct trax_material, 16);
+#undef TRAX_SCENE_ASSERT_SIZE
+
+#endif
