@@ -106,7 +106,7 @@ class TraxInst<TraxFormat format, bits<6> opcode, dag outs, dag ins, string asm,
   code Semantics = semantics;
   string Manual = manual;
   bit IsFlop = false;       // counts in the paper's GFLOPS (adds and multiplies)
-  bit MayWriteLocal = false;
+  int ImmLimit = -1;        // immediates from here on are illegal; -1: no limit
   int AccessBytes = 0;      // memory access size
   bit IsNontemporal = false;
   bit IsAtomic = false;

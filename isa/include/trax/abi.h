@@ -23,6 +23,15 @@
 #define TRAX_LOCAL_SIZE 512u         /* bytes */
 #define TRAX_NUM_REGISTERS 32
 
+/* Special registers: constant, assembler name, number. */
+#define TRAX_SPECIAL_REGISTERS(X)                                                                                      \
+  X(TRAX_SR_THREAD, "thread", 0)                                                                                       \
+  X(TRAX_SR_TM, "tm", 1)                                                                                               \
+  X(TRAX_SR_TP, "tp", 2)                                                                                               \
+  X(TRAX_SR_THREADS, "threads", 3)                                                                                     \
+  X(TRAX_SR_CYCLE, "cycle", 4)                                                                                         \
+  X(TRAX_SR_CYCLEH, "cycleh", 5)
+
 #define TRAX_SR_THREAD 0
 #define TRAX_SR_TM 1
 #define TRAX_SR_TP 2
@@ -30,6 +39,15 @@
 #define TRAX_SR_CYCLE 4
 #define TRAX_SR_CYCLEH 5
 #define TRAX_SR_COUNT 6
+
+/* Traps: constant, assembler name, number. */
+#define TRAX_TRAPS(X)                                                                                                  \
+  X(TRAX_TRAP_EXIT, "exit", 0)                                                                                         \
+  X(TRAX_TRAP_PUTC, "putc", 1)                                                                                         \
+  X(TRAX_TRAP_ABORT, "abort", 2)                                                                                       \
+  X(TRAX_TRAP_RAYS, "rays", 3)                                                                                         \
+  X(TRAX_TRAP_ITEMS, "items", 4)                                                                                       \
+  X(TRAX_TRAP_PUTS, "puts", 5)
 
 #define TRAX_TRAP_EXIT 0
 #define TRAX_TRAP_PUTC 1

@@ -54,6 +54,7 @@ enum {
 typedef struct trax_op_info {
   const char *name;     /* "ADD" */
   const char *mnemonic; /* "add"; "illegal" for TRAX_OP_ILLEGAL */
+  const char *syntax;   /* operands in assembler order: d, a, b registers; i u immediates; p target; s t names */
   trax_format format;
   trax_unit unit;
   uint32_t mask;  /* bits that are fixed */
@@ -63,6 +64,8 @@ typedef struct trax_op_info {
 } trax_op_info;
 
 extern const trax_op_info trax_op_table[TRAX_OP_COUNT];
+extern const unsigned trax_unit_latency[TRAX_UNIT_COUNT]; /* cycles; the machine's defaults */
+extern const char *const trax_unit_names[TRAX_UNIT_COUNT]; /* "FP_ADD" */
 
 /* A decoded instruction. imm is sign extended where the operand is signed, in bytes for branches and jumps. Fields that the
    format lacks are 0. */

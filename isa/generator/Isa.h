@@ -1,0 +1,51 @@
+// The ISA as the generator sees it: plain structs read from TableGen's records.
+#ifndef TRAX_ISA_GENERATOR_H
+#define TRAX_ISA_GENERATOR_H
+
+#include "llvm/Support/raw_ostream.h"
+#include "llvm/TableGen/Record.h"
+#include <string>
+#include <vector>
+
+namespace trax {
+
+struct Field {
+  std::string Name; // rd, ra, rb, imm, offset
+  unsigned Low;     // lowest bit in the instruction
+  unsigned Width;
+};
+
+struct Unit {
+  std::string Record, Name, Description;
+  int64_t Latency;
+};
+
+struct Instruction {
+  std::string Name, Mnemonic, Syntax, AssemblerText, Format, Unit, Semantics, Manual;
+  uint32_t Mask = 0, Match = 0;
+  std::vector<Field> Fields; // most significant first
+  bool ImmSigned = false;
+  unsigned ImmScale = 1;
+  int64_t ImmLimit = -1;
+  unsigned AccessBytes = 0;
+  bool ReadsRA = false, ReadsRB = false, ReadsRD = false, WritesRD = false;
+  bool IsLoad = false, IsStore = false, IsAtomic = false, IsNontemporal = false, IsBranch = false, IsFlop = false;
+
+  unsigned opcode() const { return Match >> 26; }
+};
+
+struct Isa {
+  std::vector<Unit> Units;
+  std::vector<Instruction> Instructions; // in the order of their encodings
+};
+
+Isa readIsa(llvm::RecordKeeper &Records); // fails with the record's location on an inconsistent description
+
+void emitInstructions(llvm::raw_ostream &OS, const Isa &Isa);
+void emitUnits(llvm::raw_ostream &OS, const Isa &Isa);
+void emitSemantics(llvm::raw_ostream &OS, const Isa &Isa);
+void emitCodec(llvm::raw_ostream &OS, const Isa &Isa);
+void emitManual(llvm::raw_ostream &OS, const Isa &Isa, const std::string &TemplatePath);
+
+} // namespace trax
+#endif
