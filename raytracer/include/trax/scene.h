@@ -1,0 +1,147 @@
+/* Scenes on the host: meshes are imported, a BVH is built, and the result is a scene file (scene_format.h) in memory,
+   which is written, read back and checked.
+
+     struct trax_mesh mesh = {0};
+     trax_mesh_import(&mesh, paths, count, &import_options, &report, &error);
+     struct trax_scene scene = {0};
+     trax_scene_build(&scene, &mesh, &build_options, &error);
+     trax_scene_write(&scene, "bunny.trax", &error);
+
+   Functions return TRAX_OK, TRAX_ERROR with the reason in *error, or TRAX_INTERRUPTED. What they filled is released
+   with trax_mesh_release or trax_scene_release, which also accept a zeroed or already released object. */
+#ifndef TRAX_SCENE_H
+#define TRAX_SCENE_H
+
+#include "trax/emulator.h" /* trax_status, trax_error */
+#include "trax/scene_format.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- meshes --- */
+
+struct trax_mesh_triangle {
+  uint32_t vertices[3];
+  uint32_t material;
+  uint32_t source_id; /* its number among all imported triangles, those that were dropped included */
+};
+
+struct trax_mesh_material {
+  char name[64];    /* "" if it has none; cut if longer */
+  float diffuse[3]; /* linear RGB, 0 to 1 */
+};
+
+struct trax_mesh {
+  float (*vertices)[3];
+  struct trax_mesh_triangle *triangles;
+  struct trax_mesh_material *materials; /* at least one after an import */
+  uint32_t vertex_count, triangle_count, material_count;
+};
+
+/* How far a long step has come. fraction is 0 to 1, or negative if it cannot be told. May be called from any thread. */
+typedef void trax_scene_progress(void *context, const char *step, double fraction);
+
+struct trax_material_override {
+  const char *name; /* of the material; NULL: all of them */
+  float diffuse[3]; /* linear RGB, 0 to 1 */
+};
+
+struct trax_import_options {
+  bool drop_nonfinite;  /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
+  bool keep_degenerate; /* keep triangles of exactly zero area, which no ray can hit */
+  bool in_process;      /* no child process around the importer: for debuggers and sanitizers */
+  const struct trax_material_override *overrides; /* applied in order */
+  size_t override_count;
+  trax_scene_progress *progress; /* may be NULL */
+  void *progress_context;
+  const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
+};
+
+struct trax_import_report {
+  uint64_t source_triangles;    /* after polygons were cut into triangles */
+  uint64_t degenerate;          /* dropped: zero area */
+  uint64_t nonfinite;           /* dropped: a vertex is NaN or infinite */
+  uint64_t other_primitives;    /* skipped: points and lines */
+  uint32_t missing_files;       /* files the meshes refer to that could not be read, as material libraries */
+  char first_missing_file[256]; /* its name */
+};
+
+/* The colour of what has no material: a light grey. */
+extern const float trax_default_diffuse[3];
+
+/* Reads and merges the files: anything assimp knows (PLY, OBJ with MTL, glTF and GLB among them), plain or compressed
+   as .xz or .gz. Node transforms are applied and polygons cut into triangles, in the order of the files. The importer
+   runs in a child process, so that a file on which it crashes is an error like any other. report may be NULL. Errors:
+   what cannot be read or is no mesh, indices out of range, vertices that are not finite (unless dropped), overrides
+   that match no material. A mesh without triangles is no error here. */
+trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
+                             const struct trax_import_options *options, struct trax_import_report *report,
+                             trax_error *error);
+void trax_mesh_release(struct trax_mesh *mesh);
+
+/* --- scenes --- */
+
+struct trax_scene {
+  void *bytes; /* the file, 64-byte aligned */
+  size_t size; /* bytes */
+  /* Views into it; pointers of empty sections are NULL. */
+  const struct trax_scene_header *header;
+  const struct trax_bvh_node *nodes;
+  const struct trax_triangle *triangles;
+  const struct trax_material *materials;
+  const uint32_t *source_ids;
+  uint32_t node_count, triangle_count, material_count;
+};
+
+struct trax_build_options {
+  unsigned max_leaf;             /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
+  unsigned max_depth;            /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
+  float traversal_cost;          /* of a node, relative to intersection_cost; 0: default */
+  float intersection_cost;       /* of a triangle; 0: default */
+  bool allow_empty;              /* a mesh without triangles gives a scene without triangles instead of an error */
+  bool without_source_ids;       /* leave that section out */
+  trax_scene_progress *progress; /* may be NULL */
+  void *progress_context;
+  const volatile int *interrupt; /* polled; may be NULL */
+};
+
+/* Builds the BVH (surface-area heuristic) and lays the file out. The same mesh and options give the same bytes on every
+   x86-64 host. */
+trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
+                             const struct trax_build_options *options, trax_error *error);
+
+/* Writes to a temporary beside path and renames it; nothing is left on failure. */
+trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);
+
+/* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every triangle is
+   in exactly one leaf and every box is exact. A scene that was accepted cannot lead a traversal astray. */
+trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
+
+/* The same checks on bytes in memory, which the caller keeps; name stands in the messages. On success *scene, if
+   not NULL, views the bytes, and need not be released. bytes must be 64-byte aligned. */
+trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t size, const char *name,
+                             trax_error *error);
+void trax_scene_release(struct trax_scene *scene);
+
+struct trax_scene_stats {
+  uint32_t leaves;
+  uint32_t leaf_sizes[TRAX_SCENE_MAX_LEAF + 1]; /* how many leaves hold so many triangles */
+  double mean_leaf_depth;                       /* inner nodes above a leaf */
+  /* Expected work of a long random ray that hits the scene's box and nothing else, from surface areas. */
+  double sah_nodes;     /* nodes visited */
+  double sah_triangles; /* triangles tested */
+};
+
+void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene *scene);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
