@@ -1,0 +1,47 @@
+/* What a guest may not do, and the record of where it did (docs/timing.md, "Faults"). */
+#ifndef TRAX_CORE_FAULT_H
+#define TRAX_CORE_FAULT_H
+
+#include "trax/abi.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* identifier, what happened in words */
+#define TRAX_FAULTS(X)                                                                                                 \
+  X(NONE, "no fault")                                                                                                  \
+  X(NULL_PAGE, "access to the null page")                                                                              \
+  X(STACK_OVERFLOW, "stack overflow: access below local memory")                                                       \
+  X(UNMAPPED, "access to an address that is neither global nor local memory")                                          \
+  X(MISALIGNED, "misaligned access")                                                                                   \
+  X(READ_ONLY, "write to read-only memory")                                                                            \
+  X(NOT_GLOBAL, "access past the data cache to local memory")                                                          \
+  X(EXECUTE, "execution outside the program's text")                                                                   \
+  X(MISALIGNED_PC, "jump to an address that is not a multiple of 4")                                                   \
+  X(ILLEGAL, "illegal instruction")                                                                                    \
+  X(SPECIAL_REGISTER, "unknown special register")                                                                      \
+  X(TRAP, "unknown trap code")                                                                                         \
+  X(ABORT, "abort")
+
+typedef enum trax_fault_kind {
+#define TRAX_FAULT_ENUM(ID, TEXT) TRAX_FAULT_##ID,
+  TRAX_FAULTS(TRAX_FAULT_ENUM)
+#undef TRAX_FAULT_ENUM
+      TRAX_FAULT_COUNT
+} trax_fault_kind;
+
+struct trax_fault {
+  trax_fault_kind kind;
+  uint32_t address; /* the data address, the pc of EXECUTE and MISALIGNED_PC, ABORT's message; else 0 */
+  uint32_t bytes;   /* size of the access; 0 if none */
+  bool write;       /* the access was a store or an atomic increment */
+  uint32_t pc;
+  uint32_t word; /* the instruction; 0 if it could not be fetched */
+  uint32_t thread, tm, tp;
+  uint64_t cycle;
+  uint32_t registers[TRAX_NUM_REGISTERS]; /* before the instruction */
+};
+
+const char *trax_fault_text(trax_fault_kind kind);
+
+#endif

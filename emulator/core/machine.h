@@ -1,0 +1,64 @@
+/* One machine: memory, program, chip and the outcome of its run. Internal to the library; emulator/host adds the
+   program's symbols and buffers through the host members. */
+#ifndef TRAX_CORE_MACHINE_H
+#define TRAX_CORE_MACHINE_H
+
+#include "core/address_space.h"
+#include "core/config.h"
+#include "core/fault.h"
+#include "core/stats.h"
+#include "trax/emulator.h"
+
+#include <stdarg.h>
+
+struct trax_chip;
+
+/* One issued instruction, for tracing: handed over after its effect. */
+struct trax_issue {
+  uint64_t cycle;
+  uint32_t tm, tp, pc;
+  uint32_t word;
+  uint32_t result;  /* the destination's new value, if it has one */
+  uint32_t address; /* of a memory access */
+};
+
+struct trax_machine {
+  struct trax_config config; /* a copy */
+  struct trax_space space;
+  uint32_t entry;
+  bool has_program; /* trax_machine_set_entry was called */
+  bool has_run;
+
+  /* Owned by emulator/host: symbols, lines, buffers. Destroyed with the machine if not NULL. */
+  void *host;
+  void (*host_destroy)(void *host);
+
+  /* Called for every issued instruction if not NULL. */
+  void (*trace)(void *context, const struct trax_issue *issue);
+  void *trace_context;
+
+  /* The outcome; valid after trax_machine_run. */
+  trax_status status; /* of the run */
+  struct trax_fault fault;
+  struct trax_stats stats;
+  struct trax_tm_stats *tm_stats; /* [tms] */
+  struct trax_tp_stats *tp_stats; /* [threads], by thread number */
+  int32_t *exit_statuses;         /* [threads] */
+
+  struct trax_chip *chip; /* while it runs */
+};
+
+/* Makes [address, address + bytes) a segment of global memory; *host receives where its bytes, all zero, are. Errors:
+   out of range, not 64-byte aligned, overlapping, writable and executable, or after the run. */
+trax_status trax_machine_map(struct trax_machine *machine, uint32_t address, uint32_t bytes, unsigned permissions,
+                             uint8_t **host, trax_error *error);
+/* Where all threads start: inside an executable segment, a multiple of 4. */
+trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry, trax_error *error);
+
+/* The fault that ended the run; its kind is TRAX_FAULT_NONE if none did. */
+const struct trax_fault *trax_machine_fault(const struct trax_machine *machine);
+
+/* Puts the message into *error (which may be NULL) and returns TRAX_ERROR. */
+__attribute__((format(printf, 2, 3))) trax_status trax_fail(trax_error *error, const char *format, ...);
+
+#endif

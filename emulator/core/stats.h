@@ -1,0 +1,146 @@
+/* Every statistic, declared once: identifier, JSON name, unit, meaning. The counters of the engines, the reports and
+   the documentation come from these tables; names are stable. */
+#ifndef TRAX_CORE_STATS_H
+#define TRAX_CORE_STATS_H
+
+#include "core/config.h"
+#include "trax/isa.h"
+
+#include <stdint.h>
+
+/* What a thread-cycle is charged to: exactly one of these per thread and cycle, so that they add up to threads x cycles
+   (docs/timing.md, "Accounting"). ISSUED comes first, HALTED last. Unit of all: thread-cycles. */
+#define TRAX_CAUSES(X)                                                                                                 \
+  X(ISSUED, "issued", "an instruction was issued")                                                                     \
+  X(ICACHE_BANK, "icache_bank_conflict", "another TP had the instruction-cache bank")                                  \
+  X(ICACHE_MISS, "icache_miss", "the instruction's line was on its way")                                               \
+  X(DATA_LOCAL, "wait_local", "an operand was being loaded from local memory")                                         \
+  X(DATA_HIT, "wait_dcache_hit", "an operand was being loaded from the data cache")                                    \
+  X(DATA_MISS, "wait_memory", "an operand was being loaded from off-chip memory")                                      \
+  X(DATA_SPECIAL, "wait_special", "an operand was in the FPDIV/iSQRT unit")                                            \
+  X(DATA_ATOMIC, "wait_atomic", "an operand was the result of an atomic increment")                                    \
+  X(DATA_OTHER, "wait_other", "an operand was in a unit whose latency is configured above one cycle")                  \
+  X(FP_ADD, "fp_add_conflict", "another TP of the cluster had the adder")                                              \
+  X(FP_MUL, "fp_mul_conflict", "another TP of the cluster had the multiplier")                                         \
+  X(INT_MUL, "int_mul_conflict", "another TP had the integer multiplier")                                              \
+  X(SPECIAL, "special_conflict", "the FPDIV/iSQRT units were busy or given to other TPs")                              \
+  X(DCACHE_BANK, "dcache_bank_conflict", "another TP had the data-cache bank")                                         \
+  X(MEMORY_QUEUE, "memory_queue_full", "no miss register or no place in the TM's memory queue was free")               \
+  X(BRANCH, "branch_bubble", "the bubble after a taken branch")                                                        \
+  X(HALTED, "halted", "the thread had ended")
+
+typedef enum trax_cause {
+#define TRAX_CAUSE_ENUM(ID, NAME, MEANING) TRAX_CAUSE_##ID,
+  TRAX_CAUSES(TRAX_CAUSE_ENUM)
+#undef TRAX_CAUSE_ENUM
+      TRAX_CAUSE_COUNT
+} trax_cause;
+
+/* Counted in every TM; the chip's figure is the sum. */
+#define TRAX_TM_COUNTERS(X)                                                                                            \
+  X(rays, "rays", "rays", "rays the program reported with the rays trap")                                              \
+  X(items, "items", "items", "items (pixels) the program reported with the items trap")                                \
+  X(flops, "flops", "operations", "floating-point adds, subtractions and multiplications")                             \
+  X(taken_branches, "taken_branches", "instructions", "branches and jumps that did not go to the next instruction")    \
+  X(fp_add_ops, "fp_add.operations", "operations", "operations the adders accepted")                                   \
+  X(fp_mul_ops, "fp_mul.operations", "operations", "operations the multipliers accepted")                              \
+  X(int_mul_ops, "int_mul.operations", "operations", "operations the integer multipliers accepted")                    \
+  X(special_ops, "special.operations", "operations", "operations the FPDIV/iSQRT units accepted")                      \
+  X(icache_hits, "icache.hits", "lookups", "instruction fetches that found their line")                                \
+  X(icache_misses, "icache.misses", "lookups", "instruction fetches that requested their line")                        \
+  X(icache_merged, "icache.merged", "lookups", "instruction fetches whose line was already on its way")                \
+  X(dcache_hits, "dcache.hits", "lookups", "cached loads that found their line")                                       \
+  X(dcache_misses, "dcache.misses", "lookups", "cached loads that requested their line")                               \
+  X(dcache_merged, "dcache.merged", "lookups", "cached loads whose line was already on its way")                       \
+  X(store_hits, "dcache.store_hits", "stores", "cached stores that updated a line in place")                           \
+  X(store_misses, "dcache.store_misses", "stores", "cached stores that found no line to update")                       \
+  X(local_loads, "local.loads", "instructions", "loads from local memory")                                             \
+  X(local_stores, "local.stores", "instructions", "stores to local memory")                                            \
+  X(nontemporal_loads, "nontemporal.loads", "instructions", "loads past the data cache")                               \
+  X(nontemporal_stores, "nontemporal.stores", "instructions", "stores past the data cache")                            \
+  X(combined_stores, "stores.combined", "stores", "stores that joined the TP's earlier one, at no cost of their own")  \
+  X(atomics, "atomics", "instructions", "atomic increments")                                                           \
+  X(data_read_bytes, "memory.data_read_bytes", "bytes", "lines read into the data cache")                              \
+  X(instruction_read_bytes, "memory.instruction_read_bytes", "bytes", "lines read into the instruction caches")        \
+  X(nontemporal_read_bytes, "memory.nontemporal_read_bytes", "bytes", "transfers of loads past the data cache")        \
+  X(written_bytes, "memory.written_bytes", "bytes", "transfers of stores, after combining")                            \
+  X(atomic_bytes, "memory.atomic_bytes", "bytes", "transfers of atomic increments")                                    \
+  X(write_requests, "memory.write_requests", "requests", "transfers of stores, after combining")                       \
+  X(memory_requests, "memory.requests", "requests", "requests to off-chip memory of any kind")                         \
+  X(queue_peak, "memory.queue_peak", "requests", "most requests of one TM under way at once; for the chip, the sum")
+
+struct trax_tp_stats {
+  uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles */
+};
+
+struct trax_tm_stats {
+  uint64_t cycles[TRAX_CAUSE_COUNT];    /* thread-cycles: sum over the TPs; filled when the run ends */
+  uint64_t instructions[TRAX_OP_COUNT]; /* issued, by operation */
+#define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
+  TRAX_TM_COUNTERS(TRAX_COUNTER_FIELD)
+#undef TRAX_COUNTER_FIELD
+};
+
+struct trax_stats {
+  uint64_t cycles;       /* length of the run */
+  uint64_t threads;      /* tms * tps_per_tm */
+  uint64_t instructions; /* issued, all threads */
+  double host_seconds;   /* wall time of trax_machine_run */
+  struct trax_tm_stats total;
+};
+
+/* Figures made from the counts, for reports: identifier, JSON name, unit, meaning, C expression over
+   S (const struct trax_stats *) and C (const struct trax_config *), whose value is a number. A quotient of zero by zero
+   is reported as 0. TRAX_STATS_BYTES and the like are below. */
+#define TRAX_FIGURES(X)                                                                                                \
+  X(cycles, "cycles", "cycles",                                                                                        \
+    "length of the run: from cycle 0 until every thread has ended and the last transfer "                              \
+    "is done",                                                                                                         \
+    S->cycles)                                                                                                         \
+  X(threads, "threads", "threads", "threads the chip runs", S->threads)                                                \
+  X(thread_cycles, "thread_cycles", "thread-cycles", "threads times cycles: what the causes add up to",                \
+    (double)S->threads *(double)S->cycles)                                                                             \
+  X(instructions, "instructions", "instructions", "instructions issued by all threads", S->instructions)               \
+  X(seconds, "seconds", "s", "simulated time", TRAX_SECONDS(S, C))                                                     \
+  X(host_seconds, "host_seconds", "s", "wall time of the simulation", S->host_seconds)                                 \
+  X(host_mips, "host_mips", "million instructions/s", "speed of the simulation",                                       \
+    S->instructions / 1e6 / S->host_seconds)                                                                           \
+  X(ipc, "instructions_per_cycle", "instructions/cycle", "whole chip", (double)S->instructions / S->cycles)            \
+  X(mrps, "mrps", "million rays/s", "simulated rays per simulated second", S->total.rays / TRAX_SECONDS(S, C) / 1e6)   \
+  X(gflops, "gflops", "10^9 operations/s", "adds, subtractions and multiplications per simulated second",              \
+    S->total.flops / TRAX_SECONDS(S, C) / 1e9)                                                                         \
+  X(peak_gflops, "peak_gflops", "10^9 operations/s", "one add and one multiplication per cluster and cycle",           \
+    2.0 * TRAX_CLUSTERS(C) * C->chip.tms * C->chip.clock_mhz / 1e3)                                                    \
+  X(area_mm2, "area_mm2", "mm2 at 65 nm", "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs",        \
+    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                            \
+  X(fp_add_utilisation, "fp_add.utilisation", "fraction", "share of cycles in which an adder accepted an operation",   \
+    (double)S->total.fp_add_ops / S->cycles / (TRAX_CLUSTERS(C) * C->chip.tms))                                        \
+  X(fp_mul_utilisation, "fp_mul.utilisation", "fraction",                                                              \
+    "share of cycles in which a multiplier accepted an operation",                                                     \
+    (double)S->total.fp_mul_ops / S->cycles / (TRAX_CLUSTERS(C) * C->chip.tms))                                        \
+  X(int_mul_utilisation, "int_mul.utilisation", "fraction",                                                            \
+    "share of cycles in which an integer multiplier accepted an operation",                                            \
+    (double)S->total.int_mul_ops / S->cycles / (TRAX_INT_MULS(C) * C->chip.tms))                                       \
+  X(special_utilisation, "special.utilisation", "fraction", "share of cycles in which an FPDIV/iSQRT unit was taken",  \
+    (double)S->total.special_ops *(C->special.pipelined ? 1 : C->special.latency_cycles) / S->cycles /                 \
+        (C->special.units_per_tm * C->chip.tms))                                                                       \
+  X(issue_utilisation, "issue.utilisation", "fraction", "share of thread-cycles that issued an instruction",           \
+    (double)S->instructions / S->cycles / S->threads)                                                                  \
+  X(icache_hit_rate, "icache.hit_rate", "fraction", "hits per instruction-cache lookup",                               \
+    (double)S->total.icache_hits / (S->total.icache_hits + S->total.icache_misses + S->total.icache_merged))           \
+  X(dcache_hit_rate, "dcache.hit_rate", "fraction", "hits per load that looked in the data cache",                     \
+    (double)S->total.dcache_hits / (S->total.dcache_hits + S->total.dcache_misses + S->total.dcache_merged))           \
+  X(memory_bytes, "memory.bytes", "bytes", "moved to and from off-chip memory", TRAX_MEMORY_BYTES(S))                  \
+  X(memory_gbps, "memory.bandwidth_gbps", "GB/s", "off-chip bandwidth used",                                           \
+    TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9)                                                                   \
+  X(memory_utilisation, "memory.utilisation", "fraction", "share of the off-chip bandwidth used",                      \
+    TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)
+
+#define TRAX_SECONDS(S, C) ((double)(S)->cycles / ((C)->chip.clock_mhz * 1e6))
+#define TRAX_CLUSTERS(C) (((C)->chip.tps_per_tm + (C)->fpu.tps_per_cluster - 1) / (C)->fpu.tps_per_cluster)
+#define TRAX_INT_MULS(C) (((C)->chip.tps_per_tm + (C)->int_mul.tps_per_unit - 1) / (C)->int_mul.tps_per_unit)
+#define TRAX_MEMORY_BYTES(S)                                                                                           \
+  ((double)((S)->total.data_read_bytes + (S)->total.instruction_read_bytes + (S)->total.nontemporal_read_bytes +       \
+            (S)->total.written_bytes + (S)->total.atomic_bytes))
+
+#endif
