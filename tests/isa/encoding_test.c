@@ -1,0 +1,124 @@
+/* Over all 2^32 words: decoding is total and unambiguous, and encode after decode is the identity. */
+#include "trax/isa.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+/* The table's entries for each major opcode: what the decoder is checked against. */
+static trax_op by_opcode[64][TRAX_OP_COUNT];
+static unsigned count_by_opcode[64];
+
+typedef struct range {
+  uint64_t first, end; /* words */
+  uint64_t legal, ambiguous, decoder_differs, not_identity, example;
+} range;
+
+static void *check_range(void *argument) {
+  range *r = argument;
+  for (uint64_t at = r->first; at < r->end; at++) {
+    uint32_t word = (uint32_t)at;
+    unsigned matches = 0;
+    trax_op match = TRAX_OP_ILLEGAL;
+    const trax_op *ops = by_opcode[word >> 26];
+    for (unsigned n = 0; n < count_by_opcode[word >> 26]; n++)
+      if ((word & trax_op_table[ops[n]].mask) == trax_op_table[ops[n]].match) {
+        matches++;
+        match = ops[n];
+      }
+    trax_inst inst = trax_decode(word);
+    bool beyond_limit = (match == TRAX_OP_RDSR || match == TRAX_OP_TRAP) && (word & 0xFFFFu) >= 6;
+    if (matches > 1)
+      r->ambiguous++, r->example = word;
+    if (inst.op != (beyond_limit ? TRAX_OP_ILLEGAL : match))
+      r->decoder_differs++, r->example = word;
+    if (inst.op == TRAX_OP_ILLEGAL)
+      continue;
+    r->legal++;
+    if (trax_encode(inst) != word)
+      r->not_identity++, r->example = word;
+  }
+  return NULL;
+}
+
+static void test_all_words(void **state) {
+  (void)state;
+  for (int op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
+    unsigned opcode = trax_op_table[op].match >> 26;
+    by_opcode[opcode][count_by_opcode[opcode]++] = (trax_op)op;
+  }
+  long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  unsigned threads = cores < 1 ? 1 : cores > 16 ? 16 : (unsigned)cores;
+  pthread_t thread[16];
+  range ranges[16] = {0};
+  for (unsigned n = 0; n < threads; n++) {
+    ranges[n].first = ((uint64_t)n << 32) / threads;
+    ranges[n].end = ((uint64_t)(n + 1) << 32) / threads;
+    assert_int_equal(pthread_create(&thread[n], NULL, check_range, &ranges[n]), 0);
+  }
+  uint64_t words = 0, legal = 0;
+  for (unsigned n = 0; n < threads; n++) {
+    pthread_join(thread[n], NULL);
+    words += ranges[n].end - ranges[n].first;
+    legal += ranges[n].legal;
+    if (ranges[n].ambiguous || ranges[n].decoder_differs || ranges[n].not_identity)
+      print_message("for example 0x%08x\n", (unsigned)ranges[n].example);
+    assert_int_equal(ranges[n].ambiguous, 0);
+    assert_int_equal(ranges[n].decoder_differs, 0);
+    assert_int_equal(ranges[n].not_identity, 0);
+  }
+  assert_int_equal(words, UINT64_C(1) << 32);
+  print_message("%llu words, %llu legal\n", (unsigned long long)words, (unsigned long long)legal);
+
+  /* The legal words counted from the formats: a decoder that calls too little legal cannot pass. */
+  uint64_t expected = 0;
+  for (int op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
+    unsigned free_bits = (unsigned)__builtin_popcount(~trax_op_table[op].mask);
+    expected += op == TRAX_OP_RDSR || op == TRAX_OP_TRAP ? UINT64_C(32) * 6 : UINT64_C(1) << free_bits;
+  }
+  assert_int_equal(legal, expected);
+}
+
+static void test_zero_and_ones_are_illegal(void **state) {
+  (void)state;
+  assert_int_equal(trax_decode(0).op, TRAX_OP_ILLEGAL);
+  assert_int_equal(trax_decode(0xFFFFFFFFu).op, TRAX_OP_ILLEGAL);
+}
+
+static void check_text(trax_inst inst, uint32_t word, const char *expected) {
+  char text[64];
+  assert_int_equal(trax_encode(inst), word);
+  trax_disassemble(word, 0x1000, text, sizeof text);
+  assert_string_equal(text, expected);
+}
+
+/* Words assembled by hand from the bit diagrams of docs/isa.md, one for each format. */
+static void test_known_words(void **state) {
+  (void)state;
+  check_text((trax_inst){TRAX_OP_ADD, 4, 5, 6, 0}, 0x04853000u, "add r4, r5, r6");
+  check_text((trax_inst){TRAX_OP_FRSQRT, 1, 31, 0, 0}, 0x183F0001u, "frsqrt r1, r31");
+  check_text((trax_inst){TRAX_OP_ADDI, 2, 2, 0, -16}, 0x2042FFF0u, "addi r2, r2, -16");
+  check_text((trax_inst){TRAX_OP_SRAI, 3, 4, 0, 31}, 0x4064001Fu, "srai r3, r4, 31");
+  check_text((trax_inst){TRAX_OP_LUI, 7, 0, 0, 0x3F80}, 0x44E03F80u, "lui r7, 16256");
+  check_text((trax_inst){TRAX_OP_LW, 8, 2, 0, -4}, 0x6102FFFCu, "lw r8, -4(r2)");
+  check_text((trax_inst){TRAX_OP_SW, 0, 2, 9, 8}, 0x71220008u, "sw r9, 8(r2)");
+  check_text((trax_inst){TRAX_OP_BNE, 0, 1, 2, -4}, 0x8422FFFFu, "bne r1, r2, 0xffc");
+  check_text((trax_inst){TRAX_OP_JAL, 1, 0, 0, 8}, 0x98200002u, "jal r1, 0x1008");
+  check_text((trax_inst){TRAX_OP_JALR, 0, 1, 0, 0}, 0x9C010000u, "jalr r0, 0(r1)");
+  check_text((trax_inst){TRAX_OP_RDSR, 5, 0, 0, 3}, 0xA0A00003u, "rdsr r5, threads");
+  check_text((trax_inst){TRAX_OP_TRAP, 0, 4, 0, 1}, 0xA4040001u, "trap r4, putc");
+  check_text((trax_inst){.op = TRAX_OP_HALT}, 0xA8000000u, "halt");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_all_words),
+      cmocka_unit_test(test_zero_and_ones_are_illegal),
+      cmocka_unit_test(test_known_words),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
