@@ -1,0 +1,117 @@
+/* What a program asks of the machine. On the TP each function is one or two instructions; compiled for the host (the native
+   twin, see docs/runtime.md) the same calls work on a per-thread context, so device sources run on both unchanged. */
+#ifndef TRAX_H
+#define TRAX_H
+
+#include <stddef.h>
+
+/* A buffer that the host fills or reads, by the name of the object (trax-sim --bind, --alloc, --dump). */
+struct trax_buffer {
+  void *data;
+  unsigned size; /* bytes */
+};
+
+#ifdef __trax__
+
+#define TRAX_INLINE static inline __attribute__((always_inline, unused))
+
+TRAX_INLINE unsigned trax_thread(void) { return __builtin_trax_rdsr(0); }  /* 0 .. trax_threads() - 1 */
+TRAX_INLINE unsigned trax_tm(void) { return __builtin_trax_rdsr(1); }      /* number of this thread's TM */
+TRAX_INLINE unsigned trax_tp(void) { return __builtin_trax_rdsr(2); }      /* number of this TP within its TM */
+TRAX_INLINE unsigned trax_threads(void) { return __builtin_trax_rdsr(3); } /* threads of the chip */
+TRAX_INLINE unsigned trax_cycles(void) { return __builtin_trax_rdsr(4); }  /* cycle counter modulo 2^32 */
+
+/* The whole cycle counter. The halves are read at different cycles: a carry in between shows in the upper one. */
+TRAX_INLINE unsigned long long trax_cycles64(void) {
+  unsigned high, low;
+  do {
+    high = __builtin_trax_rdsr(5);
+    low = __builtin_trax_rdsr(4);
+  } while (high != __builtin_trax_rdsr(5));
+  return (unsigned long long)high << 32 | low;
+}
+
+/* 1 / sqrt(x), correctly rounded: +-0 gives +-infinity, a negative number NaN (IEEE 754-2019 rSqrt). */
+TRAX_INLINE float trax_rsqrt(float x) { return __builtin_trax_rsqrt(x); }
+
+/* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. */
+TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) { return __builtin_trax_ainc(p); }
+
+/* Word accesses to global memory that go around the data cache. */
+TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) { __builtin_nontemporal_store(value, p); }
+TRAX_INLINE unsigned trax_load_nt(const unsigned *p) { return __builtin_nontemporal_load(p); }
+
+/* Ends this thread with status 0. */
+__attribute__((noreturn)) TRAX_INLINE void trax_halt(void) { __builtin_trax_halt(); }
+
+/* Adds to the run's counters of rays and of finished items (pixels). */
+TRAX_INLINE void trax_count_rays(unsigned n) { __builtin_trax_trap(n, 3); }
+TRAX_INLINE void trax_count_items(unsigned n) { __builtin_trax_trap(n, 4); }
+
+/* Stops the machine with a fault report that shows message (in global memory; NULL for none). */
+__attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
+  __builtin_trax_trap((unsigned)message, 2);
+  __builtin_trax_halt();
+}
+
+#else /* the native twin */
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define TRAX_INLINE static inline __attribute__((unused))
+
+/* What the special registers and counters are for one host thread; whoever starts the threads fills it in. */
+struct trax_native {
+  unsigned thread, tm, tp, threads;
+  unsigned long long rays, items;
+};
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+extern _Thread_local struct trax_native trax_native;
+__attribute__((weak)) _Thread_local struct trax_native trax_native = {0, 0, 0, 1, 0, 0};
+#ifdef __cplusplus
+}
+#endif
+
+TRAX_INLINE unsigned trax_thread(void) { return trax_native.thread; }
+TRAX_INLINE unsigned trax_tm(void) { return trax_native.tm; }
+TRAX_INLINE unsigned trax_tp(void) { return trax_native.tp; }
+TRAX_INLINE unsigned trax_threads(void) { return trax_native.threads; }
+
+/* Nanoseconds stand in for cycles. */
+TRAX_INLINE unsigned long long trax_cycles64(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (unsigned long long)now.tv_sec * 1000000000u + (unsigned long long)now.tv_nsec;
+}
+TRAX_INLINE unsigned trax_cycles(void) { return (unsigned)trax_cycles64(); }
+
+/* Correctly rounded: no binary32 operand brings the binary64 quotient close enough to a rounding boundary of binary32 to
+   cross it. tests/numerics checks every significand of both exponent parities. */
+TRAX_INLINE float trax_rsqrt(float x) {
+  if (!(x >= 0))
+    return __builtin_nanf("");
+  return (float)(1.0 / sqrt((double)x));
+}
+
+TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) { return __atomic_fetch_add(p, 1u, __ATOMIC_SEQ_CST); }
+TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) { *p = value; }
+TRAX_INLINE unsigned trax_load_nt(const unsigned *p) { return *p; }
+__attribute__((noreturn)) TRAX_INLINE void trax_halt(void) { pthread_exit(NULL); }
+TRAX_INLINE void trax_count_rays(unsigned n) { trax_native.rays += n; }
+TRAX_INLINE void trax_count_items(unsigned n) { trax_native.items += n; }
+__attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
+  fprintf(stderr, "abort: %s\n", message ? message : "");
+  abort();
+}
+
+#endif
+
+#undef TRAX_INLINE
+#endif
