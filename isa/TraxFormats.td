@@ -19,8 +19,9 @@
 
 //--- operands ---------------------------------------------------------------
 
-class TraxImmAsmOperand<string name, string diagnostic> : AsmOperandClass {
+class TraxImmAsmOperand<string name, string diagnostic, string parser = ""> : AsmOperandClass {
   let Name = name;
+  let ParserMethod = parser; // for operands that may be written by name
   let RenderMethod = "addImmOperands";
   let DiagnosticString = diagnostic;
 }
@@ -42,12 +43,14 @@ def uimm5 : Operand<i32>, ImmLeaf<i32, [{ return isUInt<5>(Imm); }]> {
 }
 def srnum : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
   let ParserMatchClass = TraxImmAsmOperand<"SRNum",
-      "special register must be thread, tm, tp, threads, cycle, cycleh or a number in the range [0, 5]">;
+      "special register must be thread, tm, tp, threads, cycle, cycleh or a number in the range [0, 5]",
+      "parseSpecialRegister">;
   let PrintMethod = "printSpecialRegister";
 }
 def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
   let ParserMatchClass = TraxImmAsmOperand<"TrapCode",
-      "trap code must be exit, putc, abort, rays, items, puts or a number in the range [0, 5]">;
+      "trap code must be exit, putc, abort, rays, items, puts or a number in the range [0, 5]",
+      "parseTrapCode">;
   let PrintMethod = "printTrapCode";
 }
 def brtarget : Operand<OtherVT> {
