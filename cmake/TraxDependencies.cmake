@@ -1,7 +1,10 @@
 # What the build needs from Debian; setup.sh installs it.
 
 find_package(LLVM 19.1 REQUIRED CONFIG HINTS /usr/lib/llvm-19)
-find_package(Clang REQUIRED CONFIG HINTS /usr/lib/llvm-19)
+# Clang's own CMake package would define a target `clang`, the name of ours; its library is all that is needed.
+find_library(CLANG_CPP_LIBRARY REQUIRED NAMES clang-cpp libclang-cpp.so.${LLVM_VERSION_MAJOR}.${LLVM_VERSION_MINOR}
+  HINTS ${LLVM_LIBRARY_DIR} NO_DEFAULT_PATH)
+find_path(CLANG_INCLUDE_DIR REQUIRED NAMES clang/Driver/Driver.h HINTS ${LLVM_INCLUDE_DIRS} NO_DEFAULT_PATH)
 set(LLVM_TABLEGEN_EXE ${LLVM_TOOLS_BINARY_DIR}/llvm-tblgen)
 
 find_package(PkgConfig REQUIRED)

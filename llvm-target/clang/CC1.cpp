@@ -1,0 +1,195 @@
+//===- CC1.cpp - clang -cc1 ----------------------------------------------===//
+//
+// For Trax the target is ours, which clang's own CompilerInstance::ExecuteAction cannot create; its steps are done here
+// around createTargetInfo. Every other target goes to clang's library unchanged.
+//
+//===----------------------------------------------------------------------===//
+
+#include "CC1.h"
+#include "TraxABI.h"
+#include "TraxTargetInfo.h"
+#include "clang/Basic/DiagnosticFrontend.h"
+#include "clang/Basic/FileManager.h"
+#include "clang/Basic/TargetOptions.h"
+#include "clang/CodeGen/ObjectFilePCHContainerOperations.h"
+#include "clang/Frontend/CompilerInstance.h"
+#include "clang/Frontend/CompilerInvocation.h"
+#include "clang/Frontend/FrontendAction.h"
+#include "clang/Frontend/TextDiagnosticBuffer.h"
+#include "clang/FrontendTool/Utils.h"
+#include "llvm/ADT/ScopeExit.h"
+#include "llvm/ADT/Statistic.h"
+#include "llvm/MC/TargetRegistry.h"
+#include "llvm/Support/BuryPointer.h"
+#include "llvm/Support/CommandLine.h"
+#include "llvm/Support/ErrorHandling.h"
+#include "llvm/Support/ManagedStatic.h"
+#include "llvm/Support/Process.h"
+#include "llvm/Support/Signals.h"
+#include "llvm/Support/TimeProfiler.h"
+#include "llvm/Support/Timer.h"
+#include "llvm/Target/TargetMachine.h"
+
+using namespace clang;
+using llvm::StringRef;
+
+namespace {
+
+/// A fatal error of LLVM's becomes a diagnostic like any other.
+void reportFatalError(void *Diags, const char *Message, bool GenCrashDiag) {
+  static_cast<DiagnosticsEngine *>(Diags)->Report(diag::err_fe_error_backend) << Message;
+  llvm::sys::RunInterruptHandlers(); // removes outputs half written
+  llvm::sys::Process::Exit(GenCrashDiag ? 70 : 1, /*NoCleanup=*/true);
+}
+
+void parseBackendOptions(llvm::ArrayRef<std::string> Options) {
+  if (Options.empty())
+    return;
+  llvm::SmallVector<const char *, 16> Args{"clang (LLVM option parsing)"};
+  for (const std::string &Option : Options)
+    Args.push_back(Option.c_str());
+  Args.push_back(nullptr);
+  llvm::cl::ParseCommandLineOptions(Args.size() - 1, Args.data());
+}
+
+bool createTarget(CompilerInstance &CI) {
+  DiagnosticsEngine &Diags = CI.getDiagnostics();
+  CI.setTarget(trax::createTargetInfo(Diags, CI.getInvocation().TargetOpts).get());
+  if (!CI.hasTarget())
+    return false;
+
+  LangOptions &Lang = CI.getLangOpts();
+  if (!CI.getTarget().hasStrictFP() && !Lang.ExpStrictFP) {
+    if (Lang.RoundingMath) {
+      Diags.Report(diag::warn_fe_backend_unsupported_fp_rounding);
+      Lang.RoundingMath = false;
+    }
+    const auto Exceptions = Lang.getFPExceptionMode();
+    if (Exceptions != LangOptions::FPE_Default && Exceptions != LangOptions::FPE_Ignore) {
+      Diags.Report(diag::warn_fe_backend_unsupported_fp_exceptions);
+      Lang.setFPExceptionMode(LangOptions::FPE_Ignore);
+    }
+  }
+  CI.getTarget().adjust(Diags, Lang);
+  return true;
+}
+
+void writeStatistics(CompilerInstance &CI) {
+  if (CI.getFrontendOpts().ShowStats) {
+    CI.getFileManager().PrintStats();
+    llvm::errs() << '\n';
+  }
+  const StringRef Path = CI.getFrontendOpts().StatsFile;
+  if (Path.empty())
+    return;
+  std::error_code Error;
+  const auto Flags = CI.getFrontendOpts().AppendStats ? llvm::sys::fs::OF_Append : llvm::sys::fs::OF_None;
+  llvm::raw_fd_ostream Out(Path, Error, Flags | llvm::sys::fs::OF_Text);
+  if (Error)
+    CI.getDiagnostics().Report(diag::warn_fe_unable_to_open_stats_file) << Path << Error.message();
+  else
+    llvm::PrintStatisticsJSON(Out);
+}
+
+bool compileForTrax(CompilerInstance &CI) {
+  CI.LoadRequestedPlugins();
+  parseBackendOptions(CI.getFrontendOpts().LLVMArgs);
+  std::unique_ptr<FrontendAction> Action = CreateFrontendAction(CI);
+  if (CI.getDiagnostics().hasErrorOccurred() || !Action)
+    return false;
+
+  auto FinishDiagnostics = llvm::make_scope_exit([&] { CI.getDiagnosticClient().finish(); });
+  if (!Action->PrepareToExecute(CI) || !createTarget(CI))
+    return false;
+  trax::installABI();
+
+  if (CI.getHeaderSearchOpts().Verbose)
+    llvm::errs() << "clang -cc1 for " << CI.getTarget().getTriple().str() << '\n';
+  if (CI.getCodeGenOpts().TimePasses)
+    CI.createFrontendTimer();
+  if (CI.getFrontendOpts().ShowStats || !CI.getFrontendOpts().StatsFile.empty())
+    llvm::EnableStatistics(/*DoPrintOnExit=*/false);
+
+  for (const FrontendInputFile &Input : CI.getFrontendOpts().Inputs) {
+    if (CI.hasSourceManager() && !Action->isModelParsingAction())
+      CI.getSourceManager().clearIDTables();
+    if (!Action->BeginSourceFile(CI, Input))
+      continue;
+    if (llvm::Error Error = Action->Execute())
+      llvm::consumeError(std::move(Error)); // diagnosed already
+    Action->EndSourceFile();
+  }
+  CI.printDiagnosticStats();
+  writeStatistics(CI);
+
+  const bool Success = !CI.getDiagnostics().getClient()->getNumErrors();
+  if (CI.getFrontendOpts().DisableFree)
+    llvm::BuryPointer(std::move(Action));
+  return Success;
+}
+
+/// -print-supported-cpus: the target machine prints them when it is asked for help.
+int printSupportedCPUs(StringRef Triple) {
+  std::string Error;
+  const llvm::Target *Target = llvm::TargetRegistry::lookupTarget(Triple, Error);
+  if (!Target) {
+    llvm::errs() << Error << '\n';
+    return 1;
+  }
+  delete Target->createTargetMachine(Triple, "", "+cpuhelp", llvm::TargetOptions(), std::nullopt);
+  return 0;
+}
+
+void writeTimeTrace(CompilerInstance &CI) {
+  llvm::SmallString<128> Path(CI.getFrontendOpts().TimeTracePath);
+  // Diagnostics are over by now, but this may still fail, for which createOutputFile needs a place to report to.
+  if (auto Out = CI.createOutputFile(Path, /*Binary=*/false, /*RemoveFileOnSignal=*/false, /*UseTemporary=*/false))
+    llvm::timeTraceProfilerWrite(*Out);
+  llvm::timeTraceProfilerCleanup();
+  CI.clearOutputFiles(/*EraseFiles=*/false);
+}
+
+} // namespace
+
+int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
+  auto CI = std::make_unique<CompilerInstance>();
+  CI->getPCHContainerOperations()->registerWriter(std::make_unique<ObjectFilePCHContainerWriter>());
+  CI->getPCHContainerOperations()->registerReader(std::make_unique<ObjectFilePCHContainerReader>());
+
+  // Errors in the arguments wait until the arguments say how to print them.
+  IntrusiveRefCntPtr<DiagnosticOptions> BufferOptions(new DiagnosticOptions());
+  auto *Buffer = new TextDiagnosticBuffer;
+  DiagnosticsEngine BufferedDiags(new DiagnosticIDs(), &*BufferOptions, Buffer);
+  bool Success = CompilerInvocation::CreateFromArgs(CI->getInvocation(), Args, BufferedDiags, Argv0);
+
+  FrontendOptions &Options = CI->getFrontendOpts();
+  if (!Options.TimeTracePath.empty())
+    llvm::timeTraceProfilerInitialize(Options.TimeTraceGranularity, Argv0);
+  const StringRef Triple = CI->getTargetOpts().Triple;
+  if (Options.PrintSupportedCPUs)
+    return printSupportedCPUs(Triple);
+
+  CI->createDiagnostics();
+  if (!CI->hasDiagnostics())
+    return 1;
+  llvm::ScopedFatalErrorHandler FatalErrors(reportFatalError, &CI->getDiagnostics());
+  Buffer->FlushDiagnostics(CI->getDiagnostics());
+  if (!Success) {
+    CI->getDiagnosticClient().finish();
+    return 1;
+  }
+
+  const bool NeedsTarget = !Options.ShowHelp && !Options.ShowVersion;
+  if (NeedsTarget && isTraxTriple(llvm::Triple(Triple)))
+    Success = compileForTrax(*CI);
+  else
+    Success = ExecuteCompilerInvocation(CI.get());
+
+  llvm::TimerGroup::printAll(llvm::errs());
+  llvm::TimerGroup::clearAll();
+  if (llvm::timeTraceProfilerEnabled())
+    writeTimeTrace(*CI);
+  if (CI->getFrontendOpts().DisableFree)
+    llvm::BuryPointer(std::move(CI)); // the process ends, or soon does: nobody needs the memory
+  return !Success;
+}

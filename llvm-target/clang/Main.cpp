@@ -1,0 +1,206 @@
+//===- Main.cpp - the clang that also compiles for Trax ------------------===//
+//
+// Clang's driver and front end come from its shared library; this program adds a target that the library does not have.
+// `clang --target=trax` compiles, assembles and links for the machine; any other target behaves as in clang.
+//
+//===----------------------------------------------------------------------===//
+
+#include "CC1.h"
+#include "TraxTargetInfo.h"
+#include "TraxToolChain.h"
+#include "clang/Basic/DiagnosticDriver.h"
+#include "clang/Basic/DiagnosticOptions.h"
+#include "clang/Driver/Compilation.h"
+#include "clang/Driver/Driver.h"
+#include "clang/Driver/Options.h"
+#include "clang/Driver/ToolChain.h"
+#include "clang/Frontend/CompilerInvocation.h"
+#include "clang/Frontend/TextDiagnosticPrinter.h"
+#include "llvm/ADT/StringSet.h"
+#include "llvm/Support/CommandLine.h"
+#include "llvm/Support/CrashRecoveryContext.h"
+#include "llvm/Support/FileSystem.h"
+#include "llvm/Support/InitLLVM.h"
+#include "llvm/Support/Path.h"
+#include "llvm/Support/Process.h"
+#include "llvm/Support/TargetSelect.h"
+#include "llvm/Support/Timer.h"
+#include "llvm/Support/VirtualFileSystem.h"
+#include "llvm/TargetParser/Host.h"
+
+using namespace clang;
+using namespace clang::driver;
+using llvm::StringRef;
+
+extern "C" {
+void LLVMInitializeTraxTargetInfo();
+void LLVMInitializeTraxTarget();
+void LLVMInitializeTraxTargetMC();
+void LLVMInitializeTraxAsmPrinter();
+void LLVMInitializeTraxAsmParser();
+void LLVMInitializeTraxDisassembler();
+}
+
+namespace {
+
+using ArgVector = llvm::SmallVector<const char *, 256>;
+
+void initializeTargets() {
+  llvm::InitializeAllTargets();
+  llvm::InitializeAllTargetMCs();
+  llvm::InitializeAllAsmPrinters();
+  llvm::InitializeAllAsmParsers();
+  LLVMInitializeTraxTargetInfo();
+  LLVMInitializeTraxTarget();
+  LLVMInitializeTraxTargetMC();
+  LLVMInitializeTraxAsmPrinter();
+  LLVMInitializeTraxAsmParser();
+  LLVMInitializeTraxDisassembler();
+}
+
+/// Where the installation is, found from the program's own place.
+struct Installation {
+  std::string Program;     // this executable
+  std::string RuntimeDir;  // crt0.o, libc.a, include/
+  std::string ResourceDir; // clang's own headers
+
+  Installation(const char *Argv0, bool Canonical) {
+    static int Anchor; // an address within this executable
+    Program = Canonical ? llvm::sys::fs::getMainExecutable(Argv0, &Anchor) : Argv0;
+    if (!Canonical && !llvm::sys::fs::exists(Program))
+      if (llvm::ErrorOr<std::string> Found = llvm::sys::findProgramByName(Program))
+        Program = *Found;
+    llvm::SmallString<128> Prefix(Program);
+    llvm::sys::fs::make_absolute(Prefix);
+    const StringRef Root = llvm::sys::path::parent_path(llvm::sys::path::parent_path(Prefix));
+    RuntimeDir = (Root + "/lib/trax").str();
+    ResourceDir = (Root + "/lib/clang/" TRAX_CLANG_MAJOR).str();
+    if (!llvm::sys::fs::exists(ResourceDir + "/include/stddef.h"))
+      ResourceDir = TRAX_CLANG_RESOURCE_DIR; // Debian's, as found when this was built
+  }
+};
+
+/// The target that the arguments or the program's name (`trax-clang`) ask for; the last argument wins.
+std::string requestedTarget(llvm::ArrayRef<const char *> Args, const ParsedClangName &Name) {
+  std::string Target = Name.TargetIsValid ? Name.TargetPrefix : "";
+  for (size_t I = 1; I < Args.size(); ++I) {
+    StringRef Given = Args[I] ? Args[I] : "";
+    if (Given.consume_front("--target="))
+      Target = Given.str();
+    else if ((Given == "-target" || Given == "--target") && I + 1 < Args.size() && Args[I + 1])
+      Target = Args[++I];
+  }
+  return Target;
+}
+
+bool hasArgument(llvm::ArrayRef<const char *> Args, StringRef Name) {
+  return llvm::any_of(Args.drop_front(), [&](const char *Given) { return Given && Name == Given; });
+}
+
+/// Runs a -cc1 or -cc1as command line in this process.
+int runTool(llvm::SmallVectorImpl<const char *> &Args) {
+  llvm::cl::ResetAllOptionOccurrences(); // -mllvm options of an earlier compilation in this process
+  llvm::BumpPtrAllocator Allocator;
+  if (llvm::Error Error = expandResponseFiles(Args, /*ClangCLMode=*/false, Allocator)) {
+    llvm::errs() << toString(std::move(Error)) << '\n';
+    return 1;
+  }
+  const StringRef Tool = Args[1];
+  const auto Rest = llvm::ArrayRef(Args).drop_front(2);
+  if (Tool == "-cc1")
+    return trax::runCC1(Rest, Args[0]);
+  if (Tool == "-cc1as")
+    return trax::runCC1As(Rest, Args[0]);
+  llvm::errs() << "error: unknown integrated tool '" << Tool << "'. Valid tools include '-cc1' and '-cc1as'.\n";
+  return 1;
+}
+
+/// Runs the jobs. A compiler that crashed leaves what is needed to reproduce it, as clang does.
+int execute(Driver &TheDriver, Compilation &C) {
+  llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
+  int Result = TheDriver.ExecuteCompilation(C, Failures);
+  for (const auto &[Status, Failed] : Failures) {
+    if (!Result)
+      Result = Status;
+    constexpr int FatalError = 70; // EX_SOFTWARE, which -cc1 exits with after an internal error
+    if (Status < 0 || Status == FatalError || Status > 128) {
+      TheDriver.maybeGenerateCompilationDiagnostics(Driver::CommandStatus::Crash, Driver::ReproLevel::OnCrash, C,
+                                                    *Failed);
+      break;
+    }
+  }
+  return Result;
+}
+
+int drive(ArgVector &Args, llvm::StringSaver &Strings) {
+  const bool Canonical = !hasArgument(Args, "-no-canonical-prefixes");
+  const Installation Installed(Args[0], Canonical);
+
+  ParsedClangName Name = ToolChain::getTargetAndModeFromProgramName(Args[0]);
+  // Our target answers to every architecture that LLVM does not know, but `my-clang` is no target.
+  const llvm::Triple Prefix(llvm::Triple::normalize(Name.TargetPrefix));
+  if (Prefix.getArch() == llvm::Triple::UnknownArch && !trax::isTraxTriple(Prefix))
+    Name.TargetIsValid = false;
+
+  const std::string Target = requestedTarget(Args, Name);
+  const bool ForTrax = !Target.empty() && trax::isTraxTriple(llvm::Triple(llvm::Triple::normalize(Target)));
+  if (ForTrax)
+    trax::insertDefaults(Args, Installed.RuntimeDir, Strings);
+  if (Name.TargetIsValid)
+    Args.insert(Args.begin() + 1, Strings.save("--target=" + Name.TargetPrefix).data());
+
+  IntrusiveRefCntPtr<DiagnosticOptions> DiagOptions(CreateAndPopulateDiagOpts(Args));
+  auto *Printer = new TextDiagnosticPrinter(llvm::errs(), &*DiagOptions);
+  Printer->setPrefix(llvm::sys::path::stem(Args[0]).str());
+  DiagnosticsEngine Diags(new DiagnosticIDs(), &*DiagOptions, Printer);
+  ProcessWarningOptions(Diags, *DiagOptions, /*ReportDiags=*/false);
+
+  Driver TheDriver(Installed.Program, llvm::sys::getDefaultTargetTriple(), Diags);
+  TheDriver.ResourceDir = Installed.ResourceDir;
+  TheDriver.setTargetAndMode(Name);
+  auto CC1 = [](llvm::SmallVectorImpl<const char *> &ToolArgs) { return runTool(ToolArgs); };
+  if (!hasArgument(Args, "-fno-integrated-cc1")) {
+    TheDriver.CC1Main = CC1;
+    llvm::CrashRecoveryContext::Enable(); // a crash within this process must not end the driver
+  }
+
+  const std::unique_ptr<Compilation> C(TheDriver.BuildCompilation(Args));
+  if (hasArgument(Args, "--version"))
+    llvm::outs() << "TRaX " TRAX_VERSION ", with the target trax\n";
+  if (C && ForTrax) {
+    if (!C->containsError())
+      trax::checkOptions(*C);
+    trax::replaceLinkJobs(*C, Installed.RuntimeDir);
+  }
+  int Result = 1;
+  if (C && !C->containsError() && !Diags.hasErrorOccurred())
+    Result = execute(TheDriver, *C);
+  Diags.getClient()->finish();
+  llvm::TimerGroup::printAll(llvm::errs());
+  return Result;
+}
+
+} // namespace
+
+int main(int Argc, char **Argv) {
+  const llvm::InitLLVM Init(Argc, Argv);
+  llvm::setBugReportMsg("PLEASE attach the command line, the preprocessed source and this trace to a bug report.\n");
+  if (llvm::sys::Process::FixupStandardFileDescriptors())
+    return 1;
+  initializeTargets();
+
+  ArgVector Args(Argv, Argv + Argc);
+  if (Args.size() > 1 && StringRef(Args[1]).starts_with("-cc1"))
+    return runTool(Args);
+
+  llvm::BumpPtrAllocator Allocator;
+  llvm::StringSaver Strings(Allocator);
+  if (llvm::Error Error = expandResponseFiles(Args, /*ClangCLMode=*/false, Allocator)) {
+    llvm::errs() << llvm::sys::path::stem(Args[0]) << ": error: " << toString(std::move(Error)) << '\n';
+    return 1;
+  }
+  llvm::StringSet<> Overrides;
+  if (const char *Edits = std::getenv("CCC_OVERRIDE_OPTIONS"))
+    applyOverrideOptions(Args, Edits, Overrides, &llvm::errs());
+  return drive(Args, Strings);
+}
