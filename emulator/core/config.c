@@ -4,19 +4,65 @@
 
 #include <math.h>
 
-static bool is_power_of_two(uint32_t value) {
-  return value && !(value & (value - 1));
+#define TRAX_SECTION(SECTION)
+#define TRAX_ROW(KIND, SECTION, KEY, DEFAULT, LEAST, MOST, UNIT, ORIGIN, MEANING)                                      \
+  {#SECTION "." #KEY, #SECTION, #KEY, KIND, offsetof(struct trax_config, SECTION.KEY), DEFAULT, LEAST, MOST, UNIT,     \
+   MEANING,           ORIGIN},
+#define TRAX_ROW_COUNT(...) TRAX_ROW(TRAX_KIND_COUNT, __VA_ARGS__)
+#define TRAX_ROW_POWER(...) TRAX_ROW(TRAX_KIND_POWER, __VA_ARGS__)
+#define TRAX_ROW_FLAG(...) TRAX_ROW(TRAX_KIND_FLAG, __VA_ARGS__)
+#define TRAX_ROW_REAL(...) TRAX_ROW(TRAX_KIND_REAL, __VA_ARGS__)
+enum { OURS = false, PAPER = true };
+
+const struct trax_config_key trax_config_keys[] = {
+    TRAX_CONFIG_KEYS(TRAX_SECTION, TRAX_ROW_COUNT, TRAX_ROW_POWER, TRAX_ROW_FLAG, TRAX_ROW_REAL, TRAX_SECTION)};
+const size_t trax_config_key_count = sizeof trax_config_keys / sizeof *trax_config_keys;
+
+double trax_config_value(const struct trax_config *config, const struct trax_config_key *key) {
+  const void *member = (const char *)config + key->offset;
+  switch (key->kind) {
+  case TRAX_KIND_FLAG:
+    return *(const bool *)member;
+  case TRAX_KIND_REAL:
+    return *(const double *)member;
+  case TRAX_KIND_COUNT:
+  case TRAX_KIND_POWER:
+    break;
+  }
+  return *(const uint32_t *)member;
 }
 
-static trax_status check_range(const char *key, uint32_t value, uint32_t least, uint32_t most, trax_error *error) {
-  if (value < least || value > most)
-    return trax_fail(error, "%s is %u; allowed are %u to %u", key, value, least, most);
-  return TRAX_OK;
+static bool is_power_of_two(double value) {
+  int exponent;
+  return frexp(value, &exponent) == 0.5;
 }
 
-static trax_status check_power(const char *key, uint32_t value, uint32_t least, uint32_t most, trax_error *error) {
-  if (!is_power_of_two(value) || value < least || value > most)
-    return trax_fail(error, "%s is %u; allowed are the powers of two from %u to %u", key, value, least, most);
+trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error) {
+  const bool in_range = value >= key->least && value <= key->most; /* not a NaN either */
+  switch (key->kind) {
+  case TRAX_KIND_FLAG:
+    if (value != 0 && value != 1)
+      return trax_fail(error, "%s is %.12g; allowed are true and false", key->name, value);
+    return TRAX_OK;
+  case TRAX_KIND_COUNT:
+    if (!in_range || value != floor(value))
+      return trax_fail(error, "%s is %.12g; allowed are %.12g to %.12g%s%s", key->name, value, key->least, key->most,
+                       in_range     ? ", without a fraction"
+                       : *key->unit ? " "
+                                    : "",
+                       in_range ? "" : key->unit);
+    return TRAX_OK;
+  case TRAX_KIND_POWER:
+    if (!in_range || !is_power_of_two(value))
+      return trax_fail(error, "%s is %.12g; allowed are the powers of two from %.12g to %.12g %s", key->name, value,
+                       key->least, key->most, key->unit);
+    return TRAX_OK;
+  case TRAX_KIND_REAL:
+    if (!in_range || fabs(value * 1000 - round(value * 1000)) > 1e-9 * value * 1000)
+      return trax_fail(error, "%s is %.12g; allowed are the multiples of 0.001 from %.12g to %.12g %s", key->name,
+                       value, key->least, key->most, key->unit);
+    return TRAX_OK;
+  }
   return TRAX_OK;
 }
 
@@ -29,53 +75,11 @@ static trax_status check_cache(const char *name, uint32_t bytes, uint32_t line_b
 }
 
 trax_status trax_config_validate(const struct trax_config *config, trax_error *error) {
-#define RANGE(SECTION, KEY, LEAST, MOST)                                                                               \
-  if (check_range(#SECTION "." #KEY, config->SECTION.KEY, LEAST, MOST, error))                                         \
-  return TRAX_ERROR
-#define POWER(SECTION, KEY, LEAST, MOST)                                                                               \
-  if (check_power(#SECTION "." #KEY, config->SECTION.KEY, LEAST, MOST, error))                                         \
-  return TRAX_ERROR
-  RANGE(chip, tms, 1, TRAX_MAX_TMS);
-  RANGE(chip, tps_per_tm, 1, TRAX_MAX_TPS_PER_TM);
-  RANGE(chip, clock_mhz, 1, 100000);
-  RANGE(tp, int_latency_cycles, 1, 1000);
-  RANGE(tp, local_latency_cycles, 1, 1000);
-  RANGE(tp, branch_bubble_cycles, 0, 1000);
-  POWER(icache, bytes, 64, 1u << 24);
-  POWER(icache, line_bytes, 4, 4096);
-  POWER(icache, ways, 1, 64);
-  RANGE(icache, banks, 1, 64);
-  RANGE(icache, ports_per_bank, 1, 64);
-  RANGE(icache, tps_per_cache, 1, 64);
-  RANGE(fpu, tps_per_cluster, 1, 64);
-  RANGE(fpu, add_latency_cycles, 1, 1000);
-  RANGE(fpu, mul_latency_cycles, 1, 1000);
-  RANGE(fpu, compare_latency_cycles, 1, 1000);
-  RANGE(int_mul, tps_per_unit, 1, 64);
-  RANGE(int_mul, latency_cycles, 1, 1000);
-  RANGE(special, units_per_tm, 1, 64);
-  RANGE(special, latency_cycles, 1, 1000);
-  RANGE(special, precision_bits, 1, 24);
-  POWER(dcache, bytes, 64, 1u << 24);
-  POWER(dcache, line_bytes, 4, 4096);
-  POWER(dcache, ways, 1, 64);
-  RANGE(dcache, tps_per_bank, 1, 64);
-  RANGE(dcache, hit_latency_cycles, 1, 1000);
-  RANGE(dcache, mshrs, 1, 1024);
-  RANGE(memory, latency_cycles, 0, 100000);
-  RANGE(memory, queue_depth, 1, 4096);
-  RANGE(memory, size_mib, 1, 4095);
-  RANGE(memory, min_transfer_bytes, 1, 4096);
-  RANGE(memory, atomic_bytes, 1, 4096);
-#undef RANGE
-#undef POWER
+  for (size_t i = 0; i < trax_config_key_count; i++)
+    if (trax_config_check_value(&trax_config_keys[i], trax_config_value(config, &trax_config_keys[i]), error))
+      return TRAX_ERROR;
   if (check_cache("icache", config->icache.bytes, config->icache.line_bytes, config->icache.ways, error) ||
       check_cache("dcache", config->dcache.bytes, config->dcache.line_bytes, config->dcache.ways, error))
     return TRAX_ERROR;
-  const double gbps = config->memory.bandwidth_gbps;
-  if (!(gbps >= 0.001 && gbps <= 1e6)) /* NaN too */
-    return trax_fail(error, "memory.bandwidth_gbps is %g; allowed are 0.001 to 1000000", gbps);
-  if (fabs(gbps * 1000 - round(gbps * 1000)) > 1e-6 * gbps * 1000)
-    return trax_fail(error, "memory.bandwidth_gbps is %.9g; it must be a multiple of 0.001", gbps);
   return TRAX_OK;
 }
