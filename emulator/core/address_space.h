@@ -37,11 +37,10 @@ void trax_space_destroy(struct trax_space *space);
 trax_status trax_space_map(struct trax_space *space, uint32_t address, uint32_t bytes, unsigned permissions,
                            uint8_t **host, trax_error *error);
 
-/* TRAX_FAULT_NONE if an access of 1, 2 or 4 bytes to global memory is allowed. */
-static inline trax_fault_kind trax_space_check(const struct trax_space *space, uint32_t address, uint32_t bytes,
-                                               bool write);
+/* The kind of fault of a global access that is out of bounds or misaligned. */
 trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address, uint32_t bytes);
 
+/* TRAX_FAULT_NONE if an access of 1, 2 or 4 bytes to global memory is allowed. */
 static inline trax_fault_kind trax_space_check(const struct trax_space *space, uint32_t address, uint32_t bytes,
                                                bool write) {
   /* An aligned access whose first byte is below the end (a multiple of 4096) ends below it too. */

@@ -6,8 +6,8 @@
      POWER   uint32_t, a power of two
      FLAG    bool (the range is 0 to 1)
      REAL    double, in steps of 0.001
-   with section, key, default, least, greatest, unit, origin of the default (PAPER, or OURS where the paper is silent) and
-   meaning. */
+   with section, key, default, least, greatest, unit, origin of the default (PAPER, or OURS where the paper is silent)
+   and meaning. */
 #ifndef TRAX_CORE_CONFIG_KEYS_H
 #define TRAX_CORE_CONFIG_KEYS_H
 

@@ -19,8 +19,6 @@
   X(EXECUTE, "execution outside the program's text")                                                                   \
   X(MISALIGNED_PC, "jump to an address that is not a multiple of 4")                                                   \
   X(ILLEGAL, "illegal instruction")                                                                                    \
-  X(SPECIAL_REGISTER, "unknown special register")                                                                      \
-  X(TRAP, "unknown trap code")                                                                                         \
   X(ABORT, "abort")
 
 typedef enum trax_fault_kind {

@@ -18,7 +18,7 @@ struct trax_issue {
   uint64_t cycle;
   uint32_t tm, tp, pc;
   uint32_t word;
-  uint32_t result;  /* the destination's new value, if it has one */
+  uint32_t result;  /* the destination's new value, if it has one; an atomic increment's is not known yet */
   uint32_t address; /* of a memory access */
 };
 

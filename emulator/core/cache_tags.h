@@ -1,0 +1,51 @@
+/* Which lines a cache holds: sets of ways, first in, first out (docs/timing.md, "Fetch"). Lines are known by their
+   number, address / line_bytes. Used by the instruction and the data caches. */
+#ifndef TRAX_CORE_CACHE_TAGS_H
+#define TRAX_CORE_CACHE_TAGS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+struct trax_cache_tags {
+  uint32_t ways, set_mask;
+  unsigned line_shift;
+  uint64_t *lines; /* [sets][ways]: line number + 1; 0 is an empty place */
+  uint32_t *next;  /* [sets]: the way the next arriving line takes */
+};
+
+static inline bool trax_cache_tags_create(struct trax_cache_tags *tags, uint32_t bytes, uint32_t line_bytes,
+                                          uint32_t ways) {
+  const uint32_t sets = bytes / line_bytes / ways;
+  tags->ways = ways;
+  tags->set_mask = sets - 1;
+  tags->line_shift = (unsigned)__builtin_ctz(line_bytes);
+  tags->lines = calloc((size_t)sets * ways, sizeof *tags->lines);
+  tags->next = calloc(sets, sizeof *tags->next);
+  return tags->lines && tags->next;
+}
+
+static inline void trax_cache_tags_destroy(struct trax_cache_tags *tags) {
+  free(tags->lines);
+  free(tags->next);
+}
+
+static inline uint32_t trax_line_of(const struct trax_cache_tags *tags, uint32_t address) {
+  return address >> tags->line_shift;
+}
+
+static inline bool trax_cache_tags_have(const struct trax_cache_tags *tags, uint32_t line) {
+  const uint64_t *set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
+  for (uint32_t way = 0; way < tags->ways; way++)
+    if (set[way] == (uint64_t)line + 1)
+      return true;
+  return false;
+}
+
+static inline void trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
+  const uint32_t set = line & tags->set_mask;
+  tags->lines[(size_t)set * tags->ways + tags->next[set]] = (uint64_t)line + 1;
+  tags->next[set] = (tags->next[set] + 1) & (tags->ways - 1);
+}
+
+#endif

@@ -1,0 +1,23 @@
+/* The chip: TMs, memory controller, and the run from cycle to cycle. */
+#ifndef TRAX_CORE_CHIP_H
+#define TRAX_CORE_CHIP_H
+
+#include "core/memory.h"
+#include "core/tm.h"
+
+struct trax_chip {
+  struct trax_machine *machine;
+  struct trax_text text;
+  struct trax_tm *tm; /* [tms] */
+  uint32_t tms;
+  struct trax_memory memory;
+  uint32_t running; /* threads that have not ended */
+};
+
+trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, FILE *output, trax_error *error);
+void trax_chip_destroy(struct trax_chip *chip);
+
+/* Runs from cycle 0 to the end, a fault, an interrupt or the watchdog; *cycles receives the length. */
+trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options *options, uint64_t *cycles);
+
+#endif

@@ -1,0 +1,33 @@
+/* One instruction cache and the TPs that share it (docs/timing.md, "Fetch"). */
+#ifndef TRAX_CORE_ICACHE_H
+#define TRAX_CORE_ICACHE_H
+
+#include "core/arbiter.h"
+#include "core/cache_tags.h"
+
+struct trax_tm;
+
+struct trax_icache_pending {
+  uint32_t line;    /* on its way */
+  uint64_t waiting; /* TPs; their numbers in the TM */
+};
+
+struct trax_icache {
+  uint32_t number;
+  struct trax_cache_tags tags;
+  trax_arbiter bank[64];
+  struct trax_icache_pending *pending; /* [pending_count], at most one per TP */
+  uint32_t pending_count;
+};
+
+bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);
+void trax_icache_destroy(struct trax_icache *icache);
+
+/* Step 1 of cycle t for `askers`, all with an instruction inside the text. Those served hold their instructions after
+   it; the others are charged. */
+void trax_icache_fetch(struct trax_icache *icache, struct trax_tm *tm, uint64_t askers, uint64_t t);
+
+/* A line arrives in cycle t: all who wait for it hold their instructions. */
+void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t);
+
+#endif

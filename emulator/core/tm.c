@@ -1,0 +1,433 @@
+#include "core/tm.h"
+
+#include "core/chip.h"
+
+#include <string.h>
+
+trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_machine *machine,
+                           const struct trax_text *text, FILE *output, trax_error *error) {
+  const struct trax_config *config = &machine->config;
+  const uint32_t tps = config->chip.tps_per_tm;
+  memset(tm, 0, sizeof *tm);
+  tm->number = number;
+  tm->tps = tps;
+  tm->config = config;
+  tm->machine = machine;
+  tm->text = text;
+  tm->output = output;
+  tm->stats = &machine->tm_stats[number];
+  tm->tp_stats = &machine->tp_stats[(size_t)number * tps];
+  tm->exit_statuses = &machine->exit_statuses[(size_t)number * tps];
+
+  tm->tp = calloc(tps, sizeof *tm->tp);
+  tm->icaches = (tps + config->icache.tps_per_cache - 1) / config->icache.tps_per_cache;
+  tm->icache = calloc(tm->icaches, sizeof *tm->icache);
+  tm->queue.depth = config->memory.queue_depth;
+  tm->queue.requests = calloc(tm->queue.depth, sizeof *tm->queue.requests);
+  bool complete = tm->tp && tm->icache && tm->queue.requests && trax_dcache_create(&tm->dcache, tm);
+  for (uint32_t i = 0; complete && i < tm->icaches; i++)
+    complete = trax_icache_create(&tm->icache[i], i, tm);
+  if (!complete)
+    return trax_fail(error, "out of memory");
+
+  trax_shared_unit_create(&tm->fp_add, config->fpu.tps_per_cluster, tps);
+  trax_shared_unit_create(&tm->fp_mul, config->fpu.tps_per_cluster, tps);
+  trax_shared_unit_create(&tm->int_mul, config->int_mul.tps_per_unit, tps);
+  trax_special_unit_create(&tm->special, config->special.units_per_tm,
+                           config->special.pipelined ? 1 : config->special.latency_cycles);
+  for (uint32_t i = 0; i < tps; i++) {
+    tm->tp[i].pc = machine->entry;
+    tm->tp[i].inst = trax_text_at(text, machine->entry);
+  }
+  tm->awake = trax_group_mask(0, tps);
+  return TRAX_OK;
+}
+
+void trax_tm_destroy(struct trax_tm *tm) {
+  for (uint32_t i = 0; tm->icache && i < tm->icaches; i++)
+    trax_icache_destroy(&tm->icache[i]);
+  trax_dcache_destroy(&tm->dcache);
+  free(tm->icache);
+  free(tm->queue.requests);
+  free(tm->tp);
+}
+
+/* --- sleeping, ending, faulting --- */
+
+/* The wheel reaches 64 cycles ahead of the current one, t; who sleeps longer is put in again when its slot comes. */
+static void set_alarm(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t until) {
+  const uint64_t alarm = until - t <= TRAX_WHEEL ? until : t + TRAX_WHEEL;
+  tm->tp[tp].asleep_until = until;
+  tm->wheel[alarm % TRAX_WHEEL] |= (uint64_t)1 << tp;
+  tm->wheel_occupied |= (uint64_t)1 << alarm % TRAX_WHEEL;
+}
+
+static void sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause) {
+  trax_tm_sleep(tm, tp, since, cause);
+  set_alarm(tm, tp, t, until);
+}
+
+void trax_tm_end_thread(struct trax_tm *tm, unsigned tp, uint64_t since, int32_t status) {
+  trax_tm_sleep(tm, tp, since, TRAX_CAUSE_HALTED);
+  tm->ended |= (uint64_t)1 << tp;
+  tm->exit_statuses[tp] = status;
+  tm->machine->chip->running--;
+}
+
+void trax_tm_fault(struct trax_tm *tm, unsigned number, uint64_t t, trax_fault_kind kind, uint32_t address) {
+  trax_tm_end_thread(tm, number, t, 1);
+  if (tm->fault.kind && tm->fault.tp < number)
+    return;
+  const struct trax_tp *tp = &tm->tp[number];
+  const struct trax_decoded *inst = tp->inst;
+  struct trax_fault *fault = &tm->fault;
+  *fault = (struct trax_fault){.kind = kind,
+                               .address = address,
+                               .bytes = inst->bytes,
+                               .write = inst->is_store || inst->is_atomic,
+                               .pc = tp->pc,
+                               .thread = tm->number * tm->tps + number,
+                               .tm = tm->number,
+                               .tp = number,
+                               .cycle = t};
+  if (inst->ask != TRAX_ASK_OUTSIDE)
+    memcpy(&fault->word, tm->machine->space.bytes + tp->pc, sizeof fault->word);
+  memcpy(fault->registers, tp->reg, sizeof fault->registers);
+}
+
+/* --- arrivals --- */
+
+void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t) {
+  const uint64_t bit = (uint64_t)1 << tp;
+  tm->tp[tp].usable[rd] = t;
+  if (tm->awaiting & bit) {
+    tm->awaiting &= ~bit;
+    trax_tm_wake(tm, tp, t);
+  }
+}
+
+static void arrive(struct trax_tm *tm, uint64_t t) {
+  struct trax_queue *queue = &tm->queue;
+  while (queue->started && trax_queue_oldest(queue)->completion <= t) {
+    const struct trax_request request = *trax_queue_oldest(queue);
+    trax_queue_pop(queue);
+    switch ((trax_request_kind)request.kind) {
+    case TRAX_REQUEST_INSTRUCTION_LINE:
+      trax_icache_arrival(&tm->icache[request.icache], tm, request.line, t);
+      break;
+    case TRAX_REQUEST_DATA_LINE:
+      trax_dcache_arrival(&tm->dcache, tm, request.line, t);
+      break;
+    case TRAX_REQUEST_ATOMIC:
+      tm->tp[request.tp].reg[request.rd] = request.value;
+      trax_tm_data_arrival(tm, request.tp, request.rd, t);
+      break;
+    case TRAX_REQUEST_LOAD:
+      trax_tm_data_arrival(tm, request.tp, request.rd, t);
+      break;
+    case TRAX_REQUEST_WRITE:
+      break;
+    }
+  }
+}
+
+static void wake(struct trax_tm *tm, uint64_t t) {
+  const unsigned slot = t % TRAX_WHEEL;
+  uint64_t wakers = tm->wheel[slot];
+  tm->wheel[slot] = 0;
+  tm->wheel_occupied &= ~((uint64_t)1 << slot);
+  for (; wakers; wakers &= wakers - 1) {
+    const unsigned tp = trax_first(wakers);
+    if (tm->tp[tp].asleep_until > t)
+      set_alarm(tm, tp, t, tm->tp[tp].asleep_until);
+    else
+      trax_tm_wake(tm, tp, t);
+  }
+}
+
+/* --- the five steps --- */
+
+static void fetch(struct trax_tm *tm, uint64_t t) {
+  uint64_t askers = tm->awake & ~tm->holding;
+  for (uint64_t rest = askers; rest; rest &= rest - 1) {
+    const unsigned tp = trax_first(rest);
+    if (tm->tp[tp].inst->ask == TRAX_ASK_OUTSIDE) {
+      trax_tm_fault(tm, tp, t, tm->tp[tp].pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE, tm->tp[tp].pc);
+      askers &= ~(rest & -rest);
+    }
+  }
+  for (uint32_t i = 0; askers && i < tm->icaches; i++) {
+    const uint64_t group = trax_group_mask(i, tm->config->icache.tps_per_cache);
+    if (askers & group)
+      trax_icache_fetch(&tm->icache[i], tm, askers & group, t);
+  }
+}
+
+/* What the TPs that passed step 2 ask for. */
+struct asks {
+  uint64_t by_ask[TRAX_ASK_COUNT];
+  uint64_t local, bank; /* memory instructions, by address; the others past the cache stay in TRAX_ASK_MEMORY */
+};
+
+static void check_memory_operand(struct trax_tm *tm, unsigned number, uint64_t t, struct asks *asks) {
+  struct trax_tp *tp = &tm->tp[number];
+  const uint64_t bit = (uint64_t)1 << number;
+  tp->address = tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm;
+  const trax_fault_kind kind = trax_tp_check_access(tp, &tm->machine->space, tp->address);
+  if (kind)
+    trax_tm_fault(tm, number, t, kind, tp->address);
+  else if (tp->address >= TRAX_LOCAL_BASE)
+    asks->local |= bit;
+  else if (tp->inst->is_nontemporal || tp->inst->is_atomic)
+    asks->by_ask[TRAX_ASK_MEMORY] |= bit;
+  else
+    asks->bank |= bit;
+}
+
+static struct asks check_operands(struct trax_tm *tm, uint64_t t) {
+  struct asks asks = {0};
+  for (uint64_t rest = tm->awake & tm->holding; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
+    const struct trax_tp *tp = &tm->tp[number];
+    if (!trax_tp_operands_usable(tp, t) && tp->inst->ask != TRAX_ASK_ILLEGAL) {
+      uint64_t until = 0;
+      const trax_cause cause = trax_tp_wait(tp, t, &until);
+      if (until == TRAX_NEVER) {
+        trax_tm_sleep(tm, number, t, cause);
+        tm->awaiting |= rest & -rest;
+      } else
+        sleep_until(tm, number, t, t, until, cause);
+    } else if (tp->inst->ask == TRAX_ASK_MEMORY)
+      check_memory_operand(tm, number, t, &asks);
+    else if (tp->inst->ask == TRAX_ASK_ILLEGAL)
+      trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
+    else
+      asks.by_ask[tp->inst->ask] |= rest & -rest;
+  }
+  return asks;
+}
+
+/* Charges those who were refused and returns the others. */
+static uint64_t refuse(struct trax_tm *tm, uint64_t askers, uint64_t winners, trax_cause cause) {
+  for (uint64_t losers = askers & ~winners; losers; losers &= losers - 1)
+    trax_tm_charge(tm, trax_first(losers), cause);
+  return winners;
+}
+
+static uint64_t grant_units(struct trax_tm *tm, const uint64_t by_ask[TRAX_ASK_COUNT], uint64_t t) {
+  uint64_t granted = by_ask[TRAX_ASK_NOTHING];
+  uint64_t askers;
+  if ((askers = by_ask[TRAX_ASK_FP_ADD]))
+    granted |= refuse(tm, askers, trax_shared_unit_grant(&tm->fp_add, askers), TRAX_CAUSE_FP_ADD);
+  if ((askers = by_ask[TRAX_ASK_FP_MUL]))
+    granted |= refuse(tm, askers, trax_shared_unit_grant(&tm->fp_mul, askers), TRAX_CAUSE_FP_MUL);
+  if ((askers = by_ask[TRAX_ASK_INT_MUL]))
+    granted |= refuse(tm, askers, trax_shared_unit_grant(&tm->int_mul, askers), TRAX_CAUSE_INT_MUL);
+  if ((askers = by_ask[TRAX_ASK_SPECIAL]))
+    granted |= refuse(tm, askers, trax_special_unit_grant(&tm->special, askers, t), TRAX_CAUSE_SPECIAL);
+  return granted;
+}
+
+/* --- the memory queue --- */
+
+void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
+  struct trax_tm_stats *stats = tm->stats;
+  if (request.bytes < tm->config->memory.min_transfer_bytes)
+    request.bytes = tm->config->memory.min_transfer_bytes;
+  switch ((trax_request_kind)request.kind) {
+  case TRAX_REQUEST_INSTRUCTION_LINE:
+    stats->instruction_read_bytes += request.bytes;
+    break;
+  case TRAX_REQUEST_DATA_LINE:
+    stats->data_read_bytes += request.bytes;
+    break;
+  case TRAX_REQUEST_LOAD:
+    stats->nontemporal_read_bytes += request.bytes;
+    break;
+  case TRAX_REQUEST_WRITE:
+    stats->written_bytes += request.bytes;
+    stats->write_requests++;
+    break;
+  case TRAX_REQUEST_ATOMIC:
+    stats->atomic_bytes += request.bytes;
+    break;
+  }
+  stats->memory_requests++;
+  trax_queue_push(&tm->queue, request);
+  trax_memory_notice(&tm->machine->chip->memory, tm->number);
+}
+
+static bool request_in_turn(struct trax_tm *tm, unsigned tp, struct trax_request request) {
+  if (!trax_queue_has_place(&tm->queue))
+    return false;
+  trax_tm_request(tm, request);
+  trax_arbiter_to_back(&tm->queue_turn, tp);
+  return true;
+}
+
+/* A store joins the run of its TP's write-combining buffer, or writes that run and begins a new one. */
+static bool store_past_cache(struct trax_tm *tm, unsigned number) {
+  struct trax_tp *tp = &tm->tp[number];
+  const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
+  if (!tm->config->memory.write_combining)
+    return request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = end - begin});
+  if (trax_tp_combines(tp, begin, tp->inst->bytes)) {
+    tm->stats->combined_stores++;
+    tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;
+    tp->run_end = end > tp->run_end ? end : tp->run_end;
+    return true;
+  }
+  const uint32_t run = tp->run_end - tp->run_begin;
+  if (run && !request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = run}))
+    return false;
+  tp->run_begin = begin;
+  tp->run_end = end;
+  return true;
+}
+
+static bool write_last_run(struct trax_tm *tm, unsigned number) {
+  struct trax_tp *tp = &tm->tp[number];
+  const uint32_t run = tp->run_end - tp->run_begin;
+  if (run && !request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = run}))
+    return false;
+  tp->run_begin = tp->run_end = 0;
+  return true;
+}
+
+/* An atomic increment or a load past the cache. */
+static bool read_past_cache(struct trax_tm *tm, unsigned number) {
+  struct trax_tp *tp = &tm->tp[number];
+  const bool atomic = tp->inst->is_atomic;
+  const struct trax_request request = {.kind = atomic ? TRAX_REQUEST_ATOMIC : TRAX_REQUEST_LOAD,
+                                       .tp = (uint8_t)number,
+                                       .rd = tp->inst->rd,
+                                       .address = tp->address,
+                                       .bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes};
+  if (!request_in_turn(tm, number, request))
+    return false;
+  trax_tp_set_usable(tp, tp->inst->rd, TRAX_NEVER, atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS);
+  return true;
+}
+
+static bool count_store(struct trax_tm *tm, const struct trax_tp *tp) {
+  if (!tp->inst->is_nontemporal) {
+    if (trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address)))
+      tm->stats->store_hits++;
+    else
+      tm->stats->store_misses++;
+  }
+  return true;
+}
+
+/* Step 4. askers: global memory accesses that have their banks, and ends of threads. */
+static uint64_t grant_queue(struct trax_tm *tm, uint64_t askers, uint64_t t) {
+  const uint64_t at_or_after = ~(uint64_t)0 << tm->queue_turn;
+  const uint64_t round[2] = {askers & at_or_after, askers & ~at_or_after};
+  uint64_t granted = 0;
+  for (unsigned half = 0; half < 2; half++)
+    for (uint64_t rest = round[half]; rest; rest &= rest - 1) {
+      const unsigned number = trax_first(rest);
+      const struct trax_tp *tp = &tm->tp[number];
+      bool served;
+      if (tp->inst->ask == TRAX_ASK_END)
+        served = write_last_run(tm, number);
+      else if (tp->inst->is_store)
+        served = store_past_cache(tm, number) && count_store(tm, tp);
+      else if (tp->inst->is_nontemporal || tp->inst->is_atomic)
+        served = read_past_cache(tm, number);
+      else
+        served = trax_dcache_load(&tm->dcache, tm, number, t);
+      if (served)
+        granted |= rest & -rest;
+      else
+        trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
+    }
+  return granted;
+}
+
+static void access_local(struct trax_tm *tm, uint64_t local, uint64_t t) {
+  for (; local; local &= local - 1) {
+    struct trax_tp *tp = &tm->tp[trax_first(local)];
+    if (tp->inst->is_store) {
+      tm->stats->local_stores++;
+      continue;
+    }
+    tm->stats->local_loads++;
+    trax_tp_set_usable(tp, tp->inst->rd, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
+  }
+}
+
+static void trace(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst, uint64_t t) {
+  const struct trax_tp *tp = &tm->tp[number];
+  struct trax_issue issue = {.cycle = t,
+                             .tm = tm->number,
+                             .tp = number,
+                             .pc = pc,
+                             .result = tp->reg[inst->rd],
+                             .address = inst->bytes ? tp->address : 0};
+  memcpy(&issue.word, tm->machine->space.bytes + pc, sizeof issue.word);
+  tm->machine->trace(tm->machine->trace_context, &issue);
+}
+
+/* Step 5. */
+static void issue(struct trax_tm *tm, uint64_t granted, uint64_t t) {
+  for (; granted; granted &= granted - 1) {
+    const unsigned number = trax_first(granted);
+    struct trax_tp *tp = &tm->tp[number];
+    const struct trax_decoded *inst = tp->inst;
+    const uint32_t pc = tp->pc;
+    if (!trax_tp_execute(tm, number, t))
+      continue;
+    tm->holding &= ~(granted & -granted);
+    tm->stats->instructions[inst->op]++;
+    trax_tm_charge(tm, number, TRAX_CAUSE_ISSUED);
+    if (inst->ask != TRAX_ASK_MEMORY)
+      trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
+    if (tp->pc != pc + 4) {
+      tm->stats->taken_branches++;
+      if (tm->config->tp.branch_bubble_cycles)
+        sleep_until(tm, number, t, t + 1, t + 1 + tm->config->tp.branch_bubble_cycles, TRAX_CAUSE_BRANCH);
+    }
+    if (tm->machine->trace)
+      trace(tm, number, pc, inst, t);
+  }
+}
+
+static uint64_t next_cycle(const struct trax_tm *tm, uint64_t t) {
+  if (tm->awake)
+    return t + 1;
+  uint64_t next = TRAX_NEVER;
+  if (tm->wheel_occupied) { /* rotated so that bit 0 is cycle t + 1 */
+    const unsigned slot = (t + 1) % TRAX_WHEEL;
+    const uint64_t rotated = slot ? tm->wheel_occupied >> slot | tm->wheel_occupied << (64 - slot) : tm->wheel_occupied;
+    next = t + 1 + trax_first(rotated);
+  }
+  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion < next)
+    next = trax_queue_oldest(&tm->queue)->completion;
+  return next;
+}
+
+void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
+  arrive(tm, t);
+  wake(tm, t);
+  fetch(tm, t);
+  struct asks asks = check_operands(tm, t);
+  uint64_t granted = grant_units(tm, asks.by_ask, t);
+  if (asks.local) {
+    access_local(tm, asks.local, t);
+    granted |= asks.local;
+  }
+  uint64_t queue_askers = asks.by_ask[TRAX_ASK_MEMORY] | asks.by_ask[TRAX_ASK_END];
+  if (asks.bank)
+    queue_askers |= trax_dcache_grant_banks(&tm->dcache, tm, asks.bank);
+  if (queue_askers)
+    granted |= grant_queue(tm, queue_askers, t);
+  issue(tm, granted, t);
+  tm->next_cycle = next_cycle(tm, t);
+}
+
+void trax_tm_settle(struct trax_tm *tm, uint64_t cycles) {
+  for (unsigned i = 0; i < tm->tps; i++)
+    if (!(tm->awake >> i & 1))
+      tm->tp_stats[i].cycles[tm->tp[i].asleep_cause] += cycles - tm->tp[i].asleep_since;
+}

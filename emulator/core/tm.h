@@ -1,0 +1,83 @@
+/* A thread multiprocessor: TPs, what they share, and the steps of its cycle. */
+#ifndef TRAX_CORE_TM_H
+#define TRAX_CORE_TM_H
+
+#include "core/dcache.h"
+#include "core/icache.h"
+#include "core/machine.h"
+#include "core/queue.h"
+#include "core/tp.h"
+#include "core/unit.h"
+
+#define TRAX_WHEEL 64 /* cycles; its slots are the bits of wheel_occupied */
+
+struct trax_tm {
+  uint32_t number, tps;
+  const struct trax_config *config;
+  struct trax_machine *machine;
+  const struct trax_text *text;
+  FILE *output; /* of the guest; may be NULL */
+
+  struct trax_tp *tp; /* [tps] */
+
+  /* Masks of TPs. A TP is awake, or asleep until a cycle (in the wheel), until an arrival (awaiting, or in an
+     instruction cache's list), or for good (ended). */
+  uint64_t awake, holding, awaiting, ended;
+  uint64_t wheel[TRAX_WHEEL]; /* [cycle % 64]: who wakes */
+  uint64_t wheel_occupied;    /* slots that are not empty */
+  uint64_t next_cycle;        /* no earlier cycle changes anything in this TM */
+
+  struct trax_icache *icache; /* [icaches] */
+  uint32_t icaches;
+  struct trax_shared_unit fp_add, fp_mul, int_mul;
+  struct trax_special_unit special;
+  struct trax_dcache dcache;
+  struct trax_queue queue;
+  trax_arbiter queue_turn;
+
+  struct trax_fault fault; /* of the current cycle: the lowest TP's */
+
+  struct trax_tm_stats *stats;
+  struct trax_tp_stats *tp_stats; /* [tps] */
+  int32_t *exit_statuses;         /* [tps] */
+};
+
+trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_machine *machine,
+                           const struct trax_text *text, FILE *output, trax_error *error);
+void trax_tm_destroy(struct trax_tm *tm);
+
+/* Arrivals and the TM's five steps in cycle t; sets next_cycle. */
+void trax_tm_cycle(struct trax_tm *tm, uint64_t t);
+
+/* Charges sleepers up to `cycles`, the length of the run. */
+void trax_tm_settle(struct trax_tm *tm, uint64_t cycles);
+
+static inline void trax_tm_charge(struct trax_tm *tm, unsigned tp, trax_cause cause) {
+  tm->tp_stats[tp].cycles[cause]++;
+}
+
+/* Puts an awake TP to sleep; it is charged to cause from cycle `since` on. Whoever calls sees to its waking. */
+static inline void trax_tm_sleep(struct trax_tm *tm, unsigned tp, uint64_t since, trax_cause cause) {
+  tm->awake &= ~((uint64_t)1 << tp);
+  tm->tp[tp].asleep_since = since;
+  tm->tp[tp].asleep_cause = (uint8_t)cause;
+}
+
+static inline void trax_tm_wake(struct trax_tm *tm, unsigned tp, uint64_t t) {
+  tm->awake |= (uint64_t)1 << tp;
+  tm->tp_stats[tp].cycles[tm->tp[tp].asleep_cause] += t - tm->tp[tp].asleep_since;
+}
+
+/* Ends the thread from cycle `since` on. */
+void trax_tm_end_thread(struct trax_tm *tm, unsigned tp, uint64_t since, int32_t status);
+
+/* Records a fault of cycle t unless a lower TP has one, and ends the thread. */
+void trax_tm_fault(struct trax_tm *tm, unsigned tp, uint64_t t, trax_fault_kind kind, uint32_t address);
+
+/* What TP `tp` loads into register rd is there in cycle t. */
+void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t);
+
+/* Requests to memory, with their accounting; the queue must have a place. */
+void trax_tm_request(struct trax_tm *tm, struct trax_request request);
+
+#endif

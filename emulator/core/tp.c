@@ -1,0 +1,134 @@
+#include "core/tp.h"
+
+#include "core/tm.h"
+#include "core/traps.h"
+#include "trax/semantics.h"
+
+#include <string.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copied as the host's");
+
+#define COMBINING_BLOCK 64u
+
+trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
+  const unsigned registers[] = {tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd};
+  for (unsigned i = 0; i < 3; i++)
+    if (tp->usable[registers[i]] > t) {
+      *until = tp->usable[registers[i]];
+      return (trax_cause)tp->usable_cause[registers[i]];
+    }
+  return TRAX_CAUSE_ISSUED;
+}
+
+bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes) {
+  return tp->run_begin != tp->run_end && address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&
+         address <= tp->run_end && address + bytes >= tp->run_begin;
+}
+
+trax_fault_kind trax_tp_check_access(const struct trax_tp *tp, const struct trax_space *space, uint32_t address) {
+  const struct trax_decoded *inst = tp->inst;
+  if (address >= TRAX_LOCAL_BASE && !inst->is_nontemporal && !inst->is_atomic)
+    return address & (inst->bytes - 1u) ? TRAX_FAULT_MISALIGNED : TRAX_FAULT_NONE;
+  return trax_space_check(space, address, inst->bytes, inst->is_store || inst->is_atomic);
+}
+
+/* --- effects: addresses have been checked --- */
+
+static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) {
+  return address >= TRAX_LOCAL_BASE ? tp->local + (address - TRAX_LOCAL_BASE) : tm->machine->space.bytes + address;
+}
+
+static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
+  uint32_t value = 0;
+  memcpy(&value, place(tm, tp, address), bytes);
+  return value;
+}
+
+static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
+  memcpy(place(tm, tp, address), &value, bytes);
+}
+
+static uint32_t special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t) {
+  switch (number) {
+  case TRAX_SR_THREAD:
+    return tm->number * tm->tps + tp;
+  case TRAX_SR_TM:
+    return tm->number;
+  case TRAX_SR_TP:
+    return tp;
+  case TRAX_SR_THREADS:
+    return tm->config->chip.tms * tm->tps;
+  case TRAX_SR_CYCLE:
+    return (uint32_t)t;
+  case TRAX_SR_CYCLEH:
+    return (uint32_t)(t >> 32);
+  }
+  return 0; /* the decoder lets no other pass */
+}
+
+bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
+  struct trax_tp *tp = &tm->tp[number];
+  const struct trax_decoded *inst = tp->inst;
+  const uint32_t pc = tp->pc;
+  const unsigned bits = tm->config->special.precision_bits;
+  uint32_t next_pc = pc + 4;
+  bool alive = true;
+
+/* What the instructions' semantics are written in (isa/TraxInstructions.td). */
+#define RD tp->reg[inst->rd]
+#define RA tp->reg[inst->ra]
+#define RB tp->reg[inst->rb]
+#define IMM ((uint32_t)inst->imm)
+#define PC pc
+#define NEXT_PC next_pc
+#define LOAD8(ADDRESS) load(tm, tp, ADDRESS, 1)
+#define LOAD16(ADDRESS) load(tm, tp, ADDRESS, 2)
+#define LOAD32(ADDRESS) load(tm, tp, ADDRESS, 4)
+#define STORE8(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 1)
+#define STORE16(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 2)
+#define STORE32(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 4)
+#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
+#define SPECIAL_REGISTER(NUMBER) special_register(tm, number, NUMBER, t)
+#define TRAP(VALUE, CODE) alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t)
+#define HALT() trax_tm_end_thread(tm, number, t + 1, 0)
+#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)
+#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), bits)
+  switch ((trax_op)inst->op) {
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  case TRAX_OP_##NAME:                                                                                                 \
+    __VA_ARGS__                                                                                                        \
+    break;
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+  case TRAX_OP_ILLEGAL: /* faulted before */
+  case TRAX_OP_COUNT:
+    break;
+  }
+#undef RD
+#undef RA
+#undef RB
+#undef IMM
+#undef PC
+#undef NEXT_PC
+#undef LOAD8
+#undef LOAD16
+#undef LOAD32
+#undef STORE8
+#undef STORE16
+#undef STORE32
+#undef ATOMIC_INC
+#undef SPECIAL_REGISTER
+#undef TRAP
+#undef HALT
+#undef FPDIV
+#undef ISQRT
+
+  if (!alive)
+    return false;
+  if (next_pc == pc + 4)
+    tp->inst++;
+  else
+    tp->inst = trax_text_at(tm->text, next_pc);
+  tp->pc = next_pc;
+  return true;
+}

@@ -1,0 +1,58 @@
+#include "core/traps.h"
+
+#include "core/tm.h"
+
+#include <string.h>
+
+/* The string at a global address or in the TP's own local memory, to the guest's output. */
+static trax_fault_kind put_string(struct trax_tm *tm, unsigned number, uint32_t address) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const struct trax_space *space = &tm->machine->space;
+  const char *text, *end;
+  if (address >= TRAX_LOCAL_BASE) {
+    text = (const char *)tp->local + (address - TRAX_LOCAL_BASE);
+    end = (const char *)tp->local + sizeof tp->local;
+  } else {
+    const trax_fault_kind kind = trax_space_check(space, address, 1, false);
+    if (kind)
+      return kind;
+    text = (const char *)space->bytes + address;
+    end = (const char *)space->bytes + space->size;
+  }
+  const char *nul = memchr(text, 0, (size_t)(end - text));
+  if (!nul)
+    return TRAX_FAULT_UNMAPPED;
+  if (tm->output) {
+    fwrite(text, 1, (size_t)(nul - text), tm->output);
+    fflush(tm->output);
+  }
+  return TRAX_FAULT_NONE;
+}
+
+bool trax_trap(struct trax_tm *tm, unsigned tp, uint32_t value, int32_t code, uint64_t t) {
+  trax_fault_kind fault = TRAX_FAULT_NONE;
+  switch (code) {
+  case TRAX_TRAP_EXIT:
+    trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);
+    break;
+  case TRAX_TRAP_PUTC:
+    if (tm->output)
+      fputc((int)(value & 0xFF), tm->output);
+    break;
+  case TRAX_TRAP_ABORT:
+    fault = TRAX_FAULT_ABORT;
+    break;
+  case TRAX_TRAP_RAYS:
+    tm->stats->rays += value;
+    break;
+  case TRAX_TRAP_ITEMS:
+    tm->stats->items += value;
+    break;
+  case TRAX_TRAP_PUTS:
+    fault = put_string(tm, tp, value);
+    break;
+  }
+  if (fault)
+    trax_tm_fault(tm, tp, t, fault, value);
+  return !fault;
+}

@@ -1,0 +1,31 @@
+/* Units that several TPs share (docs/timing.md, "Units"): adders, multipliers and integer multipliers, one for each
+   group of neighbours, and the TM's FPDIV/iSQRT units. */
+#ifndef TRAX_CORE_UNIT_H
+#define TRAX_CORE_UNIT_H
+
+#include "core/arbiter.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* One kind of unit, one for each group of TPs; each accepts an instruction every cycle. */
+struct trax_shared_unit {
+  uint32_t group_size, groups;
+  trax_arbiter turn[64]; /* [groups] */
+};
+
+void trax_shared_unit_create(struct trax_shared_unit *unit, uint32_t group_size, uint32_t tps);
+/* The winners of all groups. */
+uint64_t trax_shared_unit_grant(struct trax_shared_unit *unit, uint64_t askers);
+
+/* FPDIV/iSQRT: alike, with one arbiter; each is taken for `interval` cycles by an instruction. */
+struct trax_special_unit {
+  uint32_t units, interval;
+  uint64_t free_from[64]; /* [units]: cycle */
+  trax_arbiter turn;
+};
+
+void trax_special_unit_create(struct trax_special_unit *unit, uint32_t units, uint32_t interval);
+uint64_t trax_special_unit_grant(struct trax_special_unit *unit, uint64_t askers, uint64_t t);
+
+#endif
