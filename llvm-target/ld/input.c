@@ -1,0 +1,78 @@
+/* The input files: finds them, tells what they are, and loads objects until nothing more is needed. */
+#include "ld.h"
+
+#include <string.h>
+#include <unistd.h>
+
+const char *ld_foreign_format(const uint8_t *bytes, size_t size) {
+  if (size >= SELFMAG && memcmp(bytes, ELFMAG, SELFMAG) == 0)
+    return NULL;
+  if (size == 0)
+    return "empty";
+  if (size >= 4 && memcmp(bytes, "BC\xC0\xDE", 4) == 0)
+    return "LLVM bitcode (link-time optimisation is not supported: compile without -flto)";
+  if (size >= 8 && memcmp(bytes, "!<thin>\n", 8) == 0)
+    return "a thin archive (make a regular one: llvm-ar without T)";
+  for (size_t i = 0; i < size && i < 512; i++)
+    if (bytes[i] != '\t' && bytes[i] != '\n' && bytes[i] != '\r' && (bytes[i] < ' ' || bytes[i] > '~'))
+      return "neither an ELF object nor an archive";
+  return "a text file, neither an ELF object nor an archive (linker scripts are not supported)";
+}
+
+static const char *find_library(ld_context *ctx, const char *name) {
+  const char *file = name[0] == ':' ? name + 1 : ld_format(ctx, "lib%s.a", name);
+  for (size_t i = 0; i < ctx->options.library_paths.count; i++) {
+    const char *path = ld_format(ctx, "%s/%s", ctx->options.library_paths.items[i], file);
+    if (access(path, F_OK) == 0)
+      return path;
+  }
+  ld_error(ctx, "library -l%s not found: no %s in %s", name, file,
+           ctx->options.library_paths.count == 0   ? "the library path, which is empty (-L)"
+           : ctx->options.library_paths.count == 1 ? ctx->options.library_paths.items[0]
+                                                   : "any directory of the library path (-L)");
+  return NULL;
+}
+
+/* Loading an object can make others needed, which are loaded after it. */
+static void load_pending(ld_context *ctx) {
+  for (size_t i = 0; i < ctx->pending.count; i++) {
+    ld_object *object = ctx->pending.items[i];
+    if (ctx->options.trace)
+      printf("%s\n", object->name);
+    ld_push(ctx, &ctx->objects, object);
+    ld_object_load(ctx, object);
+  }
+  ctx->pending.count = 0;
+}
+
+static void add_input(ld_context *ctx, const ld_input *input) {
+  const char *path = input->is_library ? find_library(ctx, input->name) : input->name;
+  const uint8_t *bytes;
+  size_t size;
+  if (!path || !ld_read_file(ctx, path, &bytes, &size))
+    return;
+  if (ld_is_archive(bytes, size)) {
+    ld_archive_add(ctx, path, bytes, size, input->whole_archive);
+    return;
+  }
+  const char *foreign = ld_foreign_format(bytes, size);
+  if (foreign) {
+    ld_error(ctx, "%s: is %s", path, foreign);
+    return;
+  }
+  ld_object *object = ld_object_open(ctx, path, bytes, size);
+  if (object) {
+    object->taken = true;
+    ld_push(ctx, &ctx->pending, object);
+  }
+}
+
+bool ld_load_inputs(ld_context *ctx) {
+  const ld_options *options = &ctx->options;
+  ld_start_symbols(ctx);
+  for (size_t i = 0; i < options->inputs.count; i++) {
+    add_input(ctx, &options->inputs.items[i]);
+    load_pending(ctx);
+  }
+  return ctx->error_count == 0;
+}

@@ -1,0 +1,349 @@
+/* The image's layout (docs/abi.md): input sections are gathered in output sections by name, these in three segments,
+   R-X, R-- and RW-, in ascending addresses from options.text_start; thread-local data in local memory; the rest has no
+   address. */
+#include "ld.h"
+#include "trax/abi.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* --- output sections --- */
+
+static const char *const standard_names[] = {".text", ".rodata", ".data",       ".bss",
+                                             ".tbss", ".tdata",  ".init_array", ".fini_array"};
+
+/* ".text.f" goes to ".text". */
+static const char *output_name(const ld_section *section) {
+  if (!(section->flags & SHF_ALLOC))
+    return section->name;
+  if (strcmp(section->name, "COMMON") == 0)
+    return ".bss";
+  if (strcmp(section->name, ".tcommon") == 0)
+    return ".tbss";
+  for (size_t i = 0; i < sizeof standard_names / sizeof standard_names[0]; i++) {
+    size_t length = strlen(standard_names[i]);
+    if (strncmp(section->name, standard_names[i], length) == 0 && section->name[length] == '.')
+      return standard_names[i];
+  }
+  return section->name;
+}
+
+ld_output *ld_output_find(const ld_context *ctx, const char *name) {
+  for (size_t i = 0; i < ctx->outputs.count; i++)
+    if (strcmp(ctx->outputs.items[i]->name, name) == 0)
+      return ctx->outputs.items[i];
+  return NULL;
+}
+
+static void add_to_output(ld_context *ctx, ld_map *by_name, ld_section *section) {
+  const char *name = output_name(section);
+  uint32_t flags = section->flags & ~(uint32_t)(SHF_GROUP | SHF_LINK_ORDER | SHF_GNU_RETAIN | SHF_INFO_LINK);
+  const char *key = flags & SHF_ALLOC ? name : ld_format(ctx, "%s (unloaded)", name);
+  uintptr_t *slot = ld_map_at(ctx, by_name, key, strlen(key));
+  ld_output *output = (ld_output *)*slot;
+  const uint32_t merge = SHF_MERGE | SHF_STRINGS;
+  if (!output) {
+    output = ld_alloc(ctx, sizeof *output);
+    output->name = name;
+    output->type = section->type;
+    output->flags = flags;
+    output->entry_size = section->entry_size;
+    *slot = (uintptr_t)output;
+    ld_push(ctx, &ctx->outputs, output);
+  } else {
+    if (((output->flags | flags) & (SHF_WRITE | SHF_EXECINSTR)) == (SHF_WRITE | SHF_EXECINSTR))
+      ld_error(ctx, "%s:(%s): %s section among %s ones in %s", section->object->name, section->name,
+               flags & SHF_WRITE ? "a writable" : "an executable", flags & SHF_WRITE ? "executable" : "writable", name);
+    if ((output->flags ^ flags) & SHF_TLS)
+      ld_error(ctx, "%s:(%s): %s thread-local, other sections in %s are%s", section->object->name, section->name,
+               flags & SHF_TLS ? "is" : "is not", name, flags & SHF_TLS ? " not" : "");
+    if (output->type != section->type)
+      output->type = output->type == SHT_NOBITS    ? section->type
+                     : section->type == SHT_NOBITS ? output->type
+                                                   : SHT_PROGBITS;
+    if (((output->flags ^ flags) & merge) || output->entry_size != section->entry_size) {
+      output->flags &= ~merge;
+      output->entry_size = 0;
+      flags &= ~merge;
+    }
+    output->flags |= flags;
+  }
+  section->output = output;
+  ld_push(ctx, &output->sections, section);
+}
+
+static int output_rank(const ld_output *output) {
+  bool zeros = output->type == SHT_NOBITS;
+  if (!(output->flags & SHF_ALLOC))
+    return 100;
+  if (output->flags & SHF_TLS)
+    return 90;
+  if (output->flags & SHF_EXECINSTR)
+    return 0 + zeros;
+  if (!(output->flags & SHF_WRITE))
+    return 10 + zeros;
+  return output->type == SHT_INIT_ARRAY ? 20 : output->type == SHT_FINI_ARRAY ? 21 : 22 + zeros;
+}
+
+/* --- order within an output section --- */
+
+/* ".init_array.100" runs before ".init_array.200", plain ".init_array" last. Hot code lies together, and code that runs
+   once or hardly ever out of its way: an instruction cache is small. */
+static uint32_t section_order(const ld_section *section) {
+  static const char *const text_order[] = {".text.hot", ".text", ".text.startup", ".text.exit", ".text.unlikely"};
+  const size_t plain = 1;
+  uint32_t priority;
+  if (section->type == SHT_INIT_ARRAY || section->type == SHT_FINI_ARRAY) {
+    const char *dot = strrchr(section->name, '.');
+    if (dot && dot != section->name) {
+      while (dot[1] == '0' && dot[2] != '\0')
+        dot++; /* decimal in spite of leading zeros */
+      if (ld_parse_number(dot + 1, &priority))
+        return priority;
+    }
+    return UINT32_MAX;
+  }
+  for (uint32_t i = 0; i < sizeof text_order / sizeof text_order[0]; i++) {
+    size_t length = strlen(text_order[i]);
+    if (i != plain && strncmp(section->name, text_order[i], length) == 0 &&
+        (section->name[length] == '.' || section->name[length] == '\0'))
+      return i;
+  }
+  return plain;
+}
+
+typedef struct ordered {
+  ld_section *section;
+  uint32_t order;
+  size_t index;
+} ordered;
+
+static int compare_ordered(const void *left, const void *right) {
+  const ordered *a = left, *b = right;
+  if (a->order != b->order)
+    return a->order < b->order ? -1 : 1;
+  return a->index < b->index ? -1 : 1;
+}
+
+static void order_sections(ld_context *ctx, ld_output *output) {
+  size_t count = output->sections.count;
+  ordered *list = ld_alloc_array(ctx, count, sizeof *list);
+  for (size_t i = 0; i < count; i++)
+    list[i] = (ordered){output->sections.items[i], section_order(output->sections.items[i]), i};
+  qsort(list, count, sizeof *list, compare_ordered);
+  for (size_t i = 0; i < count; i++)
+    output->sections.items[i] = list[i].section;
+}
+
+static int compare_outputs(const void *left, const void *right) {
+  const ld_output *a = *(ld_output *const *)left, *b = *(ld_output *const *)right;
+  if (a->rank != b->rank)
+    return a->rank < b->rank ? -1 : 1;
+  return a->header_index < b->header_index ? -1 : 1; /* first mention, for now */
+}
+
+static void place_sections(ld_context *ctx, ld_output *output) {
+  uint64_t size = 0;
+  output->alignment = 1;
+  for (size_t i = 0; i < output->sections.count; i++) {
+    ld_section *section = output->sections.items[i];
+    section->output = output;
+    size = ld_align(size, section->alignment);
+    section->output_offset = (uint32_t)size;
+    size += section->size;
+    if (section->alignment > output->alignment)
+      output->alignment = section->alignment;
+    if (size > UINT32_MAX) {
+      ld_error(ctx, "section %s is larger than the address space", output->name);
+      return;
+    }
+  }
+  output->size = (uint32_t)size;
+}
+
+static void gather(ld_context *ctx) {
+  ld_map by_name = {0};
+  for (size_t i = 0; i < ctx->sections.count; i++)
+    if (ctx->sections.items[i]->live)
+      add_to_output(ctx, &by_name, ctx->sections.items[i]);
+  for (size_t i = 0; i < ctx->outputs.count; i++) {
+    ld_output *output = ctx->outputs.items[i];
+    output->rank = output_rank(output);
+    output->header_index = (uint32_t)i;
+    order_sections(ctx, output);
+    ld_merge_output(ctx, output);
+    place_sections(ctx, output);
+  }
+  if (ctx->outputs.count)
+    qsort(ctx->outputs.items, ctx->outputs.count, sizeof *ctx->outputs.items, compare_outputs);
+  uint32_t headers = 1;
+  for (size_t i = 0; i < ctx->outputs.count; i++) /* empty sections have an address but no header */
+    ctx->outputs.items[i]->header_index = ctx->outputs.items[i]->size ? headers++ : 0;
+}
+
+/* --- addresses --- */
+
+static void place_segment(ld_context *ctx, int class, uint32_t flags, uint64_t *address) {
+  ld_segment segment = {.flags = flags, .address = (uint32_t)ld_align(*address, LD_SEGMENT_ALIGNMENT)};
+  uint64_t at = segment.address;
+  uint64_t file_end = at, memory_end = at;
+  for (size_t i = 0; i < ctx->outputs.count; i++) {
+    ld_output *output = ctx->outputs.items[i];
+    if (output->rank / 10 != class)
+      continue;
+    at = ld_align(at, output->alignment);
+    output->address = (uint32_t)at;
+    at += output->size;
+    if (at > TRAX_LOCAL_BASE) {
+      ld_error(ctx, "the image does not fit: section %s would end at 0x%llx, global memory ends at 0x%x", output->name,
+               (unsigned long long)at, TRAX_LOCAL_BASE);
+      return;
+    }
+    if (output->size)
+      memory_end = at;
+    if (output->size && output->type != SHT_NOBITS)
+      file_end = at;
+  }
+  segment.file_size = (uint32_t)(file_end - segment.address);
+  segment.memory_size = (uint32_t)(memory_end - segment.address);
+  if (segment.memory_size)
+    ctx->segments[ctx->segment_count++] = segment;
+  *address = segment.memory_size ? memory_end : *address;
+}
+
+static const char *thread_local_name(const ld_section *section) {
+  const ld_object *object = section->object;
+  for (size_t i = 1; i < object->symbol_count; i++) {
+    const ld_symbol *symbol = object->symbols[i];
+    if (symbol->kind == LD_DEFINED && symbol->section == section && symbol->type == STT_TLS)
+      return symbol->name;
+  }
+  return NULL;
+}
+
+/* Local memory is not loaded at start, it is zero: there can be no initialised thread-local data. */
+static void place_thread_local(ld_context *ctx) {
+  uint64_t at = TRAX_LOCAL_BASE;
+  for (size_t i = 0; i < ctx->outputs.count; i++) {
+    ld_output *output = ctx->outputs.items[i];
+    if (output->rank != 90)
+      continue;
+    at = ld_align(at, output->alignment);
+    output->address = (uint32_t)at;
+    at += output->size;
+    for (size_t s = 0; s < output->sections.count; s++) {
+      const ld_section *section = output->sections.items[s];
+      if (section->type == SHT_NOBITS || section->size == 0)
+        continue;
+      const char *name = thread_local_name(section);
+      ld_error(ctx,
+               "%s:(%s): initialised thread-local data%s%s%s: local memory is not loaded at start, it is all zero; "
+               "assign the value at run time",
+               section->object->name, section->name, name ? " '" : "", name ? name : "", name ? "'" : "");
+    }
+  }
+  ctx->bounds.tbss_start = TRAX_LOCAL_BASE;
+  ctx->bounds.tbss_end = (uint32_t)at;
+  uint64_t size = at - TRAX_LOCAL_BASE;
+  ctx->local_size = (uint32_t)size;
+  if (size >= TRAX_LOCAL_SIZE)
+    ld_error(ctx, "thread-local data takes %llu bytes; local memory has %u, and holds the stack too",
+             (unsigned long long)size, TRAX_LOCAL_SIZE);
+}
+
+static void set_range(const ld_context *ctx, const char *name, uint32_t otherwise, uint32_t *start, uint32_t *end) {
+  const ld_output *output = ld_output_find(ctx, name);
+  *start = output ? output->address : otherwise;
+  *end = output ? output->address + output->size : otherwise;
+}
+
+static void set_bounds(ld_context *ctx, uint32_t text_end, uint32_t end) {
+  ld_bounds *bounds = &ctx->bounds;
+  bounds->executable_start = ctx->options.text_start;
+  bounds->text_start = ctx->options.text_start;
+  bounds->text_end = text_end;
+  bounds->end = (uint32_t)ld_align(end, LD_SEGMENT_ALIGNMENT);
+  set_range(ctx, ".init_array", end, &bounds->init_array_start, &bounds->init_array_end);
+  set_range(ctx, ".fini_array", end, &bounds->fini_array_start, &bounds->fini_array_end);
+  bounds->bss_start = bounds->bss_end = end;
+  for (size_t i = ctx->outputs.count; i-- > 0;) {
+    const ld_output *output = ctx->outputs.items[i];
+    if (output->rank == 23 && output->size)
+      bounds->bss_start = output->address;
+  }
+}
+
+static void find_entry(ld_context *ctx) {
+  const char *name = ctx->options.entry;
+  if (!ld_parse_number(name, &ctx->entry)) {
+    const ld_symbol *symbol = ld_symbol_find(ctx, name);
+    if (symbol->kind == LD_UNDEFINED || symbol->kind == LD_LAZY) {
+      ld_error(ctx, "the entry symbol '%s' is undefined (-e chooses another)", name);
+      return;
+    }
+    ctx->entry = ld_symbol_address(ctx, symbol);
+  }
+  if (ctx->entry < ctx->bounds.text_start || ctx->entry >= ctx->bounds.text_end || ctx->entry % 4)
+    ld_error(ctx, "the entry '%s' (0x%x) is not an instruction's address in the text, 0x%x to 0x%x", name, ctx->entry,
+             ctx->bounds.text_start, ctx->bounds.text_end);
+}
+
+static uint32_t minimum(uint32_t a, uint32_t b) {
+  return a < b ? a : b;
+}
+
+static void place_in_file(ld_context *ctx) {
+  uint64_t offset = sizeof(Elf32_Ehdr) + ctx->segment_count * sizeof(Elf32_Phdr);
+  for (size_t i = 0; i < ctx->segment_count; i++) {
+    ld_segment *segment = &ctx->segments[i];
+    offset = ld_align(offset, LD_SEGMENT_ALIGNMENT); /* as addresses are */
+    segment->file_offset = (uint32_t)offset;
+    for (size_t o = 0; o < ctx->outputs.count; o++) {
+      ld_output *output = ctx->outputs.items[o];
+      if (output->rank < 90 && output->size && output->address >= segment->address &&
+          output->address - segment->address < segment->memory_size)
+        output->file_offset = segment->file_offset + minimum(output->address - segment->address, segment->file_size);
+    }
+    offset += segment->file_size;
+  }
+  for (size_t i = 0; i < ctx->outputs.count; i++) {
+    ld_output *output = ctx->outputs.items[i];
+    if (output->rank < 90)
+      continue;
+    offset = ld_align(offset, output->rank == 90 ? 1 : output->alignment);
+    output->file_offset = (uint32_t)offset;
+    if (output->type != SHT_NOBITS)
+      offset += output->size;
+  }
+  if (offset > INT32_MAX)
+    ld_error(ctx, "the executable would be larger than 2 GB");
+  ctx->image_size = (size_t)offset; /* what follows is output.c's */
+}
+
+bool ld_layout(ld_context *ctx) {
+  gather(ctx);
+  if (ctx->error_count)
+    return false;
+  uint64_t address = ctx->options.text_start;
+  place_segment(ctx, 0, PF_R | PF_X, &address);
+  uint32_t text_end = (uint32_t)address;
+  place_segment(ctx, 1, PF_R, &address);
+  place_segment(ctx, 2, PF_R | PF_W, &address);
+  place_thread_local(ctx);
+  if (ctx->error_count)
+    return false;
+  set_bounds(ctx, text_end, (uint32_t)address);
+  ld_place_boundaries(ctx);
+  find_entry(ctx);
+  place_in_file(ctx);
+  return ctx->error_count == 0;
+}
+
+uint32_t ld_section_address(const ld_section *section, uint32_t offset) {
+  if (!section->merged_into)
+    return section->output->address + section->output_offset + offset;
+  const ld_piece *piece = ld_find_piece(section, offset);
+  const ld_section *merged = section->merged_into;
+  return merged->output->address + merged->output_offset +
+         (piece ? piece->output_offset + (offset - piece->offset) : merged->size);
+}

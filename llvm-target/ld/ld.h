@@ -1,0 +1,319 @@
+/* The linker's data structures and passes. One ld_context holds a whole link; main.c runs the passes in order:
+
+     options   command line                              -> context.options
+     input     objects and archives, symbol resolution   -> context.objects, context.symbols
+     symbols   wrapped, common, linker-defined symbols
+     merge     string and constant sections cut into pieces
+     gc        what the program can reach                -> section.live, piece.live
+     layout    output sections, segments, addresses      -> context.outputs, context.segments
+     output    the image: headers, contents, symbol table; relocate applies the relocations in it
+     map       the optional reports
+
+   A pass reports what is wrong by ld_error and goes on as far as it can, so that one run shows all errors; it returns
+   whether the link is still free of them. Memory belongs to the context and is freed with it. */
+#ifndef TRAX_LD_H
+#define TRAX_LD_H
+
+#include <elf.h>
+#include <libelf.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#ifndef SHF_GNU_RETAIN
+#define SHF_GNU_RETAIN (1u << 21)
+#endif
+
+#define LD_SEGMENT_ALIGNMENT 64u       /* docs/abi.md */
+#define LD_MAX_ALIGNMENT 65536u        /* of a section; a larger one is taken for a damaged file */
+#define LD_BOUNDARY_SECTION UINT32_MAX /* __start_NAME, __stop_NAME */
+#define LD_MERGE_NONE UINT32_MAX       /* a piece without a place in the output */
+
+typedef struct ld_context ld_context;
+typedef struct ld_object ld_object;
+typedef struct ld_section ld_section;
+typedef struct ld_symbol ld_symbol;
+typedef struct ld_output ld_output;
+
+/* --- util.c: memory, vectors, maps, files, diagnostics --- */
+
+#define LD_VECTOR(type)                                                                                                \
+  struct {                                                                                                             \
+    type *items;                                                                                                       \
+    size_t count, capacity;                                                                                            \
+  }
+#define ld_push(ctx, vector, item)                                                                                     \
+  ((vector)->count == (vector)->capacity                                                                               \
+       ? (void)((vector)->items =                                                                                      \
+                    ld_grow((ctx), (vector)->items, (vector)->count, &(vector)->capacity, sizeof *(vector)->items))    \
+       : (void)0,                                                                                                      \
+   (void)((vector)->items[(vector)->count++] = (item)))
+
+void *ld_alloc(ld_context *ctx, size_t size); /* zeroed, aligned to 16; the process ends if memory is exhausted */
+void *ld_alloc_array(ld_context *ctx, size_t count, size_t size);
+char *ld_format(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void *ld_grow(ld_context *ctx, void *items, size_t count, size_t *capacity, size_t size);
+void ld_free_all(ld_context *ctx);
+
+/* From byte strings, which must outlive the map, to values. */
+typedef struct ld_map_entry {
+  const void *key;
+  uint32_t length, hash;
+  uintptr_t value; /* 0: none yet */
+} ld_map_entry;
+typedef struct ld_map {
+  ld_map_entry *entries;
+  size_t count, capacity;
+} ld_map;
+
+/* The place of key's value, made if new; valid until the next call. */
+uintptr_t *ld_map_at(ld_context *ctx, ld_map *map, const void *key, size_t length);
+uintptr_t ld_map_find(const ld_map *map, const void *key, size_t length); /* 0 if absent */
+
+void ld_error(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ld_warning(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Says how many errors the limit kept back. */
+void ld_report_suppressed(const ld_context *ctx);
+
+/* The bytes of a regular file of less than 4 GB; false after an error message. */
+bool ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size_t *size);
+/* Writes beside path and renames, so that path is never half written; a path that is no regular file is written
+   directly. mode is reduced by the umask. */
+bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode);
+
+static inline uint64_t ld_align(uint64_t value, uint32_t alignment) {
+  return (value + alignment - 1) & ~(uint64_t)(alignment - 1);
+}
+bool ld_starts_with(const char *text, const char *prefix);
+bool ld_parse_number(const char *text, uint32_t *value); /* decimal, 0x or octal, all of text */
+
+/* --- options.c --- */
+
+typedef struct ld_input {
+  const char *name;
+  bool is_library;    /* -l */
+  bool whole_archive; /* every member, needed or not */
+} ld_input;
+
+typedef struct ld_defsym {
+  const char *name;
+  const char *base; /* a symbol's name, or NULL for a plain number */
+  uint32_t offset;
+} ld_defsym;
+
+typedef struct ld_options {
+  const char *output;
+  const char *entry;
+  const char *map_path; /* NULL: none; "-": standard output */
+  LD_VECTOR(ld_input) inputs;
+  LD_VECTOR(const char *) library_paths;
+  LD_VECTOR(const char *) undefined; /* -u */
+  LD_VECTOR(const char *) wrapped;
+  LD_VECTOR(ld_defsym) defsyms;
+  uint32_t text_start;
+  unsigned error_limit; /* 0: none */
+  bool gc_sections, print_gc_sections, print_memory_usage;
+  bool strip_all, strip_debug;
+  bool fatal_warnings, no_warnings, trace;
+  bool help, version, version_only; /* asked for; version_only: and nothing else */
+} ld_options;
+
+/* argv without the program's name. */
+bool ld_parse_options(ld_context *ctx, int argc, char **argv);
+void ld_print_help(FILE *out);
+
+/* --- object.c, archive.c, input.c: what is linked --- */
+
+typedef struct ld_reloc {
+  uint32_t offset; /* in the section */
+  uint32_t type;   /* R_TRAX_* */
+  ld_symbol *symbol;
+  int32_t addend;
+} ld_reloc;
+
+/* A string or constant of a merged section. It reaches to the next piece's offset, or the section's end. */
+typedef struct ld_piece {
+  uint32_t offset;
+  uint32_t output_offset; /* in section.merged_into; LD_MERGE_NONE while it has no place */
+  bool live;
+} ld_piece;
+
+struct ld_section {
+  ld_object *object; /* NULL for a section made by the linker */
+  const char *name;
+  uint32_t type, flags, alignment, size, entry_size;
+  const uint8_t *data; /* size bytes; NULL for SHT_NOBITS */
+  ld_reloc *relocs;
+  uint32_t reloc_count;
+  bool discarded;         /* never part of the output: a losing COMDAT group, notes to the linker, ... */
+  bool live;              /* part of the output */
+  ld_section *group_next; /* ring of a group's members, or NULL */
+  ld_section *first_dependent, *next_dependent; /* SHF_LINK_ORDER sections that live as long as this one */
+  ld_piece *pieces;                             /* not NULL if the section's contents are merged */
+  uint32_t piece_count;
+  ld_section *merged_into;
+  ld_output *output;
+  uint32_t output_offset;
+  uint32_t ordinal; /* in the order of the image, for the map */
+};
+
+typedef enum ld_symbol_kind {
+  LD_UNDEFINED,
+  LD_LAZY,     /* defined by an archive member that has not been taken */
+  LD_COMMON,   /* value is the alignment; becomes LD_DEFINED when resolution ends */
+  LD_DEFINED,  /* value is the offset in section */
+  LD_ABSOLUTE, /* value is the address */
+  LD_DEFSYM,   /* value is the index in options.defsyms */
+  LD_BOUNDARY  /* of the layout: value is an offset in ld_bounds or LD_BOUNDARY_SECTION; becomes LD_ABSOLUTE */
+} ld_symbol_kind;
+
+struct ld_symbol {
+  const char *name;
+  ld_symbol_kind kind;
+  uint8_t binding;    /* STB_*; of an undefined symbol, STB_WEAK if all references are weak */
+  uint8_t type;       /* STT_* */
+  uint8_t visibility; /* STV_* */
+  bool referenced;    /* by an object that was taken, or by the command line */
+  bool reported;      /* as undefined */
+  ld_object *object;  /* the definer (LD_LAZY: who would be), NULL for the linker; the first referrer if undefined */
+  ld_section *section;
+  uint32_t value, size;
+};
+
+struct ld_object {
+  const char *name; /* "a.o" or "lib.a(a.o)" */
+  Elf *elf;
+  ld_section **sections; /* by section index; [0] is NULL */
+  size_t section_count;
+  ld_symbol **symbols; /* by symbol index; [0] is the absolute 0 */
+  size_t symbol_count, first_global;
+  const Elf32_Sym *raw_symbols;
+  const Elf32_Word *raw_shndx; /* SHT_SYMTAB_SHNDX or NULL */
+  const char *strings;
+  size_t strings_size;
+  bool taken;                 /* its definitions count: named on the command line, or extracted */
+  const ld_symbol *taken_for; /* of an archive member: the symbol it was extracted for, or NULL */
+  const ld_object *taken_by;  /* and the first object that needs it, NULL for the command line */
+};
+
+/* Checks headers and symbol table; NULL after an error message. bytes must be aligned to 8 and outlive the link. */
+ld_object *ld_object_open(ld_context *ctx, const char *name, const uint8_t *bytes, size_t size);
+/* Sections, groups, symbols and relocations of an opened object. */
+void ld_object_load(ld_context *ctx, ld_object *object);
+/* The name of symbol index; NULL after an error message. */
+const char *ld_object_symbol_name(ld_context *ctx, const ld_object *object, size_t index);
+/* The section index of a symbol with SHN_XINDEX seen through. reserved: whether it is one of SHN_ABS, SHN_COMMON, ...
+ */
+uint32_t ld_object_symbol_section(const ld_object *object, size_t index, bool *reserved);
+
+/* The name of bytes' format if it is not an ELF object, such as "LLVM bitcode", else NULL. */
+const char *ld_foreign_format(const uint8_t *bytes, size_t size);
+bool ld_is_archive(const uint8_t *bytes, size_t size);
+/* Adds the members of an archive as lazy objects, or as taken ones. */
+void ld_archive_add(ld_context *ctx, const char *name, const uint8_t *bytes, size_t size, bool whole);
+
+bool ld_load_inputs(ld_context *ctx);
+
+/* --- symbols.c --- */
+
+ld_symbol *ld_symbol_find(const ld_context *ctx, const char *name); /* NULL if nobody mentioned it */
+void ld_symbols_add_lazy(ld_context *ctx, ld_object *object);       /* what object's extraction would define */
+bool ld_symbols_add(ld_context *ctx, ld_object *object);            /* fills object->symbols */
+void ld_start_symbols(ld_context *ctx); /* what the command line wraps, defines and refers to */
+/* After the last input: common symbols get sections, those of the linker are defined where referenced. */
+bool ld_finish_symbols(ld_context *ctx);
+/* The address of a symbol with a place in the output; undefined weak ones and those of dropped sections have 0. */
+uint32_t ld_symbol_address(const ld_context *ctx, const ld_symbol *symbol);
+/* NAME of __start_NAME and __stop_NAME, else NULL. */
+const char *ld_boundary_section(const char *symbol);
+/* Gives LD_BOUNDARY symbols their addresses. */
+void ld_place_boundaries(ld_context *ctx);
+bool ld_symbol_is_dropped(const ld_symbol *symbol); /* defined in a section that is not part of the output */
+
+/* --- merge.c --- */
+
+void ld_split_merge_sections(ld_context *ctx);
+ld_piece *ld_find_piece(const ld_section *section, uint32_t offset); /* NULL outside the section */
+/* Puts the live pieces of all sections together; called by the layout with the sections of one output section. */
+void ld_merge_output(ld_context *ctx, ld_output *output);
+
+/* --- gc.c --- */
+
+void ld_mark_live(ld_context *ctx);
+
+/* --- layout.c --- */
+
+struct ld_output {
+  const char *name;
+  uint32_t type, flags, alignment, entry_size;
+  LD_VECTOR(ld_section *) sections;
+  int rank; /* order in the image */
+  uint32_t address, size;
+  uint32_t file_offset;
+  uint32_t header_index, name_offset; /* section header table */
+};
+
+typedef struct ld_segment {
+  uint32_t flags; /* PF_* */
+  uint32_t address, file_offset, file_size, memory_size;
+} ld_segment;
+
+typedef struct ld_bounds {
+  uint32_t executable_start, end, text_start, text_end, init_array_start, init_array_end, fini_array_start,
+      fini_array_end, bss_start, bss_end, tbss_start, tbss_end;
+} ld_bounds;
+
+bool ld_layout(ld_context *ctx);
+/* The address of an offset in a live section. */
+uint32_t ld_section_address(const ld_section *section, uint32_t offset);
+ld_output *ld_output_find(const ld_context *ctx, const char *name);
+
+/* --- relocate.c --- */
+
+/* Reports symbols that live code needs and nobody defines. */
+bool ld_check_undefined(ld_context *ctx);
+/* Applies the relocations of every live section to its bytes in the image. */
+bool ld_relocate(ld_context *ctx);
+/* "a.o:(.text+0x4)" */
+const char *ld_place(ld_context *ctx, const ld_section *section, uint32_t offset);
+
+/* --- output.c --- */
+
+bool ld_build_image(ld_context *ctx);
+bool ld_write_image(ld_context *ctx);
+
+/* --- map.c --- */
+
+bool ld_write_map(ld_context *ctx);
+void ld_print_memory_usage(const ld_context *ctx, FILE *out);
+
+/* --- the whole --- */
+
+struct ld_context {
+  ld_options options;
+  struct ld_chunk *chunks; /* memory */
+  unsigned error_count, warning_count;
+
+  LD_VECTOR(ld_object *) objects; /* taken, in link order */
+  LD_VECTOR(ld_object *) pending; /* taken, to be loaded */
+  LD_VECTOR(Elf *) elves;         /* to be closed */
+  LD_VECTOR(ld_section *) sections;
+  LD_VECTOR(ld_symbol *) symbols; /* global, in the order of first mention */
+  ld_map symbol_map;              /* name -> ld_symbol * */
+  ld_map groups;                  /* COMDAT signature -> the ld_object * that has it */
+  ld_map wrapped;                 /* --wrap: name of a reference -> name to use, const char * */
+
+  LD_VECTOR(ld_output *) outputs; /* in the order of the image */
+  ld_segment segments[3];         /* R-X, R--, RW- */
+  size_t segment_count;
+  ld_bounds bounds;
+  uint32_t local_size; /* bytes of local memory that thread-local data takes */
+  uint32_t entry;
+
+  uint8_t *image;
+  size_t image_size;
+};
+
+#endif

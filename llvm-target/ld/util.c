@@ -1,0 +1,266 @@
+/* Memory, maps, files and diagnostics. */
+#include "ld.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* --- memory: chunks that are freed together --- */
+
+#define CHUNK_SIZE ((size_t)256 << 10)
+
+struct ld_chunk {
+  struct ld_chunk *next;
+  size_t used, size;
+  _Alignas(16) unsigned char bytes[];
+};
+
+void *ld_alloc(ld_context *ctx, size_t size) {
+  size_t rounded = (size + 15) & ~(size_t)15;
+  struct ld_chunk *chunk = ctx->chunks;
+  if (!chunk || chunk->size - chunk->used < rounded) {
+    size_t chunk_size = rounded > CHUNK_SIZE / 4 ? rounded : CHUNK_SIZE;
+    struct ld_chunk *fresh = rounded < size ? NULL : calloc(1, sizeof *fresh + chunk_size);
+    if (!fresh) {
+      fprintf(stderr, "trax-ld: error: out of memory (%zu bytes wanted)\n", size);
+      exit(1);
+    }
+    fresh->size = chunk_size;
+    if (chunk && chunk_size != CHUNK_SIZE) { /* a chunk for itself goes behind the one that is being filled */
+      fresh->next = chunk->next;
+      chunk->next = fresh;
+    } else {
+      fresh->next = chunk;
+      ctx->chunks = fresh;
+    }
+    chunk = fresh;
+  }
+  void *result = chunk->bytes + chunk->used;
+  chunk->used += rounded;
+  return result;
+}
+
+void *ld_alloc_array(ld_context *ctx, size_t count, size_t size) {
+  return ld_alloc(ctx, count > SIZE_MAX / size ? SIZE_MAX : count * size);
+}
+
+void *ld_grow(ld_context *ctx, void *items, size_t count, size_t *capacity, size_t size) {
+  *capacity = *capacity ? 2 * *capacity : 8;
+  void *grown = ld_alloc_array(ctx, *capacity, size);
+  if (count)
+    memcpy(grown, items, count * size);
+  return grown;
+}
+
+char *ld_format(ld_context *ctx, const char *format, ...) {
+  va_list args, copy;
+  va_start(args, format);
+  va_copy(copy, args);
+  int length = vsnprintf(NULL, 0, format, args);
+  va_end(args);
+  char *text = ld_alloc(ctx, (size_t)length + 1);
+  vsnprintf(text, (size_t)length + 1, format, copy);
+  va_end(copy);
+  return text;
+}
+
+void ld_free_all(ld_context *ctx) {
+  for (size_t i = 0; i < ctx->elves.count; i++)
+    elf_end(ctx->elves.items[i]);
+  while (ctx->chunks) {
+    struct ld_chunk *next = ctx->chunks->next;
+    free(ctx->chunks);
+    ctx->chunks = next;
+  }
+}
+
+/* --- maps: open addressing, linear probing, at most two thirds full --- */
+
+static uint32_t hash_bytes(const void *key, size_t length) { /* FNV-1a */
+  const uint8_t *bytes = key;
+  uint32_t hash = 2166136261u;
+  for (size_t i = 0; i < length; i++)
+    hash = (hash ^ bytes[i]) * 16777619u;
+  return hash;
+}
+
+static ld_map_entry *probe(const ld_map *map, const void *key, size_t length, uint32_t hash) {
+  size_t mask = map->capacity - 1;
+  for (size_t i = hash & mask;; i = (i + 1) & mask) {
+    ld_map_entry *entry = &map->entries[i];
+    if (!entry->key ||
+        (entry->hash == hash && entry->length == length && (length == 0 || memcmp(entry->key, key, length) == 0)))
+      return entry;
+  }
+}
+
+uintptr_t *ld_map_at(ld_context *ctx, ld_map *map, const void *key, size_t length) {
+  if (3 * (map->count + 1) > 2 * map->capacity) {
+    ld_map grown = {.capacity = map->capacity ? 2 * map->capacity : 64};
+    grown.entries = ld_alloc_array(ctx, grown.capacity, sizeof *grown.entries);
+    for (size_t i = 0; i < map->capacity; i++) {
+      const ld_map_entry *old = &map->entries[i];
+      if (old->key)
+        *probe(&grown, old->key, old->length, old->hash) = *old;
+    }
+    grown.count = map->count;
+    *map = grown;
+  }
+  uint32_t hash = hash_bytes(key, length);
+  ld_map_entry *entry = probe(map, key, length, hash);
+  if (!entry->key) {
+    *entry = (ld_map_entry){.key = key, .length = (uint32_t)length, .hash = hash};
+    map->count++;
+  }
+  return &entry->value;
+}
+
+uintptr_t ld_map_find(const ld_map *map, const void *key, size_t length) {
+  return map->capacity ? probe(map, key, length, hash_bytes(key, length))->value : 0;
+}
+
+/* --- diagnostics --- */
+
+static void print_message(const char *severity, const char *format, va_list args) {
+  fprintf(stderr, "trax-ld: %s: ", severity);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+}
+
+void ld_error(ld_context *ctx, const char *format, ...) {
+  ctx->error_count++;
+  if (ctx->options.error_limit && ctx->error_count > ctx->options.error_limit)
+    return;
+  va_list args;
+  va_start(args, format);
+  print_message("error", format, args);
+  va_end(args);
+}
+
+void ld_warning(ld_context *ctx, const char *format, ...) {
+  if (ctx->options.no_warnings)
+    return;
+  ctx->warning_count++;
+  va_list args;
+  va_start(args, format);
+  print_message("warning", format, args);
+  va_end(args);
+}
+
+void ld_report_suppressed(const ld_context *ctx) {
+  unsigned limit = ctx->options.error_limit;
+  if (limit && ctx->error_count > limit)
+    fprintf(stderr, "trax-ld: %u more error%s not shown (--error-limit=0 shows all)\n", ctx->error_count - limit,
+            ctx->error_count - limit == 1 ? "" : "s");
+}
+
+/* --- files --- */
+
+bool ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size_t *size) {
+  int fd = open(path, O_RDONLY | O_CLOEXEC);
+  struct stat status;
+  if (fd < 0 || fstat(fd, &status) != 0) {
+    ld_error(ctx, "%s: cannot open: %s", path, strerror(errno));
+    if (fd >= 0)
+      close(fd);
+    return false;
+  }
+  const char *problem = NULL;
+  if (!S_ISREG(status.st_mode))
+    problem = S_ISDIR(status.st_mode) ? "is a directory" : "is not a regular file";
+  else if (status.st_size > (off_t)UINT32_MAX)
+    problem = "is larger than 4 GB";
+  if (problem) {
+    ld_error(ctx, "%s: %s", path, problem);
+    close(fd);
+    return false;
+  }
+  size_t length = (size_t)status.st_size, done = 0;
+  uint8_t *buffer = ld_alloc(ctx, length + 1); /* NUL-terminated, for response files */
+  while (done < length) {
+    ssize_t count = read(fd, buffer + done, length - done);
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count <= 0) {
+      ld_error(ctx, "%s: cannot read: %s", path, count < 0 ? strerror(errno) : "it became shorter while being read");
+      close(fd);
+      return false;
+    }
+    done += (size_t)count;
+  }
+  close(fd);
+  *bytes = buffer;
+  *size = length;
+  return true;
+}
+
+static bool write_all(int fd, const void *bytes, size_t size) {
+  const char *from = bytes;
+  while (size > 0) {
+    ssize_t count = write(fd, from, size);
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count < 0)
+      return false;
+    from += count;
+    size -= (size_t)count;
+  }
+  return true;
+}
+
+bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode) {
+  struct stat status;
+  if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+    int fd = S_ISDIR(status.st_mode) ? (errno = EISDIR, -1) : open(path, O_WRONLY | O_CLOEXEC);
+    bool ok = fd >= 0 && write_all(fd, bytes, size);
+    if (!ok)
+      ld_error(ctx, "%s: cannot write: %s", path, strerror(errno));
+    if (fd >= 0)
+      close(fd);
+    return ok;
+  }
+  char *temporary = ld_format(ctx, "%s.tmpXXXXXX", path);
+  int fd = mkstemp(temporary);
+  if (fd < 0) {
+    ld_error(ctx, "%s: cannot write: %s", path, strerror(errno));
+    return false;
+  }
+  mode_t mask = umask(0);
+  umask(mask);
+  bool ok = write_all(fd, bytes, size) && fchmod(fd, (mode_t)mode & ~mask) == 0;
+  int reason = errno;
+  if (close(fd) != 0 && ok) {
+    ok = false;
+    reason = errno;
+  }
+  if (ok && rename(temporary, path) != 0) {
+    ok = false;
+    reason = errno;
+  }
+  if (!ok) {
+    unlink(temporary);
+    ld_error(ctx, "%s: cannot write: %s", path, strerror(reason));
+  }
+  return ok;
+}
+
+/* --- text --- */
+
+bool ld_starts_with(const char *text, const char *prefix) {
+  return strncmp(text, prefix, strlen(prefix)) == 0;
+}
+
+bool ld_parse_number(const char *text, uint32_t *value) {
+  if (*text < '0' || *text > '9')
+    return false;
+  char *end;
+  errno = 0;
+  unsigned long long number = strtoull(text, &end, 0);
+  if (*end != '\0' || errno != 0 || number > UINT32_MAX)
+    return false;
+  *value = (uint32_t)number;
+  return true;
+}
