@@ -116,7 +116,9 @@ struct trax_build_options {
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 
-/* Writes to a temporary beside path and renames it; nothing is left on failure. */
+/* Writes a whole file: to a temporary beside path, which is then renamed, so that path is replaced at once or stays as
+   it was. A symbolic link stays one; what is no regular file is written to directly. */
+trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error);
 trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);
 
 /* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every triangle is

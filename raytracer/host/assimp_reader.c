@@ -1,0 +1,331 @@
+/* One mesh file through assimp, flattened: node transforms applied, polygons cut, indices checked before assimp's own
+   steps rely on them. Files are handed to assimp from memory, so that compressed ones work everywhere. */
+#include "internal.h"
+
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+const float trax_default_diffuse[3] = {0.75f, 0.75f, 0.75f};
+
+/* --- the file system that assimp sees --- */
+
+struct file_system {
+  struct aiFileIO io;
+  const char *main_name; /* as given to assimp: without .xz or .gz */
+  struct scene_bytes main_file;
+  bool read_material_library;
+  uint32_t missing;
+  char first_missing[256];
+};
+
+struct open_file {
+  struct aiFile file;
+  const unsigned char *data;
+  size_t size, position;
+  unsigned char *owned;
+};
+
+static struct open_file *opened(struct aiFile *file) {
+  return (struct open_file *)file;
+}
+
+static size_t read_file(struct aiFile *file, char *buffer, size_t record_size, size_t count) {
+  struct open_file *open = opened(file);
+  if (record_size == 0)
+    return 0;
+  size_t records = (open->size - open->position) / record_size;
+  if (records > count)
+    records = count;
+  memcpy(buffer, open->data + open->position, records * record_size);
+  open->position += records * record_size;
+  return records;
+}
+
+static size_t refuse_write(struct aiFile *file, const char *buffer, size_t record_size, size_t count) {
+  (void)file, (void)buffer, (void)record_size, (void)count;
+  return 0;
+}
+
+static size_t tell_file(struct aiFile *file) {
+  return opened(file)->position;
+}
+
+static size_t file_size(struct aiFile *file) {
+  return opened(file)->size;
+}
+
+static aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin origin) {
+  struct open_file *open = opened(file);
+  size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? open->position : open->size;
+  /* assimp passes negative offsets as large size_t values: modular arithmetic is meant */
+  size_t position = base + offset;
+  if (position > open->size)
+    return aiReturn_FAILURE;
+  open->position = position;
+  return aiReturn_SUCCESS;
+}
+
+static void flush_file(struct aiFile *file) {
+  (void)file;
+}
+
+static bool has_extension(const char *name, const char *extension) {
+  size_t length = strlen(name), tail = strlen(extension);
+  return length > tail && !strcasecmp(name + length - tail, extension);
+}
+
+static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode) {
+  struct file_system *system = (struct file_system *)io->UserData;
+  if (mode[0] != 'r')
+    return NULL;
+  struct open_file *open = calloc(1, sizeof *open);
+  if (!open)
+    return NULL;
+  if (!strcmp(name, system->main_name)) {
+    open->data = system->main_file.data;
+    open->size = system->main_file.size;
+  } else {
+    struct scene_bytes bytes;
+    if (scene_load_file(&bytes, name, NULL) != TRAX_OK) {
+      if (system->missing++ == 0)
+        snprintf(system->first_missing, sizeof system->first_missing, "%s", name);
+      free(open);
+      return NULL;
+    }
+    if (has_extension(name, ".mtl"))
+      system->read_material_library = true;
+    open->data = open->owned = bytes.data;
+    open->size = bytes.size;
+  }
+  open->file = (struct aiFile){.ReadProc = read_file,
+                               .WriteProc = refuse_write,
+                               .TellProc = tell_file,
+                               .FileSizeProc = file_size,
+                               .SeekProc = seek_file,
+                               .FlushProc = flush_file};
+  return &open->file;
+}
+
+static void close_file(struct aiFileIO *io, struct aiFile *file) {
+  (void)io;
+  if (file)
+    free(opened(file)->owned);
+  free(file);
+}
+
+/* --- materials --- */
+
+static bool begins_with_property(const unsigned char *line, size_t left, const char *text) {
+  return left >= strlen(text) && !memcmp(line, text, strlen(text));
+}
+
+/* Whether a PLY header declares materials; where it does not, assimp makes a white one up. */
+static bool ply_has_materials(const struct scene_bytes *file) {
+  for (size_t at = 0; at < file->size; at++) {
+    if (at > 0 && file->data[at - 1] != '\n')
+      continue;
+    if (begins_with_property(file->data + at, file->size - at, "element material"))
+      return true;
+    if (begins_with_property(file->data + at, file->size - at, "end_header"))
+      return false;
+  }
+  return false;
+}
+
+static float clamp_colour(float value) {
+  return value > 0 ? fminf(value, 1) : 0; /* NaN and -0 become 0 */
+}
+
+/* assimp gives its own defaults to what has no material: white for PLY, 0.6 for OBJ without a library. They become
+ * ours. */
+static bool is_placeholder(const struct aiScene *scene, unsigned number, const char *name,
+                           const struct file_system *system) {
+  if (has_extension(system->main_name, ".ply"))
+    return !ply_has_materials(&system->main_file);
+  if (has_extension(system->main_name, ".obj"))
+    return !system->read_material_library || !strcmp(name, AI_DEFAULT_MATERIAL_NAME);
+  if (has_extension(system->main_name, ".gltf") || has_extension(system->main_name, ".glb"))
+    return number + 1 == scene->mNumMaterials && name[0] == 0; /* appended by assimp for primitives without one */
+  return !strcmp(name, AI_DEFAULT_MATERIAL_NAME);
+}
+
+static trax_status copy_materials(struct trax_mesh *mesh, const struct aiScene *scene, const struct file_system *system,
+                                  trax_error *error) {
+  unsigned count = scene->mNumMaterials;
+  mesh->materials = calloc(count ? count : 1, sizeof *mesh->materials);
+  if (!mesh->materials)
+    return scene_out_of_memory(error, system->main_name);
+  mesh->material_count = count ? count : 1;
+  memcpy(mesh->materials[0].diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
+  for (unsigned i = 0; i < count; i++) {
+    struct trax_mesh_material *material = &mesh->materials[i];
+    struct aiString name;
+    if (aiGetMaterialString(scene->mMaterials[i], AI_MATKEY_NAME, &name) == aiReturn_SUCCESS)
+      memcpy(material->name, name.data, strnlen(name.data, sizeof material->name - 1));
+    struct aiColor4D colour;
+    if (!is_placeholder(scene, i, material->name, system) &&
+        aiGetMaterialColor(scene->mMaterials[i], AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
+      material->diffuse[0] = clamp_colour(colour.r);
+      material->diffuse[1] = clamp_colour(colour.g);
+      material->diffuse[2] = clamp_colour(colour.b);
+    } else
+      memcpy(material->diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
+  }
+  return TRAX_OK;
+}
+
+/* --- geometry --- */
+
+static trax_status check_indices(const struct aiScene *scene, const char *path, trax_error *error) {
+  for (unsigned m = 0; m < scene->mNumMeshes; m++) {
+    const struct aiMesh *part = scene->mMeshes[m];
+    if (part->mMaterialIndex >= (scene->mNumMaterials ? scene->mNumMaterials : 1))
+      return scene_fail(error, "%s: mesh %u: material %u is out of range (%u materials)", path, m, part->mMaterialIndex,
+                        scene->mNumMaterials);
+    for (unsigned f = 0; f < part->mNumFaces; f++) {
+      const struct aiFace *face = &part->mFaces[f];
+      if (face->mNumIndices == 0)
+        return scene_fail(error, "%s: mesh %u: face %u has no vertices", path, m, f);
+      for (unsigned i = 0; i < face->mNumIndices; i++)
+        if (face->mIndices[i] >= part->mNumVertices)
+          return scene_fail(error, "%s: mesh %u: face %u: vertex index %u is out of range (%u vertices)", path, m, f,
+                            face->mIndices[i], part->mNumVertices);
+    }
+  }
+  return TRAX_OK;
+}
+
+/* What the nodes below one refer to, instances counted each time. */
+static void count_geometry(const struct aiScene *scene, const struct aiNode *node, uint64_t *vertices,
+                           uint64_t *triangles) {
+  for (unsigned i = 0; i < node->mNumMeshes; i++) {
+    *vertices += scene->mMeshes[node->mMeshes[i]]->mNumVertices;
+    *triangles += scene->mMeshes[node->mMeshes[i]]->mNumFaces;
+  }
+  for (unsigned i = 0; i < node->mNumChildren; i++)
+    count_geometry(scene, node->mChildren[i], vertices, triangles);
+}
+
+static bool is_identity(const struct aiMatrix4x4 *m) {
+  static const struct aiMatrix4x4 identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  return !memcmp(m, &identity, sizeof identity);
+}
+
+static bool mirrors(const struct aiMatrix4x4 *m) {
+  return m->a1 * (m->b2 * m->c3 - m->b3 * m->c2) - m->a2 * (m->b1 * m->c3 - m->b3 * m->c1) +
+             m->a3 * (m->b1 * m->c2 - m->b2 * m->c1) <
+         0;
+}
+
+static void copy_part(struct trax_mesh *mesh, const struct aiMesh *part, const struct aiMatrix4x4 *m,
+                      struct trax_import_report *report) {
+  uint32_t first = mesh->vertex_count;
+  bool keep = is_identity(m), mirror = !keep && mirrors(m);
+  for (unsigned i = 0; i < part->mNumVertices; i++) {
+    struct aiVector3D v = part->mVertices[i];
+    float *out = mesh->vertices[mesh->vertex_count++];
+    out[0] = keep ? v.x : m->a1 * v.x + m->a2 * v.y + m->a3 * v.z + m->a4;
+    out[1] = keep ? v.y : m->b1 * v.x + m->b2 * v.y + m->b3 * v.z + m->b4;
+    out[2] = keep ? v.z : m->c1 * v.x + m->c2 * v.y + m->c3 * v.z + m->c4;
+  }
+  for (unsigned i = 0; i < part->mNumFaces; i++) {
+    const struct aiFace *face = &part->mFaces[i];
+    if (face->mNumIndices != 3) { /* polygons have been cut: a point or a line */
+      report->other_primitives++;
+      continue;
+    }
+    struct trax_mesh_triangle *triangle = &mesh->triangles[mesh->triangle_count];
+    triangle->vertices[0] = first + face->mIndices[0];
+    triangle->vertices[1] = first + face->mIndices[mirror ? 2 : 1];
+    triangle->vertices[2] = first + face->mIndices[mirror ? 1 : 2];
+    triangle->material = part->mMaterialIndex;
+    triangle->source_id = mesh->triangle_count++;
+  }
+}
+
+static void copy_node(struct trax_mesh *mesh, const struct aiScene *scene, const struct aiNode *node,
+                      const struct aiMatrix4x4 *parent, struct trax_import_report *report) {
+  struct aiMatrix4x4 transform = *parent;
+  aiMultiplyMatrix4(&transform, &node->mTransformation);
+  for (unsigned i = 0; i < node->mNumMeshes; i++)
+    copy_part(mesh, scene->mMeshes[node->mMeshes[i]], &transform, report);
+  for (unsigned i = 0; i < node->mNumChildren; i++)
+    copy_node(mesh, scene, node->mChildren[i], &transform, report);
+}
+
+static trax_status copy_geometry(struct trax_mesh *mesh, const struct aiScene *scene, const char *path,
+                                 struct trax_import_report *report, trax_error *error) {
+  uint64_t vertices = 0, triangles = 0;
+  count_geometry(scene, scene->mRootNode, &vertices, &triangles);
+  if (vertices > UINT32_MAX || triangles > UINT32_MAX)
+    return scene_fail(error, "%s: too large: %llu vertices, %llu triangles", path, (unsigned long long)vertices,
+                      (unsigned long long)triangles);
+  mesh->vertices = malloc((vertices ? vertices : 1) * sizeof *mesh->vertices);
+  mesh->triangles = malloc((triangles ? triangles : 1) * sizeof *mesh->triangles);
+  if (!mesh->vertices || !mesh->triangles)
+    return scene_out_of_memory(error, path);
+  struct aiMatrix4x4 identity;
+  aiIdentityMatrix4(&identity);
+  copy_node(mesh, scene, scene->mRootNode, &identity, report);
+  report->source_triangles += mesh->triangle_count;
+  return TRAX_OK;
+}
+
+/* assimp's OBJ reader takes only a space for the end of a keyword; in OBJ any white space is. */
+static void tabs_to_spaces(struct scene_bytes *file) {
+  for (size_t i = 0; i < file->size; i++)
+    if (file->data[i] == '\t')
+      file->data[i] = ' ';
+}
+
+trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                            trax_error *error) {
+  *mesh = (struct trax_mesh){0};
+  struct file_system system = {.io = {.OpenProc = open_file, .CloseProc = close_file}};
+  system.io.UserData = (aiUserData)&system;
+  char *name = scene_unpacked_name(path);
+  if (!name)
+    return scene_out_of_memory(error, path);
+  system.main_name = name;
+  const struct aiScene *scene = NULL;
+  trax_status result = scene_load_file(&system.main_file, path, error);
+  if (result == TRAX_OK && system.main_file.size == 0)
+    result = scene_fail(error, "%s: the file is empty", path);
+  if (result == TRAX_OK) {
+    if (has_extension(name, ".obj"))
+      tabs_to_spaces(&system.main_file);
+    /* No steps yet: they trust the indices. */
+    scene = aiImportFileEx(name, 0, &system.io);
+    if (!scene || !scene->mRootNode) {
+      const char *reason = aiGetErrorString();
+      result = scene_fail(error, "%s: not a mesh that can be read: %s", path,
+                          reason && reason[0] ? reason : "the importer gives no reason");
+    }
+  }
+  if (result == TRAX_OK)
+    result = check_indices(scene, path, error);
+  if (result == TRAX_OK && !(scene = aiApplyPostProcessing(scene, aiProcess_Triangulate)))
+    result = scene_fail(error, "%s: polygons cannot be cut into triangles: %s", path, aiGetErrorString());
+  if (result == TRAX_OK)
+    result = copy_materials(mesh, scene, &system, error);
+  if (result == TRAX_OK)
+    result = copy_geometry(mesh, scene, path, report, error);
+  if (result == TRAX_OK && system.missing > 0 && !system.read_material_library) {
+    if (report->missing_files == 0)
+      memcpy(report->first_missing_file, system.first_missing, sizeof system.first_missing);
+    report->missing_files += system.missing;
+  }
+  aiReleaseImport(scene);
+  free(system.main_file.data);
+  free(name);
+  if (result != TRAX_OK)
+    trax_mesh_release(mesh);
+  return result;
+}

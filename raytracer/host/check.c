@@ -1,0 +1,258 @@
+/* Reading a scene back. Nothing in the file is believed: after these checks a traversal that follows its references
+   stays inside the file, ends, and needs no more stack than the header says. */
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+struct checker {
+  const char *name;
+  trax_error *error;
+  struct trax_scene view;
+  uint32_t nodes_offset, nodes_size, triangles_offset, triangles_size;
+  unsigned char *node_seen; /* one byte for each node */
+  uint32_t nodes_left, next_triangle;
+  uint32_t max_depth, max_leaf; /* found */
+};
+
+/* --- header and sections --- */
+
+static const struct {
+  const char *name;
+  uint32_t record_size;
+} section_kinds[TRAX_SCENE_SECTIONS] = {
+    [TRAX_SCENE_NODES] = {"nodes", sizeof(struct trax_bvh_node)},
+    [TRAX_SCENE_TRIANGLES] = {"triangles", sizeof(struct trax_triangle)},
+    [TRAX_SCENE_MATERIALS] = {"materials", sizeof(struct trax_material)},
+    [TRAX_SCENE_SOURCE_IDS] = {"source ids", sizeof(uint32_t)},
+};
+
+static trax_status check_header(const struct checker *checker, const struct trax_scene_header *header, size_t size) {
+  const char *name = checker->name;
+  trax_error *error = checker->error;
+  if (size < sizeof header->magic || header->magic != TRAX_SCENE_MAGIC)
+    return scene_fail(error, "%s: not a scene file", name);
+  if (size < sizeof *header)
+    return scene_fail(error, "%s: cut off: %zu bytes, less than the header's %zu", name, size, sizeof *header);
+  if (header->version != TRAX_SCENE_VERSION)
+    return scene_fail(error, "%s: scene file version %u; this program reads version %u", name, header->version,
+                      TRAX_SCENE_VERSION);
+  if (header->file_size != size)
+    return scene_fail(error, "%s: %zu bytes, where its header says %u", name, size, header->file_size);
+  struct trax_scene_header unsummed = *header;
+  unsummed.checksum = 0;
+  uint32_t sum = (uint32_t)crc32_z(0, (const unsigned char *)&unsummed, sizeof unsummed);
+  sum = (uint32_t)crc32_z(sum, (const unsigned char *)(header + 1), size - sizeof *header);
+  if (sum != header->checksum)
+    return scene_fail(error, "%s: damaged: checksum %08x, where its header says %08x", name, sum, header->checksum);
+  if (header->file_size % TRAX_SCENE_ALIGNMENT != 0)
+    return scene_fail(error, "%s: the size, %u bytes, is not a multiple of %u", name, header->file_size,
+                      TRAX_SCENE_ALIGNMENT);
+  if (header->reserved[0] || header->reserved[1])
+    return scene_fail(error, "%s: reserved words of the header are not zero", name);
+  return TRAX_OK;
+}
+
+static trax_status check_sections(const struct checker *checker, const struct trax_scene_header *header) {
+  for (unsigned kind = 0; kind < TRAX_SCENE_SECTIONS; kind++) {
+    const struct trax_scene_section *section = &header->sections[kind];
+    if (section->offset == 0 && section->size == 0 && section->count == 0 && section->record_size == 0)
+      continue;
+    if (!section_kinds[kind].name)
+      return scene_fail(checker->error, "%s: section %u is of an unknown kind", checker->name, kind);
+    const char *what = section_kinds[kind].name;
+    if (section->record_size != section_kinds[kind].record_size)
+      return scene_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
+                        section->record_size, section_kinds[kind].record_size);
+    if (section->count == 0 || section->size != (uint64_t)section->count * section->record_size)
+      return scene_fail(checker->error, "%s: %s: %u records do not make %u bytes", checker->name, what, section->count,
+                        section->size);
+    if (section->offset % TRAX_SCENE_ALIGNMENT != 0 || section->offset < sizeof *header ||
+        (uint64_t)section->offset + section->size > header->file_size)
+      return scene_fail(checker->error, "%s: %s: bytes %u to %llu are outside of the file's %u or not aligned",
+                        checker->name, what, section->offset, (unsigned long long)section->offset + section->size,
+                        header->file_size);
+    for (unsigned other = 0; other < kind; other++) {
+      const struct trax_scene_section *before = &header->sections[other];
+      if (before->count && section->offset < before->offset + before->size &&
+          before->offset < section->offset + section->size)
+        return scene_fail(checker->error, "%s: the sections %s and %s overlap", checker->name,
+                          section_kinds[other].name, what);
+    }
+  }
+  uint32_t triangles = header->sections[TRAX_SCENE_TRIANGLES].count;
+  uint32_t ids = header->sections[TRAX_SCENE_SOURCE_IDS].count;
+  if (header->triangle_count != triangles)
+    return scene_fail(checker->error, "%s: %u triangles, where its header says %u", checker->name, triangles,
+                      header->triangle_count);
+  if (ids && ids != triangles)
+    return scene_fail(checker->error, "%s: %u source ids for %u triangles", checker->name, ids, triangles);
+  return TRAX_OK;
+}
+
+static const void *section_view(const struct trax_scene_header *header, unsigned kind) {
+  return header->sections[kind].count ? (const unsigned char *)header + header->sections[kind].offset : NULL;
+}
+
+/* --- contents --- */
+
+static trax_status check_triangles(const struct checker *checker) {
+  const struct trax_scene *view = &checker->view;
+  for (uint32_t i = 0; i < view->triangle_count; i++) {
+    const struct trax_triangle *triangle = &view->triangles[i];
+    for (int axis = 0; axis < 3; axis++)
+      if (!isfinite(triangle->v0[axis]) || !isfinite(triangle->v1[axis]) || !isfinite(triangle->v2[axis]))
+        return scene_fail(checker->error, "%s: triangle %u: a coordinate is not finite", checker->name, i);
+    if (triangle->material >= view->material_count)
+      return scene_fail(checker->error, "%s: triangle %u: material %u is out of range (%u materials)", checker->name, i,
+                        triangle->material, view->material_count);
+  }
+  for (uint32_t i = 0; i < view->material_count; i++)
+    for (int channel = 0; channel < 3; channel++)
+      if (!(view->materials[i].diffuse[channel] >= 0 && view->materials[i].diffuse[channel] <= 1))
+        return scene_fail(checker->error, "%s: material %u: a colour is not between 0 and 1", checker->name, i);
+  return TRAX_OK;
+}
+
+static trax_status check_leaf(struct checker *checker, trax_scene_ref ref, struct scene_box *box) {
+  const struct trax_scene *view = &checker->view;
+  uint32_t offset = TRAX_SCENE_REF_OFFSET(ref), count = TRAX_SCENE_REF_COUNT(ref);
+  if (offset < checker->triangles_offset || offset - checker->triangles_offset >= checker->triangles_size ||
+      (offset - checker->triangles_offset) % sizeof(struct trax_triangle) != 0)
+    return scene_fail(checker->error, "%s: reference %08x is to no triangle", checker->name, ref);
+  uint32_t first = (offset - checker->triangles_offset) / (uint32_t)sizeof(struct trax_triangle);
+  if (count > view->triangle_count - first)
+    return scene_fail(checker->error, "%s: reference %08x is to triangles behind the last", checker->name, ref);
+  /* Leaf order is depth first, so each triangle is in exactly one leaf if every leaf begins where the one before ended.
+   */
+  if (first != checker->next_triangle)
+    return scene_fail(checker->error, "%s: reference %08x is to triangle %u where %u is next", checker->name, ref,
+                      first, checker->next_triangle);
+  checker->next_triangle += count;
+  if (count > checker->max_leaf)
+    checker->max_leaf = count;
+  for (uint32_t i = first; i < first + count; i++) {
+    scene_box_add_point(box, view->triangles[i].v0);
+    scene_box_add_point(box, view->triangles[i].v1);
+    scene_box_add_point(box, view->triangles[i].v2);
+  }
+  return TRAX_OK;
+}
+
+/* The subtree below ref, with depth inner nodes above it; adds its triangles to box. The recursion ends because a node
+   is entered once and depth is limited. */
+static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
+  if (TRAX_SCENE_REF_COUNT(ref))
+    return check_leaf(checker, ref, box);
+  if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
+      (ref - checker->nodes_offset) % sizeof(struct trax_bvh_node) != 0)
+    return scene_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
+  uint32_t number = (ref - checker->nodes_offset) / (uint32_t)sizeof(struct trax_bvh_node);
+  const struct trax_bvh_node *node = &checker->view.nodes[number];
+  if (checker->node_seen[number])
+    return scene_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
+  checker->node_seen[number] = 1;
+  checker->nodes_left--;
+  if (++depth > TRAX_SCENE_MAX_DEPTH)
+    return scene_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
+  if (depth > checker->max_depth)
+    checker->max_depth = depth;
+  if (node->reserved[0] || node->reserved[1])
+    return scene_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
+  for (int i = 0; i < 2; i++) {
+    struct scene_box child = scene_empty_box();
+    trax_status result = check_subtree(checker, node->child[i], depth, &child);
+    if (result != TRAX_OK)
+      return result;
+    for (int axis = 0; axis < 3; axis++)
+      if (node->box[i].min[axis] != child.min[axis] || node->box[i].max[axis] != child.max[axis])
+        return scene_fail(checker->error, "%s: node %u: box %d is not that of its triangles", checker->name, number, i);
+    scene_box_add_box(box, &child);
+  }
+  return TRAX_OK;
+}
+
+static trax_status check_tree(struct checker *checker, const struct trax_scene_header *header) {
+  struct scene_box bounds = scene_empty_box();
+  if (header->triangle_count == 0) {
+    if (header->root != 0 || checker->view.node_count != 0)
+      return scene_fail(checker->error, "%s: a tree without triangles", checker->name);
+    bounds = (struct scene_box){0};
+  } else {
+    checker->nodes_left = checker->view.node_count;
+    checker->node_seen = calloc(checker->view.node_count + (size_t)1, 1);
+    if (!checker->node_seen)
+      return scene_out_of_memory(checker->error, checker->name);
+    trax_status result = check_subtree(checker, header->root, 0, &bounds);
+    free(checker->node_seen);
+    if (result != TRAX_OK)
+      return result;
+    if (checker->nodes_left != 0)
+      return scene_fail(checker->error, "%s: %u nodes are not in the tree", checker->name, checker->nodes_left);
+    if (checker->next_triangle != header->triangle_count)
+      return scene_fail(checker->error, "%s: %u triangles are in no leaf", checker->name,
+                        header->triangle_count - checker->next_triangle);
+  }
+  if (checker->max_depth != header->max_depth || checker->max_leaf != header->max_leaf)
+    return scene_fail(checker->error, "%s: depth %u and leaves of %u, where its header says %u and %u", checker->name,
+                      checker->max_depth, checker->max_leaf, header->max_depth, header->max_leaf);
+  for (int axis = 0; axis < 3; axis++)
+    if (header->bounds_min[axis] != bounds.min[axis] || header->bounds_max[axis] != bounds.max[axis])
+      return scene_fail(checker->error, "%s: the bounds are not those of its triangles", checker->name);
+  return TRAX_OK;
+}
+
+trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t size, const char *name,
+                             trax_error *error) {
+  const struct trax_scene_header *header = bytes;
+  struct checker checker = {.name = name, .error = error};
+  trax_status result = check_header(&checker, header, size);
+  if (result == TRAX_OK)
+    result = check_sections(&checker, header);
+  if (result != TRAX_OK)
+    return result;
+  const struct trax_scene_section *sections = header->sections;
+  checker.view = (struct trax_scene){.size = size,
+                                     .header = header,
+                                     .nodes = section_view(header, TRAX_SCENE_NODES),
+                                     .triangles = section_view(header, TRAX_SCENE_TRIANGLES),
+                                     .materials = section_view(header, TRAX_SCENE_MATERIALS),
+                                     .source_ids = section_view(header, TRAX_SCENE_SOURCE_IDS),
+                                     .node_count = sections[TRAX_SCENE_NODES].count,
+                                     .triangle_count = sections[TRAX_SCENE_TRIANGLES].count,
+                                     .material_count = sections[TRAX_SCENE_MATERIALS].count};
+  checker.nodes_offset = sections[TRAX_SCENE_NODES].offset;
+  checker.nodes_size = sections[TRAX_SCENE_NODES].size;
+  checker.triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset;
+  checker.triangles_size = sections[TRAX_SCENE_TRIANGLES].size;
+  result = check_triangles(&checker);
+  if (result == TRAX_OK)
+    result = check_tree(&checker, header);
+  if (result == TRAX_OK && scene)
+    *scene = checker.view;
+  return result;
+}
+
+trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error) {
+  *scene = (struct trax_scene){0};
+  struct scene_bytes file;
+  trax_status result = scene_load_file(&file, path, error);
+  if (result != TRAX_OK)
+    return result;
+  size_t room = (file.size + TRAX_SCENE_ALIGNMENT) / TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT;
+  void *bytes = aligned_alloc(TRAX_SCENE_ALIGNMENT, room);
+  if (!bytes)
+    result = scene_out_of_memory(error, path);
+  else {
+    memcpy(bytes, file.data, file.size);
+    result = trax_scene_check(scene, bytes, file.size, path, error);
+  }
+  free(file.data);
+  if (result == TRAX_OK)
+    scene->bytes = bytes;
+  else
+    free(bytes);
+  return result;
+}

@@ -1,0 +1,82 @@
+/* What the files of the scene library share. */
+#ifndef TRAX_SCENE_INTERNAL_H
+#define TRAX_SCENE_INTERNAL_H
+
+#include "trax/scene.h"
+
+/* Larger coordinates make the products of a ray's arithmetic overflow binary32: treated as infinite. */
+#define SCENE_MAX_COORDINATE 1e18f
+
+/* Writes the message and returns TRAX_ERROR. error may be NULL. */
+trax_status scene_fail(trax_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+trax_status scene_out_of_memory(trax_error *error, const char *what);
+
+/* --- files.c --- */
+
+struct scene_bytes {
+  unsigned char *data; /* released with free; aligned for any type */
+  size_t size;
+};
+
+/* Reads a whole file, unpacking it if it begins as an .xz or .gz file does. */
+trax_status scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error);
+
+/* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
+char *scene_unpacked_name(const char *path);
+
+/* --- assimp_reader.c --- */
+
+/* Imports one file in this process. Material 0.. of the mesh are the file's; report is added to. */
+trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                            trax_error *error);
+
+/* --- mesh.c --- */
+
+/* The same in a child process, which is killed when *interrupt becomes true. */
+trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path, const volatile int *interrupt,
+                                     struct trax_import_report *report, trax_error *error);
+
+/* --- bvh.c --- */
+
+/* A tree as the builder makes it; links are indices into nodes. */
+struct scene_tree {
+  struct scene_tree_node {
+    uint32_t triangle_count; /* 0: an inner node */
+    union {
+      uint32_t child[2];
+      uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh, ascending */
+    };
+  } * nodes; /* depth first, the root first */
+  uint32_t node_count, inner_count, max_depth, max_leaf;
+};
+
+trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
+                             const struct trax_build_options *options, trax_error *error);
+void scene_tree_release(struct scene_tree *tree);
+
+/* --- boxes, in host arithmetic --- */
+
+struct scene_box {
+  float min[3], max[3];
+};
+
+static inline struct scene_box scene_empty_box(void) {
+  return (struct scene_box){{__builtin_inff(), __builtin_inff(), __builtin_inff()},
+                            {-__builtin_inff(), -__builtin_inff(), -__builtin_inff()}};
+}
+
+static inline void scene_box_add_point(struct scene_box *box, const float point[3]) {
+  for (int axis = 0; axis < 3; axis++) {
+    if (point[axis] < box->min[axis])
+      box->min[axis] = point[axis];
+    if (point[axis] > box->max[axis])
+      box->max[axis] = point[axis];
+  }
+}
+
+static inline void scene_box_add_box(struct scene_box *box, const struct scene_box *other) {
+  scene_box_add_point(box, other->min);
+  scene_box_add_point(box, other->max);
+}
+
+#endif

@@ -1,0 +1,226 @@
+/* From a mesh and its tree to the bytes of a scene file. */
+#include "internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+struct layout {
+  const struct trax_mesh *mesh;
+  const struct scene_tree *tree;
+  const uint32_t *materials; /* of the mesh to the file's */
+  /* the file's sections */
+  unsigned char *bytes;
+  struct trax_bvh_node *nodes;
+  struct trax_triangle *triangles;
+  uint32_t *source_ids; /* NULL: left out */
+  uint32_t nodes_offset, triangles_offset;
+  uint32_t next_node, next_triangle;
+};
+
+/* --- materials: the file has those in use, each colour once --- */
+
+struct palette {
+  uint32_t *of_mesh; /* for each material of the mesh its number in the file */
+  struct trax_material *materials;
+  uint32_t count;
+};
+
+static int compare_colours(const void *a, const void *b) {
+  const struct trax_mesh_material *const *left = a, *const *right = b;
+  for (int i = 0; i < 3; i++)
+    if ((*left)->diffuse[i] != (*right)->diffuse[i])
+      return (*left)->diffuse[i] < (*right)->diffuse[i] ? -1 : 1;
+  return *left < *right ? -1 : *left > *right;
+}
+
+static void palette_release(struct palette *palette) {
+  free(palette->of_mesh);
+  free(palette->materials);
+}
+
+/* Numbered in the order of the mesh's materials. */
+static trax_status make_palette(struct palette *palette, const struct trax_mesh *mesh, trax_error *error) {
+  enum { unused = UINT32_MAX };
+  size_t count = mesh->material_count;
+  *palette = (struct palette){.of_mesh = malloc((count + 1) * sizeof(uint32_t)),
+                              .materials = calloc(count + 1, sizeof(struct trax_material))};
+  const struct trax_mesh_material **sorted = malloc((count + 1) * sizeof *sorted);
+  uint32_t *first = malloc((count + 1) * sizeof *first); /* the first material in use of the same colour */
+  if (!palette->of_mesh || !palette->materials || !sorted || !first) {
+    palette_release(palette);
+    free(sorted);
+    free(first);
+    return scene_out_of_memory(error, "materials");
+  }
+  for (size_t i = 0; i < count; i++)
+    palette->of_mesh[i] = unused;
+  for (uint32_t i = 0; i < mesh->triangle_count; i++)
+    palette->of_mesh[mesh->triangles[i].material] = 0;
+  size_t used = 0;
+  for (size_t i = 0; i < count; i++)
+    if (palette->of_mesh[i] != (uint32_t)unused)
+      sorted[used++] = &mesh->materials[i];
+  qsort(sorted, used, sizeof *sorted, compare_colours);
+  for (size_t i = 0; i < used; i++) {
+    bool same = i > 0 && !memcmp(sorted[i]->diffuse, sorted[i - 1]->diffuse, sizeof sorted[i]->diffuse);
+    uint32_t number = (uint32_t)(sorted[i] - mesh->materials);
+    first[number] = same ? first[sorted[i - 1] - mesh->materials] : number;
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    if (palette->of_mesh[i] == (uint32_t)unused)
+      continue;
+    if (first[i] == i) {
+      memcpy(palette->materials[palette->count].diffuse, mesh->materials[i].diffuse, sizeof mesh->materials[i].diffuse);
+      palette->of_mesh[i] = palette->count++;
+    } else
+      palette->of_mesh[i] = palette->of_mesh[first[i]];
+  }
+  free(sorted);
+  free(first);
+  return TRAX_OK;
+}
+
+/* --- the tree --- */
+
+static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_node *node, struct scene_box *box) {
+  uint32_t offset = layout->triangles_offset + layout->next_triangle * (uint32_t)sizeof(struct trax_triangle);
+  for (uint32_t i = 0; i < node->triangle_count; i++) {
+    const struct trax_mesh_triangle *source = &layout->mesh->triangles[node->triangles[i]];
+    struct trax_triangle *triangle = &layout->triangles[layout->next_triangle];
+    float *corners[3] = {triangle->v0, triangle->v1, triangle->v2};
+    for (int corner = 0; corner < 3; corner++) {
+      memcpy(corners[corner], layout->mesh->vertices[source->vertices[corner]], 3 * sizeof(float));
+      scene_box_add_point(box, corners[corner]);
+    }
+    triangle->material = layout->materials[source->material];
+    if (layout->source_ids)
+      layout->source_ids[layout->next_triangle] = source->source_id;
+    layout->next_triangle++;
+  }
+  return offset | node->triangle_count;
+}
+
+/* Depth first; returns the reference and adds the subtree's triangles to box. Recursion is bounded by the depth of the
+   tree, at most TRAX_SCENE_MAX_DEPTH. */
+static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_box *box) {
+  const struct scene_tree_node *node = &layout->tree->nodes[index];
+  if (node->triangle_count)
+    return place_leaf(layout, node, box);
+  uint32_t number = layout->next_node++;
+  struct trax_bvh_node *out = &layout->nodes[number];
+  for (int i = 0; i < 2; i++) {
+    struct scene_box child = scene_empty_box();
+    out->child[i] = place(layout, node->child[i], &child);
+    memcpy(out->box[i].min, child.min, sizeof child.min);
+    memcpy(out->box[i].max, child.max, sizeof child.max);
+    scene_box_add_box(box, &child);
+  }
+  return layout->nodes_offset + number * (uint32_t)sizeof(struct trax_bvh_node);
+}
+
+/* --- the file --- */
+
+/* Appends a section at *end; a section without records stays absent. */
+static void plan_section(struct trax_scene_section *section, uint64_t *end, uint32_t count, size_t record_size) {
+  if (count == 0)
+    return;
+  section->offset = (uint32_t)*end;
+  section->size = (uint32_t)(count * record_size);
+  section->count = count;
+  section->record_size = (uint32_t)record_size;
+  *end += ((uint64_t)count * record_size + TRAX_SCENE_ALIGNMENT - 1) / TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT;
+}
+
+static void *section_bytes(unsigned char *bytes, const struct trax_scene_section *section) {
+  return section->count ? bytes + section->offset : NULL;
+}
+
+static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mesh, const struct scene_tree *tree,
+                           const struct palette *palette, bool with_source_ids, trax_error *error) {
+  struct trax_scene_header header = {.magic = TRAX_SCENE_MAGIC,
+                                     .version = TRAX_SCENE_VERSION,
+                                     .max_depth = tree->max_depth,
+                                     .max_leaf = tree->max_leaf,
+                                     .triangle_count = mesh->triangle_count};
+  uint64_t end = sizeof header;
+  struct trax_scene_section *sections = header.sections;
+  plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, sizeof(struct trax_bvh_node));
+  plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, mesh->triangle_count, sizeof(struct trax_triangle));
+  plan_section(&sections[TRAX_SCENE_MATERIALS], &end, palette->count, sizeof(struct trax_material));
+  /* Last: nothing on the device reads it. */
+  plan_section(&sections[TRAX_SCENE_SOURCE_IDS], &end, with_source_ids ? mesh->triangle_count : 0, sizeof(uint32_t));
+  if (end > UINT32_MAX)
+    return scene_fail(error, "%u triangles make a scene of %.1f GB; 32-bit offsets end at 4.29", mesh->triangle_count,
+                      (double)end * 1e-9);
+  unsigned char *bytes = aligned_alloc(TRAX_SCENE_ALIGNMENT, end);
+  if (!bytes)
+    return scene_out_of_memory(error, "scene");
+  memset(bytes, 0, end);
+  header.file_size = (uint32_t)end;
+
+  struct layout layout = {.mesh = mesh,
+                          .tree = tree,
+                          .materials = palette->of_mesh,
+                          .bytes = bytes,
+                          .nodes = section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
+                          .triangles = section_bytes(bytes, &sections[TRAX_SCENE_TRIANGLES]),
+                          .source_ids = section_bytes(bytes, &sections[TRAX_SCENE_SOURCE_IDS]),
+                          .nodes_offset = sections[TRAX_SCENE_NODES].offset,
+                          .triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset};
+  if (palette->count)
+    memcpy(bytes + sections[TRAX_SCENE_MATERIALS].offset, palette->materials,
+           palette->count * sizeof *palette->materials);
+  if (mesh->triangle_count) {
+    struct scene_box bounds = scene_empty_box();
+    header.root = place(&layout, 0, &bounds);
+    memcpy(header.bounds_min, bounds.min, sizeof bounds.min);
+    memcpy(header.bounds_max, bounds.max, sizeof bounds.max);
+  }
+  memcpy(bytes, &header, sizeof header);
+  header.checksum = (uint32_t)crc32_z(0, bytes, end);
+  memcpy(bytes, &header, sizeof header);
+
+  *scene = (struct trax_scene){.bytes = bytes,
+                               .size = end,
+                               .header = (const struct trax_scene_header *)bytes,
+                               .nodes = layout.nodes,
+                               .triangles = layout.triangles,
+                               .materials = section_bytes(bytes, &sections[TRAX_SCENE_MATERIALS]),
+                               .source_ids = layout.source_ids,
+                               .node_count = tree->inner_count,
+                               .triangle_count = mesh->triangle_count,
+                               .material_count = palette->count};
+  return TRAX_OK;
+}
+
+trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
+                             const struct trax_build_options *options, trax_error *error) {
+  static const struct trax_build_options defaults;
+  if (!options)
+    options = &defaults;
+  *scene = (struct trax_scene){0};
+  if (mesh->triangle_count == 0 && !options->allow_empty)
+    return scene_fail(error, "the mesh has no triangles");
+  struct scene_tree tree;
+  trax_status result = scene_build_tree(&tree, mesh, options, error);
+  if (result != TRAX_OK)
+    return result;
+  struct palette palette;
+  result = make_palette(&palette, mesh, error);
+  if (result == TRAX_OK) {
+    result = lay_out(scene, mesh, &tree, &palette, !options->without_source_ids, error);
+    palette_release(&palette);
+  }
+  scene_tree_release(&tree);
+  return result;
+}
+
+trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error) {
+  return trax_write_file(path, scene->bytes, scene->size, error);
+}
+
+void trax_scene_release(struct trax_scene *scene) {
+  free(scene->bytes);
+  *scene = (struct trax_scene){0};
+}

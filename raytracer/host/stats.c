@@ -1,0 +1,42 @@
+/* What a tree promises: shape, and expected work by surface areas (MacDonald and Booth, "Heuristics for ray tracing
+   using space subdivision", 1990). */
+#include "internal.h"
+
+static double half_area(const float min[3], const float max[3]) {
+  double x = (double)max[0] - min[0], y = (double)max[1] - min[1], z = (double)max[2] - min[2];
+  return x * y + y * z + z * x;
+}
+
+struct walk {
+  const struct trax_scene *scene;
+  struct trax_scene_stats *stats;
+  double area; /* of the scene */
+};
+
+/* probability: that a ray which hits the scene's box enters what ref stands for. */
+static void measure(const struct walk *walk, trax_scene_ref ref, unsigned depth, double probability) {
+  uint32_t count = TRAX_SCENE_REF_COUNT(ref);
+  if (count) {
+    walk->stats->leaves++;
+    walk->stats->leaf_sizes[count]++;
+    walk->stats->mean_leaf_depth += depth;
+    walk->stats->sah_triangles += probability * count;
+    return;
+  }
+  const struct trax_bvh_node *node =
+      &walk->scene->nodes[(ref - walk->scene->header->sections[TRAX_SCENE_NODES].offset) / sizeof *node];
+  walk->stats->sah_nodes += probability;
+  for (int i = 0; i < 2; i++)
+    measure(walk, node->child[i], depth + 1,
+            walk->area > 0 ? half_area(node->box[i].min, node->box[i].max) / walk->area : 0);
+}
+
+void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene *scene) {
+  *stats = (struct trax_scene_stats){0};
+  if (scene->triangle_count == 0)
+    return;
+  const struct trax_scene_header *header = scene->header;
+  struct walk walk = {.scene = scene, .stats = stats, .area = half_area(header->bounds_min, header->bounds_max)};
+  measure(&walk, header->root, 0, 1);
+  stats->mean_leaf_depth /= stats->leaves;
+}

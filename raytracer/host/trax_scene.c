@@ -1,0 +1,428 @@
+/* trax-scene: from mesh files to a scene file. */
+#include "trax/scene.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <jansson.h>
+#include <math.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static const char usage[] =
+    "usage: trax-scene [options] MESH... -o SCENE\n"
+    "       trax-scene --check SCENE [--stats] [--stats-json FILE]\n"
+    "Imports meshes (PLY, OBJ with MTL, glTF, GLB and what else assimp reads, also as .xz or .gz), merges them, "
+    "builds\n"
+    "the BVH and writes a scene file.\n"
+    "  -o, --output SCENE           where to write; an existing file is replaced at once or stays as it is\n"
+    "      --check SCENE            no import: check a scene file completely\n"
+    "      --stats                  print what was read and built\n"
+    "      --stats-json FILE        write the same as JSON\n"
+    "      --diffuse [NAME=]R,G,B   linear colour, 0 to 1, of the material NAME, or of all (repeatable)\n"
+    "      --drop-nonfinite         leave triangles with NaN or infinite vertices out instead of refusing the mesh\n"
+    "      --keep-degenerate        keep triangles of exactly zero area, which no ray can hit\n"
+    "      --allow-empty            write a scene without triangles if the mesh has none\n"
+    "      --leaf N                 at most N triangles in a leaf, 1 to 7\n"
+    "      --depth N                at most N nodes from the root to a leaf, 1 to 48\n"
+    "      --traversal-cost X       of a node in the surface-area heuristic\n"
+    "      --intersection-cost X    of a triangle\n"
+    "      --no-source-ids          leave out each triangle's number in the mesh\n"
+    "  -q, --quiet                  no progress and no notes\n"
+    "  -h, --help                   this text\n";
+
+enum { max_overrides = 256 };
+
+struct arguments {
+  const char *const *meshes;
+  size_t mesh_count;
+  const char *output, *check, *stats_json;
+  bool stats, quiet;
+  struct trax_material_override overrides[max_overrides];
+  struct trax_import_options import;
+  struct trax_build_options build;
+};
+
+/* --- interruption --- */
+
+static volatile sig_atomic_t interrupted; /* the signal's number */
+
+static void on_signal(int number) {
+  interrupted = number;
+}
+
+static void catch_signals(void) {
+  struct sigaction action = {.sa_handler = on_signal};
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+  sigaction(SIGHUP, &action, NULL);
+}
+
+/* Ends as if the signal had not been caught, so that a shell sees it. */
+static void end_by_signal(void) {
+  signal(interrupted, SIG_DFL);
+  raise(interrupted);
+}
+
+/* --- progress, on a terminal --- */
+
+struct progress {
+  bool shown;
+  char step[64];
+  double step_began, last_drawn; /* seconds */
+};
+
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void draw_progress(void *context, const char *step, double fraction) {
+  struct progress *progress = context;
+  double now = seconds();
+  if (strncmp(step, progress->step, sizeof progress->step - 1) != 0) {
+    snprintf(progress->step, sizeof progress->step, "%s", step);
+    progress->step_began = now;
+    progress->last_drawn = 0;
+  }
+  if (now - progress->last_drawn < 0.1)
+    return;
+  progress->last_drawn = now;
+  progress->shown = true;
+  if (fraction < 0)
+    fprintf(stderr, "\r\033[K%s", progress->step);
+  else if (fraction > 0.05)
+    fprintf(stderr, "\r\033[K%s: %.0f%%, %.0f s left", progress->step, 100 * fmin(fraction, 1),
+            (now - progress->step_began) * fmax(1 / fraction - 1, 0));
+  else
+    fprintf(stderr, "\r\033[K%s: %.0f%%", progress->step, 100 * fraction);
+  fflush(stderr);
+}
+
+static void clear_progress(struct progress *progress) {
+  if (progress->shown)
+    fputs("\r\033[K", stderr);
+  progress->shown = false;
+}
+
+/* --- statistics: declared once, written as text and as JSON --- */
+
+struct figures {
+  struct trax_import_report import;
+  struct trax_scene_stats tree;
+  const struct trax_scene *scene;
+  bool imported;
+  double import_seconds, build_seconds;
+};
+
+enum { max_statistics = 64 };
+
+struct statistic {
+  const char *name, *unit, *meaning;
+  double value;
+};
+
+static size_t list_statistics(struct statistic list[max_statistics], const struct figures *f) {
+  size_t n = 0;
+  if (f->imported) {
+    list[n++] = (struct statistic){"import.triangles", "", "in the meshes", (double)f->import.source_triangles};
+    list[n++] = (struct statistic){"import.degenerate", "", "dropped: zero area", (double)f->import.degenerate};
+    list[n++] = (struct statistic){"import.nonfinite", "", "dropped: NaN or infinite", (double)f->import.nonfinite};
+    list[n++] = (struct statistic){"import.other", "", "points and lines skipped", (double)f->import.other_primitives};
+    list[n++] = (struct statistic){"import.seconds", "s", "reading and parsing", f->import_seconds};
+    list[n++] = (struct statistic){"build.seconds", "s", "BVH and layout", f->build_seconds};
+  }
+  list[n++] = (struct statistic){"scene.bytes", "B", "size of the file", (double)f->scene->size};
+  list[n++] = (struct statistic){"scene.triangles", "", "", f->scene->triangle_count};
+  list[n++] = (struct statistic){"scene.materials", "", "colours in use", f->scene->material_count};
+  list[n++] = (struct statistic){"bvh.nodes", "", "inner nodes", f->scene->node_count};
+  list[n++] = (struct statistic){"bvh.leaves", "", "", f->tree.leaves};
+  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path", f->scene->header->max_depth};
+  list[n++] = (struct statistic){"bvh.mean_depth", "", "nodes above a leaf", f->tree.mean_leaf_depth};
+  list[n++] = (struct statistic){"bvh.sah_nodes", "", "expected visits of a random ray", f->tree.sah_nodes};
+  list[n++] = (struct statistic){"bvh.sah_triangles", "", "expected tests of a random ray", f->tree.sah_triangles};
+  static const char *const leaf_names[] = {"",
+                                           "bvh.leaves_of_1",
+                                           "bvh.leaves_of_2",
+                                           "bvh.leaves_of_3",
+                                           "bvh.leaves_of_4",
+                                           "bvh.leaves_of_5",
+                                           "bvh.leaves_of_6",
+                                           "bvh.leaves_of_7"};
+  for (unsigned size = 1; size <= TRAX_SCENE_MAX_LEAF; size++)
+    list[n++] = (struct statistic){leaf_names[size], "", "leaves with so many triangles", f->tree.leaf_sizes[size]};
+  return n;
+}
+
+static void print_statistics(const struct statistic *list, size_t count, const struct trax_scene_header *header) {
+  for (size_t i = 0; i < count; i++)
+    printf("%-20s %14.*f %-2s%s%s\n", list[i].name, list[i].value == floor(list[i].value) ? 0 : 3, list[i].value,
+           list[i].unit, list[i].meaning[0] ? "  " : "", list[i].meaning);
+  printf("%-20s %g %g %g to %g %g %g\n", "scene.bounds", (double)header->bounds_min[0], (double)header->bounds_min[1],
+         (double)header->bounds_min[2], (double)header->bounds_max[0], (double)header->bounds_max[1],
+         (double)header->bounds_max[2]);
+}
+
+/* --- the command line --- */
+
+static void __attribute__((format(printf, 1, 2))) complain(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  fputs("trax-scene: error: ", stderr);
+  vfprintf(stderr, format, arguments);
+  fputc('\n', stderr);
+  va_end(arguments);
+}
+
+static bool parse_unsigned(const char *option, const char *text, unsigned least, unsigned most, unsigned *value) {
+  char *end;
+  errno = 0;
+  long number = strtol(text, &end, 10);
+  if (end == text || *end || errno || number < (long)least || number > (long)most) {
+    complain("--%s: '%s' is not a number from %u to %u", option, text, least, most);
+    return false;
+  }
+  *value = (unsigned)number;
+  return true;
+}
+
+static bool parse_cost(const char *option, const char *text, float *value) {
+  char *end;
+  float number = strtof(text, &end);
+  if (end == text || *end || !(number > 0) || !isfinite(number)) {
+    complain("--%s: '%s' is not a positive number", option, text);
+    return false;
+  }
+  *value = number;
+  return true;
+}
+
+/* [NAME=]R,G,B; text is cut at the last '='. */
+static bool parse_diffuse(char *text, struct trax_material_override *override) {
+  char *equals = strrchr(text, '=');
+  const char *colour = equals ? equals + 1 : text;
+  int end = -1;
+  float *rgb = override->diffuse;
+  bool good = sscanf(colour, "%f,%f,%f%n", &rgb[0], &rgb[1], &rgb[2], &end) == 3 && end >= 0 && !colour[end];
+  for (int channel = 0; good && channel < 3; channel++)
+    good = rgb[channel] >= 0 && rgb[channel] <= 1;
+  if (!good) {
+    complain("--diffuse: '%s' is not [NAME=]R,G,B with R, G and B from 0 to 1", text);
+    return false;
+  }
+  if (equals)
+    *equals = 0;
+  override->name = equals ? text : NULL;
+  return true;
+}
+
+/* Returns an exit status, or -1 to go on. */
+static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
+  enum { check = 256, stats, stats_json, diffuse, drop, keep, empty, leaf, depth, traversal, intersection, no_ids };
+  static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                          {"check", required_argument, NULL, check},
+                                          {"stats", no_argument, NULL, stats},
+                                          {"stats-json", required_argument, NULL, stats_json},
+                                          {"diffuse", required_argument, NULL, diffuse},
+                                          {"drop-nonfinite", no_argument, NULL, drop},
+                                          {"keep-degenerate", no_argument, NULL, keep},
+                                          {"allow-empty", no_argument, NULL, empty},
+                                          {"leaf", required_argument, NULL, leaf},
+                                          {"depth", required_argument, NULL, depth},
+                                          {"traversal-cost", required_argument, NULL, traversal},
+                                          {"intersection-cost", required_argument, NULL, intersection},
+                                          {"no-source-ids", no_argument, NULL, no_ids},
+                                          {"quiet", no_argument, NULL, 'q'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+  for (int option, index = 0; (option = getopt_long(argc, argv, "o:qh", options, &index)) != -1;) {
+    bool good = true;
+    switch (option) {
+    case 'o':
+      arguments->output = optarg;
+      break;
+    case check:
+      arguments->check = optarg;
+      break;
+    case stats:
+      arguments->stats = true;
+      break;
+    case stats_json:
+      arguments->stats_json = optarg;
+      break;
+    case diffuse:
+      if (arguments->import.override_count == max_overrides) {
+        complain("--diffuse: given more than %d times", max_overrides);
+        good = false;
+      } else
+        good = parse_diffuse(optarg, &arguments->overrides[arguments->import.override_count++]);
+      break;
+    case drop:
+      arguments->import.drop_nonfinite = true;
+      break;
+    case keep:
+      arguments->import.keep_degenerate = true;
+      break;
+    case empty:
+      arguments->build.allow_empty = true;
+      break;
+    case leaf:
+      good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_LEAF, &arguments->build.max_leaf);
+      break;
+    case depth:
+      good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_DEPTH, &arguments->build.max_depth);
+      break;
+    case traversal:
+      good = parse_cost(options[index].name, optarg, &arguments->build.traversal_cost);
+      break;
+    case intersection:
+      good = parse_cost(options[index].name, optarg, &arguments->build.intersection_cost);
+      break;
+    case no_ids:
+      arguments->build.without_source_ids = true;
+      break;
+    case 'q':
+      arguments->quiet = true;
+      break;
+    case 'h':
+      fputs(usage, stdout);
+      return 0;
+    default:
+      good = false; /* getopt_long has said why */
+    }
+    if (!good)
+      return 1;
+  }
+  arguments->import.overrides = arguments->overrides;
+  arguments->meshes = (const char *const *)argv + optind;
+  arguments->mesh_count = (size_t)(argc - optind);
+  if (arguments->check && (arguments->mesh_count || arguments->output)) {
+    complain("--check takes neither meshes nor an output");
+    return 1;
+  }
+  if (!arguments->check && (!arguments->mesh_count || !arguments->output)) {
+    complain("%s", arguments->mesh_count ? "no output; give one with -o" : "no mesh; try --help");
+    return 1;
+  }
+  return -1;
+}
+
+/* --- the program --- */
+
+/* Written aside and renamed, as the scene is. */
+static trax_status write_json(const char *path, const struct statistic *list, size_t count, trax_error *error) {
+  json_t *root = json_object();
+  for (size_t i = 0; i < count; i++)
+    json_object_set_new(root, list[i].name,
+                        list[i].value == floor(list[i].value) ? json_integer((json_int_t)list[i].value)
+                                                              : json_real(list[i].value));
+  char *text = json_dumps(root, JSON_INDENT(2));
+  json_decref(root);
+  char *line = text ? realloc(text, strlen(text) + 2) : NULL;
+  if (!line) {
+    free(text);
+    snprintf(error->message, sizeof error->message, "%s: not enough memory", path);
+    return TRAX_ERROR;
+  }
+  strcat(line, "\n");
+  trax_status result = trax_write_file(path, line, strlen(line), error);
+  free(line);
+  return result;
+}
+
+static trax_status import_and_build(struct trax_scene *scene, struct figures *figures,
+                                    const struct arguments *arguments, trax_error *error) {
+  struct trax_mesh mesh;
+  double began = seconds();
+  trax_status result =
+      trax_mesh_import(&mesh, arguments->meshes, arguments->mesh_count, &arguments->import, &figures->import, error);
+  if (result != TRAX_OK)
+    return result;
+  double imported = seconds();
+  if (mesh.triangle_count == 0 && !arguments->build.allow_empty) {
+    snprintf(error->message, sizeof error->message, "%s: no triangles%s%s; --allow-empty makes a scene without any",
+             arguments->meshes[0], arguments->mesh_count > 1 ? " in it and the other meshes" : "",
+             figures->import.source_triangles ? " are left: all are of zero area or not finite" : "");
+    result = TRAX_ERROR;
+  } else
+    result = trax_scene_build(scene, &mesh, &arguments->build, error);
+  trax_mesh_release(&mesh);
+  figures->imported = true;
+  figures->import_seconds = imported - began;
+  figures->build_seconds = seconds() - imported;
+  return result;
+}
+
+static void print_notes(const struct trax_import_report *report) {
+  if (report->missing_files)
+    fprintf(stderr, "trax-scene: note: %s cannot be read%s: materials are light grey\n", report->first_missing_file,
+            report->missing_files > 1 ? ", nor other files" : "");
+  if (report->degenerate)
+    fprintf(stderr, "trax-scene: note: %llu of %llu triangles have no area and are left out\n",
+            (unsigned long long)report->degenerate, (unsigned long long)report->source_triangles);
+  if (report->nonfinite)
+    fprintf(stderr, "trax-scene: note: %llu of %llu triangles are not finite and are left out\n",
+            (unsigned long long)report->nonfinite, (unsigned long long)report->source_triangles);
+  if (report->other_primitives)
+    fprintf(stderr, "trax-scene: note: %llu points and lines are left out\n",
+            (unsigned long long)report->other_primitives);
+}
+
+static trax_status run(const struct arguments *arguments, struct progress *progress, trax_error *error) {
+  struct trax_scene scene = {0};
+  struct figures figures = {.scene = &scene};
+  trax_status result = arguments->check ? trax_scene_read(&scene, arguments->check, error)
+                                        : import_and_build(&scene, &figures, arguments, error);
+  if (result == TRAX_OK && interrupted)
+    result = TRAX_INTERRUPTED;
+  if (result == TRAX_OK && arguments->output)
+    result = trax_scene_write(&scene, arguments->output, error);
+  clear_progress(progress);
+  if (result == TRAX_OK) {
+    struct statistic list[max_statistics];
+    trax_scene_measure(&figures.tree, &scene);
+    size_t count = list_statistics(list, &figures);
+    if (!arguments->quiet)
+      print_notes(&figures.import);
+    if (arguments->stats)
+      print_statistics(list, count, scene.header);
+    if (arguments->stats_json)
+      result = write_json(arguments->stats_json, list, count, error);
+  }
+  trax_scene_release(&scene);
+  return result;
+}
+
+int main(int argc, char **argv) {
+  static struct arguments arguments;
+  int status = parse_arguments(&arguments, argc, argv);
+  if (status >= 0)
+    return status;
+  catch_signals();
+  struct progress progress = {0};
+  if (!arguments.quiet && isatty(STDERR_FILENO)) {
+    arguments.import.progress = arguments.build.progress = draw_progress;
+    arguments.import.progress_context = arguments.build.progress_context = &progress;
+  }
+  arguments.import.interrupt = arguments.build.interrupt = &interrupted;
+  trax_error error = {{0}};
+  trax_status result = run(&arguments, &progress, &error);
+  if (result == TRAX_INTERRUPTED) {
+    fputs("trax-scene: interrupted; nothing was written\n", stderr);
+    end_by_signal();
+  }
+  if (result != TRAX_OK) {
+    complain("%s", error.message);
+    return 1;
+  }
+  if (fflush(stdout) != 0 || ferror(stdout)) {
+    complain("cannot write to standard output: %s", strerror(errno));
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,45 @@
+/* What the host tells the ray tracer on the TPs besides the scene: the bytes of the program's buffer `params`. Little
+   endian, 32-bit fields. raytracer/render/frame.c fills it; raytracer/device reads it.
+
+   Buffers of the program (docs/abi.md, "Buffers"):
+     scene   the scene file (scene_format.h)
+     params  struct trax_render_params and behind it the palette, one struct trax_palette_entry per material
+     image   width * height words, row by row from the top left, each R, G, B, A in its bytes from the lowest */
+#ifndef TRAX_RENDER_PARAMS_H
+#define TRAX_RENDER_PARAMS_H
+
+#include <stdint.h>
+
+#define TRAX_RENDER_MAX_SIDE 16384u /* pixels */
+
+/* Pixels are handed out in tiles, so that the threads that share a data cache look at neighbouring parts of the scene.
+   Slot s is pixel s % 2^(tile_log2_width + tile_log2_height), row by row, of tile s / 2^(...), row by row. Slots past
+   the picture's right or lower edge are no pixels. A tile's row is its number divided by tiles_across, which takes no
+   division: the upper word of (2 * tile) * row_multiplier, shifted right by row_shift. */
+struct trax_render_params {
+  uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
+  uint32_t slot_count;
+  uint32_t tile_log2_width, tile_log2_height;
+  uint32_t tiles_across;
+  uint32_t row_multiplier, row_shift;
+
+  /* The ray through the middle of pixel (x, y), (0, 0) at the top left, has the direction
+     corner + (x + 1/2) * step_x + (y + 1/2) * step_y: not of unit length, but 1 along the view's direction. */
+  float eye[3], corner[3], step_x[3], step_y[3];
+
+  float light[3];
+  float ambient;       /* of the light: what a surface sends back that the light does not reach, 0 to 1 */
+  float box_margin;    /* how far the traversal widens boxes, scene units; see frame.c */
+  uint32_t background; /* a pixel as in `image` */
+};
+
+/* A material's colour as it is stored in the picture: 255 * sqrt(diffuse), since the picture has gamma 2. */
+struct trax_palette_entry {
+  float colour[3];
+  uint32_t reserved; /* zero */
+};
+
+_Static_assert(sizeof(struct trax_render_params) == 26 * 4, "no padding");
+_Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
+
+#endif
