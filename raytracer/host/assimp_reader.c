@@ -20,7 +20,6 @@ struct file_system {
   struct aiFileIO io;
   const char *main_name; /* as given to assimp: without .xz or .gz */
   struct scene_bytes main_file;
-  bool read_material_library;
   uint32_t missing;
   char first_missing[256];
 };
@@ -99,8 +98,6 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
       free(open);
       return NULL;
     }
-    if (has_extension(name, ".mtl"))
-      system->read_material_library = true;
     open->data = open->owned = bytes.data;
     open->size = bytes.size;
   }
@@ -139,18 +136,12 @@ static bool ply_has_materials(const struct scene_bytes *file) {
   return false;
 }
 
-static float clamp_colour(float value) {
-  return value > 0 ? fminf(value, 1) : 0; /* NaN and -0 become 0 */
-}
-
 /* assimp gives its own defaults to what has no material: white for PLY, 0.6 for OBJ without a library. They become
  * ours. */
 static bool is_placeholder(const struct aiScene *scene, unsigned number, const char *name,
                            const struct file_system *system) {
   if (has_extension(system->main_name, ".ply"))
     return !ply_has_materials(&system->main_file);
-  if (has_extension(system->main_name, ".obj"))
-    return !system->read_material_library || !strcmp(name, AI_DEFAULT_MATERIAL_NAME);
   if (has_extension(system->main_name, ".gltf") || has_extension(system->main_name, ".glb"))
     return number + 1 == scene->mNumMaterials && name[0] == 0; /* appended by assimp for primitives without one */
   return !strcmp(name, AI_DEFAULT_MATERIAL_NAME);
@@ -172,9 +163,9 @@ static trax_status copy_materials(struct trax_mesh *mesh, const struct aiScene *
     struct aiColor4D colour;
     if (!is_placeholder(scene, i, material->name, system) &&
         aiGetMaterialColor(scene->mMaterials[i], AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
-      material->diffuse[0] = clamp_colour(colour.r);
-      material->diffuse[1] = clamp_colour(colour.g);
-      material->diffuse[2] = clamp_colour(colour.b);
+      material->diffuse[0] = scene_clamp_colour(colour.r);
+      material->diffuse[1] = scene_clamp_colour(colour.g);
+      material->diffuse[2] = scene_clamp_colour(colour.b);
     } else
       memcpy(material->diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
   }
@@ -278,16 +269,11 @@ static trax_status copy_geometry(struct trax_mesh *mesh, const struct aiScene *s
   return TRAX_OK;
 }
 
-/* assimp's OBJ reader takes only a space for the end of a keyword; in OBJ any white space is. */
-static void tabs_to_spaces(struct scene_bytes *file) {
-  for (size_t i = 0; i < file->size; i++)
-    if (file->data[i] == '\t')
-      file->data[i] = ' ';
-}
-
 trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                             trax_error *error) {
   *mesh = (struct trax_mesh){0};
+  if (has_extension(path, ".obj") || has_extension(path, ".obj.xz") || has_extension(path, ".obj.gz"))
+    return scene_read_obj(mesh, path, report, error);
   struct file_system system = {.io = {.OpenProc = open_file, .CloseProc = close_file}};
   system.io.UserData = (aiUserData)&system;
   char *name = scene_unpacked_name(path);
@@ -299,8 +285,6 @@ trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct tra
   if (result == TRAX_OK && system.main_file.size == 0)
     result = scene_fail(error, "%s: the file is empty", path);
   if (result == TRAX_OK) {
-    if (has_extension(name, ".obj"))
-      tabs_to_spaces(&system.main_file);
     /* No steps yet: they trust the indices. */
     scene = aiImportFileEx(name, 0, &system.io);
     if (!scene || !scene->mRootNode) {
@@ -317,7 +301,7 @@ trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct tra
     result = copy_materials(mesh, scene, &system, error);
   if (result == TRAX_OK)
     result = copy_geometry(mesh, scene, path, report, error);
-  if (result == TRAX_OK && system.missing > 0 && !system.read_material_library) {
+  if (result == TRAX_OK && system.missing > 0) {
     if (report->missing_files == 0)
       memcpy(report->first_missing_file, system.first_missing, sizeof system.first_missing);
     report->missing_files += system.missing;

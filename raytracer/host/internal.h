@@ -24,11 +24,35 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, trax_er
 /* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
 char *scene_unpacked_name(const char *path);
 
-/* --- assimp_reader.c --- */
+/* --- assimp_reader.c, obj_reader.c --- */
 
-/* Imports one file in this process. Material 0.. of the mesh are the file's; report is added to. */
+/* Import one file in this process. source_id and material of the triangles count within the file; report is added to.
+ */
 trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                             trax_error *error);
+trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                           trax_error *error);
+
+/* Into 0 to 1; NaN and -0 become 0. */
+static inline float scene_clamp_colour(float value) {
+  return value > 0 ? (value < 1 ? value : 1) : 0;
+}
+
+/* --- polygon.c --- */
+
+/* Memory that is used again from one polygon to the next; zeroed at first. */
+struct scene_polygon_work {
+  void *points;
+  uint32_t *ring;
+  uint32_t (*triangles)[3];
+  uint32_t capacity;
+};
+
+/* Cuts a simple polygon, convex or not, into count - 2 triangles over its own corners; *triangles is valid until the
+   next call. False when out of memory. */
+bool scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], const uint32_t *corners, uint32_t count,
+                       const uint32_t (**triangles)[3]);
+void scene_polygon_work_release(struct scene_polygon_work *work);
 
 /* --- mesh.c --- */
 
