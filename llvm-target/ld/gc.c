@@ -34,8 +34,7 @@ static void mark_symbol(marker *marker, const ld_symbol *symbol, int32_t addend)
   } else if (symbol->kind == LD_DEFINED) {
     ld_section *section = symbol->section;
     if (section->pieces) {
-      uint32_t offset = symbol->value + (symbol->type == STT_SECTION ? (uint32_t)addend : 0);
-      ld_piece *piece = ld_find_piece(section, offset);
+      ld_piece *piece = ld_find_piece(section, ld_symbol_offset(symbol, addend));
       if (piece)
         piece->live = true;
     }

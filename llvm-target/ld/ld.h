@@ -230,7 +230,10 @@ uint32_t ld_symbol_address(const ld_context *ctx, const ld_symbol *symbol);
 const char *ld_boundary_section(const char *symbol);
 /* Gives LD_BOUNDARY symbols their addresses. */
 void ld_place_boundaries(ld_context *ctx);
-bool ld_symbol_is_dropped(const ld_symbol *symbol); /* defined in a section that is not part of the output */
+/* The offset in its section that a relocation with this addend refers to: of a section symbol, the addend is a part. */
+uint32_t ld_symbol_offset(const ld_symbol *symbol, int32_t addend);
+/* Whether that offset is not part of the output. */
+bool ld_symbol_is_dropped(const ld_symbol *symbol, int32_t addend);
 
 /* --- merge.c --- */
 

@@ -55,7 +55,7 @@ static int compare_placed(const void *left, const void *right) {
 }
 
 static void add_placed(ld_context *ctx, placed_list *list, const ld_symbol *symbol) {
-  if (symbol->kind != LD_DEFINED || symbol->type == STT_SECTION || ld_symbol_is_dropped(symbol) ||
+  if (symbol->kind != LD_DEFINED || symbol->type == STT_SECTION || ld_symbol_is_dropped(symbol, 0) ||
       symbol->name[0] == '\0' || (symbol->binding == STB_LOCAL && ld_starts_with(symbol->name, ".L")))
     return;
   const ld_section *section = symbol->section->merged_into ? symbol->section->merged_into : symbol->section;

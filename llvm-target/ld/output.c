@@ -35,7 +35,7 @@ typedef struct symbol_table {
 
 static bool is_wanted(const ld_context *ctx, const ld_symbol *symbol) {
   if (symbol->kind == LD_UNDEFINED || symbol->kind == LD_LAZY || symbol->type == STT_SECTION ||
-      ld_symbol_is_dropped(symbol))
+      ld_symbol_is_dropped(symbol, 0))
     return false;
   if (symbol->binding == STB_LOCAL && ld_starts_with(symbol->name, ".L"))
     return false;

@@ -212,11 +212,11 @@ static bool target_address(const place *place, uint32_t *target) {
   const ld_reloc *reloc = place->reloc;
   const ld_symbol *symbol = reloc->symbol;
   bool loaded = place->section->flags & SHF_ALLOC;
-  if (!loaded && (symbol->kind == LD_UNDEFINED || ld_symbol_is_dropped(symbol))) {
+  if (!loaded && (symbol->kind == LD_UNDEFINED || ld_symbol_is_dropped(symbol, reloc->addend))) {
     *target = tombstone(place->section);
     return true;
   }
-  if (ld_symbol_is_dropped(symbol)) {
+  if (ld_symbol_is_dropped(symbol, reloc->addend)) {
     ld_error(ctx, "%s: relocation refers to '%s' in %s, which is not linked%s",
              ld_place(ctx, place->section, reloc->offset), describe_target(ctx, reloc),
              ld_place(ctx, symbol->section, symbol->value), in_function(ctx, place->section, reloc->offset));
@@ -227,7 +227,7 @@ static bool target_address(const place *place, uint32_t *target) {
     *target = ld_symbol_address(ctx, symbol) + (uint32_t)reloc->addend;
     return true;
   }
-  uint32_t offset = symbol->value + (uint32_t)reloc->addend; /* the addend chooses the piece */
+  uint32_t offset = ld_symbol_offset(symbol, reloc->addend); /* the addend chooses the piece */
   if (!ld_find_piece(symbol->section, offset)) {
     ld_error(ctx, "%s: relocation to '%s' leads out of the section, which has 0x%x bytes",
              ld_place(ctx, place->section, reloc->offset), describe_target(ctx, reloc), symbol->section->size);

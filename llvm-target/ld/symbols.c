@@ -354,12 +354,17 @@ void ld_place_boundaries(ld_context *ctx) {
   }
 }
 
-bool ld_symbol_is_dropped(const ld_symbol *symbol) {
+uint32_t ld_symbol_offset(const ld_symbol *symbol, int32_t addend) {
+  return symbol->value + (symbol->type == STT_SECTION ? (uint32_t)addend : 0);
+}
+
+bool ld_symbol_is_dropped(const ld_symbol *symbol, int32_t addend) {
   if (symbol->kind != LD_DEFINED)
     return false;
-  if (symbol->section->discarded || !symbol->section->live)
+  const ld_section *section = symbol->section;
+  if (section->discarded || !section->live)
     return true;
-  const ld_piece *piece = symbol->section->pieces ? ld_find_piece(symbol->section, symbol->value) : NULL;
+  const ld_piece *piece = section->pieces ? ld_find_piece(section, ld_symbol_offset(symbol, addend)) : NULL;
   return piece && !piece->live;
 }
 
@@ -373,7 +378,7 @@ uint32_t ld_symbol_address(const ld_context *ctx, const ld_symbol *symbol) {
     return (base ? ld_symbol_address(ctx, base) : 0) + defsym->offset;
   }
   case LD_DEFINED:
-    return ld_symbol_is_dropped(symbol) ? 0 : ld_section_address(symbol->section, symbol->value);
+    return ld_symbol_is_dropped(symbol, 0) ? 0 : ld_section_address(symbol->section, symbol->value);
   default:
     return 0;
   }
