@@ -6,6 +6,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "CC1.h"
+#include "LLVMTrax.h"
 #include "TraxTargetInfo.h"
 #include "TraxToolChain.h"
 #include "clang/Basic/DiagnosticDriver.h"
@@ -32,15 +33,6 @@ using namespace clang;
 using namespace clang::driver;
 using llvm::StringRef;
 
-extern "C" {
-void LLVMInitializeTraxTargetInfo();
-void LLVMInitializeTraxTarget();
-void LLVMInitializeTraxTargetMC();
-void LLVMInitializeTraxAsmPrinter();
-void LLVMInitializeTraxAsmParser();
-void LLVMInitializeTraxDisassembler();
-}
-
 namespace {
 
 using ArgVector = llvm::SmallVector<const char *, 256>;
@@ -50,12 +42,7 @@ void initializeTargets() {
   llvm::InitializeAllTargetMCs();
   llvm::InitializeAllAsmPrinters();
   llvm::InitializeAllAsmParsers();
-  LLVMInitializeTraxTargetInfo();
-  LLVMInitializeTraxTarget();
-  LLVMInitializeTraxTargetMC();
-  LLVMInitializeTraxAsmPrinter();
-  LLVMInitializeTraxAsmParser();
-  LLVMInitializeTraxDisassembler();
+  LLVMInitializeTrax();
 }
 
 /// Where the installation is, found from the program's own place.
@@ -146,6 +133,8 @@ int drive(ArgVector &Args, llvm::StringSaver &Strings) {
   const bool ForTrax = !Target.empty() && trax::isTraxTriple(llvm::Triple(llvm::Triple::normalize(Target)));
   if (ForTrax)
     trax::insertDefaults(Args, Installed.RuntimeDir, Strings);
+  if (Name.DriverMode) // clang++
+    Args.insert(Args.begin() + 1, Name.DriverMode);
   if (Name.TargetIsValid)
     Args.insert(Args.begin() + 1, Strings.save("--target=" + Name.TargetPrefix).data());
 

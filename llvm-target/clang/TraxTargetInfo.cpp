@@ -47,6 +47,7 @@ class TraxTargetInfo final : public TargetInfo {
 public:
   explicit TraxTargetInfo(const llvm::Triple &Triple) : TargetInfo(Triple) {
     resetDataLayout("e-m:e-p:32:32-i64:32-f64:32-n32-S32");
+    BigEndian = false; // the triple does not say
     SizeType = UnsignedInt;
     PtrDiffType = SignedInt;
     IntPtrType = SignedInt;
@@ -80,6 +81,9 @@ public:
     Info.setRequiresImmediate(-32768, 32767);
     return true;
   }
+
+  // A double word is no better aligned for being one.
+  bool allowsLargerPreferedTypeAlignment() const override { return false; }
 
   // Wider ones would need library functions for multiplication and division.
   bool hasBitIntType() const override { return true; }

@@ -1,0 +1,66 @@
+"""The lit tests: assembler, code generator, clang, linker and C programs.
+
+A test is a file whose RUN lines all succeed; directories named Inputs hold what they read. Run them with `ninja check-lit`, or
+some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substitutions beyond lit's own:
+
+  %clang         clang --target=trax          %trax_sim      the emulator
+  %clangxx       clang++ --target=trax        %trax_ld       the linker
+  %host_clang    clang, for the host          %trax_mc       assembler and disassembler
+  %runtime       directory of crt0.o, libc.a  %trax_llc      LLVM IR to assembly, with the verifier on
+  %python        the Python interpreter       %trax_objdump  disassembler of ELF files
+  %run_c         run_c.py: compiles a C program at every -O level, runs each and compares (see tests/c)
+
+LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a program is
+missing: the test fails.
+"""
+
+import os
+
+import lit.formats
+
+SUITES = ["mc", "codegen", "clang", "ld", "c"]
+
+config.name = "trax"
+config.test_format = lit.formats.ShTest(execute_external=False)
+config.suffixes = [".s", ".S", ".ll", ".c", ".cpp", ".test", ".yaml"]
+config.test_source_root = os.path.dirname(__file__)
+config.test_exec_root = os.path.join(config.trax_build_root, "tests")
+config.excludes = ["Inputs"] + [name for name in os.listdir(config.test_source_root) if name not in SUITES]
+
+config.environment["PATH"] = os.pathsep.join([config.trax_bin, config.llvm_bin, config.environment["PATH"]])
+config.environment["LC_ALL"] = "C"
+# What sanitizer builds report goes through the exit status; leaks of a compiler that is about to exit are intended.
+for variable in ("ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"):
+    if variable in os.environ:
+        config.environment[variable] = os.environ[variable]
+
+
+def program(name, *arguments):
+    return " ".join([os.path.join(config.trax_bin, name), *arguments])
+
+
+config.substitutions += [
+    ("%clangxx", program("clang++", "--target=trax")),
+    ("%clang", program("clang", "--target=trax")),
+    ("%host_clang", program("clang")),
+    ("%trax_sim", program("trax-sim")),
+    ("%trax_ld", program("trax-ld")),
+    ("%trax_mc", program("trax-mc")),
+    ("%trax_llc", program("trax-llc", "-verify-machineinstrs")),
+    ("%trax_objdump", program("trax-objdump")),
+    ("%runtime", os.path.join(config.trax_build_root, "lib", "trax")),
+    ("%trax_bin", config.trax_bin),
+    ("%trax_source", config.trax_source_root),
+    ("%python", config.python),
+    ("%cmake", config.cmake),
+    ("%run_c", " ".join([
+        config.python, os.path.join(config.test_source_root, "run_c.py"), "--clang", program("clang"),
+        "--sim", program("trax-sim")])),
+]
+
+try:
+    import psutil  # noqa: F401 - lit needs it to stop a test that hangs
+
+    lit_config.maxIndividualTestTime = 300
+except ImportError:
+    pass

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Compile a C program for the TP at several optimization levels, run each on the emulator, compare what it prints.
+
+    // RUN: %run_c %s %t
+    // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
+    // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
+
+Standard output must equal the file beside the program with the ending .expected, byte for byte, and the exit status the one given
+(default 0). With --fault TEXT the program must end in a fault report (status 1) that contains TEXT, once for each --fault.
+The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
+each level that does not.
+"""
+
+import argparse
+import difflib
+import os
+import shlex
+import subprocess
+import sys
+
+LEVELS = "-O0,-O1,-O2,-O3,-Os,-Oz"
+SECONDS = 120  # per step; a program that hangs is a failure, not a wait
+
+
+def run(command):
+    """Run a command; return (status, stdout, stderr). A command that hangs gives the status None."""
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=SECONDS, stdin=subprocess.DEVNULL, check=False)
+    except subprocess.TimeoutExpired as expired:
+        return None, expired.stdout or b"", expired.stderr or b""
+    return done.returncode, done.stdout, done.stderr
+
+
+def describe(command, status, error):
+    what = "did not end" if status is None else f"ended with status {status}"
+    return f"{shlex.join(command)}\n  {what}\n{error.decode(errors='replace')}"
+
+
+def check_output(expected, output):
+    if output == expected:
+        return None
+    difference = difflib.unified_diff(
+        expected.decode(errors="replace").splitlines(), output.decode(errors="replace").splitlines(), "expected", "printed",
+        lineterm="", n=1)
+    return "\n".join(list(difference)[:40]) or "the output differs in its line ends"
+
+
+def check_level(options, level, expected):
+    """Compile and run at one level; return None or what went wrong."""
+    binary = f"{options.binary}{level}"
+    compile_command = [options.clang, "--target=trax", level, "-g", "-Wall", "-Werror", "-mllvm", "-verify-machineinstrs",
+                       *shlex.split(options.cflags), options.source, "-o", binary]
+    status, _, error = run(compile_command)
+    if status != 0:
+        return describe(compile_command, status, error)
+    if options.clang_only:
+        return None
+    command = [options.sim, *shlex.split(options.simflags), binary]
+    status, output, error = run(command)
+    if status != (1 if options.fault else options.status):
+        return describe(command, status, error) + output.decode(errors="replace")[-2000:]
+    for text in options.fault:
+        if text not in error.decode(errors="replace"):
+            return f"{shlex.join(command)}\n  the fault report does not contain '{text}':\n{error.decode(errors='replace')}"
+    return None if expected is None else check_output(expected, output)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Compile, run and compare a C program at several optimization levels.")
+    parser.add_argument("source")
+    parser.add_argument("binary", help="where the programs go; the level is appended")
+    parser.add_argument("--clang", required=True)
+    parser.add_argument("--sim", required=True)
+    parser.add_argument("--levels", default=LEVELS, help=f"comma separated (default: {LEVELS})")
+    parser.add_argument("--cflags", default="")
+    parser.add_argument("--simflags", default="")
+    parser.add_argument("--status", type=int, default=0)
+    parser.add_argument("--fault", action="append", default=[])
+    parser.add_argument("--clang-only", action="store_true")
+    # Values such as -O2 or --config begin with a dash: join them to their option first.
+    arguments = sys.argv[1:]
+    takes_value = {"--levels", "--cflags", "--simflags", "--fault"}
+    joined = []
+    while arguments:
+        argument = arguments.pop(0)
+        joined.append(f"{argument}={arguments.pop(0)}" if argument in takes_value and arguments else argument)
+    options = parser.parse_args(joined)
+
+    expected = None
+    expected_path = os.path.splitext(options.source)[0] + ".expected"
+    if os.path.exists(expected_path):
+        with open(expected_path, "rb") as file:
+            expected = file.read()
+    elif not options.clang_only and not options.fault:
+        print(f"run_c.py: error: {expected_path} is missing", file=sys.stderr)
+        return 1
+
+    failed = False
+    for level in options.levels.split(","):
+        problem = check_level(options, level, expected)
+        if problem:
+            print(f"{options.source} at {level}:\n{problem}", file=sys.stderr)
+            failed = True
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
