@@ -18,8 +18,8 @@
 /* clang-format off */
 #define TRAX_CONFIG_KEYS(BEGIN, COUNT, POWER, FLAG, REAL, END)                                                                             \
   BEGIN(chip)                                                                                                                              \
-  COUNT(chip, tms, 1, 1, TRAX_MAX_TMS, "TMs", PAPER, "thread multiprocessors of the chip (paper: 1, 2, 4, 6, 8)")                          \
-  COUNT(chip, tps_per_tm, 1, 1, TRAX_MAX_TPS_PER_TM, "TPs", PAPER, "thread processors of a TM (paper: 32, 48, 64)")                        \
+  COUNT(chip, tms, 1, 1, TRAX_MAX_TMS, "TMs", OURS,  "thread multiprocessors of the chip (paper: 1, 2, 4, 6, 8)")                          \
+  COUNT(chip, tps_per_tm, 1, 1, TRAX_MAX_TPS_PER_TM, "TPs", OURS,  "thread processors of a TM (paper: 32, 48, 64)")                        \
   COUNT(chip, clock_mhz, 500, 1, 100000, "MHz", PAPER, "clock of the chip")                                                                \
   END(chip)                                                                                                                                \
   BEGIN(tp)                                                                                                                                \

@@ -93,7 +93,9 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out);
 /* A single figure by its JSON name ("cycles", "mrps", "l1.hits"); false if there is none of that name. */
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value);
 void trax_stats_print(const trax_machine *machine, FILE *out);
+/* path "-" is standard output; a file appears only when it is complete. */
 trax_status trax_stats_write_json(const trax_machine *machine, const char *path, trax_error *error);
+void trax_stats_describe(FILE *out); /* every member of the JSON: name, unit, meaning */
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,202 @@
+/* Configuration files (libconfig): sections of keys, and optionally the preset they start from.
+
+     preset = "4x32";
+     memory: { bandwidth_gbps = 16.0; };
+*/
+#include <ctype.h>
+#include <libconfig.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "config.h"
+#include "util.h"
+
+#define FILE_LIMIT ((size_t)1 << 20) /* bytes; a whole machine is three thousand */
+
+/* What libconfig would get wrong silently or fatally: integers wrap around at 32 bits, and an included directory ends
+   the process. Also a text file has no NUL. */
+static trax_status check_text(const char *path, const char *text, size_t size, trax_error *error) {
+  unsigned line = 1;
+  const char *end = text + size;
+  for (const char *p = text; p < end;) {
+    if (*p == 0)
+      return trax_fail(error, "%s:%u: not a text file", path, line);
+    if (*p == '\n') {
+      ++line;
+      ++p;
+    } else if (*p == '#' || (p[0] == '/' && p[1] == '/')) {
+      while (p < end && *p != '\n')
+        ++p;
+    } else if (p[0] == '/' && p[1] == '*') {
+      for (p += 2; p < end && !(p[0] == '*' && p[1] == '/'); ++p)
+        line += *p == '\n';
+      p = p < end ? p + 2 : end;
+    } else if (*p == '"') {
+      for (++p; p < end && *p != '"'; ++p) {
+        if (*p == '\\' && p + 1 < end)
+          ++p;
+        line += *p == '\n';
+      }
+      ++p;
+    } else if (*p == '@') {
+      return trax_fail(error, "%s:%u: directives such as @include are not supported", path, line);
+    } else if (isalpha((unsigned char)*p) || *p == '*') {
+      while (isalnum((unsigned char)*p) || (*p && strchr("-_*", *p)))
+        ++p;
+    } else if (isdigit((unsigned char)*p)) {
+      char *number_end;
+      double value = strtod(p, &number_end);
+      if (!(value <= INT_MAX))
+        return trax_fail(error, "%s:%u: %.*s is larger than any key allows", path, line, (int)(number_end - p), p);
+      p = number_end;
+    } else {
+      ++p;
+    }
+  }
+  return TRAX_OK;
+}
+
+/* A setting's value as text for messages. */
+static const char *kind_name(const config_setting_t *setting) {
+  switch (config_setting_type(setting)) {
+  case CONFIG_TYPE_STRING:
+    return "a string";
+  case CONFIG_TYPE_BOOL:
+    return "true or false";
+  case CONFIG_TYPE_INT:
+  case CONFIG_TYPE_INT64:
+  case CONFIG_TYPE_FLOAT:
+    return "a number";
+  case CONFIG_TYPE_GROUP:
+    return "a section";
+  default:
+    return "a list";
+  }
+}
+
+static bool number_value(const config_setting_t *setting, double *value) {
+  switch (config_setting_type(setting)) {
+  case CONFIG_TYPE_INT:
+    *value = config_setting_get_int(setting);
+    return true;
+  case CONFIG_TYPE_INT64:
+    *value = (double)config_setting_get_int64(setting);
+    return true;
+  case CONFIG_TYPE_FLOAT:
+    *value = config_setting_get_float(setting);
+    return true;
+  default:
+    return false;
+  }
+}
+
+static trax_status apply_setting(struct trax_config *config, const char *section, const config_setting_t *setting,
+                                 trax_error *error) {
+  char name[256];
+  snprintf(name, sizeof name, "%s%s%s", section, *section ? "." : "", config_setting_name(setting));
+  const struct trax_config_key *key = trax_config_find(name, error);
+  if (!key)
+    return TRAX_ERROR;
+  double value;
+  if (key->kind == TRAX_KIND_FLAG) {
+    if (config_setting_type(setting) != CONFIG_TYPE_BOOL)
+      return trax_fail(error, "%s is %s; allowed are true and false", name, kind_name(setting));
+    value = config_setting_get_bool(setting);
+  } else if (!number_value(setting, &value)) {
+    return trax_fail(error, "%s is %s; it must be a number", name, kind_name(setting));
+  }
+  return trax_config_store(config, key, value, error);
+}
+
+static bool is_section(const char *name) {
+  for (size_t i = 0; i < trax_config_key_count; ++i)
+    if (strcmp(trax_config_keys[i].section, name) == 0)
+      return true;
+  return false;
+}
+
+static const char *key_section(const void *context, size_t i) {
+  (void)context;
+  return trax_config_keys[i].section;
+}
+
+static trax_status located(const char *path, const config_setting_t *setting, const trax_error *reason,
+                           trax_error *error) {
+  return trax_fail(error, "%s:%u: %.800s", path, config_setting_source_line(setting), reason->message);
+}
+
+static trax_status apply_section(struct trax_config *config, const char *path, const config_setting_t *section,
+                                 trax_error *error) {
+  const char *name = config_setting_name(section);
+  trax_error reason = {.message = ""};
+  if (!is_section(name)) {
+    const char *nearest = trax_nearest_name(name, trax_config_key_count, key_section, NULL);
+    trax_fail(&reason, "unknown section \"%s\"%s%s%s", name, nearest ? "; did you mean " : "", nearest ? nearest : "",
+              nearest ? "?" : "");
+    return located(path, section, &reason, error);
+  }
+  for (int i = 0; i < config_setting_length(section); ++i) {
+    const config_setting_t *setting = config_setting_get_elem(section, (unsigned)i);
+    if (apply_setting(config, name, setting, &reason) != TRAX_OK)
+      return located(path, setting, &reason, error);
+  }
+  return TRAX_OK;
+}
+
+static trax_status apply_all(struct trax_config *config, const char *path, const config_t *file, trax_error *error) {
+  trax_error reason = {.message = ""};
+  *config = (struct trax_config)TRAX_CONFIG_DEFAULT;
+  const config_setting_t *preset = config_lookup(file, "preset");
+  if (preset) {
+    const char *name = config_setting_get_string(preset);
+    if (!name) {
+      trax_fail(&reason, "preset is %s; it must be a string such as \"4x32\"", kind_name(preset));
+      return located(path, preset, &reason, error);
+    }
+    if (trax_config_preset(config, name, &reason) != TRAX_OK)
+      return located(path, preset, &reason, error);
+  }
+  const config_setting_t *root = config_root_setting(file);
+  for (int i = 0; i < config_setting_length(root); ++i) {
+    const config_setting_t *setting = config_setting_get_elem(root, (unsigned)i);
+    if (setting == preset)
+      continue;
+    if (config_setting_type(setting) == CONFIG_TYPE_GROUP) {
+      if (apply_section(config, path, setting, error) != TRAX_OK)
+        return TRAX_ERROR;
+      continue;
+    }
+    if (is_section(config_setting_name(setting)))
+      trax_fail(&reason, "%s is %s; it must be a section: %s: { ... };", config_setting_name(setting),
+                kind_name(setting), config_setting_name(setting));
+    else /* no key lives outside a section: the message says where it belongs */
+      apply_setting(config, "", setting, &reason);
+    return located(path, setting, &reason, error);
+  }
+  return TRAX_OK;
+}
+
+trax_status trax_config_read_file(struct trax_config *config, const char *path, trax_error *error) {
+  uint8_t *bytes;
+  size_t size;
+  if (trax_read_file(path, FILE_LIMIT, &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  const char *text = (const char *)bytes;
+  trax_status status = check_text(path, text, size, error);
+  if (status == TRAX_OK) {
+    config_t file;
+    config_init(&file);
+    struct trax_config result;
+    if (config_read_string(&file, text) != CONFIG_TRUE)
+      status = trax_fail(error, "%s:%d: %s", path, config_error_line(&file), config_error_text(&file));
+    else
+      status = apply_all(&result, path, &file, error);
+    config_destroy(&file);
+    if (status == TRAX_OK)
+      *config = result;
+  }
+  free(bytes);
+  return status;
+}

@@ -1,0 +1,124 @@
+/* The report of a fault: what happened, where in the program and its source, in which thread, with which registers. */
+#include <inttypes.h>
+#include <string.h>
+
+#include "host.h"
+#include "trax/isa.h"
+
+/* docs/abi.md, "Registers" */
+static const char *const register_names[TRAX_NUM_REGISTERS] = {
+    "zero", "ra", "sp", "fp", "a0", "a1", "a2", "a3", "a4", "a5", "a6", "a7", "t0", "t1", "t2",  "t3",
+    "t4",   "t5", "t6", "t7", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10", "s11"};
+enum { RA = 1, SP = 2 };
+
+enum { LABEL = 12, INLINE_DEPTH = 16 };
+
+static void print_symbol(const struct trax_symbol *symbol, uint32_t address, FILE *out) {
+  fprintf(out, "%s", symbol->name);
+  if (address != symbol->address)
+    fprintf(out, "+0x%x", address - symbol->address);
+}
+
+static void print_line(const struct trax_source_line *line, FILE *out) {
+  fprintf(out, "%s:%d", line->file, line->line);
+  if (line->column)
+    fprintf(out, ":%d", line->column);
+}
+
+/* Rows of symbol and source line for a place in the text; nothing where nothing is known. */
+static void print_place(const struct trax_host *host, const char *label, uint32_t pc, FILE *out) {
+  if (!host)
+    return;
+  const struct trax_symbol *symbol = trax_image_symbol_at(host->image, pc);
+  struct trax_source_line lines[INLINE_DEPTH];
+  size_t count = trax_image_lines(host->image, pc, lines, INLINE_DEPTH);
+  if (!symbol && !count)
+    return;
+  fprintf(out, "  %-*s", LABEL, label);
+  if (symbol)
+    print_symbol(symbol, pc, out);
+  for (size_t i = 0; i < count; ++i) {
+    if (i)
+      fprintf(out, "\n  %-*sinlined into %s", LABEL, "", lines[i].function ? lines[i].function : "its caller");
+    else if (count > 1 && lines[0].function)
+      fprintf(out, ", %s", lines[0].function);
+    fprintf(out, " at ");
+    print_line(&lines[i], out);
+  }
+  fprintf(out, "\n");
+}
+
+/* "store of 4 bytes to 0x00001010 (table+0x10)" */
+static void print_access(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
+  if (!fault->bytes)
+    return;
+  fprintf(out, "  %-*s%s of %u byte%s %s 0x%08x", LABEL, "access", fault->write ? "store" : "load", fault->bytes,
+          fault->bytes == 1 ? "" : "s", fault->write ? "to" : "from", fault->address);
+  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, fault->address) : NULL;
+  if (symbol) {
+    fprintf(out, " (");
+    print_symbol(symbol, fault->address, out);
+    fprintf(out, ")");
+  }
+  if (fault->kind == TRAX_FAULT_UNMAPPED)
+    fprintf(out, "; memory ends at 0x%08" PRIx64, machine->space.size);
+  if (fault->kind == TRAX_FAULT_STACK_OVERFLOW)
+    fprintf(out, "; local memory is 0x%08x to 0xffffffff, %u bytes, sp is 0x%08x", TRAX_LOCAL_BASE, TRAX_LOCAL_SIZE,
+            fault->registers[SP]);
+  fprintf(out, "\n");
+}
+
+/* The program's own words; what does not print is shown as its code. */
+static void print_message(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
+  char text[1024];
+  if (fault->kind != TRAX_FAULT_ABORT || fault->address == 0)
+    return;
+  if (!trax_space_string(&machine->space, fault->address, text, sizeof text)) {
+    fprintf(out, "  %-*s(no string at 0x%08x)\n", LABEL, "message", fault->address);
+    return;
+  }
+  fprintf(out, "  %-*s", LABEL, "message");
+  for (const unsigned char *c = (const unsigned char *)text; *c; ++c)
+    if (*c >= 0x20 && *c != 0x7F)
+      fputc(*c, out);
+    else if (c[1]) /* a newline at the end is no part of the message */
+      fprintf(out, "\\x%02x", *c);
+  fprintf(out, "\n");
+}
+
+static void print_instruction(const struct trax_fault *fault, FILE *out) {
+  fprintf(out, "  %-*s0x%08x", LABEL, "at", fault->pc);
+  if (fault->kind == TRAX_FAULT_EXECUTE || fault->kind == TRAX_FAULT_MISALIGNED_PC) {
+    fprintf(out, "\n");
+    return;
+  }
+  char text[128];
+  trax_disassemble(fault->word, fault->pc, text, sizeof text);
+  for (char *c = text; *c; ++c)
+    if (*c == '\t')
+      *c = ' ';
+  fprintf(out, "  %08x  %s\n", fault->word, text);
+}
+
+void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
+  const struct trax_fault *fault = trax_machine_fault(machine);
+  if (fault->kind == TRAX_FAULT_NONE)
+    return;
+  const struct trax_host *host = trax_host_of(machine);
+  fprintf(out, "fault: %s\n", trax_fault_text(fault->kind));
+  print_message(machine, fault, out);
+  print_access(machine, fault, out);
+  print_instruction(fault, out);
+  print_place(host, "in", fault->pc, out);
+  /* ra is where the caller goes on; the call is the instruction before. Stale once the function has called another. */
+  if (fault->registers[RA] >= TRAX_NULL_END + 4)
+    print_place(host, "ra behind", fault->registers[RA] - 4, out);
+  fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, "thread", fault->thread, fault->tm, fault->tp,
+          fault->cycle);
+  for (unsigned i = 0; i < TRAX_NUM_REGISTERS; ++i) {
+    char name[16];
+    snprintf(name, sizeof name, "r%u %s", i, register_names[i]);
+    fprintf(out, "%s%-7s %08x%s", i % 4 ? "   " : "  ", name, fault->registers[i], i % 4 == 3 ? "\n" : "");
+  }
+}

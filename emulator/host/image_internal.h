@@ -1,0 +1,26 @@
+/* What image.c (headers, symbols) and lines.c (debug information) share. */
+#ifndef TRAX_HOST_IMAGE_INTERNAL_H
+#define TRAX_HOST_IMAGE_INTERNAL_H
+
+#include <elfutils/libdw.h>
+#include <libelf.h>
+
+#include "image.h"
+
+struct trax_image {
+  char *path;
+  uint8_t *bytes;
+  size_t size;
+  Elf *elf; /* over bytes */
+  uint32_t entry;
+  struct trax_load_segment *segments; /* by address */
+  size_t segment_count;
+  struct trax_symbol *symbols;
+  size_t symbol_count;
+  Dwarf *dwarf;     /* opened by the first look-up */
+  bool dwarf_tried; /* and it was tried */
+};
+
+void trax_image_forget_lines(trax_image *image);
+
+#endif

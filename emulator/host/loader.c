@@ -1,0 +1,201 @@
+/* Programs and buffers into a machine (docs/abi.md, "ELF" and "Buffers"). */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host.h"
+#include "trax/abi.h"
+#include "util.h"
+
+static void destroy_host(void *context) {
+  struct trax_host *host = context;
+  for (size_t i = 0; i < host->buffer_count; ++i)
+    free(host->buffers[i].symbol);
+  free(host->buffers);
+  trax_image_close(host->image);
+  free(host);
+}
+
+static uint64_t align_up(uint64_t value, uint64_t alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
+
+static void store_word(struct trax_machine *machine, uint32_t address, uint32_t value) {
+  for (unsigned i = 0; i < 4; ++i)
+    machine->space.bytes[address + i] = (uint8_t)(value >> 8 * i);
+}
+
+/* A word or more of a writable segment that the host may fill; NULL with *error set otherwise. */
+static const struct trax_symbol *host_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
+                                             trax_error *error) {
+  const struct trax_host *host = trax_host_of(machine);
+  const char *path = trax_image_path(host->image);
+  const struct trax_symbol *symbol = trax_image_symbol(host->image, name);
+  if (!symbol) {
+    trax_fail(error, "%s: the program has no symbol %s", path, name);
+    return NULL;
+  }
+  size_t count;
+  const struct trax_load_segment *segments = trax_image_segments(host->image, &count);
+  bool placed = false;
+  for (size_t i = 0; i < count && !placed; ++i)
+    placed = symbol->address >= segments[i].address && symbol->address % 4 == 0 &&
+             !(segments[i].permissions & TRAX_PERMIT_EXECUTE) &&
+             (uint64_t)symbol->address + bytes <= (uint64_t)segments[i].address + segments[i].memory_bytes;
+  bool data = symbol->type == TRAX_SYMBOL_OBJECT || symbol->type == TRAX_SYMBOL_PLAIN;
+  if (!placed || !data || symbol->absolute || (symbol->bytes && symbol->bytes < bytes)) {
+    trax_fail(error, "%s: symbol %s (0x%08x, %u bytes) is not an object of %u bytes in the program's data", path, name,
+              symbol->address, symbol->bytes, bytes);
+    return NULL;
+  }
+  return symbol;
+}
+
+/* __trax_heap and __trax_heap_end are optional. */
+static trax_status place_heap(struct trax_machine *machine, trax_error *error) {
+  const struct trax_host *host = trax_host_of(machine);
+  const struct {
+    const char *name;
+    uint64_t value;
+  } words[] = {{"__trax_heap", host->free_address}, {"__trax_heap_end", machine->space.size}};
+  for (size_t i = 0; i < sizeof words / sizeof *words; ++i) {
+    if (!trax_image_symbol(host->image, words[i].name))
+      continue;
+    const struct trax_symbol *symbol = host_object(machine, words[i].name, 4, error);
+    if (!symbol)
+      return TRAX_ERROR;
+    store_word(machine, symbol->address, (uint32_t)words[i].value);
+  }
+  return TRAX_OK;
+}
+
+trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error) {
+  if (machine->host || machine->has_program || machine->has_run)
+    return trax_fail(error, "%s: the machine has a program already", path);
+  trax_image *image = trax_image_open(path, error);
+  if (!image)
+    return TRAX_ERROR;
+  size_t count;
+  const struct trax_load_segment *segments = trax_image_segments(image, &count);
+  const struct trax_load_segment *last = &segments[count - 1];
+  uint64_t end = align_up((uint64_t)last->address + last->memory_bytes, TRAX_GRANULE);
+  /* Before anything is mapped: a program that does not fit changes nothing. */
+  if (end > machine->space.size) {
+    trax_fail(error, "%s: the program ends at 0x%08llx, but memory ends at 0x%08llx: raise memory.size_mib", path,
+              (unsigned long long)end, (unsigned long long)machine->space.size);
+    trax_image_close(image);
+    return TRAX_ERROR;
+  }
+  struct trax_host *host = calloc(1, sizeof *host);
+  if (!host) {
+    trax_image_close(image);
+    return trax_fail(error, "%s: out of memory", path);
+  }
+  host->image = image;
+  host->free_address = end;
+  machine->host = host;
+  machine->host_destroy = destroy_host;
+
+  trax_error reason = {.message = ""};
+  for (size_t i = 0; i < count; ++i) {
+    uint8_t *bytes;
+    if (trax_machine_map(machine, segments[i].address, segments[i].memory_bytes, segments[i].permissions, &bytes,
+                         &reason) != TRAX_OK)
+      return trax_fail(error, "%s: %s", path, reason.message);
+    memcpy(bytes, segments[i].bytes, segments[i].file_bytes);
+  }
+  if (trax_machine_set_entry(machine, trax_image_entry(image), &reason) != TRAX_OK)
+    return trax_fail(error, "%s: %s", path, reason.message);
+  return place_heap(machine, error);
+}
+
+/* --- buffers --- */
+
+static struct trax_bound_buffer *find_buffer(const struct trax_host *host, const char *symbol) {
+  for (size_t i = 0; i < host->buffer_count; ++i)
+    if (strcmp(host->buffers[i].symbol, symbol) == 0)
+      return &host->buffers[i];
+  return NULL;
+}
+
+/* Everything that can go wrong before the bytes are known. On success the table has room for one more buffer. */
+static trax_status check_bind(struct trax_machine *machine, const char *symbol, trax_error *error) {
+  struct trax_host *host = trax_host_of(machine);
+  if (!host)
+    return trax_fail(error, "buffer %s: no program is loaded", symbol);
+  if (machine->has_run)
+    return trax_fail(error, "buffer %s: the program has run already", symbol);
+  if (find_buffer(host, symbol))
+    return trax_fail(error, "buffer %s is bound twice", symbol);
+  if (!host_object(machine, symbol, 8, error))
+    return TRAX_ERROR;
+  struct trax_bound_buffer *buffers = realloc(host->buffers, (host->buffer_count + 1) * sizeof *buffers);
+  if (!buffers)
+    return trax_fail(error, "buffer %s: out of memory", symbol);
+  host->buffers = buffers;
+  return TRAX_OK;
+}
+
+static trax_status too_large(const struct trax_machine *machine, const char *symbol, trax_error *error) {
+  return trax_fail(error, "buffer %s does not fit into memory: %llu bytes are free of %llu; raise memory.size_mib",
+                   symbol, (unsigned long long)(machine->space.size - trax_host_of(machine)->free_address),
+                   (unsigned long long)machine->space.size);
+}
+
+/* The buffer's bytes are in place at free_address. */
+static trax_status finish_bind(struct trax_machine *machine, const char *symbol, uint32_t bytes, trax_error *error) {
+  struct trax_host *host = trax_host_of(machine);
+  char *name = strdup(symbol);
+  if (!name)
+    return trax_fail(error, "buffer %s: out of memory", symbol);
+  uint32_t address = (uint32_t)host->free_address;
+  const struct trax_symbol *object = trax_image_symbol(host->image, symbol);
+  store_word(machine, object->address, address);
+  store_word(machine, object->address + 4, bytes);
+  host->buffers[host->buffer_count++] = (struct trax_bound_buffer){name, address, bytes};
+  host->free_address = align_up(host->free_address + bytes, TRAX_GRANULE);
+  return place_heap(machine, error);
+}
+
+trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const void *bytes, uint32_t size,
+                              trax_error *error) {
+  if (check_bind(machine, symbol, error) != TRAX_OK)
+    return TRAX_ERROR;
+  uint64_t address = trax_host_of(machine)->free_address;
+  if (size > machine->space.size - address)
+    return too_large(machine, symbol, error);
+  if (bytes && size)
+    memcpy(machine->space.bytes + address, bytes, size);
+  return finish_bind(machine, symbol, size, error);
+}
+
+trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, const char *path, trax_error *error) {
+  if (check_bind(machine, symbol, error) != TRAX_OK)
+    return TRAX_ERROR;
+  FILE *file = fopen(path, "rb");
+  if (!file)
+    return trax_fail(error, "%s: cannot be read for buffer %s: %s", path, symbol, strerror(errno));
+  uint64_t address = trax_host_of(machine)->free_address;
+  uint64_t room = machine->space.size - address;
+  errno = 0;
+  size_t got = fread(machine->space.bytes + address, 1, room, file);
+  int failure = ferror(file) ? (errno ? errno : EIO) : 0;
+  bool complete = failure || fgetc(file) == EOF;
+  fclose(file);
+  if (failure || !complete) {
+    memset(machine->space.bytes + address, 0, got);
+    return failure ? trax_fail(error, "%s: cannot be read for buffer %s: %s", path, symbol, strerror(failure))
+                   : too_large(machine, symbol, error);
+  }
+  return finish_bind(machine, symbol, (uint32_t)got, error);
+}
+
+trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
+                                     trax_error *error) {
+  const struct trax_bound_buffer *buffer = machine->host ? find_buffer(machine->host, symbol) : NULL;
+  if (!buffer)
+    return trax_fail(error, "no buffer %s is bound", symbol);
+  *bytes = machine->space.bytes + buffer->address;
+  *size = buffer->bytes;
+  return TRAX_OK;
+}

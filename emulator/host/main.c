@@ -1,0 +1,233 @@
+/* trax-sim: configure, load, run, report. */
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "options.h"
+#include "progress.h"
+#include "util.h"
+
+enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
+
+static volatile sig_atomic_t interrupted; /* the signal's number */
+
+static void on_signal(int number) {
+  interrupted = number;
+}
+
+/* The first signal ends the run with what it has so far, the second one the process. */
+static void catch_signals(void) {
+  struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+  sigemptyset(&action.sa_mask);
+  const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+  for (size_t i = 0; i < sizeof signals / sizeof *signals; ++i) {
+    struct sigaction before;
+    if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+      sigaction(signals[i], &action, NULL);
+  }
+}
+
+static int complain(const trax_error *error) {
+  fflush(stdout);
+  fprintf(stderr, "trax-sim: error: %s\n", error->message);
+  return EXIT_ERROR;
+}
+
+static trax_status configure(trax_config *config, const struct trax_options *options, trax_error *error) {
+  if (options->config && trax_config_load(config, options->config, error) != TRAX_OK)
+    return TRAX_ERROR;
+  for (size_t i = 0; i < options->assignment_count; ++i) {
+    const struct trax_assignment *set = &options->assignments[i];
+    if (set->kind == TRAX_ASSIGN_SET && trax_config_set(config, set->name, set->value, error) != TRAX_OK)
+      return TRAX_ERROR;
+  }
+  return trax_config_check(config, error);
+}
+
+static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
+  const char *const files[] = {options->stats, options->report};
+  for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
+    if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
+      return TRAX_ERROR;
+  for (size_t i = 0; i < options->assignment_count; ++i)
+    if (options->assignments[i].kind == TRAX_ASSIGN_DUMP &&
+        trax_output_check(options->assignments[i].value, error) != TRAX_OK)
+      return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+static trax_status load(trax_machine *machine, const struct trax_options *options, trax_error *error) {
+  trax_status status = trax_machine_load_elf(machine, options->program, error);
+  for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; ++i) {
+    const struct trax_assignment *buffer = &options->assignments[i];
+    if (buffer->kind == TRAX_ASSIGN_BIND)
+      status = trax_machine_bind_file(machine, buffer->name, buffer->value, error);
+    else if (buffer->kind == TRAX_ASSIGN_ALLOC)
+      status = trax_machine_bind(machine, buffer->name, NULL, buffer->bytes, error);
+  }
+  for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; ++i) {
+    const uint8_t *bytes;
+    uint32_t size;
+    if (options->assignments[i].kind == TRAX_ASSIGN_DUMP)
+      status = trax_machine_read_buffer(machine, options->assignments[i].name, &bytes, &size, error);
+  }
+  return status;
+}
+
+static trax_status run(trax_machine *machine, const struct trax_options *options, trax_error *error) {
+  struct trax_progress_line line = {.terminal = stderr};
+  trax_run_options run_options = {.output = stdout,
+                                  .max_cycles = options->max_cycles,
+                                  .total_items = options->total_items,
+                                  .interrupt = &interrupted};
+  if (!options->quiet && isatty(STDERR_FILENO)) {
+    run_options.progress = trax_progress_show;
+    run_options.progress_context = &line;
+    FILE *shared = isatty(STDOUT_FILENO) ? trax_progress_guest_output(&line) : NULL;
+    if (shared)
+      run_options.output = shared;
+  }
+  trax_status status = trax_machine_run(machine, &run_options, error);
+  if (run_options.output != stdout)
+    fclose(run_options.output);
+  trax_progress_clear(&line);
+  return status;
+}
+
+static trax_status write_report(const trax_machine *machine, const char *path, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  trax_stats_print(machine, output.file);
+  return trax_output_commit(&output, error);
+}
+
+static trax_status write_dump(trax_machine *machine, const char *symbol, const char *path, trax_error *error) {
+  const uint8_t *bytes;
+  uint32_t size;
+  trax_output output;
+  if (trax_machine_read_buffer(machine, symbol, &bytes, &size, error) != TRAX_OK ||
+      trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fwrite(bytes, 1, size, output.file); /* a failure shows again when the file is closed */
+  return trax_output_commit(&output, error);
+}
+
+/* All that can be written is written, whatever fails; the first failure is reported. Buffers of a run that did not
+   finish are not results. */
+static trax_status write_outputs(trax_machine *machine, const struct trax_options *options, bool finished,
+                                 trax_error *error) {
+  trax_status result = TRAX_OK;
+  trax_error reason;
+  if (fflush(stdout) != 0 || ferror(stdout))
+    result = trax_fail(error, "standard output cannot be written: %s", strerror(errno));
+  if (options->stats && trax_stats_write_json(machine, options->stats, &reason) != TRAX_OK && result == TRAX_OK)
+    result = trax_fail(error, "%s", reason.message);
+  if (options->report && write_report(machine, options->report, &reason) != TRAX_OK && result == TRAX_OK)
+    result = trax_fail(error, "%s", reason.message);
+  for (size_t i = 0; finished && i < options->assignment_count; ++i) {
+    const struct trax_assignment *dump = &options->assignments[i];
+    if (dump->kind == TRAX_ASSIGN_DUMP && write_dump(machine, dump->name, dump->value, &reason) != TRAX_OK &&
+        result == TRAX_OK)
+      result = trax_fail(error, "%s", reason.message);
+  }
+  return result;
+}
+
+static int simulate(const trax_config *config, const struct trax_options *options) {
+  trax_error error, write_error;
+  if (check_outputs(options, &error) != TRAX_OK)
+    return complain(&error);
+  trax_machine *machine = trax_machine_create(config, &error);
+  if (!machine)
+    return complain(&error);
+  trax_status status = load(machine, options, &error);
+  if (status != TRAX_OK) {
+    trax_machine_destroy(machine);
+    return complain(&error);
+  }
+  catch_signals();
+  status = run(machine, options, &error);
+  int result = trax_machine_exit_status(machine) & 0xFF;
+  switch (status) {
+  case TRAX_OK:
+    break;
+  case TRAX_FAULT:
+    fflush(stdout);
+    fprintf(stderr, "trax-sim: ");
+    trax_machine_print_fault(machine, stderr);
+    break;
+  case TRAX_INTERRUPTED:
+  case TRAX_STUCK:
+    fflush(stdout);
+    fprintf(stderr, "trax-sim: %s; the statistics are partial\n", error.message);
+    result = status == TRAX_STUCK ? EXIT_STUCK : EXIT_SIGNAL + interrupted;
+    break;
+  case TRAX_ERROR:
+    result = complain(&error);
+    break;
+  }
+  if (status != TRAX_ERROR && write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
+    result = complain(&write_error);
+  trax_machine_destroy(machine);
+  return result;
+}
+
+/* Options that print something instead of running a program. */
+static int show(const struct trax_options *options) {
+  switch (options->show) {
+  case TRAX_SHOW_NOTHING:
+    break;
+  case TRAX_SHOW_HELP:
+    trax_options_help(stdout);
+    break;
+  case TRAX_SHOW_CONFIG_KEYS:
+    trax_config_describe(stdout);
+    break;
+  case TRAX_SHOW_STATS:
+    trax_stats_describe(stdout);
+    break;
+  case TRAX_SHOW_VERSION:
+    printf("trax-sim %s\n", TRAX_VERSION);
+    break;
+  }
+  return EXIT_SUCCESS;
+}
+
+static int flush_standard_output(int result) {
+  trax_error error;
+  if (fflush(stdout) == 0 && !ferror(stdout))
+    return result;
+  trax_fail(&error, "standard output cannot be written: %s", strerror(errno));
+  return complain(&error);
+}
+
+int main(int count, char **arguments) {
+  trax_error error;
+  struct trax_options options;
+  if (trax_options_parse(&options, count, arguments, &error) != TRAX_OK) {
+    fprintf(stderr, "trax-sim: error: %s (--help lists the options)\n", error.message);
+    trax_options_free(&options);
+    return EXIT_ERROR;
+  }
+  int result = EXIT_ERROR;
+  trax_config *config = trax_config_create();
+  if (options.show != TRAX_SHOW_NOTHING) {
+    result = flush_standard_output(show(&options));
+  } else if (!config) {
+    fprintf(stderr, "trax-sim: error: out of memory\n");
+  } else if (configure(config, &options, &error) != TRAX_OK) {
+    complain(&error);
+  } else if (options.print_config) {
+    trax_config_print(config, stdout);
+    result = flush_standard_output(EXIT_SUCCESS);
+  } else {
+    result = simulate(config, &options);
+  }
+  trax_config_destroy(config);
+  trax_options_free(&options);
+  return result;
+}

@@ -1,0 +1,229 @@
+#include "options.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "util.h"
+
+enum option_id {
+  OPTION_CONFIG,
+  OPTION_SET,
+  OPTION_BIND,
+  OPTION_SCENE,
+  OPTION_ALLOC,
+  OPTION_DUMP,
+  OPTION_STATS,
+  OPTION_REPORT,
+  OPTION_MAX_CYCLES,
+  OPTION_PROGRESS_TOTAL,
+  OPTION_QUIET,
+  OPTION_PRINT_CONFIG,
+  OPTION_HELP_CONFIG,
+  OPTION_HELP_STATS,
+  OPTION_VERSION,
+  OPTION_HELP
+};
+
+/* By id; argument is NULL for a switch. */
+static const struct {
+  const char *name, *argument, *meaning;
+} table[] = {
+    [OPTION_CONFIG] = {"config", "PRESET|FILE", "machine: a chip of the paper (4x32) or a file; default one TP"},
+    [OPTION_SET] = {"set", "KEY=VALUE", "change one value of the machine (--help-config)"},
+    [OPTION_BIND] = {"bind", "SYMBOL=FILE", "fill the program's buffer SYMBOL with a file"},
+    [OPTION_SCENE] = {"scene", "FILE", "the same as --bind scene=FILE"},
+    [OPTION_ALLOC] = {"alloc", "SYMBOL=BYTES", "fill the program's buffer SYMBOL with zeros"},
+    [OPTION_DUMP] = {"dump", "SYMBOL=FILE", "write the buffer SYMBOL to a file after the run"},
+    [OPTION_STATS] = {"stats", "FILE", "statistics as JSON; - is standard output"},
+    [OPTION_REPORT] = {"report", "FILE", "statistics as text; - is standard output"},
+    [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
+    [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
+    [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
+    [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
+    [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
+    [OPTION_HELP_STATS] = {"help-stats", NULL, "describe every statistic, and end"},
+    [OPTION_VERSION] = {"version", NULL, "print the version, and end"},
+    [OPTION_HELP] = {"help", NULL, "print this, and end"},
+};
+enum { OPTIONS = sizeof table / sizeof *table };
+
+void trax_options_help(FILE *out) {
+  fprintf(out, "usage: trax-sim [OPTION...] PROGRAM\n\n"
+               "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
+               "output is standard output, and its exit status is that of trax-sim.\n\n");
+  for (unsigned i = 0; i < OPTIONS; ++i) {
+    char option[64];
+    snprintf(option, sizeof option, "--%s%s%s", table[i].name, table[i].argument ? " " : "",
+             table[i].argument ? table[i].argument : "");
+    fprintf(out, "  %-24s %s\n", option, table[i].meaning);
+  }
+  fprintf(out, "\nExit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
+               "124 if --max-cycles ends it, 130 if it is interrupted. Without --stats and --report nothing but\n"
+               "the program's output is printed; faults and errors go to standard error.\n");
+}
+
+static const char *option_name(const void *context, size_t i) {
+  (void)context;
+  return table[i].name;
+}
+
+static trax_status find_option(const char *name, size_t length, enum option_id *id, trax_error *error) {
+  for (unsigned i = 0; i < OPTIONS; ++i)
+    if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0) {
+      *id = (enum option_id)i;
+      return TRAX_OK;
+    }
+  char mistyped[128];
+  snprintf(mistyped, sizeof mistyped, "%.*s", (int)(length < 120 ? length : 120), name);
+  const char *nearest = trax_nearest_name(mistyped, OPTIONS, option_name, NULL);
+  return trax_fail(error, "unknown option --%s%s%s%s", mistyped, nearest ? "; did you mean --" : "",
+                   nearest ? nearest : "", nearest ? "?" : "");
+}
+
+static trax_status parse_number(const char *option, const char *text, uint64_t least, uint64_t most, uint64_t *value,
+                                trax_error *error) {
+  char *end = NULL;
+  errno = 0;
+  if (isdigit((unsigned char)*text))
+    *value = strtoull(text, &end, text[0] == '0' && (text[1] == 'x' || text[1] == 'X') ? 16 : 10);
+  if (!end || *end || errno || *value < least || *value > most)
+    return trax_fail(error, "--%s: \"%s\" is not a whole number from %llu to %llu", option, text,
+                     (unsigned long long)least, (unsigned long long)most);
+  return TRAX_OK;
+}
+
+static trax_status add_assignment(struct trax_options *options, enum option_id id, const char *text,
+                                  trax_error *error) {
+  const char *equals = strchr(text, '=');
+  if (!equals || equals == text || !equals[1])
+    return trax_fail(error, "--%s: \"%s\" is not of the form %s", table[id].name, text, table[id].argument);
+  struct trax_assignment assignment = {.kind = id == OPTION_SET     ? TRAX_ASSIGN_SET
+                                               : id == OPTION_ALLOC ? TRAX_ASSIGN_ALLOC
+                                               : id == OPTION_DUMP  ? TRAX_ASSIGN_DUMP
+                                                                    : TRAX_ASSIGN_BIND};
+  if (id == OPTION_ALLOC) {
+    uint64_t bytes;
+    if (parse_number(table[id].name, equals + 1, 0, UINT32_MAX, &bytes, error) != TRAX_OK)
+      return TRAX_ERROR;
+    assignment.bytes = (uint32_t)bytes;
+  }
+  struct trax_assignment *grown =
+      realloc(options->assignments, (options->assignment_count + 1) * sizeof *options->assignments);
+  if (!grown)
+    return trax_fail(error, "out of memory");
+  options->assignments = grown;
+  assignment.name = strdup(text);
+  if (!assignment.name)
+    return trax_fail(error, "out of memory");
+  assignment.name[equals - text] = 0;
+  assignment.value = assignment.name + (equals - text) + 1;
+  options->assignments[options->assignment_count++] = assignment;
+  return TRAX_OK;
+}
+
+static trax_status add_scene(struct trax_options *options, const char *path, trax_error *error) {
+  char *text = malloc(strlen(path) + sizeof "scene=");
+  if (!text)
+    return trax_fail(error, "out of memory");
+  strcat(strcpy(text, "scene="), path);
+  trax_status status = add_assignment(options, OPTION_BIND, text, error);
+  free(text);
+  return status;
+}
+
+static trax_status set_once(enum option_id id, const char **member, const char *value, trax_error *error) {
+  if (*member)
+    return trax_fail(error, "--%s is given twice", table[id].name);
+  if (!*value)
+    return trax_fail(error, "--%s: %s is empty", table[id].name, table[id].argument);
+  *member = value;
+  return TRAX_OK;
+}
+
+static trax_status apply(struct trax_options *options, enum option_id id, const char *value, trax_error *error) {
+  switch (id) {
+  case OPTION_CONFIG:
+    return set_once(id, &options->config, value, error);
+  case OPTION_STATS:
+    return set_once(id, &options->stats, value, error);
+  case OPTION_REPORT:
+    return set_once(id, &options->report, value, error);
+  case OPTION_SET:
+  case OPTION_BIND:
+  case OPTION_ALLOC:
+  case OPTION_DUMP:
+    return add_assignment(options, id, value, error);
+  case OPTION_SCENE:
+    return add_scene(options, value, error);
+  case OPTION_MAX_CYCLES:
+    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->max_cycles, error);
+  case OPTION_PROGRESS_TOTAL:
+    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->total_items, error);
+  case OPTION_QUIET:
+    options->quiet = true;
+    break;
+  case OPTION_PRINT_CONFIG:
+    options->print_config = true;
+    break;
+  case OPTION_HELP_CONFIG:
+    options->show = TRAX_SHOW_CONFIG_KEYS;
+    break;
+  case OPTION_HELP_STATS:
+    options->show = TRAX_SHOW_STATS;
+    break;
+  case OPTION_VERSION:
+    options->show = TRAX_SHOW_VERSION;
+    break;
+  case OPTION_HELP:
+    options->show = TRAX_SHOW_HELP;
+    break;
+  }
+  return TRAX_OK;
+}
+
+static trax_status parse_option(struct trax_options *options, char **arguments, int count, int *i, trax_error *error) {
+  const char *text = arguments[*i] + 2;
+  const char *equals = strchr(text, '=');
+  enum option_id id = OPTION_HELP;
+  if (find_option(text, equals ? (size_t)(equals - text) : strlen(text), &id, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (!table[id].argument)
+    return equals ? trax_fail(error, "--%s takes no value", table[id].name) : apply(options, id, NULL, error);
+  if (equals)
+    return apply(options, id, equals + 1, error);
+  if (*i + 1 >= count)
+    return trax_fail(error, "--%s needs %s", table[id].name, table[id].argument);
+  return apply(options, id, arguments[++*i], error);
+}
+
+trax_status trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
+  *options = (struct trax_options){0};
+  bool only_names = false;
+  for (int i = 1; i < count; ++i) {
+    const char *argument = arguments[i];
+    if (!only_names && strcmp(argument, "--") == 0) {
+      only_names = true;
+    } else if (!only_names && strncmp(argument, "--", 2) == 0) {
+      if (parse_option(options, arguments, count, &i, error) != TRAX_OK)
+        return TRAX_ERROR;
+    } else if (!only_names && argument[0] == '-' && argument[1]) {
+      return trax_fail(error, "unknown option %s; options begin with two dashes", argument);
+    } else if (options->program) {
+      return trax_fail(error, "two programs, %s and %s: a program takes no arguments", options->program, argument);
+    } else {
+      options->program = argument;
+    }
+  }
+  if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
+    return trax_fail(error, "no program is given");
+  return TRAX_OK;
+}
+
+void trax_options_free(struct trax_options *options) {
+  for (size_t i = 0; i < options->assignment_count; ++i)
+    free(options->assignments[i].name);
+  free(options->assignments);
+  *options = (struct trax_options){0};
+}

@@ -1,0 +1,34 @@
+/* The command line of trax-sim. */
+#ifndef TRAX_HOST_OPTIONS_H
+#define TRAX_HOST_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "trax/emulator.h"
+
+/* NAME=VALUE of --set, --bind, --alloc, --dump. */
+struct trax_assignment {
+  char *name;
+  const char *value; /* into name's allocation, behind its NUL */
+  uint32_t bytes;    /* of --alloc */
+  enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP } kind;
+};
+
+struct trax_options {
+  const char *program, *config, *stats, *report; /* NULL: not given */
+  struct trax_assignment *assignments;           /* in the order of the command line */
+  size_t assignment_count;
+  uint64_t max_cycles, total_items; /* 0: not given */
+  bool quiet;
+  bool print_config;
+  enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;
+};
+
+trax_status trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
+void trax_options_free(struct trax_options *options);
+void trax_options_help(FILE *out);
+
+#endif

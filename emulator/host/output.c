@@ -1,0 +1,108 @@
+#include "util.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* mkstemp makes files private; an output has the mode any other program would give it. */
+static mode_t usual_mode(void) {
+  mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+static trax_status fail_closed(trax_output *output, int code, trax_error *error) {
+  trax_status status = trax_fail(error, "%s: cannot be written: %s", output->path, strerror(code));
+  trax_output_discard(output);
+  return status;
+}
+
+trax_status trax_output_open(trax_output *output, const char *path, trax_error *error) {
+  *output = (trax_output){.path = strdup(path)};
+  if (!output->path)
+    return trax_fail(error, "%s: out of memory", path);
+  if (strcmp(path, "-") == 0) {
+    output->file = stdout;
+    return TRAX_OK;
+  }
+  struct stat existing;
+  if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode)) {
+    if (S_ISDIR(existing.st_mode))
+      return fail_closed(output, EISDIR, error);
+    output->file = fopen(path, "wb");
+    return output->file ? TRAX_OK : fail_closed(output, errno, error);
+  }
+  /* Through a symbolic link, the file it names is replaced, not the link. */
+  char *target = realpath(path, NULL);
+  if (target) {
+    free(output->path);
+    output->path = target;
+    if (access(target, W_OK) != 0)
+      return fail_closed(output, errno, error);
+  }
+  output->temporary = malloc(strlen(output->path) + sizeof ".XXXXXX");
+  if (!output->temporary)
+    return fail_closed(output, ENOMEM, error);
+  strcat(strcpy(output->temporary, output->path), ".XXXXXX");
+  int descriptor = mkstemp(output->temporary);
+  if (descriptor < 0) {
+    int code = errno;
+    free(output->temporary);
+    output->temporary = NULL;
+    return fail_closed(output, code, error);
+  }
+  fchmod(descriptor, target ? existing.st_mode & 07777 : usual_mode());
+  output->file = fdopen(descriptor, "wb");
+  if (!output->file) {
+    int code = errno;
+    close(descriptor);
+    return fail_closed(output, code, error);
+  }
+  return TRAX_OK;
+}
+
+trax_status trax_output_commit(trax_output *output, trax_error *error) {
+  errno = 0;
+  int failure = fflush(output->file) != 0 || ferror(output->file) ? (errno ? errno : EIO) : 0;
+  if (output->file != stdout) {
+    if (fclose(output->file) != 0 && !failure)
+      failure = errno;
+    output->file = NULL;
+  }
+  if (!failure && output->temporary) {
+    if (rename(output->temporary, output->path) != 0) {
+      failure = errno;
+    } else {
+      free(output->temporary);
+      output->temporary = NULL;
+    }
+  }
+  if (failure)
+    return fail_closed(output, failure, error);
+  trax_output_discard(output);
+  return TRAX_OK;
+}
+
+void trax_output_discard(trax_output *output) {
+  if (output->file && output->file != stdout)
+    fclose(output->file);
+  if (output->temporary)
+    unlink(output->temporary);
+  free(output->temporary);
+  free(output->path);
+  *output = (trax_output){0};
+}
+
+trax_status trax_output_check(const char *path, trax_error *error) {
+  struct stat existing;
+  /* Opening a pipe or a device may wait or do something: only asked for permission. */
+  if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode))
+    return access(path, W_OK) == 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
+  trax_output output;
+  trax_status status = trax_output_open(&output, path, error);
+  if (status == TRAX_OK)
+    trax_output_discard(&output);
+  return status;
+}

@@ -1,0 +1,239 @@
+#include "statistics.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "host.h"
+
+/* Units of what is counted rather than measured or divided. */
+static bool is_count(const char *unit) {
+  return !strchr(unit, '/') && strcmp(unit, "s") != 0 && strcmp(unit, "fraction") != 0 &&
+         strcmp(unit, "per cent") != 0 && strncmp(unit, "mm2", 3) != 0;
+}
+
+struct visitor {
+  void (*visit)(void *context, const struct trax_figure *figure);
+  void *context;
+};
+
+static void emit(const struct visitor *visitor, enum trax_figure_group group, const char *prefix, const char *name,
+                 const char *unit, const char *meaning, double value) {
+  struct trax_figure figure = {.unit = unit,
+                               .meaning = meaning,
+                               .group = group,
+                               .whole = is_count(unit),
+                               .value = isfinite(value) ? value : 0}; /* 0/0 is reported as 0 */
+  snprintf(figure.name, sizeof figure.name, "%s%s", prefix, name);
+  visitor->visit(visitor->context, &figure);
+}
+
+/* "fcvt.w.s" and "FP_ADD" as the last part of a name: fcvt_w_s, fp_add. */
+static const char *as_key(const char *name, char *key, size_t size) {
+  size_t i = 0;
+  for (; name[i] && i + 1 < size; ++i)
+    key[i] = name[i] == '.' ? '_' : (char)tolower((unsigned char)name[i]);
+  key[i] = 0;
+  return key;
+}
+
+static void visit_run(const struct visitor *visitor, const struct trax_stats *S, const struct trax_config *C) {
+#define FIGURE(ID, NAME, UNIT, MEANING, EXPRESSION)                                                                    \
+  emit(visitor, TRAX_GROUP_RUN, "", NAME, UNIT, MEANING, (double)(EXPRESSION));
+  TRAX_FIGURES(FIGURE)
+#undef FIGURE
+}
+
+static void visit_instructions(const struct visitor *visitor, const struct trax_tm_stats *tm) {
+  static const char *const unit_meaning[TRAX_UNIT_COUNT] = {
+#define TRAX_UNIT(NAME, DESCRIPTION, LATENCY) [TRAX_UNIT_##NAME] = DESCRIPTION,
+#include "trax/units.inc"
+#undef TRAX_UNIT
+  };
+  uint64_t by_unit[TRAX_UNIT_COUNT] = {0};
+  for (unsigned op = 1; op < TRAX_OP_COUNT; ++op) /* 0 is no instruction: it is never issued */
+    by_unit[trax_op_table[op].unit] += tm->instructions[op];
+  char key[48];
+  for (unsigned unit = 0; unit < TRAX_UNIT_COUNT; ++unit)
+    emit(visitor, TRAX_GROUP_UNIT, "instructions_by_unit.", as_key(trax_unit_names[unit], key, sizeof key),
+         "instructions", unit_meaning[unit], (double)by_unit[unit]);
+  for (unsigned op = 1; op < TRAX_OP_COUNT; ++op)
+    emit(visitor, TRAX_GROUP_OPERATION, "instructions_by_operation.",
+         as_key(trax_op_table[op].mnemonic, key, sizeof key), "instructions", trax_op_table[op].mnemonic,
+         (double)tm->instructions[op]);
+}
+
+void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_stats *tm,
+                        const struct trax_config *config,
+                        void (*visit)(void *context, const struct trax_figure *figure), void *context) {
+  static const struct trax_stats no_stats = {0};
+  static const struct trax_config no_config = TRAX_CONFIG_DEFAULT;
+  static const char *const cause_names[TRAX_CAUSE_COUNT] = {
+#define NAME(ID, NAME, MEANING) NAME,
+      TRAX_CAUSES(NAME)
+#undef NAME
+  };
+  static const char *const cause_meanings[TRAX_CAUSE_COUNT] = {
+#define MEANING(ID, NAME, MEANING) MEANING,
+      TRAX_CAUSES(MEANING)
+#undef MEANING
+  };
+  const struct visitor visitor = {visit, context};
+  if (!tm) {
+    visit_run(&visitor, stats ? stats : &no_stats, config ? config : &no_config);
+    tm = stats ? &stats->total : &no_stats.total;
+  }
+#define COUNTER(ID, NAME, UNIT, MEANING) emit(&visitor, TRAX_GROUP_COUNTER, "", NAME, UNIT, MEANING, (double)tm->ID);
+  TRAX_TM_COUNTERS(COUNTER)
+#undef COUNTER
+  double sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    sum += (double)tm->cycles[cause];
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    emit(&visitor, TRAX_GROUP_CAUSE, "causes.", cause_names[cause], "thread-cycles", cause_meanings[cause],
+         (double)tm->cycles[cause]);
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    emit(&visitor, TRAX_GROUP_SHARE, "cause_percent.", cause_names[cause], "per cent", cause_meanings[cause],
+         100 * (double)tm->cycles[cause] / sum);
+  visit_instructions(&visitor, tm);
+}
+
+bool trax_stats_identity(const struct trax_stats *stats) {
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    sum += stats->total.cycles[cause];
+  return sum == stats->threads * stats->cycles;
+}
+
+const char *trax_status_name(trax_status status) {
+  switch (status) {
+  case TRAX_OK:
+    return "finished";
+  case TRAX_FAULT:
+    return "fault";
+  case TRAX_INTERRUPTED:
+    return "interrupted";
+  case TRAX_STUCK:
+    return "stuck";
+  case TRAX_ERROR:
+    break;
+  }
+  return "error";
+}
+
+/* --- by name --- */
+
+struct search {
+  const char *name;
+  double *value;
+  bool found;
+};
+
+static void match(void *context, const struct trax_figure *figure) {
+  struct search *search = context;
+  if (strcmp(figure->name, search->name) == 0) {
+    *search->value = figure->value;
+    search->found = true;
+  }
+}
+
+bool trax_stats_get(const trax_machine *machine, const char *name, double *value) {
+  struct search search = {name, value, false};
+  trax_figures_visit(&machine->stats, NULL, &machine->config, match, &search);
+  return search.found;
+}
+
+/* --- text --- */
+
+struct listing {
+  FILE *out;
+  enum trax_figure_group group; /* only figures of this group */
+  bool hide_zero;
+  const struct trax_stats *stats;
+};
+
+static void print_value(FILE *out, const struct trax_figure *figure) {
+  if (figure->whole)
+    fprintf(out, "%20.0f", figure->value);
+  else
+    fprintf(out, "%20.4f", figure->value);
+}
+
+static void print_figure(void *context, const struct trax_figure *figure) {
+  const struct listing *listing = context;
+  if (figure->group != listing->group || (listing->hide_zero && figure->value == 0))
+    return;
+  const char *name = strrchr(figure->name, '.');
+  if (figure->group == TRAX_GROUP_RUN || figure->group == TRAX_GROUP_COUNTER || !name)
+    name = figure->name;
+  else
+    ++name;
+  fprintf(listing->out, "  %-30s", name);
+  print_value(listing->out, figure);
+  if (figure->group == TRAX_GROUP_CAUSE)
+    fprintf(listing->out, " %6.2f %%  %s\n",
+            100 * figure->value / fmax(1, (double)listing->stats->threads * (double)listing->stats->cycles),
+            figure->meaning);
+  else if (figure->group == TRAX_GROUP_OPERATION || figure->group == TRAX_GROUP_UNIT)
+    fprintf(listing->out, " %6.2f %%%s%s\n", 100 * figure->value / fmax(1, (double)listing->stats->instructions),
+            figure->group == TRAX_GROUP_UNIT ? "  " : "", figure->group == TRAX_GROUP_UNIT ? figure->meaning : "");
+  else
+    fprintf(listing->out, "  %s%s%s\n", figure->unit, *figure->unit ? ": " : "", figure->meaning);
+}
+
+static void print_group(const trax_machine *machine, FILE *out, const char *title, enum trax_figure_group group,
+                        bool hide_zero) {
+  struct listing listing = {out, group, hide_zero, &machine->stats};
+  fprintf(out, "\n%s\n", title);
+  trax_figures_visit(&machine->stats, NULL, &machine->config, print_figure, &listing);
+}
+
+static void print_tms(const trax_machine *machine, FILE *out) {
+  fprintf(out, "\nTMs\n  %4s %16s %9s %12s %12s %16s %12s\n", "TM", "instructions", "issued %", "icache miss",
+          "dcache miss", "memory bytes", "rays");
+  for (uint32_t i = 0; i < machine->config.chip.tms; ++i) {
+    const struct trax_tm_stats *tm = &machine->tm_stats[i];
+    double thread_cycles = (double)machine->config.chip.tps_per_tm * (double)machine->stats.cycles;
+    fprintf(out, "  %4u %16" PRIu64 " %9.2f %12" PRIu64 " %12" PRIu64 " %16" PRIu64 " %12" PRIu64 "\n", i,
+            tm->cycles[TRAX_CAUSE_ISSUED], 100 * (double)tm->cycles[TRAX_CAUSE_ISSUED] / fmax(1, thread_cycles),
+            tm->icache_misses, tm->dcache_misses,
+            tm->data_read_bytes + tm->instruction_read_bytes + tm->nontemporal_read_bytes + tm->written_bytes +
+                tm->atomic_bytes,
+            tm->rays);
+  }
+}
+
+void trax_stats_print(const trax_machine *machine, FILE *out) {
+  const struct trax_host *host = trax_host_of(machine);
+  fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
+  fprintf(out, "chip     %ux%u at %u MHz, %.12g GB/s\n", machine->config.chip.tms, machine->config.chip.tps_per_tm,
+          machine->config.chip.clock_mhz, machine->config.memory.bandwidth_gbps);
+  fprintf(out, "run      %s%s, exit status %d\n", trax_status_name(machine->status),
+          machine->status == TRAX_OK ? "" : " (partial)", trax_machine_exit_status(machine));
+  print_group(machine, out, "Run", TRAX_GROUP_RUN, false);
+  print_group(machine, out, "Thread-cycles by cause", TRAX_GROUP_CAUSE, false);
+  fprintf(out, "  %-30s%20.0f %6.2f %%  %s\n", "sum", (double)machine->stats.threads * (double)machine->stats.cycles,
+          100.0, trax_stats_identity(&machine->stats) ? "threads x cycles, as it must be" : "NOT threads x cycles");
+  print_group(machine, out, "Counts", TRAX_GROUP_COUNTER, false);
+  print_group(machine, out, "Instructions by unit", TRAX_GROUP_UNIT, false);
+  print_group(machine, out, "Instructions by operation (those that occur)", TRAX_GROUP_OPERATION, true);
+  print_tms(machine, out);
+  fprintf(out, "\nConfiguration\n");
+  trax_config_print(&machine->config, out);
+}
+
+static void describe(void *context, const struct trax_figure *figure) {
+  FILE *out = context;
+  if (figure->group == TRAX_GROUP_OPERATION)
+    fprintf(out, "%s\n    %s\n    instructions issued: %s\n", figure->name, figure->unit, figure->meaning);
+  else
+    fprintf(out, "%s\n    %s%s%s\n", figure->name, figure->unit, *figure->unit ? ": " : "", figure->meaning);
+}
+
+void trax_stats_describe(FILE *out) {
+  fprintf(out,
+          "Members of the JSON file; a dot is a level. The figures are also what trax_stats_get finds by name.\n\n");
+  trax_stats_describe_members(out);
+  trax_figures_visit(NULL, NULL, NULL, describe, out);
+}

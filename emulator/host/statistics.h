@@ -1,0 +1,43 @@
+/* All statistics as one list, made from the tables of core/stats.h: what trax_stats_get finds, the reports print, and
+   docs/emulator.md lists. */
+#ifndef TRAX_HOST_STATISTICS_H
+#define TRAX_HOST_STATISTICS_H
+
+#include "core/machine.h"
+
+/* Where a figure stands in the reports. */
+enum trax_figure_group {
+  TRAX_GROUP_RUN,      /* figures made from counts */
+  TRAX_GROUP_COUNTER,  /* counted in every TM */
+  TRAX_GROUP_CAUSE,    /* thread-cycles by cause: "causes.<cause>" */
+  TRAX_GROUP_SHARE,    /* the same in per cent: "cause_percent.<cause>" */
+  TRAX_GROUP_UNIT,     /* instructions by unit: "instructions_by_unit.<unit>" */
+  TRAX_GROUP_OPERATION /* instructions by operation: "instructions_by_operation.<mnemonic>" */
+};
+
+struct trax_figure {
+  char name[80]; /* dots separate the levels of the JSON */
+  const char *unit, *meaning;
+  enum trax_figure_group group;
+  bool whole; /* an integer */
+  double value;
+};
+
+/* Calls visit for every figure in the order of the reports. stats and config may be NULL (values are then 0), and tm
+   chooses what is counted: NULL is the whole chip; for one TM the figures of TRAX_GROUP_RUN are left out. */
+void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_stats *tm,
+                        const struct trax_config *config,
+                        void (*visit)(void *context, const struct trax_figure *figure), void *context);
+
+/* The rule of accounting, checked again on what is reported: the causes add up to threads x cycles. */
+bool trax_stats_identity(const struct trax_stats *stats);
+
+/* The JSON's members that are not figures, one row each. */
+void trax_stats_describe_members(FILE *out);
+
+/* "finished", "fault", "interrupted", "stuck", "error" */
+const char *trax_status_name(trax_status status);
+
+trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_error *error);
+
+#endif

@@ -1,0 +1,180 @@
+/* Statistics as JSON. */
+#include <inttypes.h>
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+#include "host.h"
+#include "statistics.h"
+#include "util.h"
+
+#define MEMBERS(X)                                                                                                     \
+  X("trax_sim", "version of the emulator")                                                                             \
+  X("program", "the executable, as it was named")                                                                      \
+  X("status", "how the run ended: finished, fault, interrupted, or stuck (max-cycles passed)")                         \
+  X("partial", "true if the program did not finish: the figures are those up to its last cycle")                       \
+  X("exit_status", "of the program; 1 for a fault, 134 for an abort")                                                  \
+  X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line")          \
+  X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
+  X("tms", "for each TM: tm, and the figures that are counted in every TM")                                            \
+  X("configuration", "every key of the machine's configuration")
+
+void trax_stats_describe_members(FILE *out) {
+#define MEMBER(NAME, MEANING) fprintf(out, "%s\n    %s\n", NAME, MEANING);
+  MEMBERS(MEMBER)
+#undef MEMBER
+}
+
+/* The first failure to allocate makes the whole document invalid. */
+struct document {
+  json_t *root;
+  bool failed;
+};
+
+static void put(struct document *document, json_t *object, const char *key, json_t *value) {
+  if (json_object_set_new(object, key, value) != 0) /* also for NULL values */
+    document->failed = true;
+}
+
+/* The object one level down, made if it is not there yet. */
+static json_t *level(struct document *document, json_t *object, const char *key, size_t length) {
+  char name[64];
+  snprintf(name, sizeof name, "%.*s", (int)length, key);
+  json_t *below = json_object_get(object, name);
+  if (!below) {
+    below = json_object();
+    put(document, object, name, below);
+  }
+  return below;
+}
+
+static void put_figure(void *context, const struct trax_figure *figure) {
+  struct document *document = context;
+  json_t *object = document->root;
+  const char *name = figure->name;
+  for (const char *dot; (dot = strchr(name, '.')); name = dot + 1)
+    object = level(document, object, name, (size_t)(dot - name));
+  put(document, object, name, figure->whole ? json_integer((json_int_t)figure->value) : json_real(figure->value));
+}
+
+/* Paths need not be UTF-8; what is not becomes "?". */
+static json_t *text_value(const char *text) {
+  json_t *value = json_string(text);
+  if (value)
+    return value;
+  char plain[512];
+  snprintf(plain, sizeof plain, "%s", text);
+  for (char *c = plain; *c; ++c)
+    if ((unsigned char)*c >= 0x80)
+      *c = '?';
+  return json_string(plain);
+}
+
+static json_t *hexadecimal(uint32_t value) {
+  char text[16];
+  snprintf(text, sizeof text, "0x%08x", value);
+  return json_string(text);
+}
+
+static void put_fault(struct document *document, const trax_machine *machine) {
+  const struct trax_fault *fault = trax_machine_fault(machine);
+  json_t *object = json_object();
+  put(document, document->root, "fault", object);
+  put(document, object, "kind", json_string(trax_fault_text(fault->kind)));
+  put(document, object, "address", hexadecimal(fault->address));
+  put(document, object, "pc", hexadecimal(fault->pc));
+  char instruction[128];
+  trax_disassemble(fault->word, fault->pc, instruction, sizeof instruction);
+  put(document, object, "instruction", json_string(instruction));
+  put(document, object, "thread", json_integer(fault->thread));
+  put(document, object, "tm", json_integer(fault->tm));
+  put(document, object, "tp", json_integer(fault->tp));
+  put(document, object, "cycle", json_integer((json_int_t)fault->cycle));
+  const struct trax_host *host = trax_host_of(machine);
+  if (!host)
+    return;
+  const struct trax_symbol *symbol = trax_image_symbol_at(host->image, fault->pc);
+  if (symbol)
+    put(document, object, "symbol", text_value(symbol->name));
+  struct trax_source_line line;
+  if (trax_image_lines(host->image, fault->pc, &line, 1)) {
+    put(document, object, "file", text_value(line.file));
+    put(document, object, "line", json_integer(line.line));
+  }
+}
+
+static void put_identity(struct document *document, const trax_machine *machine) {
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    sum += machine->stats.total.cycles[cause];
+  json_t *object = json_object();
+  put(document, document->root, "identity", object);
+  put(document, object, "cause_sum", json_integer((json_int_t)sum));
+  put(document, object, "thread_cycles", json_integer((json_int_t)(machine->stats.threads * machine->stats.cycles)));
+  put(document, object, "holds", json_boolean(trax_stats_identity(&machine->stats)));
+}
+
+static void put_tms(struct document *document, const trax_machine *machine) {
+  json_t *tms = json_array();
+  put(document, document->root, "tms", tms);
+  for (uint32_t i = 0; i < machine->config.chip.tms; ++i) {
+    struct document tm = {json_object(), false};
+    put(&tm, tm.root, "tm", json_integer(i));
+    trax_figures_visit(&machine->stats, &machine->tm_stats[i], &machine->config, put_figure, &tm);
+    if (json_array_append_new(tms, tm.root) != 0 || tm.failed)
+      document->failed = true;
+  }
+}
+
+static void put_configuration(struct document *document, const struct trax_config *config) {
+  json_t *configuration = json_object();
+  put(document, document->root, "configuration", configuration);
+  for (size_t i = 0; i < trax_config_key_count; ++i) {
+    const struct trax_config_key *key = &trax_config_keys[i];
+    double value = trax_config_value(config, key);
+    json_t *section = level(document, configuration, key->section, strlen(key->section));
+    put(document, section, key->key,
+        key->kind == TRAX_KIND_FLAG   ? json_boolean(value != 0)
+        : key->kind == TRAX_KIND_REAL ? json_real(value)
+                                      : json_integer((json_int_t)value));
+  }
+}
+
+trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_error *error) {
+  if (!machine->has_run)
+    return trax_fail(error, "no statistics: the machine has not run");
+  struct document document = {json_object(), false};
+  json_t *root = document.root;
+  const struct trax_host *host = trax_host_of(machine);
+  put(&document, root, "trax_sim", json_string(TRAX_VERSION));
+  put(&document, root, "program", text_value(host ? trax_image_path(host->image) : ""));
+  put(&document, root, "status", json_string(trax_status_name(machine->status)));
+  put(&document, root, "partial", json_boolean(machine->status != TRAX_OK));
+  put(&document, root, "exit_status", json_integer(trax_machine_exit_status(machine)));
+  if (machine->status == TRAX_FAULT)
+    put_fault(&document, machine);
+  trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, &document);
+  put_identity(&document, machine);
+  put_tms(&document, machine);
+  put_configuration(&document, &machine->config);
+  bool written = !document.failed && json_dumpf(root, out, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0;
+  json_decref(root);
+  if (document.failed)
+    return trax_fail(error, "out of memory for the statistics");
+  if (!written || fputc('\n', out) == EOF)
+    return trax_fail(error, "the statistics cannot be written");
+  return TRAX_OK;
+}
+
+trax_status trax_stats_write_json(const trax_machine *machine, const char *path, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  /* A failing write shows again, with its reason, when the file is closed. */
+  trax_error reason;
+  if (trax_stats_dump_json(machine, output.file, &reason) != TRAX_OK && !ferror(output.file)) {
+    trax_output_discard(&output);
+    return trax_fail(error, "%s: %s", path, reason.message);
+  }
+  return trax_output_commit(&output, error);
+}
