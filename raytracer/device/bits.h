@@ -1,0 +1,32 @@
+/* Floats compared as integers. On the TP this costs nothing (one register file) and it keeps comparisons off the
+   floating-point adder, which eight TPs share: the integer unit is the TP's own. For floats that are not NaN, a < b is
+   the same as float_bits(a) < float_bits(b) unless both are negative. */
+#ifndef TRAX_DEVICE_BITS_H
+#define TRAX_DEVICE_BITS_H
+
+#include <stdint.h>
+
+static inline int32_t float_bits(float value) {
+  int32_t bits;
+  __builtin_memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+static inline float bits_float(int32_t bits) {
+  float value;
+  __builtin_memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+#define SIGN_BIT INT32_MIN
+
+/* The bits of |value|; ordered like the magnitudes themselves. */
+static inline int32_t magnitude(float value) {
+  return float_bits(value) & ~SIGN_BIT;
+}
+
+static inline int32_t larger(int32_t a, int32_t b) {
+  return a > b ? a : b;
+}
+
+#endif

@@ -1,0 +1,71 @@
+/* A ray, prepared once for the tests that it takes part in many times. */
+#ifndef TRAX_DEVICE_RAY_H
+#define TRAX_DEVICE_RAY_H
+
+#include "bits.h"
+
+struct ray {
+  /* For boxes. The near planes of a box are its minima where the direction is positive, its maxima where it is
+     negative; near_offset is where in struct trax_bvh_node's box they are (0 or 12 bytes), so that no test compares
+     planes. */
+  float near_origin_x, near_origin_y, near_origin_z;
+  float far_origin_x, far_origin_y, far_origin_z;
+  float inverse_x, inverse_y, inverse_z;
+  uint32_t near_offset_x, near_offset_y, near_offset_z;
+
+  /* For triangles: coordinates are renamed so that the direction's largest component is the third, and sheared and
+     scaled so that the ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
+  uint32_t offset_u, offset_v, offset_w;
+  float origin_u, origin_v, origin_w;
+  float shear_u, shear_v, scale_w;
+};
+
+/* A component of the direction for box tests: zeros, and what is as good as zero, keep their sign and become 2^-30 of
+   the largest component, so that its reciprocal is finite and 0 * infinity cannot arise. The ray turns by no more than
+   2^-30, less than the rounding that box_margin already allows for. */
+static inline float away_from_zero(float component, int32_t least_bits) {
+  return bits_float(larger(magnitude(component), least_bits) | (float_bits(component) & SIGN_BIT));
+}
+
+/* Prepares the ray that starts at (ox, oy, oz); the direction need not have unit length, but its largest component must
+   be within 2^-21 and 2^40, so that the product below neither vanishes nor overflows. */
+static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, float dx, float dy, float dz,
+                               float box_margin) {
+  int32_t size_x = magnitude(dx), size_y = magnitude(dy), size_z = magnitude(dz);
+  int32_t size = larger(larger(size_x, size_y), size_z);
+  int32_t least = float_bits(bits_float(size) * 0x1p-30f);
+  float cx = away_from_zero(dx, least), cy = away_from_zero(dy, least), cz = away_from_zero(dz, least);
+
+  /* One division for the three reciprocals: the divider is shared by all TPs of a TM. Each is within 5 units of 2^-24,
+     relatively. */
+  float xy = cx * cy;
+  float product = 1.0f / (xy * cz);
+  float inverse_x = cy * cz * product, inverse_y = cx * cz * product, inverse_z = xy * product;
+
+  ray->inverse_x = inverse_x, ray->inverse_y = inverse_y, ray->inverse_z = inverse_z;
+  ray->near_offset_x = float_bits(cx) >> 31 & 12;
+  ray->near_offset_y = float_bits(cy) >> 31 & 12;
+  ray->near_offset_z = float_bits(cz) >> 31 & 12;
+  float margin_x = bits_float(float_bits(box_margin) | (float_bits(cx) & SIGN_BIT));
+  float margin_y = bits_float(float_bits(box_margin) | (float_bits(cy) & SIGN_BIT));
+  float margin_z = bits_float(float_bits(box_margin) | (float_bits(cz) & SIGN_BIT));
+  ray->near_origin_x = ox + margin_x, ray->far_origin_x = ox - margin_x;
+  ray->near_origin_y = oy + margin_y, ray->far_origin_y = oy - margin_y;
+  ray->near_origin_z = oz + margin_z, ray->far_origin_z = oz - margin_z;
+
+  if (size == size_x) {
+    ray->offset_u = 4, ray->offset_v = 8, ray->offset_w = 0;
+    ray->origin_u = oy, ray->origin_v = oz, ray->origin_w = ox;
+    ray->shear_u = dy * inverse_x, ray->shear_v = dz * inverse_x, ray->scale_w = inverse_x;
+  } else if (size == size_y) {
+    ray->offset_u = 8, ray->offset_v = 0, ray->offset_w = 4;
+    ray->origin_u = oz, ray->origin_v = ox, ray->origin_w = oy;
+    ray->shear_u = dz * inverse_y, ray->shear_v = dx * inverse_y, ray->scale_w = inverse_y;
+  } else {
+    ray->offset_u = 0, ray->offset_v = 4, ray->offset_w = 8;
+    ray->origin_u = ox, ray->origin_v = oy, ray->origin_w = oz;
+    ray->shear_u = dx * inverse_z, ray->shear_v = dy * inverse_z, ray->scale_w = inverse_z;
+  }
+}
+
+#endif

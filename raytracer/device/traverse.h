@@ -1,0 +1,160 @@
+/* Traversal of the BVH: the nearest hit of a ray, or whether there is any.
+
+   Boxes are tested plane by plane and left as soon as the ray is known to miss, and all comparisons are of integers: a
+   node costs between 2 and 6 adds and multiplies a child, and a load for each plane. Triangles are tested after Woop,
+   Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013): two triangles that share an edge compute
+   the same value for it with opposite signs, and zero counts as inside, so a ray cannot pass between them. */
+#ifndef TRAX_DEVICE_TRAVERSE_H
+#define TRAX_DEVICE_TRAVERSE_H
+
+#include "ray.h"
+#include "trax/scene_format.h"
+
+#include <stdbool.h>
+
+struct hit {
+  int32_t distance_bits;  /* float_bits of the parameter along the ray */
+  const char *triangle;   /* struct trax_triangle; NULL: nothing was hit */
+  float weight1, weight2; /* barycentric, of v1 and v2 */
+};
+
+#define BOX_MISSED INT32_MAX
+
+static inline float load_float(const char *address) {
+  return *(const float *)(const void *)address;
+}
+static inline uint32_t load_word(const char *address) {
+  return *(const uint32_t *)(const void *)address;
+}
+
+/* Where the ray enters the slab between two planes of a child's box, as bits, given where it has entered (at 0 or
+   later) and left the box so far; BOX_MISSED if it has left before it enters. Distances are compared as integers: a
+   negative far distance, whatever its size, is less than `enter`, which is never negative; a negative near distance is
+   less too. */
+#define CLIP_TO_SLAB(AXIS, BYTES)                                                                                      \
+  do {                                                                                                                 \
+    float plane_near = load_float(node + ray->near_offset_##AXIS + (BYTES) + 24 * child);                              \
+    float plane_far = load_float(node - ray->near_offset_##AXIS + 12 + (BYTES) + 24 * child);                          \
+    int32_t near_bits = float_bits((plane_near - ray->near_origin_##AXIS) * ray->inverse_##AXIS);                      \
+    int32_t far_bits = float_bits((plane_far - ray->far_origin_##AXIS) * ray->inverse_##AXIS);                         \
+    if (near_bits > enter)                                                                                             \
+      enter = near_bits;                                                                                               \
+    if (far_bits < leave)                                                                                              \
+      leave = far_bits;                                                                                                \
+    if (enter > leave)                                                                                                 \
+      return BOX_MISSED;                                                                                               \
+  } while (0)
+
+static inline __attribute__((always_inline)) int32_t enter_box(const struct ray *ray, const char *node, int child,
+                                                               int32_t limit_bits) {
+  int32_t enter = 0, leave = limit_bits;
+  CLIP_TO_SLAB(x, 0);
+  CLIP_TO_SLAB(y, 4);
+  CLIP_TO_SLAB(z, 8);
+  return enter;
+}
+
+/* Of edge values: not on the same side. Zeros of either sign are on both sides. */
+static inline bool opposite(float a, float b) {
+  uint32_t a_bits = (uint32_t)float_bits(a), b_bits = (uint32_t)float_bits(b);
+  return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
+}
+
+/* Is the triangle hit before hit->distance_bits? If so, and unless any hit will do, *hit becomes this one. */
+static inline __attribute__((always_inline)) bool hit_triangle(const struct ray *ray, const char *triangle, bool any,
+                                                               struct hit *hit) {
+  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
+  float aw = load_float(at_w) - ray->origin_w;
+  float bw = load_float(at_w + 12) - ray->origin_w;
+  float cw = load_float(at_w + 24) - ray->origin_w;
+  float au = load_float(at_u) - ray->origin_u - ray->shear_u * aw;
+  float av = load_float(at_v) - ray->origin_v - ray->shear_v * aw;
+  float bu = load_float(at_u + 12) - ray->origin_u - ray->shear_u * bw;
+  float bv = load_float(at_v + 12) - ray->origin_v - ray->shear_v * bw;
+  float cu = load_float(at_u + 24) - ray->origin_u - ray->shear_u * cw;
+  float cv = load_float(at_v + 24) - ray->origin_v - ray->shear_v * cw;
+
+  float edge_a = cu * bv - cv * bu;
+  float edge_b = au * cv - av * cu;
+  if (opposite(edge_a, edge_b))
+    return false;
+  float edge_c = bu * av - bv * au;
+  if (opposite(edge_a, edge_c) || opposite(edge_b, edge_c))
+    return false;
+  float determinant = edge_a + edge_b + edge_c;
+  int32_t size_bits = magnitude(determinant);
+  if (size_bits == 0)
+    return false;
+
+  /* The distance times |determinant|: the division waits until the hit is certain. */
+  float scaled = (edge_a * aw + edge_b * bw + edge_c * cw) * ray->scale_w;
+  int32_t scaled_bits = float_bits(scaled) ^ (float_bits(determinant) & SIGN_BIT);
+  if (scaled_bits <= 0 || scaled_bits >= float_bits(bits_float(hit->distance_bits) * bits_float(size_bits)))
+    return false;
+  if (!any) {
+    float reciprocal = 1.0f / determinant;
+    hit->distance_bits = float_bits(scaled * reciprocal);
+    hit->triangle = triangle;
+    hit->weight1 = edge_b * reciprocal;
+    hit->weight2 = edge_c * reciprocal;
+  }
+  return true;
+}
+
+/* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The stack holds
+   the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which the host checks.
+ */
+static inline __attribute__((always_inline)) bool trace_ray(const char *scene, trax_scene_ref reference,
+                                                            const struct ray *ray, bool any, struct hit *hit) {
+  struct {
+    trax_scene_ref reference;
+    int32_t enter; /* where the ray enters its box */
+  } stack[TRAX_SCENE_MAX_DEPTH], *top = stack;
+
+  if (reference == 0)
+    return false;
+  for (;;) {
+    if (TRAX_SCENE_REF_COUNT(reference) == 0) {
+      const char *node = scene + reference;
+      int32_t enter0 = enter_box(ray, node, 0, hit->distance_bits);
+      int32_t enter1 = enter_box(ray, node, 1, hit->distance_bits);
+      if (enter0 <= enter1) {
+        if (enter0 != BOX_MISSED) {
+          reference = load_word(node + 48);
+          if (enter1 != BOX_MISSED) {
+            top->reference = load_word(node + 52);
+            top->enter = enter1;
+            top++;
+          }
+          continue;
+        }
+      } else {
+        reference = load_word(node + 52);
+        if (enter0 != BOX_MISSED) {
+          top->reference = load_word(node + 48);
+          top->enter = enter0;
+          top++;
+        }
+        continue;
+      }
+    } else {
+      const char *triangle = scene + TRAX_SCENE_REF_OFFSET(reference);
+      const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
+      do {
+        if (hit_triangle(ray, triangle, any, hit) && any)
+          return true;
+        triangle += sizeof(struct trax_triangle);
+      } while (triangle != end);
+    }
+
+    /* Back to the latest box that begins before the nearest hit so far. */
+    do {
+      if (top == stack)
+        return !any && hit->triangle;
+      top--;
+    } while (!any && top->enter >= hit->distance_bits);
+    reference = top->reference;
+  }
+}
+
+#endif

@@ -1,0 +1,161 @@
+/* The device program's parameters: camera, light, palette, the order of pixels, the margin of boxes. */
+#include "core/machine.h"
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+/* Coordinates within these need no scaling: products of three lengths, some 2^-24 of the scene, stay normal floats. */
+#define LEAST_EXPONENT (-4)
+#define GREATEST_EXPONENT 20
+#define GREATEST_LIGHT_EXPONENT 40
+
+static double greatest(double so_far, const float values[3]) {
+  for (int i = 0; i < 3; i++)
+    so_far = fmax(so_far, fabs((double)values[i]));
+  return so_far;
+}
+
+static void scale_floats(float *values, size_t count, int exponent) {
+  for (size_t i = 0; i < count; i++)
+    values[i] = ldexpf(values[i], exponent);
+}
+
+/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. */
+static void scale_scene(struct trax_scene *scene, int exponent) {
+  struct trax_scene_header *header = scene->bytes;
+  scale_floats(header->bounds_min, 3, exponent);
+  scale_floats(header->bounds_max, 3, exponent);
+  struct trax_bvh_node *nodes = (struct trax_bvh_node *)scene->nodes;
+  for (uint32_t i = 0; i < scene->node_count; i++)
+    for (int child = 0; child < 2; child++) {
+      scale_floats(nodes[i].box[child].min, 3, exponent);
+      scale_floats(nodes[i].box[child].max, 3, exponent);
+    }
+  struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
+  for (uint32_t i = 0; i < scene->triangle_count; i++) {
+    scale_floats(triangles[i].v0, 3, exponent);
+    scale_floats(triangles[i].v1, 3, exponent);
+    scale_floats(triangles[i].v2, 3, exponent);
+  }
+  header->checksum = 0;
+  header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
+}
+
+trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error) {
+  double size = greatest(greatest(greatest(0, scene->header->bounds_min), scene->header->bounds_max), view->eye);
+  if (size == 0)
+    size = 1;
+  int magnitude = ilogb(size);
+  double light = greatest(0, view->light);
+  if (light > 0 && ilogb(light) - magnitude > GREATEST_LIGHT_EXPONENT)
+    return trax_fail(error, "the light is more than 2^%d times as far away as the scene is large",
+                     GREATEST_LIGHT_EXPONENT);
+  *exponent = 0;
+  if (magnitude >= LEAST_EXPONENT && magnitude <= GREATEST_EXPONENT)
+    return TRAX_OK;
+  *exponent = -magnitude;
+  scale_scene(scene, *exponent);
+  scale_floats(view->eye, 3, *exponent);
+  scale_floats(view->light, 3, *exponent);
+  return TRAX_OK;
+}
+
+/* How far boxes are widened on each side, so that rounding never makes a ray miss a box whose triangle it would hit. In
+   units of 2^-24 and of D, the greatest distance along an axis between a ray's origin and anything in the scene:
+   - a ray's triangle test sees every vertex displaced across the ray by 6 (the shear's factor, from a reciprocal of
+   error 5)
+     + 4 (translation and shear) + 3 (edge values): 13;
+   - the distances to the planes have a relative error of 7 (reciprocal, subtraction, product), as if each plane were 7
+   off;
+   - a direction component that was moved away from zero turns the ray by 2^-30, less than 1.
+   32 is above their sum. As the margin is added to a ray's origin, it must be no less than that coordinate's rounding:
+   hence the doubling and the second term. */
+static float box_margin(const struct trax_scene_header *header, const float eye[3]) {
+  double distance = 0, magnitude = greatest(greatest(greatest(0, header->bounds_min), header->bounds_max), eye);
+  for (int i = 0; i < 3; i++) {
+    double low = header->bounds_min[i], high = header->bounds_max[i];
+    distance = fmax(distance, fmax(high - low, fmax(fabs(low - eye[i]), fabs(high - eye[i]))));
+  }
+  return (float)(0x1p-18 * distance + 0x1p-22 * magnitude);
+}
+
+static void cross(double result[3], const double a[3], const double b[3]) {
+  for (int i = 0; i < 3; i++)
+    result[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static void set_camera(struct trax_render_params *params, const struct trax_view *view) {
+  const double degree = 3.14159265358979323846 / 180;
+  double forward[3], up[3], right[3];
+  for (int i = 0; i < 3; i++)
+    forward[i] = view->direction[i], up[i] = view->up[i];
+  cross(right, forward, up);
+  double half_height = tan(0.5 * view->fov * degree);
+  double half_width = half_height * params->width / params->height;
+  for (int i = 0; i < 3; i++) {
+    params->eye[i] = view->eye[i];
+    params->light[i] = view->light[i];
+    params->corner[i] = (float)(forward[i] - half_width * right[i] + half_height * up[i]);
+    params->step_x[i] = (float)(2 * half_width / params->width * right[i]);
+    params->step_y[i] = (float)(-2 * half_height / params->height * up[i]);
+  }
+}
+
+static uint32_t log2_ceiling(uint32_t value) {
+  uint32_t result = 0;
+  while (result < 31 && 1u << result < value)
+    result++;
+  return result;
+}
+
+/* Tiles of 8 x 8 pixels, or narrower where the picture is. With s = ceil(log2(across)) and m = floor(2^(31+s) / across)
+   + 1, (2 * tile * m) >> (32 + s) is exactly tile / across while 2 * tile < 2^30: the excess of m over the quotient
+   adds less than 1 / across. */
+static void set_tiles(struct trax_render_params *params) {
+  uint32_t width = log2_ceiling(params->width), height = log2_ceiling(params->height);
+  params->tile_log2_width = width < 3 ? width : 3;
+  params->tile_log2_height = height < 3 ? height : 3;
+  uint32_t across = (params->width + (1u << params->tile_log2_width) - 1) >> params->tile_log2_width;
+  uint32_t down = (params->height + (1u << params->tile_log2_height) - 1) >> params->tile_log2_height;
+  params->tiles_across = across;
+  params->slot_count = (across * down) << (params->tile_log2_width + params->tile_log2_height);
+  params->row_shift = log2_ceiling(across);
+  params->row_multiplier = (uint32_t)(((uint64_t)1 << (31 + params->row_shift)) / across + 1);
+}
+
+trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
+                            const struct trax_frame_options *options, trax_error *error) {
+  if (options->width < 1 || options->width > TRAX_RENDER_MAX_SIDE || options->height < 1 ||
+      options->height > TRAX_RENDER_MAX_SIDE)
+    return trax_fail(error, "a picture of %u x %u: width and height must be 1 to %u", options->width, options->height,
+                     TRAX_RENDER_MAX_SIDE);
+  if (!(options->ambient >= 0 && options->ambient <= 1))
+    return trax_fail(error, "ambient light of %g: it must be 0 to 1", (double)options->ambient);
+  size_t size = sizeof(struct trax_render_params) + scene->material_count * sizeof(struct trax_palette_entry);
+  if (size > UINT32_MAX || !(frame->params = calloc(1, size)))
+    return trax_fail(error, "out of memory for %u materials", scene->material_count);
+  frame->params_size = (uint32_t)size;
+  frame->scene = scene;
+
+  struct trax_render_params *params = frame->params;
+  params->width = options->width;
+  params->height = options->height;
+  params->ambient = options->ambient;
+  params->background = options->background;
+  params->box_margin = box_margin(scene->header, view->eye);
+  set_camera(params, view);
+  set_tiles(params);
+  struct trax_palette_entry *palette = (struct trax_palette_entry *)(params + 1);
+  for (uint32_t i = 0; i < scene->material_count; i++)
+    for (int channel = 0; channel < 3; channel++)
+      palette[i].colour[channel] = (float)(255 * sqrt(fmin(fmax(scene->materials[i].diffuse[channel], 0), 1)));
+  return TRAX_OK;
+}
+
+void trax_frame_release(struct trax_frame *frame) {
+  free(frame->params);
+  memset(frame, 0, sizeof *frame);
+}

@@ -1,0 +1,243 @@
+#include "options.h"
+
+#include "core/machine.h"
+#include "host/util.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char usage[] =
+    "Usage: trax-render [options] MESH [MESH ...] -o PICTURE.png\n"
+    "\n"
+    "Renders meshes, or one scene file (.trax), on the emulated ray-tracing accelerator: a ray from the eye through\n"
+    "every pixel, and a shadow ray towards one point light.\n"
+    "\n"
+    "  -o, --output FILE.png   the picture\n"
+    "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"
+    "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
+    "                          without it the whole scene is framed\n"
+    "      --ambient X         light everywhere, 0 to 1 (default 0.08)\n"
+    "      --background RRGGBB colour where there is nothing, hexadecimal (default 98a8b8)\n"
+    "      --config CHIP|FILE  the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)\n"
+    "      --set KEY=VALUE     changes one value of the configuration (trax-sim --help-config lists them)\n"
+    "      --stats FILE.json   writes every statistic of the run\n"
+    "      --engine WHICH      emulator (default); native: the same program compiled for this computer;\n"
+    "                          embree: the reference\n"
+    "      --threads N         host threads of the native engine (default: all processors)\n"
+    "      --compare           renders the reference and the native twin too and prints the differences;\n"
+    "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
+    "                          99.9 % of the pixels are within 2/255 of the reference\n"
+    "      --program FILE.elf  another program for the TPs than the one that comes with trax\n"
+    "      --keep DIR          keeps what the program reads, and the trax-sim command that runs it\n"
+    "  -q, --quiet             prints errors only\n"
+    "  -h, --help\n"
+    "      --version\n";
+
+enum {
+  OPT_SIZE = 256,
+  OPT_VIEW,
+  OPT_AMBIENT,
+  OPT_BACKGROUND,
+  OPT_CONFIG,
+  OPT_SET,
+  OPT_STATS,
+  OPT_ENGINE,
+  OPT_THREADS,
+  OPT_COMPARE,
+  OPT_PROGRAM,
+  OPT_KEEP,
+  OPT_VERSION
+};
+
+static const struct option long_options[] = {{"output", required_argument, NULL, 'o'},
+                                             {"size", required_argument, NULL, OPT_SIZE},
+                                             {"view", required_argument, NULL, OPT_VIEW},
+                                             {"ambient", required_argument, NULL, OPT_AMBIENT},
+                                             {"background", required_argument, NULL, OPT_BACKGROUND},
+                                             {"config", required_argument, NULL, OPT_CONFIG},
+                                             {"set", required_argument, NULL, OPT_SET},
+                                             {"stats", required_argument, NULL, OPT_STATS},
+                                             {"engine", required_argument, NULL, OPT_ENGINE},
+                                             {"threads", required_argument, NULL, OPT_THREADS},
+                                             {"compare", no_argument, NULL, OPT_COMPARE},
+                                             {"program", required_argument, NULL, OPT_PROGRAM},
+                                             {"keep", required_argument, NULL, OPT_KEEP},
+                                             {"quiet", no_argument, NULL, 'q'},
+                                             {"help", no_argument, NULL, 'h'},
+                                             {"version", no_argument, NULL, OPT_VERSION},
+                                             {NULL, 0, NULL, 0}};
+
+static const char *option_name(const void *context, size_t i) {
+  (void)context;
+  return long_options[i].name;
+}
+
+/* An unsigned decimal number without sign or space, at *text, which moves behind it. */
+static bool parse_number(const char **text, unsigned long limit, unsigned *value) {
+  if (**text < '0' || **text > '9')
+    return false;
+  char *end;
+  errno = 0;
+  unsigned long number = strtoul(*text, &end, 10);
+  *text = end;
+  *value = (unsigned)number;
+  return errno == 0 && number <= limit;
+}
+
+static bool parse_size(const char *text, struct trax_frame_options *frame) {
+  if (!parse_number(&text, TRAX_RENDER_MAX_SIDE, &frame->width) || *text++ != 'x')
+    return false;
+  return parse_number(&text, TRAX_RENDER_MAX_SIDE, &frame->height) && *text == '\0' && frame->width > 0 &&
+         frame->height > 0;
+}
+
+static bool parse_colour(const char *text, uint32_t *pixel) {
+  if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
+    return false;
+  uint32_t rgb = (uint32_t)strtoul(text, NULL, 16);
+  *pixel = 0xFF000000u | (rgb & 0xFF) << 16 | (rgb & 0xFF00) | rgb >> 16;
+  return true;
+}
+
+static bool parse_fraction(const char *text, float *value) {
+  char *end;
+  *value = strtof(text, &end);
+  return end != text && *end == '\0' && *value >= 0 && *value <= 1;
+}
+
+static bool parse_engine(const char *text, enum engine *engine) {
+  static const char *const names[] = {"emulator", "native", "embree"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (strcmp(text, names[i]) == 0) {
+      *engine = (enum engine)i;
+      return true;
+    }
+  return false;
+}
+
+static trax_status add_setting(struct options *options, const char *text, trax_error *error) {
+  const char *equals = strchr(text, '=');
+  if (!equals || equals == text)
+    return trax_fail(error, "--set %s: expected KEY=VALUE", text);
+  struct setting *settings = realloc(options->settings, (options->setting_count + 1) * sizeof *settings);
+  if (settings)
+    options->settings = settings;
+  char *key = strndup(text, (size_t)(equals - text));
+  if (!settings || !key) {
+    free(key);
+    return trax_fail(error, "out of memory");
+  }
+  settings[options->setting_count++] = (struct setting){key, equals + 1};
+  return TRAX_OK;
+}
+
+static trax_status take_option(struct options *options, int which, const char *value, trax_error *error) {
+  switch (which) {
+  case 'o':
+    options->output = value;
+    return TRAX_OK;
+  case 'q':
+    options->quiet = true;
+    return TRAX_OK;
+  case OPT_SIZE:
+    if (!parse_size(value, &options->frame))
+      return trax_fail(error, "--size %s: expected WIDTHxHEIGHT, each 1 to %u", value, TRAX_RENDER_MAX_SIDE);
+    return TRAX_OK;
+  case OPT_VIEW:
+    options->view = value;
+    return TRAX_OK;
+  case OPT_AMBIENT:
+    if (!parse_fraction(value, &options->frame.ambient))
+      return trax_fail(error, "--ambient %s: expected a number from 0 to 1", value);
+    return TRAX_OK;
+  case OPT_BACKGROUND:
+    if (!parse_colour(value, &options->frame.background))
+      return trax_fail(error, "--background %s: expected six hexadecimal digits, RRGGBB", value);
+    return TRAX_OK;
+  case OPT_CONFIG:
+    options->config = value;
+    return TRAX_OK;
+  case OPT_SET:
+    return add_setting(options, value, error);
+  case OPT_STATS:
+    options->stats = value;
+    return TRAX_OK;
+  case OPT_ENGINE:
+    if (!parse_engine(value, &options->engine))
+      return trax_fail(error, "--engine %s: expected emulator, native or embree", value);
+    return TRAX_OK;
+  case OPT_THREADS:
+    if (!parse_number(&value, 4096, &options->threads) || *value != '\0' || options->threads == 0)
+      return trax_fail(error, "--threads: expected a number from 1 to 4096");
+    return TRAX_OK;
+  case OPT_COMPARE:
+    options->compare = true;
+    return TRAX_OK;
+  case OPT_PROGRAM:
+    options->program = value;
+    return TRAX_OK;
+  default: /* OPT_KEEP */
+    options->keep = value;
+    return TRAX_OK;
+  }
+}
+
+static trax_status wrong_option(char **argv, int which, trax_error *error) {
+  const char *text = argv[optind - 1];
+  if (which == ':')
+    return trax_fail(error, "%s needs a value", text);
+  if (optopt && optopt < 256) /* a single letter, perhaps among others */
+    return trax_fail(error, "unknown option -%c", optopt);
+  if (optopt)
+    return trax_fail(error, "%s takes no value", text);
+  char name[64];
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(text + 2, "="), text + 2);
+  const char *nearest = trax_nearest_name(name, sizeof long_options / sizeof *long_options - 1, option_name, NULL);
+  return nearest ? trax_fail(error, "unknown or ambiguous option --%s; did you mean --%s?", name, nearest)
+                 : trax_fail(error, "unknown or ambiguous option --%s", name);
+}
+
+static trax_status check(const struct options *options, trax_error *error) {
+  if (options->mesh_count == 0)
+    return trax_fail(error, "no mesh given; trax-render --help shows how");
+  if (!options->output)
+    return trax_fail(error, "no picture given: -o PICTURE.png");
+  if (options->engine != ENGINE_EMULATOR) {
+    if (options->stats)
+      return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
+    if (options->keep || options->program || options->config || options->setting_count)
+      return trax_fail(error, "--config, --set, --program and --keep need the emulator");
+  }
+  if (options->threads && options->engine != ENGINE_NATIVE)
+    return trax_fail(error, "--threads is for --engine native");
+  return TRAX_OK;
+}
+
+enum options_result options_parse(struct options *options, int argc, char **argv, trax_error *error) {
+  *options = (struct options){
+      .frame = {.width = 1280, .height = 720, .ambient = TRAX_DEFAULT_AMBIENT, .background = TRAX_DEFAULT_BACKGROUND}};
+  opterr = 0;
+  for (int which; (which = getopt_long(argc, argv, ":o:qh", long_options, NULL)) != -1;) {
+    if (which == '?' || which == ':') {
+      wrong_option(argv, which, error);
+      return OPTIONS_WRONG;
+    }
+    if (which == 'h' || which == OPT_VERSION) {
+      fputs(which == 'h' ? usage : "trax-render " TRAX_VERSION "\n", stdout);
+      return OPTIONS_DONE;
+    }
+    if (take_option(options, which, optarg, error))
+      return OPTIONS_WRONG;
+  }
+  options->meshes = (const char **)(argv + optind);
+  options->mesh_count = (size_t)(argc - optind);
+  return check(options, error) ? OPTIONS_WRONG : OPTIONS_RUN;
+}
+
+void options_release(struct options *options) {
+  for (size_t i = 0; i < options->setting_count; i++)
+    free((char *)options->settings[i].key);
+  free(options->settings);
+}

@@ -1,0 +1,35 @@
+/* trax-render's command line. */
+#ifndef TRAX_RENDER_OPTIONS_H
+#define TRAX_RENDER_OPTIONS_H
+
+#include "render.h"
+
+enum engine { ENGINE_EMULATOR, ENGINE_NATIVE, ENGINE_EMBREE };
+
+struct setting {
+  const char *key;
+  const char *value;
+};
+
+struct options {
+  const char **meshes; /* into argv */
+  size_t mesh_count;
+  const char *output;
+  const char *config;
+  const char *view; /* NULL: framed automatically */
+  const char *stats, *keep, *program;
+  struct setting *settings; /* keys are copies */
+  size_t setting_count;
+  struct trax_frame_options frame;
+  enum engine engine;
+  unsigned threads; /* of the native twin; 0: as many as the host has */
+  bool compare, quiet;
+};
+
+enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG };
+
+/* OPTIONS_DONE: help or version were printed. OPTIONS_WRONG: *error says what is wrong. */
+enum options_result options_parse(struct options *options, int argc, char **argv, trax_error *error);
+void options_release(struct options *options);
+
+#endif

@@ -1,0 +1,150 @@
+/* Pictures in memory and as PNG files. */
+#include "core/machine.h"
+#include "host/util.h"
+#include "render.h"
+
+#include <errno.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+
+trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error) {
+  picture->pixels = calloc((size_t)width * height, sizeof *picture->pixels);
+  if (!picture->pixels)
+    return trax_fail(error, "out of memory for a picture of %u x %u", width, height);
+  picture->width = width;
+  picture->height = height;
+  return TRAX_OK;
+}
+
+void trax_picture_release(struct trax_picture *picture) {
+  free(picture->pixels);
+  memset(picture, 0, sizeof *picture);
+}
+
+/* libpng reports errors by a callback that must not return. */
+struct png_failure {
+  jmp_buf place;
+  char reason[256];
+};
+
+static void png_failed(png_structp png, png_const_charp message) {
+  struct png_failure *failure = png_get_error_ptr(png);
+  snprintf(failure->reason, sizeof failure->reason, "%s", message);
+  longjmp(failure->place, 1);
+}
+
+static void png_warned(png_structp png, png_const_charp message) {
+  (void)png;
+  (void)message;
+}
+
+static void encode(png_structp png, png_infop info, FILE *file, const struct trax_picture *picture, png_bytep row) {
+  png_init_io(png, file);
+  png_set_user_limits(png, TRAX_RENDER_MAX_SIDE, TRAX_RENDER_MAX_SIDE);
+  png_set_IHDR(png, info, picture->width, picture->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_gAMA(png, info, 0.5);
+  png_write_info(png, info);
+  for (uint32_t y = 0; y < picture->height; y++) {
+    const uint32_t *pixels = picture->pixels + (size_t)y * picture->width;
+    for (uint32_t x = 0; x < picture->width; x++)
+      for (int channel = 0; channel < 3; channel++)
+        row[3 * x + channel] = (png_byte)(pixels[x] >> 8 * channel);
+    png_write_row(png, row);
+  }
+  png_write_end(png, info);
+}
+
+trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error) {
+  trax_output output;
+  trax_status status = trax_output_open(&output, path, error);
+  if (status)
+    return status;
+  struct png_failure failure = {.reason = "out of memory"};
+  png_bytep row = malloc((size_t)picture->width * 3);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
+  png_infop info = png ? png_create_info_struct(png) : NULL;
+  bool written = false;
+  if (row && info && !setjmp(failure.place)) {
+    encode(png, info, output.file, picture, row);
+    written = true;
+  }
+  png_destroy_write_struct(&png, &info);
+  free(row);
+  if (written)
+    return trax_output_commit(&output, error);
+  trax_output_discard(&output);
+  return trax_fail(error, "%s: cannot write the picture: %s", path, failure.reason);
+}
+
+/* *pixels is freed by the caller, also after a failure in here. */
+static void decode(png_structp png, png_infop info, FILE *file, struct trax_picture *picture) {
+  png_init_io(png, file);
+  png_set_user_limits(png, TRAX_RENDER_MAX_SIDE, TRAX_RENDER_MAX_SIDE);
+  png_read_info(png, info);
+  picture->width = png_get_image_width(png, info);
+  picture->height = png_get_image_height(png, info);
+  png_set_expand(png);
+  png_set_strip_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
+  int passes = png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  size_t row_bytes = (size_t)picture->width * 4;
+  if (png_get_rowbytes(png, info) != row_bytes)
+    png_error(png, "unexpected row size");
+  picture->pixels = calloc(picture->height, row_bytes);
+  if (!picture->pixels)
+    png_error(png, "out of memory");
+  for (int pass = 0; pass < passes; pass++)
+    for (uint32_t y = 0; y < picture->height; y++)
+      png_read_row(png, (png_bytep)(picture->pixels + (size_t)y * picture->width), NULL);
+  png_read_end(png, NULL);
+}
+
+trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error) {
+  memset(picture, 0, sizeof *picture);
+  FILE *file = fopen(path, "rb");
+  if (!file)
+    return trax_fail(error, "%s: %s", path, strerror(errno));
+  struct png_failure failure = {.reason = "out of memory"};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
+  png_infop info = png ? png_create_info_struct(png) : NULL;
+  volatile bool read = false;
+  if (info && !setjmp(failure.place)) {
+    decode(png, info, file, picture);
+    read = true;
+  }
+  png_destroy_read_struct(&png, &info, NULL);
+  fclose(file);
+  if (read)
+    return TRAX_OK;
+  trax_picture_release(picture);
+  return trax_fail(error, "%s: not a readable PNG: %s", path, failure.reason);
+}
+
+void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,
+                          const struct trax_picture *b, unsigned within) {
+  memset(difference, 0, sizeof *difference);
+  for (uint32_t y = 0; y < a->height; y++)
+    for (uint32_t x = 0; x < a->width; x++) {
+      size_t i = (size_t)y * a->width + x;
+      unsigned worst = 0;
+      for (int shift = 0; shift < 32; shift += 8) {
+        int delta = (int)(a->pixels[i] >> shift & 0xFF) - (int)(b->pixels[i] >> shift & 0xFF);
+        unsigned size = (unsigned)abs(delta);
+        worst = size > worst ? size : worst;
+      }
+      difference->pixels++;
+      difference->unequal += worst > 0;
+      difference->beyond += worst > within;
+      if (worst > difference->largest)
+        difference->largest = worst, difference->x = x, difference->y = y;
+    }
+}
+
+double trax_difference_percent(const struct trax_difference *difference) {
+  return 100.0 * (double)(difference->pixels - difference->beyond) / (double)difference->pixels;
+}

@@ -1,0 +1,193 @@
+/* The reference picture: Embree finds the hits, binary64 shades them. It shares the camera's arithmetic with the device
+   program and nothing else of it: neither BVH, nor intersection, nor shading. */
+#include "core/machine.h"
+#include "render.h"
+
+#include "../device/camera.h"
+
+#include <embree3/rtcore.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct reference {
+  RTCScene scene;
+  const struct trax_frame *frame;
+  struct trax_picture *picture;
+  struct trax_render_run *run;
+  pthread_mutex_t lock; /* of what follows */
+  uint32_t next_row, finished_rows;
+  uint64_t rays;
+};
+
+struct double3 {
+  double x, y, z;
+};
+
+static struct double3 from(const float v[3]) {
+  return (struct double3){v[0], v[1], v[2]};
+}
+static struct double3 minus(struct double3 a, struct double3 b) {
+  return (struct double3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static struct double3 plus_scaled(struct double3 a, double factor, struct double3 b) {
+  return (struct double3){a.x + factor * b.x, a.y + factor * b.y, a.z + factor * b.z};
+}
+static double dot(struct double3 a, struct double3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static struct double3 cross(struct double3 a, struct double3 b) {
+  return (struct double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static double greatest_coordinate(const struct trax_triangle *triangle) {
+  const float *values[3] = {triangle->v0, triangle->v1, triangle->v2};
+  double greatest = 0;
+  for (int i = 0; i < 9; i++)
+    greatest = fmax(greatest, fabs((double)values[i / 3][i % 3]));
+  return greatest;
+}
+
+static uint32_t shade(const struct trax_frame *frame, uint32_t material, double lit) {
+  const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame->params + 1);
+  double light = frame->params->ambient + (1.0 - frame->params->ambient) * lit;
+  uint32_t pixel = 0xFF000000u;
+  for (int channel = 0; channel < 3; channel++)
+    pixel |= (uint32_t)floor(palette[material].colour[channel] * sqrt(light) + 0.5) << 8 * channel;
+  return pixel;
+}
+
+static struct RTCRay make_ray(struct double3 origin, struct double3 direction, float far) {
+  return (struct RTCRay){.org_x = (float)origin.x,
+                         .org_y = (float)origin.y,
+                         .org_z = (float)origin.z,
+                         .dir_x = (float)direction.x,
+                         .dir_y = (float)direction.y,
+                         .dir_z = (float)direction.z,
+                         .tfar = far,
+                         .mask = 0xFFFFFFFFu};
+}
+
+static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
+  const struct trax_render_params *params = reference->frame->params;
+  struct vector camera = camera_direction(params, x, y);
+  struct double3 direction = {camera.x, camera.y, camera.z};
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  struct RTCRayHit primary = {.ray = make_ray(from(params->eye), direction, INFINITY),
+                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+  rtcIntersect1(reference->scene, &context, &primary);
+  ++*rays;
+  if (primary.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    return params->background;
+
+  const struct trax_triangle *triangle = &reference->frame->scene->triangles[primary.hit.primID];
+  struct double3 v0 = from(triangle->v0), e = minus(from(triangle->v1), v0), f = minus(from(triangle->v2), v0);
+  struct double3 normal = cross(e, f);
+  double length = sqrt(dot(normal, normal));
+  double facing = dot(normal, direction) < 0 ? 1 / length : -1 / length;
+  normal = (struct double3){facing * normal.x, facing * normal.y, facing * normal.z};
+  struct double3 point = plus_scaled(plus_scaled(v0, primary.hit.u, e), primary.hit.v, f);
+  point = plus_scaled(point, 0x1p-18 * greatest_coordinate(triangle), normal); /* as in device/shade.h */
+
+  struct double3 way = minus(from(params->light), point);
+  double distance = sqrt(dot(way, way));
+  double cosine = distance > 0 ? fmin(dot(normal, way) / distance, 1) : 0;
+  if (!(cosine > 0))
+    return shade(reference->frame, triangle->material, 0);
+  struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
+  struct RTCRay shadow = make_ray(point, towards, (float)distance);
+  rtcOccluded1(reference->scene, &context, &shadow);
+  ++*rays;
+  return shade(reference->frame, triangle->material, shadow.tfar < 0 ? 0 : cosine);
+}
+
+static void *render_rows(void *argument) {
+  struct reference *reference = argument;
+  const struct trax_render_params *params = reference->frame->params;
+  uint64_t rays = 0;
+  for (;;) {
+    pthread_mutex_lock(&reference->lock);
+    bool stop = reference->run->interrupt && *reference->run->interrupt;
+    uint32_t row = stop ? params->height : reference->next_row++;
+    pthread_mutex_unlock(&reference->lock);
+    if (row >= params->height)
+      break;
+    for (uint32_t x = 0; x < params->width; x++)
+      reference->picture->pixels[(size_t)row * params->width + x] = reference_pixel(reference, x, row, &rays);
+    pthread_mutex_lock(&reference->lock);
+    reference->finished_rows++;
+    if (reference->run->progress)
+      reference->run->progress(reference->run->progress_context, reference->finished_rows, params->height);
+    pthread_mutex_unlock(&reference->lock);
+  }
+  pthread_mutex_lock(&reference->lock);
+  reference->rays += rays;
+  pthread_mutex_unlock(&reference->lock);
+  return NULL;
+}
+
+/* The scene's triangles with their own vertices each, so that primID is the triangle's number. */
+static trax_status build_scene(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error) {
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  if (source->triangle_count > 0) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
+                                              3 * (size_t)source->triangle_count);
+    uint32_t *indices =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, source->triangle_count);
+    if (!vertices || !indices) {
+      rtcReleaseGeometry(geometry);
+      return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
+    }
+    for (uint32_t i = 0; i < source->triangle_count; i++) {
+      memcpy(vertices + 9 * (size_t)i, source->triangles[i].v0, 36);
+      for (uint32_t corner = 0; corner < 3; corner++)
+        indices[3 * (size_t)i + corner] = 3 * i + corner;
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene);
+  enum RTCError failure = rtcGetDeviceError(device);
+  return failure ? trax_fail(error, "Embree could not build the reference scene (error %d)", (int)failure) : TRAX_OK;
+}
+
+static trax_status render(struct reference *reference, trax_error *error) {
+  long online = sysconf(_SC_NPROCESSORS_ONLN);
+  unsigned count = online > 64 ? 64 : online > 0 ? (unsigned)online : 1, started = 0;
+  pthread_t threads[64];
+  while (started < count && pthread_create(&threads[started], NULL, render_rows, reference) == 0)
+    started++;
+  for (unsigned i = 0; i < started; i++)
+    pthread_join(threads[i], NULL);
+  if (started == 0)
+    return trax_fail(error, "cannot start a thread for the reference");
+  return reference->finished_rows < reference->picture->height ? TRAX_INTERRUPTED : TRAX_OK;
+}
+
+trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
+                                  struct trax_render_run *run, trax_error *error) {
+  trax_status status = trax_picture_init(picture, frame->params->width, frame->params->height, error);
+  if (status)
+    return status;
+  RTCDevice device = rtcNewDevice(NULL);
+  if (!device) {
+    trax_picture_release(picture);
+    return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
+  }
+  struct reference reference = {
+      .scene = rtcNewScene(device), .frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  status = build_scene(device, reference.scene, frame->scene, error);
+  if (status == TRAX_OK)
+    status = render(&reference, error);
+  run->rays = reference.rays;
+  rtcReleaseScene(reference.scene);
+  rtcReleaseDevice(device);
+  if (status != TRAX_OK)
+    trax_picture_release(picture);
+  return status;
+}

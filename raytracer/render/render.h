@@ -1,0 +1,95 @@
+/* Pictures of a scene, three ways: by the device program on the emulator, by the same source compiled for the host (the
+   native twin), and by Embree (the reference). All take one frame: the bytes that the device program reads.
+
+   Functions return TRAX_OK, TRAX_ERROR or TRAX_FAULT with the reason in *error, or TRAX_INTERRUPTED. */
+#ifndef TRAX_RENDER_H
+#define TRAX_RENDER_H
+
+#include "trax/emulator.h"
+#include "trax/render_params.h"
+#include "trax/scene.h"
+#include "trax/view.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* --- frame.c: what is rendered --- */
+
+struct trax_frame {
+  struct trax_render_params *params; /* with the palette behind it; from malloc */
+  uint32_t params_size;              /* bytes */
+  const struct trax_scene *scene;
+};
+
+struct trax_frame_options {
+  uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
+  float ambient;          /* 0 to 1 */
+  uint32_t background;    /* a pixel */
+};
+
+#define TRAX_DEFAULT_AMBIENT 0.08f
+#define TRAX_DEFAULT_BACKGROUND 0xFFB8A898u /* R 0x98, G 0xA8, B 0xB8, A 0xFF */
+
+/* Scales scene and view by a power of two where their coordinates are so large or small that products of three of them
+   would leave the range of floats. The picture is the same: nothing depends on the unit of length. *exponent is the
+   power, 0 if nothing was done. Errors: what is beyond any scale, as a light further than 2^40 times the scene's size.
+ */
+trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
+
+/* scene and view as trax_normalise left them; scene must outlive the frame. */
+trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
+                            const struct trax_frame_options *options, trax_error *error);
+void trax_frame_release(struct trax_frame *frame);
+
+/* --- pictures --- */
+
+struct trax_picture {
+  uint32_t width, height;
+  uint32_t *pixels; /* row by row from the top left; R, G, B, A in the bytes from the lowest; from malloc */
+};
+
+trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error);
+void trax_picture_release(struct trax_picture *picture);
+
+/* 8-bit RGB with the gamma of the palette (2); aside and renamed. */
+trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error);
+/* Any PNG, brought to 8-bit RGBA without touching its gamma. */
+trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error);
+
+struct trax_difference {
+  unsigned largest; /* of all channels' differences, 0 to 255 */
+  uint64_t pixels;  /* compared */
+  uint64_t unequal; /* pixels that differ at all */
+  uint64_t beyond;  /* pixels with a channel that differs by more than `within` */
+  uint32_t x, y;    /* the first pixel with the largest difference */
+};
+
+/* Of two pictures of one size, alpha included. */
+void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,
+                          const struct trax_picture *b, unsigned within);
+double trax_difference_percent(const struct trax_difference *difference); /* of pixels not beyond */
+
+/* --- renderers --- */
+
+struct trax_render_run {
+  void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
+  void *progress_context;
+  const volatile int *interrupt; /* polled; may be NULL */
+  uint64_t rays;                 /* out: rays traced */
+};
+
+/* twin.c: the device program on `threads` host threads (0: as many as the host has). One run at a time in a process:
+   the program's globals are the process's. */
+trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
+                             struct trax_render_run *run, trax_error *error);
+
+/* reference.c: Embree 3 in robust mode finds the same hits among the same triangles; shading in binary64. */
+trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
+                                  struct trax_render_run *run, trax_error *error);
+
+/* simulated.c: the program on a machine made by the caller, which keeps it for its statistics. */
+trax_status trax_render_simulated(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
+                                  const char *program, const trax_run_options *options, trax_error *error);
+
+#endif

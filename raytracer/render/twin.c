@@ -1,0 +1,106 @@
+/* The native twin: the device program's main, compiled for the host under another name, run by host threads. */
+#include "core/machine.h"
+#include "render.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <trax.h>
+#include <unistd.h>
+
+/* The program's own (raytracer/device/main.c). */
+extern struct trax_buffer scene, params, image;
+extern unsigned next_slot;
+int trax_raytracer_main(void);
+
+struct worker {
+  pthread_t thread;
+  unsigned number, count;
+  struct crew *crew;
+};
+
+struct crew {
+  pthread_mutex_t lock;
+  pthread_cond_t changed;
+  unsigned running;
+  uint64_t rays;
+};
+
+static void *work(void *argument) {
+  struct worker *worker = argument;
+  trax_native = (struct trax_native){.thread = worker->number, .tp = worker->number, .threads = worker->count};
+  trax_raytracer_main();
+  pthread_mutex_lock(&worker->crew->lock);
+  worker->crew->rays += trax_native.rays;
+  worker->crew->running--;
+  pthread_cond_signal(&worker->crew->changed);
+  pthread_mutex_unlock(&worker->crew->lock);
+  return NULL;
+}
+
+/* Until every worker is done: reports progress and passes an interrupt on, ten times a second. True: interrupted. */
+static bool wait_for_crew(struct crew *crew, uint32_t slot_count, const struct trax_render_run *run) {
+  bool interrupted = false;
+  pthread_mutex_lock(&crew->lock);
+  while (crew->running > 0) {
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += 100000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&crew->changed, &crew->lock, &until);
+    uint32_t begun = __atomic_load_n(&next_slot, __ATOMIC_RELAXED);
+    if (run->interrupt && *run->interrupt && !interrupted) {
+      interrupted = true;
+      __atomic_store_n(&next_slot, slot_count, __ATOMIC_RELAXED); /* nothing left to hand out */
+    } else if (run->progress && !interrupted) {
+      run->progress(run->progress_context, begun < slot_count ? begun : slot_count, slot_count);
+    }
+  }
+  pthread_mutex_unlock(&crew->lock);
+  return interrupted;
+}
+
+trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
+                             struct trax_render_run *run, trax_error *error) {
+  if (threads == 0) {
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    threads = online > 0 ? (unsigned)online : 1;
+  }
+  trax_status status = trax_picture_init(picture, frame->params->width, frame->params->height, error);
+  if (status)
+    return status;
+  struct worker *workers = calloc(threads, sizeof *workers);
+  if (!workers) {
+    trax_picture_release(picture);
+    return trax_fail(error, "out of memory for %u threads", threads);
+  }
+  scene = (struct trax_buffer){frame->scene->bytes, (unsigned)frame->scene->size};
+  params = (struct trax_buffer){frame->params, frame->params_size};
+  image = (struct trax_buffer){picture->pixels, 4 * picture->width * picture->height};
+  next_slot = 0;
+
+  struct crew crew = {.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER, .running = threads};
+  unsigned started = 0;
+  int failure = 0;
+  for (; started < threads; started++) {
+    workers[started] = (struct worker){.number = started, .count = threads, .crew = &crew};
+    failure = pthread_create(&workers[started].thread, NULL, work, &workers[started]);
+    if (failure)
+      break;
+  }
+  pthread_mutex_lock(&crew.lock);
+  crew.running -= threads - started;
+  pthread_mutex_unlock(&crew.lock);
+  bool interrupted = wait_for_crew(&crew, frame->params->slot_count, run);
+  for (unsigned i = 0; i < started; i++)
+    pthread_join(workers[i].thread, NULL);
+  free(workers);
+  run->rays = crew.rays;
+  if (started > 0 && !interrupted) /* fewer threads render the same picture */
+    return TRAX_OK;
+  trax_picture_release(picture);
+  return interrupted ? TRAX_INTERRUPTED : trax_fail(error, "cannot start a thread: %s", strerror(failure));
+}
