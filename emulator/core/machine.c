@@ -76,7 +76,7 @@ trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry,
   for (size_t i = 0; i < machine->space.segment_count; i++) {
     const struct trax_segment *segment = &machine->space.segments[i];
     executable |= (segment->permissions & TRAX_PERMIT_EXECUTE) && entry >= segment->address &&
-                  entry - segment->address < segment->bytes;
+                  (uint64_t)entry - segment->address + 4 <= segment->bytes;
   }
   if (!executable || entry % 4)
     return trax_fail(error, "entry point 0x%08x is not an instruction in an executable segment", entry);

@@ -1,0 +1,358 @@
+/* Random programs on random configurations: what must hold whatever the timing.
+
+   A thread touches only its own words, and others' only through atomic increments of its own counter; so the values at
+   the end must not depend on the configuration. The trace of issues must respect every unit's capacity and every
+   latency. */
+#include "bench.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  BASE = 20,    /* register: the thread's words at DATA + 256 * thread */
+  LOOP = 21,    /* register: turns left */
+  SHARED = 22,  /* register: words nobody writes */
+  COUNTER = 23, /* register: the thread's atomic counter */
+  BODY = 120,   /* instructions of the loop */
+  MAX_THREADS = 128
+};
+#define SHARED_WORDS (DATA + 0xC000)
+#define COUNTERS (DATA + 0xE000)
+
+static uint64_t random_state;
+
+static uint32_t any(uint32_t least, uint32_t most) { /* xorshift64* */
+  random_state ^= random_state >> 12;
+  random_state ^= random_state << 25;
+  random_state ^= random_state >> 27;
+  return least + (uint32_t)((random_state * 0x2545F4914F6CDD1Du) >> 33) % (most - least + 1);
+}
+
+static uint32_t any_power(uint32_t least, uint32_t most) {
+  uint32_t value = least;
+  while (value < most && any(0, 2))
+    value *= 2;
+  return value;
+}
+
+/* --- programs --- */
+
+static uint32_t any_operation(unsigned left) {
+  static const trax_op plain[] = {TRAX_OP_ADD,   TRAX_OP_SUB, TRAX_OP_XOR,   TRAX_OP_SLL,  TRAX_OP_SLT,  TRAX_OP_CMOVNZ,
+                                  TRAX_OP_CMOVZ, TRAX_OP_MUL, TRAX_OP_MULHU, TRAX_OP_FADD, TRAX_OP_FSUB, TRAX_OP_FMUL,
+                                  TRAX_OP_FMIN,  TRAX_OP_FLE, TRAX_OP_FDIV,  TRAX_OP_FADD, TRAX_OP_FMUL};
+  static const trax_op single[] = {TRAX_OP_FRSQRT, TRAX_OP_FCVT_W_S, TRAX_OP_FCVT_S_W};
+  static const trax_op loads[] = {TRAX_OP_LB, TRAX_OP_LBU, TRAX_OP_LH, TRAX_OP_LHU, TRAX_OP_LW};
+  static const trax_op stores[] = {TRAX_OP_SB, TRAX_OP_SH, TRAX_OP_SW};
+  const unsigned rd = any(0, 15), ra = any(0, 15), rb = any(0, 15);
+  const int32_t own = (int32_t)any(0, 31) * 4;
+  switch (any(0, 13)) {
+  case 0:
+    return I(ADDI, rd, ra, (int32_t)any(0, 65535) - 32768);
+  case 1:
+    return U(LUI, rd, (int32_t)any(0, 65535));
+  case 2:
+    return trax_encode((trax_inst){single[any(0, 2)], rd, ra, 0, 0});
+  case 3:
+    return trax_encode((trax_inst){loads[any(0, 4)], rd, BASE, 0, own});
+  case 4:
+    return I(LW, rd, SHARED, (int32_t)any(0, 2047) * 4);
+  case 5:
+    return I(LW, rd, SHARED, (int32_t)any(0, 15) * 4);
+  case 6:
+    return trax_encode((trax_inst){stores[any(0, 2)], 0, BASE, rb, own});
+  case 7:
+    return any(0, 1) ? S(SWNT, rb, BASE, own) : I(LWNT, rd, BASE, own);
+  case 8:
+    return any(0, 1) ? S(SW, rb, 0, -4 - own) : I(LW, rd, 0, -4 - own);
+  case 9:
+    return any(0, 7) ? NOP : I(AINC, rd, COUNTER, 0);
+  case 10:
+    return B(BLT, ra, rb, 4 * (int32_t)any(1, left < 12 ? left : 12)); /* forward, within the body */
+  default:
+    return R(ADD, rd, ra, rb) ^ R(ADD, 0, 0, 0) ^
+           trax_encode((trax_inst){plain[any(0, sizeof plain / sizeof *plain - 1)], 0, 0, 0, 0});
+  }
+}
+
+static size_t any_program(uint32_t *words) {
+  size_t n = 0;
+  words[n++] = U(RDSR, BASE, TRAX_SR_THREAD);
+  words[n++] = I(SLLI, COUNTER, BASE, 2);
+  words[n++] = I(SLLI, BASE, BASE, 8);
+  words[n++] = U(LUI, 1, 1);
+  words[n++] = R(ADD, BASE, BASE, 1);
+  words[n++] = R(ADD, COUNTER, COUNTER, 1);
+  words[n++] = U(LUI, 2, 1);
+  words[n++] = I(ORI, SHARED, 2, 0x6000);
+  words[n++] = I(ADDI, SHARED, SHARED, 0x6000);
+  words[n++] = I(ADDI, COUNTER, COUNTER, 0x7000);
+  words[n++] = I(ADDI, COUNTER, COUNTER, 0x7000);
+  words[n++] = U(RDSR, 3, TRAX_SR_THREAD);
+  words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, 4));
+  const size_t begin = n;
+  for (unsigned i = 0; i < BODY; i++)
+    words[n++] = any_operation(BODY - i);
+  words[n++] = I(ADDI, LOOP, LOOP, -1);
+  words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
+  n++;
+  for (unsigned reg = 1; reg < 16; reg++)
+    words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
+  words[n++] = HALT;
+  return n;
+}
+
+/* --- configurations --- */
+
+static struct trax_config any_config(uint32_t tms, uint32_t tps) {
+  struct trax_config config = TRAX_CONFIG_DEFAULT;
+  config.chip.tms = tms;
+  config.chip.tps_per_tm = tps;
+  config.chip.clock_mhz = any(1, 3) * 250;
+  config.tp.int_latency_cycles = any(0, 3) ? 1 : any(1, 5);
+  config.tp.local_latency_cycles = any(1, 3);
+  config.tp.branch_bubble_cycles = any(0, 1) ? 0 : any(0, 100);
+  config.icache.line_bytes = any_power(16, 256);
+  config.icache.bytes = any_power(config.icache.line_bytes < 64 ? 64 : config.icache.line_bytes, 4096);
+  config.icache.ways = any_power(1, config.icache.bytes / config.icache.line_bytes);
+  config.icache.banks = any(1, 20);
+  config.icache.ports_per_bank = any(1, 3);
+  config.icache.tps_per_cache = any(1, 32);
+  config.fpu.tps_per_cluster = any(1, 20);
+  config.fpu.add_latency_cycles = any(1, 5);
+  config.fpu.mul_latency_cycles = any(1, 80);
+  config.fpu.compare_units = any(0, 1);
+  config.fpu.compare_latency_cycles = any(1, 3);
+  config.int_mul.tps_per_unit = any(1, 20);
+  config.int_mul.latency_cycles = any(1, 4);
+  config.special.units_per_tm = any(1, 3);
+  config.special.latency_cycles = any(1, 20);
+  config.special.pipelined = any(0, 1);
+  config.dcache.line_bytes = any_power(4, 256);
+  config.dcache.bytes = any_power(config.dcache.line_bytes < 64 ? 64 : config.dcache.line_bytes, 16384);
+  config.dcache.ways = any_power(1, config.dcache.bytes / config.dcache.line_bytes);
+  if (config.dcache.ways > 64)
+    config.dcache.ways = 64;
+  if (config.icache.ways > 64)
+    config.icache.ways = 64;
+  config.dcache.tps_per_bank = any(1, 16);
+  config.dcache.hit_latency_cycles = any(1, 4);
+  config.dcache.mshrs = any(1, 40);
+  config.memory.bandwidth_gbps = any(1, 20000) / 1000.0;
+  config.memory.latency_cycles = any(0, 200);
+  config.memory.queue_depth = any(1, 60);
+  config.memory.size_mib = 1;
+  config.memory.min_transfer_bytes = any_power(1, 64);
+  config.memory.atomic_bytes = any(1, 64);
+  config.memory.write_combining = any(0, 1);
+  return config;
+}
+
+/* --- what must hold --- */
+
+static uint32_t latency_of(const trax_inst *inst, const struct trax_config *config) { /* 0: memory's */
+  const bool flop = trax_op_table[inst->op].flags & TRAX_IS_FLOP;
+  switch (trax_op_table[inst->op].unit) {
+  case TRAX_UNIT_FP_ADD:
+    return flop ? config->fpu.add_latency_cycles : config->fpu.compare_latency_cycles;
+  case TRAX_UNIT_FP_MUL:
+    return config->fpu.mul_latency_cycles;
+  case TRAX_UNIT_INT_MUL:
+    return config->int_mul.latency_cycles;
+  case TRAX_UNIT_SPECIAL:
+    return config->special.latency_cycles;
+  case TRAX_UNIT_MEMORY:
+    return 0;
+  default:
+    return config->tp.int_latency_cycles;
+  }
+}
+
+static void check_dependences(const struct bench *bench) {
+  const struct trax_config *config = &bench->machine->config;
+  static uint64_t usable[MAX_THREADS][32], last[MAX_THREADS];
+  memset(usable, 0, sizeof usable);
+  memset(last, 0, sizeof last);
+  for (size_t i = 0; i < bench->issues.count; i++) {
+    const struct trax_issue *issue = &bench->issues.issue[i];
+    const trax_inst inst = trax_decode(issue->word);
+    const unsigned flags = trax_op_table[inst.op].flags;
+    const unsigned thread = issue->tm * config->chip.tps_per_tm + issue->tp;
+    assert_true(issue->cycle > last[thread] || last[thread] == 0);
+    last[thread] = issue->cycle;
+    if (flags & TRAX_READS_RA)
+      assert_true(usable[thread][inst.ra] <= issue->cycle);
+    if (flags & TRAX_READS_RB)
+      assert_true(usable[thread][inst.rb] <= issue->cycle);
+    if (!(flags & TRAX_WRITES_RD) || inst.rd == 0)
+      continue;
+    assert_true(usable[thread][inst.rd] <= issue->cycle);
+    uint32_t latency = latency_of(&inst, config);
+    if (!latency) {
+      const bool cached = issue->address < TRAX_LOCAL_BASE && inst.op != TRAX_OP_LWNT && inst.op != TRAX_OP_AINC;
+      latency = issue->address >= TRAX_LOCAL_BASE ? config->tp.local_latency_cycles
+                : cached                          ? 1 /* a merged load's line may come in the next cycle */
+                                                  : config->memory.latency_cycles + 1;
+    }
+    usable[thread][inst.rd] = issue->cycle + latency;
+  }
+}
+
+/* At most `capacity` of the issues on a unit within any `window` cycles, by group of TPs. */
+static void check_unit(const struct bench *bench, trax_unit unit, bool flops_only, uint32_t group_size,
+                       uint32_t capacity, uint64_t window) {
+  enum { DEPTH = 4 };
+  static uint64_t recent[64][64][DEPTH]; /* by TM and group: cycles + 1 of the latest, by turn */
+  static unsigned turn[64][64];
+  memset(recent, 0, sizeof recent);
+  memset(turn, 0, sizeof turn);
+  assert_true(capacity <= DEPTH);
+  for (size_t i = 0; i < bench->issues.count; i++) {
+    const struct trax_issue *issue = &bench->issues.issue[i];
+    const trax_op op = trax_decode(issue->word).op;
+    if (trax_op_table[op].unit != unit || (flops_only && !(trax_op_table[op].flags & TRAX_IS_FLOP)))
+      continue;
+    const unsigned group = issue->tp / group_size;
+    uint64_t *oldest = &recent[issue->tm][group][turn[issue->tm][group]++ % capacity];
+    assert_true(*oldest == 0 || issue->cycle >= *oldest - 1 + window);
+    *oldest = issue->cycle + 1;
+  }
+}
+
+static void check_units(const struct bench *bench) {
+  const struct trax_config *config = &bench->machine->config;
+  check_unit(bench, TRAX_UNIT_FP_ADD, config->fpu.compare_units, config->fpu.tps_per_cluster, 1, 1);
+  check_unit(bench, TRAX_UNIT_FP_MUL, false, config->fpu.tps_per_cluster, 1, 1);
+  check_unit(bench, TRAX_UNIT_INT_MUL, false, config->int_mul.tps_per_unit, 1, 1);
+  check_unit(bench, TRAX_UNIT_SPECIAL, false, 64, config->special.units_per_tm,
+             config->special.pipelined ? 1 : config->special.latency_cycles);
+}
+
+static void check_order(const struct bench *bench) {
+  for (size_t i = 1; i < bench->issues.count; i++) {
+    const struct trax_issue *a = &bench->issues.issue[i - 1], *b = &bench->issues.issue[i];
+    assert_true(a->cycle < b->cycle || (a->cycle == b->cycle && (a->tm < b->tm || (a->tm == b->tm && a->tp < b->tp))));
+  }
+}
+
+static void check_counts(const struct bench *bench) {
+  const struct trax_stats *stats = &bench->machine->stats;
+  const struct trax_config *config = &bench->machine->config;
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum += stats->total.cycles[cause];
+  assert_int_equal(sum, stats->threads * stats->cycles);
+  for (uint64_t thread = 0; thread < stats->threads; thread++) {
+    sum = 0;
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      sum += bench->machine->tp_stats[thread].cycles[cause];
+    assert_int_equal(sum, stats->cycles);
+  }
+  assert_int_equal(stats->instructions, bench->issues.count);
+
+  uint64_t cached_loads = 0, cached_stores = 0;
+  for (size_t i = 0; i < bench->issues.count; i++) {
+    const trax_op op = trax_decode(bench->issues.issue[i].word).op;
+    const unsigned flags = trax_op_table[op].flags;
+    if (bench->issues.issue[i].address >= TRAX_LOCAL_BASE || (flags & (TRAX_IS_ATOMIC | TRAX_IS_NONTEMPORAL)))
+      continue;
+    cached_loads += (flags & TRAX_IS_LOAD) != 0;
+    cached_stores += (flags & TRAX_IS_STORE) != 0;
+  }
+  assert_int_equal(stats->total.dcache_hits + stats->total.dcache_misses + stats->total.dcache_merged, cached_loads);
+  assert_int_equal(stats->total.store_hits + stats->total.store_misses, cached_stores);
+  /* Every instruction was fetched once, but the lookups that missed or merged needed no second one. */
+  assert_int_equal(stats->total.icache_hits + stats->total.icache_misses + stats->total.icache_merged,
+                   stats->instructions);
+  assert_true(TRAX_MEMORY_BYTES(stats) <=
+              config->memory.bandwidth_gbps * 1000 / config->chip.clock_mhz * (double)stats->cycles * (1 + 1e-12));
+  assert_true(stats->total.queue_peak <= (uint64_t)config->memory.queue_depth * config->chip.tms);
+}
+
+static struct bench run(const struct trax_config *config, const uint32_t *program, size_t count) {
+  struct bench bench = bench_begin(config, program, count);
+  uint64_t saved = random_state;
+  random_state = 99; /* the same data for all configurations */
+  for (uint32_t i = 0; i < DATA_BYTES; i++)
+    bench.machine->space.bytes[DATA + i] = (uint8_t)any(0, 255);
+  random_state = saved;
+  bench_run(&bench, 50u * 1000 * 1000);
+  if (bench.status != TRAX_OK)
+    fail_msg("%s", bench.error.message);
+  return bench;
+}
+
+static void random_programs(void **state) {
+  (void)state;
+  const char *rounds_text = getenv("TRAX_RANDOM_ROUNDS"), *seed_text = getenv("TRAX_RANDOM_SEED");
+  const unsigned rounds = rounds_text ? (unsigned)atoi(rounds_text) : 25;
+  const unsigned seed = seed_text ? (unsigned)atoi(seed_text) : 1;
+  for (unsigned round = 0; round < rounds; round++) {
+    random_state = 0x9E3779B97F4A7C15u * (seed + round);
+    print_message("TRAX_RANDOM_SEED=%u\n", seed + round);
+    uint32_t program[BODY + 64];
+    const size_t count = any_program(program);
+    const uint32_t tms = any(1, 4), tps = any(1, MAX_THREADS / tms > 64 ? 64 : MAX_THREADS / tms);
+    uint8_t *expected = NULL;
+    for (unsigned variant = 0; variant < 3; variant++) {
+      const struct trax_config config = any_config(tms, tps);
+      struct bench bench = run(&config, program, count);
+      check_order(&bench);
+      check_dependences(&bench);
+      check_units(&bench);
+      check_counts(&bench);
+      if (!expected) {
+        expected = malloc(DATA_BYTES);
+        assert_non_null(expected);
+        memcpy(expected, bench.machine->space.bytes + DATA, DATA_BYTES);
+        struct bench again = run(&config, program, count);
+        assert_int_equal(again.issues.count, bench.issues.count);
+        assert_memory_equal(again.issues.issue, bench.issues.issue, bench.issues.count * sizeof *bench.issues.issue);
+        assert_memory_equal(&again.machine->stats.total, &bench.machine->stats.total,
+                            sizeof again.machine->stats.total);
+        bench_end(&again);
+      } else
+        assert_memory_equal(expected, bench.machine->space.bytes + DATA, DATA_BYTES);
+      bench_end(&bench);
+    }
+    free(expected);
+  }
+}
+
+/* Random words: whatever they do, the machine ends in an orderly way with its accounts balanced. */
+static void random_words(void **state) {
+  (void)state;
+  unsigned faults[TRAX_FAULT_COUNT] = {0};
+  for (unsigned round = 0; round < 3000; round++) {
+    random_state = 0xD1B54A32D192ED03u * (round + 1);
+    uint32_t program[32];
+    for (unsigned i = 0; i < 32; i++) {
+      program[i] = any(0, 0x7FFFFFFF) << 1 | any(0, 1);
+      if (any(0, 3)) /* mostly legal: a random operation with random fields */
+        program[i] = trax_encode((trax_inst){(trax_op)any(1, TRAX_OP_COUNT - 1), any(0, 31), any(0, 31), any(0, 31),
+                                             (int32_t)any(0, 63) * 4});
+    }
+    const struct trax_config config = any_config(any(1, 2), any(1, 4));
+    struct bench bench = bench_begin(&config, program, 32);
+    bench_run(&bench, 20000);
+    assert_int_not_equal(bench.status, TRAX_ERROR);
+    const struct trax_fault *fault = trax_machine_fault(bench.machine);
+    assert_true((bench.status == TRAX_FAULT) == (fault->kind != TRAX_FAULT_NONE));
+    faults[fault->kind]++;
+    uint64_t sum = 0;
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      sum += bench_total(&bench, (trax_cause)cause);
+    assert_int_equal(sum, bench.machine->stats.threads * bench_cycles(&bench));
+    bench_end(&bench);
+  }
+  for (unsigned kind = 0; kind < TRAX_FAULT_COUNT; kind++)
+    print_message("%u times: %s\n", faults[kind], trax_fault_text((trax_fault_kind)kind));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(random_programs),
+      cmocka_unit_test(random_words),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
