@@ -48,7 +48,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
     trax_count_rays(1);
   }
   const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame + 1);
-  return shade(palette[surface.material].colour, frame->ambient, lit);
+  return shade(frame, palette[surface.material].colour, &surface, lit);
 }
 
 int main(void) {

@@ -81,8 +81,10 @@ static inline void aim_at_light(struct light *light, const struct surface *surfa
 
 /* Gamma 2: the palette has the square roots of the colours. lit is the cosine at the light, at most 1 but for rounding.
  */
-static inline uint32_t shade(const float *colour, float ambient, float lit) {
-  float light = ambient + (1.0f - ambient) * lit;
+static inline uint32_t shade(const struct trax_render_params *frame, const float *colour, const struct surface *surface,
+                             float lit) {
+  struct vector fill = {frame->fill[0], frame->fill[1], frame->fill[2]};
+  float light = frame->ambient + dot(surface->normal, fill) * surface->inverse_length + frame->light_strength * lit;
   light = bits_float(larger(float_bits(light), float_bits(0x1p-40f)));
   float root = light * trax_rsqrt(light);
   uint32_t red = (uint32_t)(int32_t)(colour[0] * root + 0.5f);

@@ -104,6 +104,23 @@ static void set_camera(struct trax_render_params *params, const struct trax_view
   }
 }
 
+/* The ambient light is not the same from all sides, so that shapes show in the shadow too: it is least for what faces
+   away from a point up and to the right of the viewer. */
+static void set_ambient(struct trax_render_params *params, const struct trax_view *view, double ambient) {
+  const double evenly = 0.65, weights[3] = {-0.75, 0.55, 0.35}; /* of direction, up, right */
+  double forward[3], up[3], right[3], length = 0;
+  for (int i = 0; i < 3; i++) {
+    forward[i] = view->direction[i], up[i] = view->up[i];
+    length += weights[i] * weights[i];
+  }
+  cross(right, forward, up);
+  for (int i = 0; i < 3; i++)
+    params->fill[i] = (float)((1 - evenly) * ambient / sqrt(length) *
+                              (weights[0] * forward[i] + weights[1] * up[i] + weights[2] * right[i]));
+  params->ambient = (float)(evenly * ambient);
+  params->light_strength = (float)(1 - ambient);
+}
+
 static uint32_t log2_ceiling(uint32_t value) {
   uint32_t result = 0;
   while (result < 31 && 1u << result < value)
@@ -143,10 +160,10 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   struct trax_render_params *params = frame->params;
   params->width = options->width;
   params->height = options->height;
-  params->ambient = options->ambient;
   params->background = options->background;
   params->box_margin = box_margin(scene->header, view->eye);
   set_camera(params, view);
+  set_ambient(params, view, options->ambient);
   set_tiles(params);
   struct trax_palette_entry *palette = (struct trax_palette_entry *)(params + 1);
   for (uint32_t i = 0; i < scene->material_count; i++)

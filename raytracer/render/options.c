@@ -18,7 +18,7 @@ static const char usage[] =
     "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
     "                          without it the whole scene is framed\n"
-    "      --ambient X         light everywhere, 0 to 1 (default 0.08)\n"
+    "      --ambient X         light everywhere, 0 to 1 (default 0.12)\n"
     "      --background RRGGBB colour where there is nothing, hexadecimal (default 98a8b8)\n"
     "      --config CHIP|FILE  the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)\n"
     "      --set KEY=VALUE     changes one value of the configuration (trax-sim --help-config lists them)\n"

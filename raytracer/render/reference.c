@@ -50,9 +50,10 @@ static double greatest_coordinate(const struct trax_triangle *triangle) {
   return greatest;
 }
 
-static uint32_t shade(const struct trax_frame *frame, uint32_t material, double lit) {
+static uint32_t shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
   const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame->params + 1);
-  double light = frame->params->ambient + (1.0 - frame->params->ambient) * lit;
+  const struct trax_render_params *params = frame->params;
+  double light = params->ambient + dot(normal, from(params->fill)) + params->light_strength * lit;
   uint32_t pixel = 0xFF000000u;
   for (int channel = 0; channel < 3; channel++)
     pixel |= (uint32_t)floor(palette[material].colour[channel] * sqrt(light) + 0.5) << 8 * channel;
@@ -96,12 +97,12 @@ static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_
   double distance = sqrt(dot(way, way));
   double cosine = distance > 0 ? fmin(dot(normal, way) / distance, 1) : 0;
   if (!(cosine > 0))
-    return shade(reference->frame, triangle->material, 0);
+    return shade(reference->frame, triangle->material, normal, 0);
   struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
   struct RTCRay shadow = make_ray(point, towards, (float)distance);
   rtcOccluded1(reference->scene, &context, &shadow);
   ++*rays;
-  return shade(reference->frame, triangle->material, shadow.tfar < 0 ? 0 : cosine);
+  return shade(reference->frame, triangle->material, normal, shadow.tfar < 0 ? 0 : cosine);
 }
 
 static void *render_rows(void *argument) {

@@ -24,11 +24,11 @@ struct trax_frame {
 
 struct trax_frame_options {
   uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
-  float ambient;          /* 0 to 1 */
+  float ambient;          /* of the light: what surfaces send back that the light does not reach, 0 to 1 */
   uint32_t background;    /* a pixel */
 };
 
-#define TRAX_DEFAULT_AMBIENT 0.08f
+#define TRAX_DEFAULT_AMBIENT 0.12f
 #define TRAX_DEFAULT_BACKGROUND 0xFFB8A898u /* R 0x98, G 0xA8, B 0xB8, A 0xFF */
 
 /* Scales scene and view by a power of two where their coordinates are so large or small that products of three of them

@@ -27,8 +27,12 @@ struct trax_render_params {
      corner + (x + 1/2) * step_x + (y + 1/2) * step_y: not of unit length, but 1 along the view's direction. */
   float eye[3], corner[3], step_x[3], step_y[3];
 
+  /* A surface with the unit normal n, turned towards the viewer, sends back light_strength * cosine (0 in shadow)
+     + ambient + n . fill of its colour. */
   float light[3];
-  float ambient;       /* of the light: what a surface sends back that the light does not reach, 0 to 1 */
+  float light_strength;
+  float ambient, fill[3];
+
   float box_margin;    /* how far the traversal widens boxes, scene units; see frame.c */
   uint32_t background; /* a pixel as in `image` */
 };
@@ -39,7 +43,7 @@ struct trax_palette_entry {
   uint32_t reserved; /* zero */
 };
 
-_Static_assert(sizeof(struct trax_render_params) == 26 * 4, "no padding");
+_Static_assert(sizeof(struct trax_render_params) == 30 * 4, "no padding");
 _Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
 
 #endif
