@@ -1,0 +1,36 @@
+//===- Trax.td - The TRaX target -----------------------------------------===//
+//
+// The instructions themselves are described in isa/; this folder adds what a compiler needs beyond their meaning.
+
+include "llvm/Target/Target.td"
+
+// isa/
+include "TraxRegisters.td"
+include "TraxUnits.td"
+include "TraxFormats.td"
+include "TraxInstructions.td"
+
+// here
+include "TraxSchedule.td"
+include "TraxCallingConv.td"
+include "TraxPseudos.td"
+include "TraxPatterns.td"
+
+def TraxInstrInfo : InstrInfo;
+
+def TraxAsmParser : AsmParser {
+  let ShouldEmitMatchRegisterAltName = true;
+}
+
+def TraxAsmWriter : AsmWriter {
+  let PassSubtarget = 1;
+}
+
+def : ProcessorModel<"generic", TraxModel, []>;
+def : ProcessorModel<"trax", TraxModel, []>;
+
+def Trax : Target {
+  let InstructionSet = TraxInstrInfo;
+  let AssemblyParsers = [TraxAsmParser];
+  let AssemblyWriters = [TraxAsmWriter];
+}

@@ -1,0 +1,105 @@
+//===- TraxAsmPrinter.cpp - Functions to MC ------------------------------===//
+#include "LLVMTrax.h"
+#include "MCTargetDesc/TraxInstPrinter.h"
+#include "TargetInfo/TraxTargetInfo.h"
+#include "Trax.h"
+#include "TraxMCInstLower.h"
+#include "TraxTargetMachine.h"
+#include "llvm/CodeGen/AsmPrinter.h"
+#include "llvm/CodeGen/MachineInstr.h"
+#include "llvm/MC/MCInst.h"
+#include "llvm/MC/MCInstBuilder.h"
+#include "llvm/MC/MCStreamer.h"
+#include "llvm/MC/TargetRegistry.h"
+
+using namespace llvm;
+
+#define DEBUG_TYPE "asm-printer"
+
+namespace {
+
+class TraxAsmPrinter : public AsmPrinter {
+public:
+  TraxAsmPrinter(TargetMachine &TM, std::unique_ptr<MCStreamer> Streamer) : AsmPrinter(TM, std::move(Streamer)) {}
+
+  StringRef getPassName() const override { return "TRaX assembly printer"; }
+
+  void emitInstruction(const MachineInstr *MI) override;
+  bool PrintAsmOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) override;
+  bool PrintAsmMemoryOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) override;
+
+  // Generated from the PseudoInstExpansions of TraxPseudos.td.
+  bool emitPseudoExpansionLowering(MCStreamer &OutStreamer, const MachineInstr *MI);
+  bool lowerOperand(const MachineOperand &MO, MCOperand &MCOp) { return lowerTraxOperand(MO, MCOp, *this); }
+};
+
+} // namespace
+
+#include "TraxGenMCPseudoLowering.inc"
+
+void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
+  if (emitPseudoExpansionLowering(*OutStreamer, MI))
+    return;
+  MCInst Inst;
+  MCOperand Callee;
+  switch (MI->getOpcode()) {
+  case Trax::PseudoCALL:
+  case Trax::PseudoTAIL:
+    lowerOperand(MI->getOperand(0), Callee);
+    Inst = MCInstBuilder(Trax::JAL)
+               .addReg(MI->getOpcode() == Trax::PseudoCALL ? Trax::R1 : Trax::R0)
+               .addOperand(Callee);
+    break;
+  case Trax::PseudoTAILIndirect:
+    Inst = MCInstBuilder(Trax::JALR).addReg(Trax::R0).addReg(MI->getOperand(0).getReg()).addImm(0);
+    break;
+  default:
+    lowerTraxInstruction(*MI, Inst, *this);
+  }
+  EmitToStreamer(*OutStreamer, Inst);
+}
+
+/// An operand of inline assembly. %z prints r0 for the constant 0.
+bool TraxAsmPrinter::PrintAsmOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) {
+  const MachineOperand &MO = MI->getOperand(OpNo);
+  if (ExtraCode && ExtraCode[0]) {
+    if (ExtraCode[0] == 'z' && ExtraCode[1] == 0 && MO.isImm() && MO.getImm() == 0) {
+      OS << TraxInstPrinter::getRegisterName(Trax::R0);
+      return false;
+    }
+    if (ExtraCode[0] != 'z' || ExtraCode[1] != 0)
+      return AsmPrinter::PrintAsmOperand(MI, OpNo, ExtraCode, OS);
+  }
+  switch (MO.getType()) {
+  case MachineOperand::MO_Immediate:
+    OS << MO.getImm();
+    return false;
+  case MachineOperand::MO_Register:
+    OS << TraxInstPrinter::getRegisterName(MO.getReg());
+    return false;
+  case MachineOperand::MO_GlobalAddress:
+    PrintSymbolOperand(MO, OS);
+    return false;
+  case MachineOperand::MO_BlockAddress:
+    GetBlockAddressSymbol(MO.getBlockAddress())->print(OS, MAI);
+    return false;
+  default:
+    return true;
+  }
+}
+
+bool TraxAsmPrinter::PrintAsmMemoryOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode,
+                                           raw_ostream &OS) {
+  const MachineOperand &Base = MI->getOperand(OpNo), &Offset = MI->getOperand(OpNo + 1);
+  MCOperand MCOffset;
+  if ((ExtraCode && ExtraCode[0]) || !Base.isReg() || !lowerOperand(Offset, MCOffset))
+    return true;
+  if (MCOffset.isExpr())
+    MCOffset.getExpr()->print(OS, MAI);
+  else
+    OS << MCOffset.getImm();
+  OS << '(' << TraxInstPrinter::getRegisterName(Base.getReg()) << ')';
+  return false;
+}
+
+void LLVMInitializeTraxAsmPrinter() { RegisterAsmPrinter<TraxAsmPrinter> X(getTheTraxTarget()); }

@@ -1,0 +1,312 @@
+//===- TraxCallLowering.cpp - Arguments, results and calls ---------------===//
+#include "Trax.h"
+#include "TraxBuiltins.h"
+#include "TraxISelLowering.h"
+#include "TraxMachineFunctionInfo.h"
+#include "TraxSubtarget.h"
+#include "trax/abi.h"
+#include "llvm/CodeGen/CallingConvLower.h"
+#include "llvm/CodeGen/MachineFrameInfo.h"
+#include "llvm/CodeGen/MachineRegisterInfo.h"
+#include "llvm/IR/DiagnosticInfo.h"
+
+using namespace llvm;
+
+#include "TraxGenCallingConv.inc"
+
+static void unsupported(SelectionDAG &DAG, const SDLoc &DL, const Twine &What) {
+  const Function &F = DAG.getMachineFunction().getFunction();
+  DAG.getContext()->diagnose(DiagnosticInfoUnsupported(F, What, DL.getDebugLoc()));
+}
+
+static void checkCallingConv(CallingConv::ID CC, const SDLoc &DL, SelectionDAG &DAG) {
+  if (CC != CallingConv::C && CC != CallingConv::Fast && CC != CallingConv::Cold)
+    unsupported(DAG, DL, "unsupported calling convention");
+}
+
+//--- this function's arguments and results ------------------------------------
+
+SDValue TraxTargetLowering::LowerFormalArguments(SDValue Chain, CallingConv::ID CC, bool IsVarArg,
+                                                 const SmallVectorImpl<ISD::InputArg> &Ins, const SDLoc &DL,
+                                                 SelectionDAG &DAG, SmallVectorImpl<SDValue> &InVals) const {
+  checkCallingConv(CC, DL, DAG);
+  MachineFunction &MF = DAG.getMachineFunction();
+  MachineFrameInfo &MFI = MF.getFrameInfo();
+  MachineRegisterInfo &MRI = MF.getRegInfo();
+
+  SmallVector<CCValAssign, 16> Locations;
+  CCState Info(CC, IsVarArg, MF, Locations, *DAG.getContext());
+  Info.AnalyzeFormalArguments(Ins, CC_Trax);
+
+  for (const auto &[VA, In] : zip_equal(Locations, Ins)) {
+    if (VA.isRegLoc()) {
+      Register VReg = MRI.createVirtualRegister(&Trax::GPRRegClass);
+      MRI.addLiveIn(VA.getLocReg(), VReg);
+      InVals.push_back(DAG.getCopyFromReg(Chain, DL, VReg, VA.getLocVT()));
+      continue;
+    }
+    bool IsByVal = In.Flags.isByVal();
+    unsigned Size = IsByVal ? std::max(1u, In.Flags.getByValSize()) : 4;
+    // A copy of an aggregate belongs to this function, which may write it.
+    int FI = MFI.CreateFixedObject(Size, VA.getLocMemOffset(), /*IsImmutable=*/!IsByVal);
+    SDValue Address = DAG.getFrameIndex(FI, MVT::i32);
+    InVals.push_back(IsByVal ? Address
+                             : DAG.getLoad(VA.getLocVT(), DL, Chain, Address,
+                                           MachinePointerInfo::getFixedStack(MF, FI)));
+  }
+  if (IsVarArg)
+    MF.getInfo<TraxMachineFunctionInfo>()->setVarArgsFrameIndex(
+        MFI.CreateFixedObject(4, Info.getStackSize(), /*IsImmutable=*/true));
+  return Chain;
+}
+
+bool TraxTargetLowering::CanLowerReturn(CallingConv::ID CC, MachineFunction &MF, bool IsVarArg,
+                                        const SmallVectorImpl<ISD::OutputArg> &Outs, LLVMContext &Context) const {
+  SmallVector<CCValAssign, 4> Locations;
+  CCState Info(CC, IsVarArg, MF, Locations, Context);
+  return Info.CheckReturn(Outs, RetCC_Trax);
+}
+
+SDValue TraxTargetLowering::LowerReturn(SDValue Chain, CallingConv::ID CC, bool IsVarArg,
+                                        const SmallVectorImpl<ISD::OutputArg> &Outs,
+                                        const SmallVectorImpl<SDValue> &OutVals, const SDLoc &DL,
+                                        SelectionDAG &DAG) const {
+  SmallVector<CCValAssign, 4> Locations;
+  CCState Info(CC, IsVarArg, DAG.getMachineFunction(), Locations, *DAG.getContext());
+  Info.AnalyzeReturn(Outs, RetCC_Trax);
+
+  SDValue Glue;
+  SmallVector<SDValue, 6> Operands(1, Chain);
+  for (const auto &[VA, Value] : zip_equal(Locations, OutVals)) {
+    Chain = DAG.getCopyToReg(Chain, DL, VA.getLocReg(), Value, Glue);
+    Glue = Chain.getValue(1);
+    Operands.push_back(DAG.getRegister(VA.getLocReg(), VA.getLocVT()));
+  }
+  Operands[0] = Chain;
+  if (Glue)
+    Operands.push_back(Glue);
+  return DAG.getNode(TraxISD::RET, DL, MVT::Other, Operands);
+}
+
+//--- calls --------------------------------------------------------------------
+
+/// Named arguments go to registers first, unnamed ones to the stack.
+static void assignArguments(CCState &Info, const SmallVectorImpl<ISD::OutputArg> &Outs) {
+  for (const auto &[Index, Out] : enumerate(Outs)) {
+    CCAssignFn *Assign = Out.IsFixed ? CC_Trax : CC_Trax_Unnamed;
+    bool Failed = Assign(Index, Out.VT, Out.VT, CCValAssign::Full, Out.Flags, Info);
+    assert(!Failed && "the stack takes what registers do not");
+    (void)Failed;
+  }
+}
+
+/// A tail call needs no stack: neither for arguments nor for anything of this frame that the callee would read.
+bool TraxTargetLowering::isTailCallPossible(const CallLoweringInfo &CLI, const CCState &Info) const {
+  const Function &Caller = CLI.DAG.getMachineFunction().getFunction();
+  if (Info.getStackSize() != 0 || Caller.hasStructRetAttr() || (!CLI.Outs.empty() && CLI.Outs[0].Flags.isSRet()))
+    return false;
+  return none_of(CLI.Outs, [](const ISD::OutputArg &Out) { return Out.Flags.isByVal(); });
+}
+
+SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDValue> &InVals) const {
+  if (SDValue Chain = lowerBuiltinCall(CLI, InVals))
+    return Chain;
+
+  SelectionDAG &DAG = CLI.DAG;
+  SDLoc &DL = CLI.DL;
+  SDValue Chain = CLI.Chain;
+  MachineFunction &MF = DAG.getMachineFunction();
+  MachineFrameInfo &MFI = MF.getFrameInfo();
+  checkCallingConv(CLI.CallConv, DL, DAG);
+
+  // An unnamed aggregate that is passed in memory is passed by the address of a copy: a va_list then holds a pointer.
+  SmallVector<ISD::OutputArg, 16> Outs(CLI.Outs.begin(), CLI.Outs.end());
+  SmallVector<SDValue, 16> OutVals(CLI.OutVals.begin(), CLI.OutVals.end());
+  bool CopiesToFrame = false;
+  for (const auto &[Out, Value] : zip_equal(Outs, OutVals)) {
+    if (!Out.Flags.isByVal())
+      continue;
+    unsigned Size = Out.Flags.getByValSize();
+    if (Size > TRAX_LOCAL_SIZE) {
+      unsupported(DAG, DL, "an argument of " + Twine(Size) + " bytes does not fit the local memory");
+      Out.Flags.setByValSize(4);
+      Size = 4;
+    }
+    if (Out.IsFixed)
+      continue;
+    Align Alignment = std::max(Align(4), Out.Flags.getNonZeroByValAlign());
+    int FI = MFI.CreateStackObject(std::max(4u, Size), Alignment, /*isSpillSlot=*/false);
+    SDValue Copy = DAG.getFrameIndex(FI, MVT::i32);
+    Chain = DAG.getMemcpy(Chain, DL, Copy, Value, DAG.getConstant(Size, DL, MVT::i32),
+                          Out.Flags.getNonZeroByValAlign(), /*isVol=*/false, /*AlwaysInline=*/true, /*CI=*/nullptr,
+                          std::nullopt, MachinePointerInfo::getFixedStack(MF, FI), MachinePointerInfo());
+    Value = Copy;
+    Out.Flags = ISD::ArgFlagsTy();
+    CopiesToFrame = true;
+  }
+
+  SmallVector<CCValAssign, 16> Locations;
+  CCState Info(CLI.CallConv, CLI.IsVarArg, MF, Locations, *DAG.getContext());
+  assignArguments(Info, Outs);
+  if (CLI.IsTailCall)
+    CLI.IsTailCall = !CopiesToFrame && isTailCallPossible(CLI, Info);
+  if (!CLI.IsTailCall && CLI.CB && CLI.CB->isMustTailCall())
+    unsupported(DAG, DL, "this call cannot be a tail call: arguments or result need the stack");
+
+  unsigned StackSize = Info.getStackSize();
+  if (!CLI.IsTailCall)
+    Chain = DAG.getCALLSEQ_START(Chain, StackSize, 0, DL);
+
+  SmallVector<std::pair<Register, SDValue>, 8> Registers;
+  SmallVector<SDValue, 8> Stores;
+  SDValue StackPointer;
+  for (const auto &[VA, Out, Value] : zip_equal(Locations, Outs, OutVals)) {
+    if (VA.isRegLoc()) {
+      Registers.emplace_back(VA.getLocReg(), Value);
+      continue;
+    }
+    if (!StackPointer)
+      StackPointer = DAG.getCopyFromReg(Chain, DL, Trax::R2, MVT::i32);
+    SDValue Address = DAG.getNode(ISD::ADD, DL, MVT::i32, StackPointer,
+                                  DAG.getConstant(VA.getLocMemOffset(), DL, MVT::i32));
+    MachinePointerInfo Where = MachinePointerInfo::getStack(MF, VA.getLocMemOffset());
+    if (Out.Flags.isByVal())
+      Stores.push_back(DAG.getMemcpy(Chain, DL, Address, Value,
+                                     DAG.getConstant(Out.Flags.getByValSize(), DL, MVT::i32),
+                                     std::min(Align(4), Out.Flags.getNonZeroByValAlign()), /*isVol=*/false,
+                                     /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt, Where,
+                                     MachinePointerInfo()));
+    else
+      Stores.push_back(DAG.getStore(Chain, DL, Value, Address, Where));
+  }
+  if (!Stores.empty())
+    Chain = DAG.getNode(ISD::TokenFactor, DL, MVT::Other, Stores);
+
+  SDValue Glue;
+  for (const auto &[Reg, Value] : Registers) {
+    Chain = DAG.getCopyToReg(Chain, DL, Reg, Value, Glue);
+    Glue = Chain.getValue(1);
+  }
+
+  SDValue Callee = CLI.Callee;
+  if (auto *Global = dyn_cast<GlobalAddressSDNode>(Callee))
+    Callee = DAG.getTargetGlobalAddress(Global->getGlobal(), DL, MVT::i32, Global->getOffset());
+  else if (auto *External = dyn_cast<ExternalSymbolSDNode>(Callee))
+    Callee = DAG.getTargetExternalSymbol(External->getSymbol(), MVT::i32);
+
+  SmallVector<SDValue, 12> Operands = {Chain, Callee};
+  for (const auto &[Reg, Value] : Registers)
+    Operands.push_back(DAG.getRegister(Reg, Value.getValueType()));
+  const uint32_t *Preserved = Subtarget.getRegisterInfo()->getCallPreservedMask(MF, CLI.CallConv);
+  Operands.push_back(DAG.getRegisterMask(Preserved));
+  if (Glue)
+    Operands.push_back(Glue);
+
+  SDVTList NodeTypes = DAG.getVTList(MVT::Other, MVT::Glue);
+  if (CLI.IsTailCall) {
+    MFI.setHasTailCall();
+    SDValue Tail = DAG.getNode(TraxISD::TAIL, DL, NodeTypes, Operands);
+    DAG.addNoMergeSiteInfo(Tail.getNode(), CLI.NoMerge);
+    return Tail;
+  }
+  Chain = DAG.getNode(TraxISD::CALL, DL, NodeTypes, Operands);
+  DAG.addNoMergeSiteInfo(Chain.getNode(), CLI.NoMerge);
+  Glue = Chain.getValue(1);
+  Chain = DAG.getCALLSEQ_END(Chain, StackSize, 0, Glue, DL);
+  Glue = Chain.getValue(1);
+
+  SmallVector<CCValAssign, 4> Results;
+  CCState ResultInfo(CLI.CallConv, CLI.IsVarArg, MF, Results, *DAG.getContext());
+  ResultInfo.AnalyzeCallResult(CLI.Ins, RetCC_Trax);
+  for (const CCValAssign &VA : Results) {
+    SDValue Result = DAG.getCopyFromReg(Chain, DL, VA.getLocReg(), VA.getLocVT(), Glue);
+    Chain = Result.getValue(1);
+    Glue = Result.getValue(2);
+    InVals.push_back(Result);
+  }
+  return Chain;
+}
+
+//--- builtins -----------------------------------------------------------------
+
+/// The chain behind a builtin's operation, or none if this call is of something else.
+SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorImpl<SDValue> &InVals) const {
+  auto *Callee = dyn_cast<GlobalAddressSDNode>(CLI.Callee);
+  if (!Callee || Callee->getOffset() != 0 || !isa<Function>(Callee->getGlobal()))
+    return SDValue();
+  std::optional<TraxBuiltin::ID> Builtin = TraxBuiltin::find(Callee->getGlobal()->getName());
+  if (!Builtin)
+    return SDValue();
+
+  // A function of that name but of another type is somebody's own.
+  auto Has = [&](ArrayRef<MVT> Arguments, ArrayRef<MVT> Results) {
+    return CLI.Outs.size() == Arguments.size() && CLI.Ins.size() == Results.size() &&
+           all_of(zip(CLI.Outs, Arguments), [](auto P) { return std::get<0>(P).VT == std::get<1>(P); }) &&
+           all_of(zip(CLI.Ins, Results), [](auto P) { return std::get<0>(P).VT == std::get<1>(P); });
+  };
+  SelectionDAG &DAG = CLI.DAG;
+  const SDLoc &DL = CLI.DL;
+  SDVTList WordAndChain = DAG.getVTList(MVT::i32, MVT::Other);
+  auto Constant = [&](unsigned Index, unsigned Count, const Twine &What) -> std::optional<unsigned> {
+    auto *C = dyn_cast<ConstantSDNode>(CLI.OutVals[Index]);
+    if (C && C->getZExtValue() < Count)
+      return C->getZExtValue();
+    unsupported(DAG, DL, What + " must be a constant below " + Twine(Count));
+    return std::nullopt;
+  };
+  auto AccessWord = [&](MachineMemOperand::Flags Flags) {
+    const Value *Pointer = CLI.CB ? CLI.CB->getArgOperand(0) : nullptr;
+    return DAG.getMachineFunction().getMachineMemOperand(
+        Pointer ? MachinePointerInfo(Pointer) : MachinePointerInfo(), Flags, 4, Align(4));
+  };
+
+  SDValue Chain = CLI.Chain;
+  switch (*Builtin) {
+  case TraxBuiltin::Rsqrt:
+    if (!Has({MVT::f32}, {MVT::f32}))
+      return SDValue();
+    InVals.push_back(DAG.getNode(TraxISD::RSQRT, DL, MVT::f32, CLI.OutVals[0]));
+    break;
+  case TraxBuiltin::Rdsr: {
+    if (!Has({MVT::i32}, {MVT::i32}))
+      return SDValue();
+    SDValue Number =
+        DAG.getTargetConstant(Constant(0, TRAX_SR_COUNT, "special register").value_or(0), DL, MVT::i32);
+    if (Number->getAsZExtVal() <= TRAX_SR_THREADS) {
+      InVals.push_back(DAG.getNode(TraxISD::RDSR_CONST, DL, MVT::i32, Number));
+      break;
+    }
+    SDValue Read = DAG.getNode(TraxISD::RDSR, DL, WordAndChain, Chain, Number);
+    InVals.push_back(Read);
+    Chain = Read.getValue(1);
+    break;
+  }
+  case TraxBuiltin::Trap: {
+    if (!Has({MVT::i32, MVT::i32}, {}))
+      return SDValue();
+    SDValue Code = DAG.getTargetConstant(Constant(1, TRAX_TRAP_COUNT, "trap code").value_or(0), DL, MVT::i32);
+    Chain = DAG.getNode(TraxISD::TRAP, DL, MVT::Other, Chain, CLI.OutVals[0], Code);
+    break;
+  }
+  case TraxBuiltin::Halt:
+    if (!Has({}, {}))
+      return SDValue();
+    Chain = DAG.getNode(TraxISD::HALT, DL, MVT::Other, Chain);
+    break;
+  case TraxBuiltin::Ainc:
+  case TraxBuiltin::Lwnt: {
+    if (!Has({MVT::i32}, {MVT::i32}))
+      return SDValue();
+    bool IsIncrement = *Builtin == TraxBuiltin::Ainc;
+    auto Flags = MachineMemOperand::MOVolatile | MachineMemOperand::MOLoad;
+    SDValue Load = DAG.getMemIntrinsicNode(IsIncrement ? TraxISD::AINC : TraxISD::LWNT, DL, WordAndChain,
+                                           {Chain, CLI.OutVals[0]}, MVT::i32,
+                                           AccessWord(IsIncrement ? Flags | MachineMemOperand::MOStore : Flags));
+    InVals.push_back(Load);
+    Chain = Load.getValue(1);
+    break;
+  }
+  }
+  CLI.IsTailCall = false;
+  return Chain;
+}

@@ -1,0 +1,569 @@
+//===- TraxISelLowering.cpp - What the machine can do, and the rest ------===//
+#include "TraxISelLowering.h"
+#include "Trax.h"
+#include "TraxMachineFunctionInfo.h"
+#include "TraxSubtarget.h"
+#include "trax/abi.h"
+#include "llvm/CodeGen/MachineFrameInfo.h"
+#include "llvm/CodeGen/MachineJumpTableInfo.h"
+#include "llvm/CodeGen/MachineRegisterInfo.h"
+#include "llvm/IR/DiagnosticInfo.h"
+#include "llvm/IR/GlobalVariable.h"
+
+using namespace llvm;
+
+#define DEBUG_TYPE "trax-lower"
+
+TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtarget &STI)
+    : TargetLowering(TM), Subtarget(STI) {
+  addRegisterClass(MVT::i32, &Trax::GPRRegClass);
+  addRegisterClass(MVT::f32, &Trax::GPRRegClass);
+  computeRegisterProperties(Subtarget.getRegisterInfo());
+
+  setStackPointerRegisterToSaveRestore(Trax::R2);
+  setBooleanContents(ZeroOrOneBooleanContent);
+  setMinFunctionAlignment(Align(4));
+  setSchedulingPreference(Sched::RegPressure);
+
+  // Integers. i64 is two registers: no carry, but both halves of a product.
+  setOperationAction({ISD::SDIV, ISD::UDIV, ISD::SREM, ISD::UREM, ISD::SDIVREM, ISD::UDIVREM}, MVT::i32, Expand);
+  setOperationAction({ISD::SMUL_LOHI, ISD::UMUL_LOHI}, MVT::i32, Expand);
+  setOperationAction({ISD::MULHS, ISD::MULHU}, MVT::i32, Legal);
+  setOperationAction({ISD::SHL_PARTS, ISD::SRL_PARTS, ISD::SRA_PARTS}, MVT::i32, Expand);
+  setOperationAction({ISD::ROTL, ISD::ROTR, ISD::BSWAP, ISD::BITREVERSE, ISD::CTPOP, ISD::CTLZ, ISD::CTTZ,
+                      ISD::CTLZ_ZERO_UNDEF, ISD::CTTZ_ZERO_UNDEF, ISD::ABS},
+                     MVT::i32, Expand);
+  setOperationAction({ISD::SMIN, ISD::SMAX, ISD::UMIN, ISD::UMAX}, MVT::i32, Expand);
+  setOperationAction(ISD::SIGN_EXTEND_INREG, MVT::i1, Expand);
+  setOperationAction(ISD::SELECT_CC, {MVT::i32, MVT::f32}, Expand);
+  for (MVT VT : {MVT::i8, MVT::i16, MVT::i32})
+    setLoadExtAction({ISD::EXTLOAD, ISD::SEXTLOAD, ISD::ZEXTLOAD}, VT, MVT::i1, Promote);
+
+  // Control.
+  setOperationAction({ISD::BR_JT, ISD::BRCOND}, MVT::Other, Expand);
+  setOperationAction(ISD::BR_CC, MVT::f32, Custom);
+  setOperationAction({ISD::TRAP, ISD::DEBUGTRAP}, MVT::Other, Legal);
+  setOperationAction({ISD::STACKSAVE, ISD::STACKRESTORE}, MVT::Other, Expand);
+  setOperationAction(ISD::DYNAMIC_STACKALLOC, MVT::i32, Expand);
+  setOperationAction(ISD::VASTART, MVT::Other, Custom);
+  setOperationAction({ISD::VAARG, ISD::VACOPY, ISD::VAEND}, MVT::Other, Expand);
+  setOperationAction({ISD::FRAMEADDR, ISD::RETURNADDR}, MVT::i32, Custom);
+  setOperationAction(ISD::READCYCLECOUNTER, MVT::i64, Custom);
+  setOperationAction(ISD::PREFETCH, MVT::Other, Expand);
+  setMinimumJumpTableEntries(6);
+
+  // Addresses.
+  setOperationAction({ISD::GlobalAddress, ISD::GlobalTLSAddress, ISD::BlockAddress, ISD::JumpTable, ISD::ConstantPool},
+                     MVT::i32, Custom);
+
+  // Floats. What is missing is expanded to integer operations, or a function of the library.
+  setOperationAction(ISD::SETCC, MVT::f32, Custom);
+  setOperationAction({ISD::FMINNUM, ISD::FMAXNUM}, MVT::f32, Legal);
+  setOperationAction({ISD::FMINIMUM, ISD::FMAXIMUM, ISD::FCOPYSIGN, ISD::FMA, ISD::FMAD, ISD::FREM, ISD::FSQRT,
+                      ISD::FSIN, ISD::FCOS, ISD::FSINCOS, ISD::FTAN, ISD::FPOW, ISD::FPOWI, ISD::FEXP, ISD::FEXP2,
+                      ISD::FEXP10, ISD::FLOG, ISD::FLOG2, ISD::FLOG10, ISD::FLDEXP, ISD::FFREXP, ISD::IS_FPCLASS},
+                     MVT::f32, Expand);
+  setOperationAction({ISD::FFLOOR, ISD::FCEIL, ISD::FTRUNC, ISD::FRINT, ISD::FNEARBYINT, ISD::FROUND, ISD::FROUNDEVEN,
+                      ISD::LROUND, ISD::LLROUND, ISD::LRINT, ISD::LLRINT},
+                     MVT::f32, Expand);
+  setOperationAction({ISD::FP_TO_SINT_SAT, ISD::FP_TO_UINT_SAT}, MVT::i32, Custom);
+  setOperationAction({ISD::STRICT_FADD, ISD::STRICT_FSUB, ISD::STRICT_FMUL, ISD::STRICT_FDIV, ISD::STRICT_FMINNUM,
+                      ISD::STRICT_FMAXNUM},
+                     MVT::f32, Legal);
+  setOperationAction({ISD::STRICT_FP_TO_SINT, ISD::STRICT_FP_TO_UINT, ISD::STRICT_SINT_TO_FP, ISD::STRICT_UINT_TO_FP},
+                     MVT::i32, Legal);
+  for (MVT VT : {MVT::f16, MVT::bf16}) {
+    setLoadExtAction(ISD::EXTLOAD, MVT::f32, VT, Expand);
+    setTruncStoreAction(MVT::f32, VT, Expand);
+  }
+  setOperationAction({ISD::FP16_TO_FP, ISD::FP_TO_FP16, ISD::BF16_TO_FP, ISD::FP_TO_BF16}, MVT::f32, Expand);
+
+  // Atomics: words and less are done by the machine; wider ones are calls of the library.
+  setMaxAtomicSizeInBitsSupported(32);
+  setMinCmpXchgSizeInBits(32);
+  setOperationAction(ISD::ATOMIC_FENCE, MVT::Other, Custom);
+  setOperationAction(ISD::ATOMIC_LOAD, MVT::i32, Custom);
+  setOperationAction({ISD::ATOMIC_LOAD_ADD, ISD::ATOMIC_LOAD_SUB, ISD::ATOMIC_LOAD_AND, ISD::ATOMIC_LOAD_OR,
+                      ISD::ATOMIC_LOAD_XOR, ISD::ATOMIC_LOAD_NAND, ISD::ATOMIC_LOAD_MIN, ISD::ATOMIC_LOAD_MAX,
+                      ISD::ATOMIC_LOAD_UMIN, ISD::ATOMIC_LOAD_UMAX, ISD::ATOMIC_LOAD_UINC_WRAP,
+                      ISD::ATOMIC_LOAD_UDEC_WRAP, ISD::ATOMIC_SWAP, ISD::ATOMIC_CMP_SWAP},
+                     MVT::i32, Custom);
+
+  // Inline copies of up to eight words; longer ones are loops in the library.
+  MaxStoresPerMemset = 8;
+  MaxStoresPerMemcpy = MaxStoresPerMemmove = 8;
+  MaxStoresPerMemsetOptSize = MaxStoresPerMemcpyOptSize = MaxStoresPerMemmoveOptSize = 4;
+
+  setTargetDAGCombine(ISD::ADD);
+}
+
+const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
+  switch (Opcode) {
+#define NODE(NAME)                                                                                                     \
+  case TraxISD::NAME:                                                                                                  \
+    return "TraxISD::" #NAME;
+    NODE(CALL)
+    NODE(TAIL)
+    NODE(RET)
+    NODE(HI)
+    NODE(ADD_LO)
+    NODE(ABS_ADDR)
+    NODE(RSQRT)
+    NODE(RDSR_CONST)
+    NODE(RDSR)
+    NODE(TRAP)
+    NODE(HALT)
+    NODE(AINC)
+    NODE(LWNT)
+#undef NODE
+  default:
+    return nullptr;
+  }
+}
+
+static void unsupported(SelectionDAG &DAG, const SDLoc &DL, const Twine &What) {
+  const Function &F = DAG.getMachineFunction().getFunction();
+  DAG.getContext()->diagnose(DiagnosticInfoUnsupported(F, What, DL.getDebugLoc()));
+}
+
+SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const {
+  switch (Op.getOpcode()) {
+  case ISD::GlobalAddress:
+  case ISD::GlobalTLSAddress:
+    return lowerGlobalAddress(Op, DAG);
+  case ISD::BlockAddress:
+    return lowerAddress(cast<BlockAddressSDNode>(Op), DAG);
+  case ISD::JumpTable:
+    return lowerAddress(cast<JumpTableSDNode>(Op), DAG);
+  case ISD::ConstantPool:
+    return lowerAddress(cast<ConstantPoolSDNode>(Op), DAG);
+  case ISD::SETCC:
+    return lowerSetCC(Op, DAG);
+  case ISD::BR_CC:
+    return lowerBrCC(Op, DAG);
+  case ISD::FP_TO_SINT_SAT:
+  case ISD::FP_TO_UINT_SAT:
+    return lowerFPToIntSat(Op, DAG);
+  case ISD::VASTART:
+    return lowerVAStart(Op, DAG);
+  case ISD::FRAMEADDR:
+    return lowerFrameAddr(Op, DAG);
+  case ISD::RETURNADDR:
+    return lowerReturnAddr(Op, DAG);
+  case ISD::ATOMIC_FENCE: // a thread's accesses reach memory in program order
+    return DAG.getNode(ISD::MEMBARRIER, SDLoc(Op), MVT::Other, Op.getOperand(0));
+  case ISD::ATOMIC_LOAD:
+    return lowerAtomicLoad(Op, DAG);
+  default:
+    if (isa<AtomicSDNode>(Op))
+      return lowerAtomicRMW(Op, DAG);
+    unsupported(DAG, SDLoc(Op), "operation without an expansion");
+    return SDValue();
+  }
+}
+
+/// The cycle counter's two words are read until no carry can lie between them: if it does, the word below it is 0.
+void TraxTargetLowering::ReplaceNodeResults(SDNode *N, SmallVectorImpl<SDValue> &Results, SelectionDAG &DAG) const {
+  if (N->getOpcode() != ISD::READCYCLECOUNTER)
+    return;
+  SDLoc DL(N);
+  SDVTList VTs = DAG.getVTList(MVT::i32, MVT::Other);
+  SDValue Low = DAG.getTargetConstant(TRAX_SR_CYCLE, DL, MVT::i32);
+  SDValue High = DAG.getTargetConstant(TRAX_SR_CYCLEH, DL, MVT::i32);
+  SDValue Before = DAG.getNode(TraxISD::RDSR, DL, VTs, N->getOperand(0), High);
+  SDValue Cycle = DAG.getNode(TraxISD::RDSR, DL, VTs, Before.getValue(1), Low);
+  SDValue After = DAG.getNode(TraxISD::RDSR, DL, VTs, Cycle.getValue(1), High);
+  SDValue Carried = DAG.getSetCC(DL, MVT::i32, Before, After, ISD::SETNE);
+  SDValue Word = DAG.getSelect(DL, MVT::i32, Carried, DAG.getConstant(0, DL, MVT::i32), Cycle);
+  Results.push_back(DAG.getNode(ISD::BUILD_PAIR, DL, MVT::i64, Word, After));
+  Results.push_back(After.getValue(1));
+}
+
+//--- addresses ----------------------------------------------------------------
+
+static SDValue targetSymbol(GlobalAddressSDNode *N, EVT VT, SelectionDAG &DAG, unsigned Flag) {
+  return DAG.getTargetGlobalAddress(N->getGlobal(), SDLoc(N), VT, N->getOffset(), Flag);
+}
+static SDValue targetSymbol(BlockAddressSDNode *N, EVT VT, SelectionDAG &DAG, unsigned Flag) {
+  return DAG.getTargetBlockAddress(N->getBlockAddress(), VT, N->getOffset(), Flag);
+}
+static SDValue targetSymbol(JumpTableSDNode *N, EVT VT, SelectionDAG &DAG, unsigned Flag) {
+  return DAG.getTargetJumpTable(N->getIndex(), VT, Flag);
+}
+static SDValue targetSymbol(ConstantPoolSDNode *N, EVT VT, SelectionDAG &DAG, unsigned Flag) {
+  return DAG.getTargetConstantPool(N->getConstVal(), VT, N->getAlign(), N->getOffset(), Flag);
+}
+
+template <class NodeTy> SDValue TraxTargetLowering::lowerAddress(NodeTy *N, SelectionDAG &DAG) const {
+  SDLoc DL(N);
+  SDValue Hi = DAG.getNode(TraxISD::HI, DL, MVT::i32, targetSymbol(N, MVT::i32, DAG, TraxII::MO_HI));
+  return DAG.getNode(TraxISD::ADD_LO, DL, MVT::i32, Hi, targetSymbol(N, MVT::i32, DAG, TraxII::MO_LO));
+}
+
+SDValue TraxTargetLowering::lowerGlobalAddress(SDValue Op, SelectionDAG &DAG) const {
+  auto *N = cast<GlobalAddressSDNode>(Op);
+  if (!N->getGlobal()->isThreadLocal())
+    return lowerAddress(N, DAG);
+  // Thread-local objects lie at the same addresses of every thread's local memory, which any immediate reaches.
+  SDLoc DL(N);
+  SDValue Symbol = DAG.getTargetGlobalAddress(N->getGlobal(), DL, MVT::i32, N->getOffset(), TraxII::MO_ABS);
+  return DAG.getNode(TraxISD::ABS_ADDR, DL, MVT::i32, Symbol);
+}
+
+bool TraxTargetLowering::isLegalAddressingMode(const DataLayout &, const AddrMode &AM, Type *, unsigned,
+                                               Instruction *) const {
+  if (AM.BaseGV || AM.ScalableOffset || !isInt<16>(AM.BaseOffs))
+    return false;
+  return AM.Scale == 0 || (AM.Scale == 1 && !AM.HasBaseReg);
+}
+
+bool llvm::isLocalMemory(const MemSDNode *N) {
+  SDValue Base = N->getBasePtr();
+  while (Base.getOpcode() == ISD::ADD || Base.getOpcode() == ISD::OR)
+    Base = Base.getOperand(0);
+  if (isa<FrameIndexSDNode>(Base) || Base.getOpcode() == TraxISD::ABS_ADDR)
+    return true;
+  const Value *V = N->getMemOperand()->getValue();
+  V = V ? V->stripInBoundsConstantOffsets() : nullptr;
+  if (const auto *GV = dyn_cast_or_null<GlobalVariable>(V))
+    return GV->isThreadLocal();
+  return isa_and_nonnull<AllocaInst>(V);
+}
+
+/// (symbol + constant) becomes a symbol with an offset where nothing else needs the symbol: it saves the addition. Other
+/// uses share the symbol's address and put the constant into their own immediate.
+SDValue TraxTargetLowering::performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const {
+  auto *Constant = dyn_cast<ConstantSDNode>(N->getOperand(1));
+  SDValue Address = N->getOperand(0);
+  if (!Constant || (Address.getOpcode() != TraxISD::ADD_LO && Address.getOpcode() != TraxISD::ABS_ADDR))
+    return SDValue();
+  bool IsAbsolute = Address.getOpcode() == TraxISD::ABS_ADDR;
+  auto *Symbol = dyn_cast<GlobalAddressSDNode>(Address.getOperand(IsAbsolute ? 0 : 1));
+  if (!Symbol || (!IsAbsolute && !Address.hasOneUse()))
+    return SDValue();
+  SelectionDAG &DAG = DCI.DAG;
+  SDLoc DL(N);
+  int64_t Offset = Symbol->getOffset() + Constant->getSExtValue();
+  if (!isInt<16>(Offset))
+    return SDValue();
+  auto WithOffset = [&](unsigned Flag) {
+    return DAG.getTargetGlobalAddress(Symbol->getGlobal(), DL, MVT::i32, Offset, Flag);
+  };
+  if (IsAbsolute)
+    return DAG.getNode(TraxISD::ABS_ADDR, DL, MVT::i32, WithOffset(TraxII::MO_ABS));
+  SDValue Hi = DAG.getNode(TraxISD::HI, DL, MVT::i32, WithOffset(TraxII::MO_HI));
+  return DAG.getNode(TraxISD::ADD_LO, DL, MVT::i32, Hi, WithOffset(TraxII::MO_LO));
+}
+
+SDValue TraxTargetLowering::PerformDAGCombine(SDNode *N, DAGCombinerInfo &DCI) const {
+  return N->getOpcode() == ISD::ADD ? performAddCombine(N, DCI) : SDValue();
+}
+
+//--- comparison ---------------------------------------------------------------
+
+/// Reduces a comparison of floats to feq, flt and fle. The result is 1 or 0; Inverted tells that it is of the opposite
+/// condition.
+static SDValue compareFloats(SDValue LHS, SDValue RHS, ISD::CondCode CC, const SDLoc &DL, SelectionDAG &DAG,
+                             bool &Inverted) {
+  auto Compare = [&](SDValue A, SDValue B, ISD::CondCode Code) {
+    return DAG.getNode(ISD::SETCC, DL, MVT::i32, A, B, DAG.getCondCode(Code));
+  };
+  Inverted = false;
+  switch (CC) {
+  case ISD::SETOEQ:
+  case ISD::SETEQ:
+    return Compare(LHS, RHS, ISD::SETOEQ);
+  case ISD::SETUNE:
+  case ISD::SETNE:
+    Inverted = true;
+    return Compare(LHS, RHS, ISD::SETOEQ);
+  case ISD::SETOLT:
+  case ISD::SETLT:
+    return Compare(LHS, RHS, ISD::SETOLT);
+  case ISD::SETOGT:
+  case ISD::SETGT:
+    return Compare(RHS, LHS, ISD::SETOLT);
+  case ISD::SETOLE:
+  case ISD::SETLE:
+    return Compare(LHS, RHS, ISD::SETOLE);
+  case ISD::SETOGE:
+  case ISD::SETGE:
+    return Compare(RHS, LHS, ISD::SETOLE);
+  case ISD::SETUGE:
+    Inverted = true;
+    return Compare(LHS, RHS, ISD::SETOLT);
+  case ISD::SETULE:
+    Inverted = true;
+    return Compare(RHS, LHS, ISD::SETOLT);
+  case ISD::SETUGT:
+    Inverted = true;
+    return Compare(LHS, RHS, ISD::SETOLE);
+  case ISD::SETULT:
+    Inverted = true;
+    return Compare(RHS, LHS, ISD::SETOLE);
+  case ISD::SETUEQ:
+    Inverted = true;
+    [[fallthrough]];
+  case ISD::SETONE:
+    return DAG.getNode(ISD::OR, DL, MVT::i32, Compare(LHS, RHS, ISD::SETOLT), Compare(RHS, LHS, ISD::SETOLT));
+  case ISD::SETUO:
+    Inverted = true;
+    [[fallthrough]];
+  case ISD::SETO:
+    if (LHS == RHS || (isa<ConstantFPSDNode>(RHS) && !cast<ConstantFPSDNode>(RHS)->isNaN()))
+      return Compare(LHS, LHS, ISD::SETOEQ);
+    return DAG.getNode(ISD::AND, DL, MVT::i32, Compare(LHS, LHS, ISD::SETOEQ), Compare(RHS, RHS, ISD::SETOEQ));
+  case ISD::SETTRUE:
+  case ISD::SETTRUE2:
+    return DAG.getConstant(1, DL, MVT::i32);
+  default: // SETFALSE
+    return DAG.getConstant(0, DL, MVT::i32);
+  }
+}
+
+SDValue TraxTargetLowering::lowerSetCC(SDValue Op, SelectionDAG &DAG) const {
+  ISD::CondCode CC = cast<CondCodeSDNode>(Op.getOperand(2))->get();
+  if (CC == ISD::SETOEQ || CC == ISD::SETOLT || CC == ISD::SETOLE)
+    return Op;
+  SDLoc DL(Op);
+  bool Inverted;
+  SDValue Result = compareFloats(Op.getOperand(0), Op.getOperand(1), CC, DL, DAG, Inverted);
+  return Inverted ? DAG.getNode(ISD::XOR, DL, MVT::i32, Result, DAG.getConstant(1, DL, MVT::i32)) : Result;
+}
+
+SDValue TraxTargetLowering::lowerBrCC(SDValue Op, SelectionDAG &DAG) const {
+  SDLoc DL(Op);
+  bool Inverted;
+  SDValue Condition = compareFloats(Op.getOperand(2), Op.getOperand(3), cast<CondCodeSDNode>(Op.getOperand(1))->get(),
+                                    DL, DAG, Inverted);
+  return DAG.getNode(ISD::BR_CC, DL, MVT::Other, Op.getOperand(0),
+                     DAG.getCondCode(Inverted ? ISD::SETEQ : ISD::SETNE), Condition,
+                     DAG.getConstant(0, DL, MVT::i32), Op.getOperand(4));
+}
+
+/// The machine saturates at 32 bits; narrower ranges are clamped first.
+SDValue TraxTargetLowering::lowerFPToIntSat(SDValue Op, SelectionDAG &) const {
+  if (cast<VTSDNode>(Op.getOperand(1))->getVT() == MVT::i32 && Op.getOperand(0).getValueType() == MVT::f32)
+    return Op;
+  return SDValue();
+}
+
+//--- square roots -------------------------------------------------------------
+
+/// Called where flags allow an approximation. The machine's instruction needs no refinement: 1/sqrt(x) is one instruction,
+/// sqrt(x) is x * rsqrt(x).
+SDValue TraxTargetLowering::getSqrtEstimate(SDValue Operand, SelectionDAG &DAG, int Enabled, int &RefinementSteps,
+                                            bool &UseOneConstNR, bool Reciprocal) const {
+  if (Operand.getValueType() != MVT::f32 || Enabled == ReciprocalEstimate::Disabled)
+    return SDValue();
+  RefinementSteps = 0;
+  UseOneConstNR = false;
+  SDLoc DL(Operand);
+  SDValue Result = DAG.getNode(TraxISD::RSQRT, DL, MVT::f32, Operand);
+  return Reciprocal ? Result : DAG.getNode(ISD::FMUL, DL, MVT::f32, Operand, Result);
+}
+
+/// Where x * rsqrt(x) is 0 * infinity: +0 and -0. An integer test, off the shared adder.
+SDValue TraxTargetLowering::getSqrtInputTest(SDValue Operand, SelectionDAG &DAG, const DenormalMode &) const {
+  SDLoc DL(Operand);
+  SDValue Bits = DAG.getNode(ISD::SHL, DL, MVT::i32, DAG.getBitcast(MVT::i32, Operand),
+                             DAG.getConstant(1, DL, MVT::i32));
+  return DAG.getSetCC(DL, MVT::i32, Bits, DAG.getConstant(0, DL, MVT::i32), ISD::SETEQ);
+}
+
+SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, SelectionDAG &) const { return Operand; }
+
+//--- costs --------------------------------------------------------------------
+
+bool TraxTargetLowering::isTruncateFree(Type *From, Type *To) const {
+  return From->isIntegerTy() && To->isIntegerTy() && From->getPrimitiveSizeInBits() > To->getPrimitiveSizeInBits();
+}
+
+bool TraxTargetLowering::isTruncateFree(EVT From, EVT To) const {
+  return From.isScalarInteger() && To.isScalarInteger() && From.getSizeInBits() > To.getSizeInBits();
+}
+
+bool TraxTargetLowering::isZExtFree(SDValue Value, EVT To) const {
+  if (auto *Load = dyn_cast<LoadSDNode>(Value)) {
+    EVT VT = Load->getMemoryVT();
+    if ((VT == MVT::i8 || VT == MVT::i16) &&
+        (Load->getExtensionType() == ISD::NON_EXTLOAD || Load->getExtensionType() == ISD::ZEXTLOAD))
+      return true;
+  }
+  return TargetLowering::isZExtFree(Value, To);
+}
+
+//--- stack --------------------------------------------------------------------
+
+SDValue TraxTargetLowering::lowerVAStart(SDValue Op, SelectionDAG &DAG) const {
+  SDLoc DL(Op);
+  const auto *Info = DAG.getMachineFunction().getInfo<TraxMachineFunctionInfo>();
+  SDValue First = DAG.getFrameIndex(Info->getVarArgsFrameIndex(), MVT::i32);
+  const Value *List = cast<SrcValueSDNode>(Op.getOperand(2))->getValue();
+  return DAG.getStore(Op.getOperand(0), DL, First, Op.getOperand(1), MachinePointerInfo(List));
+}
+
+/// fp is the caller's sp; the caller's fp is saved below it and the return address, if both are.
+SDValue TraxTargetLowering::lowerFrameAddr(SDValue Op, SelectionDAG &DAG) const {
+  DAG.getMachineFunction().getFrameInfo().setFrameAddressIsTaken(true);
+  SDLoc DL(Op);
+  SDValue Frame = DAG.getCopyFromReg(DAG.getEntryNode(), DL, Trax::R3, MVT::i32);
+  for (unsigned Depth = Op.getConstantOperandVal(0); Depth != 0; --Depth)
+    Frame = DAG.getLoad(MVT::i32, DL, DAG.getEntryNode(),
+                        DAG.getNode(ISD::ADD, DL, MVT::i32, Frame, DAG.getConstant(-8, DL, MVT::i32)),
+                        MachinePointerInfo());
+  return Frame;
+}
+
+SDValue TraxTargetLowering::lowerReturnAddr(SDValue Op, SelectionDAG &DAG) const {
+  MachineFunction &MF = DAG.getMachineFunction();
+  MF.getFrameInfo().setReturnAddressIsTaken(true);
+  if (verifyReturnAddressArgumentIsConstant(Op, DAG))
+    return SDValue();
+  SDLoc DL(Op);
+  if (Op.getConstantOperandVal(0) != 0) {
+    SDValue Frame = lowerFrameAddr(Op, DAG);
+    return DAG.getLoad(MVT::i32, DL, DAG.getEntryNode(),
+                       DAG.getNode(ISD::ADD, DL, MVT::i32, Frame, DAG.getConstant(-4, DL, MVT::i32)),
+                       MachinePointerInfo());
+  }
+  Register Reg = MF.addLiveIn(Trax::R1, &Trax::GPRRegClass);
+  return DAG.getCopyFromReg(DAG.getEntryNode(), DL, Reg, MVT::i32);
+}
+
+//--- atomics ------------------------------------------------------------------
+
+/// Caches of different TMs are not coherent, so an atomic load must go to memory, unless it is of local memory, which has no
+/// cache. Bytes and halves are taken from their word.
+SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const {
+  auto *Load = cast<AtomicSDNode>(Op);
+  if (isLocalMemory(Load))
+    return Op;
+  SDLoc DL(Op);
+  EVT MemVT = Load->getMemoryVT();
+  SDValue Address = Load->getBasePtr();
+  MachineFunction &MF = DAG.getMachineFunction();
+  MachineMemOperand *MMO = Load->getMemOperand();
+  auto LoadWord = [&](SDValue WordAddress, MachineMemOperand *WordMMO) {
+    return DAG.getMemIntrinsicNode(TraxISD::LWNT, DL, DAG.getVTList(MVT::i32, MVT::Other),
+                                   {Load->getChain(), WordAddress}, MVT::i32, WordMMO);
+  };
+  if (MemVT == MVT::i32)
+    return LoadWord(Address, MMO);
+
+  MMO = MF.getMachineMemOperand(MachinePointerInfo(MMO->getAddrSpace()), MMO->getFlags(), LLT::scalar(32), Align(4),
+                                AAMDNodes(), nullptr, MMO->getSyncScopeID(), MMO->getSuccessOrdering());
+  SDValue Word = LoadWord(DAG.getNode(ISD::AND, DL, MVT::i32, Address, DAG.getConstant(-4, DL, MVT::i32)), MMO);
+  SDValue Shift = DAG.getNode(ISD::SHL, DL, MVT::i32,
+                              DAG.getNode(ISD::AND, DL, MVT::i32, Address, DAG.getConstant(3, DL, MVT::i32)),
+                              DAG.getConstant(3, DL, MVT::i32));
+  SDValue Value = DAG.getNode(ISD::SRL, DL, MVT::i32, Word, Shift);
+  // The bits above are what the legalizer asked the load for.
+  if (Load->getExtensionType() == ISD::SEXTLOAD)
+    Value = DAG.getNode(ISD::SIGN_EXTEND_INREG, DL, MVT::i32, Value, DAG.getValueType(MemVT));
+  else
+    Value = DAG.getZeroExtendInReg(Value, DL, MemVT);
+  return DAG.getMergeValues({Value, Word.getValue(1)}, DL);
+}
+
+static bool isIncrement(SDValue Op) {
+  auto *Amount = dyn_cast<ConstantSDNode>(Op.getOperand(Op.getNumOperands() - 1));
+  return Amount && ((Op.getOpcode() == ISD::ATOMIC_LOAD_ADD && Amount->isOne()) ||
+                    (Op.getOpcode() == ISD::ATOMIC_LOAD_SUB && Amount->isAllOnes()));
+}
+
+/// The increment is the machine's one atomic operation. Others cannot be made of it: a lock in the library would not exclude
+/// increments and stores of the same word.
+SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
+  auto *N = cast<AtomicSDNode>(Op);
+  SDLoc DL(Op);
+  if (isIncrement(Op) && N->getMemoryVT() == MVT::i32)
+    return DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
+                                   {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
+  unsupported(DAG, DL,
+              "unsupported atomic operation: the machine has only the atomic increment of a word by the constant 1");
+  return DAG.getMergeValues({DAG.getUNDEF(MVT::i32), N->getChain()}, DL);
+}
+
+TargetLowering::AtomicExpansionKind TraxTargetLowering::shouldExpandAtomicRMWInIR(AtomicRMWInst *) const {
+  return AtomicExpansionKind::None; // increment or diagnostic, both at instruction selection
+}
+
+//--- inline assembly ----------------------------------------------------------
+
+/// A register by its number or its name in the ABI.
+static MCRegister findRegister(StringRef Name) {
+  unsigned Number;
+  if (Name == "zero" || Name == "ra" || Name == "sp" || Name == "fp")
+    return Name == "zero" ? Trax::R0 : Name == "ra" ? Trax::R1 : Name == "sp" ? Trax::R2 : Trax::R3;
+  if (Name.size() < 2 || Name.drop_front().getAsInteger(10, Number) || (Name.size() > 2 && Name[1] == '0'))
+    return MCRegister();
+  switch (Name[0]) {
+  case 'r':
+    return Number < 32 ? MCRegister(Trax::R0 + Number) : MCRegister();
+  case 'a':
+    return Number < 8 ? MCRegister(Trax::R4 + Number) : MCRegister();
+  case 't':
+    return Number < 8 ? MCRegister(Trax::R12 + Number) : MCRegister();
+  case 's':
+    return Number < 12 ? MCRegister(Trax::R20 + Number) : MCRegister();
+  default:
+    return MCRegister();
+  }
+}
+
+/// Global register variables may only name registers that nothing else uses.
+Register TraxTargetLowering::getRegisterByName(const char *Name, LLT, const MachineFunction &MF) const {
+  MCRegister Reg = findRegister(Name);
+  if (Reg && !Subtarget.getRegisterInfo()->getReservedRegs(MF).test(Reg)) {
+    DiagnosticInfoUnsupported Diag(MF.getFunction(), "global register variable needs a reserved register: zero or sp");
+    MF.getFunction().getContext().diagnose(Diag);
+  } else if (!Reg) {
+    DiagnosticInfoUnsupported Diag(MF.getFunction(), Twine("no register is called '") + Name + "'");
+    MF.getFunction().getContext().diagnose(Diag);
+  }
+  return Reg ? Register(Reg) : Register(Trax::R0);
+}
+
+TargetLowering::ConstraintType TraxTargetLowering::getConstraintType(StringRef Constraint) const {
+  if (Constraint.size() == 1)
+    switch (Constraint[0]) {
+    case 'I': // signed 16-bit immediate
+    case 'J': // 0
+    case 'K': // unsigned 16-bit immediate
+      return C_Immediate;
+    default:
+      break;
+    }
+  return TargetLowering::getConstraintType(Constraint);
+}
+
+std::pair<unsigned, const TargetRegisterClass *>
+TraxTargetLowering::getRegForInlineAsmConstraint(const TargetRegisterInfo *TRI, StringRef Constraint, MVT VT) const {
+  if (Constraint == "r") {
+    // A double word has no register; a vector of one float has.
+    if (VT != MVT::Other && VT.getSizeInBits() > 32)
+      return {0U, nullptr};
+    return {0U, &Trax::GPRRegClass};
+  }
+  if (Constraint.size() > 2 && Constraint.front() == '{' && Constraint.back() == '}' &&
+      (VT == MVT::Other || VT.getSizeInBits() <= 32))
+    if (MCRegister Reg = findRegister(Constraint.drop_front().drop_back()))
+      return {Reg, &Trax::GPRRegClass};
+  return TargetLowering::getRegForInlineAsmConstraint(TRI, Constraint, VT);
+}
+
+void TraxTargetLowering::LowerAsmOperandForConstraint(SDValue Op, StringRef Constraint, std::vector<SDValue> &Ops,
+                                                      SelectionDAG &DAG) const {
+  if (Constraint.size() == 1 && StringRef("IJK").contains(Constraint[0])) {
+    auto *C = dyn_cast<ConstantSDNode>(Op);
+    if (!C)
+      return;
+    int64_t Value = C->getSExtValue();
+    bool Fits = Constraint[0] == 'I' ? isInt<16>(Value) : Constraint[0] == 'J' ? Value == 0 : isUInt<16>(Value);
+    if (Fits)
+      Ops.push_back(DAG.getTargetConstant(Value, SDLoc(Op), MVT::i32));
+    return;
+  }
+  TargetLowering::LowerAsmOperandForConstraint(Op, Constraint, Ops, DAG);
+}

@@ -1,0 +1,31 @@
+//===- TraxRegisterInfo.h - Registers and frame references ---------------===//
+#ifndef TRAX_TRAXREGISTERINFO_H
+#define TRAX_TRAXREGISTERINFO_H
+
+#include "llvm/CodeGen/TargetRegisterInfo.h"
+
+#define GET_REGINFO_HEADER
+#include "TraxGenRegisterInfo.inc"
+
+namespace llvm {
+
+class TraxRegisterInfo : public TraxGenRegisterInfo {
+public:
+  TraxRegisterInfo();
+
+  const MCPhysReg *getCalleeSavedRegs(const MachineFunction *MF) const override;
+  const uint32_t *getCallPreservedMask(const MachineFunction &MF, CallingConv::ID CC) const override;
+  const uint32_t *getNoPreservedMask() const override;
+  BitVector getReservedRegs(const MachineFunction &MF) const override;
+  const TargetRegisterClass *getPointerRegClass(const MachineFunction &MF, unsigned Kind) const override;
+  Register getFrameRegister(const MachineFunction &MF) const override;
+
+  bool requiresRegisterScavenging(const MachineFunction &) const override { return true; }
+  bool requiresFrameIndexScavenging(const MachineFunction &) const override { return true; }
+  bool eliminateFrameIndex(MachineBasicBlock::iterator MI, int SPAdj, unsigned FIOperandNum,
+                           RegScavenger *RS = nullptr) const override;
+};
+
+} // namespace llvm
+
+#endif

@@ -1,0 +1,36 @@
+//===- TraxSchedule.td - What the scheduler knows of the machine ---------===//
+//
+// One instruction a cycle, in order; an instruction waits for its operands (docs/timing.md). Units and latencies are those
+// of isa/TraxUnits.td.
+
+def TraxModel : SchedMachineModel {
+  let IssueWidth = 1;
+  let MicroOpBufferSize = 0;
+  let LoadLatency = 3;
+  let MispredictPenalty = 1;
+  let PostRAScheduler = true;
+  let CompleteModel = false; // pseudo-instructions have no unit
+}
+
+let SchedModel = TraxModel in {
+
+multiclass TraxUnitModel<TraxUnit unit, int latency = unit.DefaultLatency, int busy = 1> {
+  def Resource : ProcResource<1> {
+    let BufferSize = 0;
+  }
+  def : WriteRes<unit, [!cast<ProcResource>(NAME#"Resource")]> {
+    let Latency = latency;
+    let ReleaseAtCycles = [busy];
+  }
+}
+
+defm Int     : TraxUnitModel<UnitInt>;
+defm IntMul  : TraxUnitModel<UnitIntMul>;
+defm FPAdd   : TraxUnitModel<UnitFPAdd>;
+defm FPMul   : TraxUnitModel<UnitFPMul>;
+defm Special : TraxUnitModel<UnitSpecial, UnitSpecial.DefaultLatency, UnitSpecial.DefaultLatency>; // not pipelined
+// A hit takes the unit's one cycle, but banks conflict and lines miss: a little distance to the first use pays.
+defm Memory  : TraxUnitModel<UnitMemory, 3>;
+defm Control : TraxUnitModel<UnitControl>;
+
+} // SchedModel

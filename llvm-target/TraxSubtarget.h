@@ -1,0 +1,42 @@
+//===- TraxSubtarget.h - The machine as code generation sees it ----------===//
+#ifndef TRAX_TRAXSUBTARGET_H
+#define TRAX_TRAXSUBTARGET_H
+
+#include "TraxFrameLowering.h"
+#include "TraxISelLowering.h"
+#include "TraxInstrInfo.h"
+#include "TraxRegisterInfo.h"
+#include "llvm/CodeGen/SelectionDAGTargetInfo.h"
+#include "llvm/CodeGen/TargetSubtargetInfo.h"
+
+#define GET_SUBTARGETINFO_HEADER
+#include "TraxGenSubtargetInfo.inc"
+
+namespace llvm {
+
+class TraxTargetMachine;
+
+class TraxSubtarget : public TraxGenSubtargetInfo {
+  TraxFrameLowering FrameLowering;
+  TraxInstrInfo InstrInfo;
+  TraxTargetLowering TLInfo;
+  SelectionDAGTargetInfo TSInfo;
+
+public:
+  TraxSubtarget(const Triple &TT, const std::string &CPU, const std::string &FS, const TraxTargetMachine &TM);
+
+  // Generated from the instruction tables.
+  void ParseSubtargetFeatures(StringRef CPU, StringRef TuneCPU, StringRef FS);
+
+  const TraxFrameLowering *getFrameLowering() const override { return &FrameLowering; }
+  const TraxInstrInfo *getInstrInfo() const override { return &InstrInfo; }
+  const TraxRegisterInfo *getRegisterInfo() const override { return &InstrInfo.getRegisterInfo(); }
+  const TraxTargetLowering *getTargetLowering() const override { return &TLInfo; }
+  const SelectionDAGTargetInfo *getSelectionDAGInfo() const override { return &TSInfo; }
+
+  bool enableMachineScheduler() const override { return true; }
+};
+
+} // namespace llvm
+
+#endif

@@ -1,0 +1,77 @@
+//===- TraxTargetMachine.cpp - What the target is made of ----------------===//
+#include "TraxTargetMachine.h"
+#include "LLVMTrax.h"
+#include "TargetInfo/TraxTargetInfo.h"
+#include "Trax.h"
+#include "TraxBuiltins.h"
+#include "TraxMachineFunctionInfo.h"
+#include "TraxTargetTransformInfo.h"
+#include "llvm/CodeGen/Passes.h"
+#include "llvm/CodeGen/TargetLoweringObjectFileImpl.h"
+#include "llvm/CodeGen/TargetPassConfig.h"
+#include "llvm/MC/TargetRegistry.h"
+#include "llvm/Passes/PassBuilder.h"
+
+using namespace llvm;
+
+void LLVMInitializeTraxTarget() {
+  RegisterTargetMachine<TraxTargetMachine> X(getTheTraxTarget());
+  PassRegistry &PR = *PassRegistry::getPassRegistry();
+  initializeTraxDAGToDAGISelLegacyPass(PR);
+  initializeTraxLowerVAArgPass(PR);
+}
+
+// docs/abi.md; clang's TargetInfo says the same.
+static constexpr const char DataLayoutString[] = "e-m:e-p:32:32-i64:32-f64:32-n32-S32";
+
+TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRef CPU, StringRef FS,
+                                     const TargetOptions &Options, std::optional<Reloc::Model>,
+                                     std::optional<CodeModel::Model> CM, CodeGenOptLevel OL, bool)
+    // Programs are linked statically at fixed addresses: position independence is accepted and without effect.
+    : LLVMTargetMachine(T, DataLayoutString, TT, CPU, FS, Options, Reloc::Static,
+                        getEffectiveCodeModel(CM, CodeModel::Small), OL),
+      TLOF(std::make_unique<TargetLoweringObjectFileELF>()), Subtarget(TT, CPU.str(), FS.str(), *this) {
+  initAsmInfo();
+  setCFIFixup(true);
+}
+
+TraxTargetMachine::~TraxTargetMachine() = default;
+
+TargetTransformInfo TraxTargetMachine::getTargetTransformInfo(const Function &F) const {
+  return TargetTransformInfo(TraxTTIImpl(this, F));
+}
+
+MachineFunctionInfo *TraxTargetMachine::createMachineFunctionInfo(BumpPtrAllocator &Allocator, const Function &F,
+                                                                  const TargetSubtargetInfo *STI) const {
+  return TraxMachineFunctionInfo::create<TraxMachineFunctionInfo>(Allocator, F, STI);
+}
+
+void TraxTargetMachine::registerPassBuilderCallbacks(PassBuilder &PB) {
+  PB.registerPipelineStartEPCallback([](ModulePassManager &MPM, OptimizationLevel) { MPM.addPass(TraxBuiltinsPass()); });
+}
+
+namespace {
+
+class TraxPassConfig : public TargetPassConfig {
+public:
+  TraxPassConfig(TraxTargetMachine &TM, PassManagerBase &PM) : TargetPassConfig(TM, PM) {}
+
+  TraxTargetMachine &getTraxTargetMachine() const { return getTM<TraxTargetMachine>(); }
+
+  void addIRPasses() override {
+    addPass(createTraxLowerVAArgPass());
+    addPass(createAtomicExpandLegacyPass());
+    TargetPassConfig::addIRPasses();
+  }
+
+  bool addInstSelector() override {
+    addPass(createTraxISelDag(getTraxTargetMachine(), getOptLevel()));
+    return false;
+  }
+
+  void addPreEmitPass() override { addPass(&BranchRelaxationPassID); }
+};
+
+} // namespace
+
+TargetPassConfig *TraxTargetMachine::createPassConfig(PassManagerBase &PM) { return new TraxPassConfig(*this, PM); }

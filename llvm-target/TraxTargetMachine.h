@@ -1,0 +1,33 @@
+//===- TraxTargetMachine.h - What the target is made of ------------------===//
+#ifndef TRAX_TRAXTARGETMACHINE_H
+#define TRAX_TRAXTARGETMACHINE_H
+
+#include "TraxSubtarget.h"
+#include "llvm/Target/TargetLoweringObjectFile.h"
+#include "llvm/Target/TargetMachine.h"
+#include <optional>
+
+namespace llvm {
+
+class TraxTargetMachine : public LLVMTargetMachine {
+  std::unique_ptr<TargetLoweringObjectFile> TLOF;
+  TraxSubtarget Subtarget;
+
+public:
+  TraxTargetMachine(const Target &T, const Triple &TT, StringRef CPU, StringRef FS, const TargetOptions &Options,
+                    std::optional<Reloc::Model> RM, std::optional<CodeModel::Model> CM, CodeGenOptLevel OL, bool JIT);
+  ~TraxTargetMachine() override;
+
+  const TraxSubtarget *getSubtargetImpl(const Function &) const override { return &Subtarget; }
+  TargetLoweringObjectFile *getObjFileLowering() const override { return TLOF.get(); }
+  TargetPassConfig *createPassConfig(PassManagerBase &PM) override;
+  TargetTransformInfo getTargetTransformInfo(const Function &F) const override;
+  MachineFunctionInfo *createMachineFunctionInfo(BumpPtrAllocator &Allocator, const Function &F,
+                                                 const TargetSubtargetInfo *STI) const override;
+  void registerPassBuilderCallbacks(PassBuilder &PB) override;
+  bool isNoopAddrSpaceCast(unsigned, unsigned) const override { return true; } // there is one address space
+};
+
+} // namespace llvm
+
+#endif
