@@ -113,6 +113,8 @@ static trax_status check_options(const struct trax_build_options *options, trax_
     return scene_fail(error, "the leaf size is at most %u triangles, not %u", TRAX_SCENE_MAX_LEAF, options->max_leaf);
   if (options->max_depth > TRAX_SCENE_MAX_DEPTH)
     return scene_fail(error, "the depth is at most %u nodes, not %u", TRAX_SCENE_MAX_DEPTH, options->max_depth);
+  if (options->cache_lines > 4096) /* the search for the largest node is linear in it */
+    return scene_fail(error, "nodes can be ordered for at most 4096 lines of cache, not %u", options->cache_lines);
   if (!(options->traversal_cost >= 0 && options->intersection_cost >= 0 && isfinite(options->traversal_cost) &&
         isfinite(options->intersection_cost)))
     return scene_fail(error, "costs are positive numbers");

@@ -78,6 +78,13 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
                              const struct trax_build_options *options, trax_error *error);
 void scene_tree_release(struct scene_tree *tree);
 
+/* --- order.c --- */
+
+/* *positions, to be freed, gets for each inner node of the tree its position among the nodes of the file; the root's is
+   0. cache_lines: of the direct-mapped cache it is made for; below 8 the order is depth first. */
+trax_status scene_order_nodes(uint32_t **positions, const struct scene_tree *tree, const struct trax_mesh *mesh,
+                              uint32_t cache_lines, trax_error *error);
+
 /* --- boxes, in host arithmetic --- */
 
 struct scene_box {
@@ -96,6 +103,12 @@ static inline void scene_box_add_point(struct scene_box *box, const float point[
     if (point[axis] > box->max[axis])
       box->max[axis] = point[axis];
   }
+}
+
+/* Half of the surface: proportional to the chance that a random line hits the box. */
+static inline double scene_half_area(const float min[3], const float max[3]) {
+  double x = (double)max[0] - min[0], y = (double)max[1] - min[1], z = (double)max[2] - min[2];
+  return x * y + y * z + z * x;
 }
 
 static inline void scene_box_add_box(struct scene_box *box, const struct scene_box *other) {

@@ -5,17 +5,20 @@
 #include <string.h>
 #include <zlib.h>
 
+enum { default_cache_lines = 256 }; /* 16 kB of 64-byte lines: the paper's TM */
+
 struct layout {
   const struct trax_mesh *mesh;
   const struct scene_tree *tree;
   const uint32_t *materials; /* of the mesh to the file's */
+  const uint32_t *positions; /* of the tree's inner nodes in the file */
   /* the file's sections */
   unsigned char *bytes;
   struct trax_bvh_node *nodes;
   struct trax_triangle *triangles;
   uint32_t *source_ids; /* NULL: left out */
   uint32_t nodes_offset, triangles_offset;
-  uint32_t next_node, next_triangle;
+  uint32_t next_triangle;
 };
 
 /* --- materials: the file has those in use, each colour once --- */
@@ -48,7 +51,6 @@ static trax_status make_palette(struct palette *palette, const struct trax_mesh 
   const struct trax_mesh_material **sorted = malloc((count + 1) * sizeof *sorted);
   uint32_t *first = malloc((count + 1) * sizeof *first); /* the first material in use of the same colour */
   if (!palette->of_mesh || !palette->materials || !sorted || !first) {
-    palette_release(palette);
     free(sorted);
     free(first);
     return scene_out_of_memory(error, "materials");
@@ -107,7 +109,7 @@ static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_
   const struct scene_tree_node *node = &layout->tree->nodes[index];
   if (node->triangle_count)
     return place_leaf(layout, node, box);
-  uint32_t number = layout->next_node++;
+  uint32_t number = layout->positions[index];
   struct trax_bvh_node *out = &layout->nodes[number];
   for (int i = 0; i < 2; i++) {
     struct scene_box child = scene_empty_box();
@@ -137,7 +139,8 @@ static void *section_bytes(unsigned char *bytes, const struct trax_scene_section
 }
 
 static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mesh, const struct scene_tree *tree,
-                           const struct palette *palette, bool with_source_ids, trax_error *error) {
+                           const struct palette *palette, const uint32_t *positions, bool with_source_ids,
+                           trax_error *error) {
   struct trax_scene_header header = {.magic = TRAX_SCENE_MAGIC,
                                      .version = TRAX_SCENE_VERSION,
                                      .max_depth = tree->max_depth,
@@ -162,6 +165,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
   struct layout layout = {.mesh = mesh,
                           .tree = tree,
                           .materials = palette->of_mesh,
+                          .positions = positions,
                           .bytes = bytes,
                           .nodes = section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
                           .triangles = section_bytes(bytes, &sections[TRAX_SCENE_TRIANGLES]),
@@ -206,11 +210,16 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   trax_status result = scene_build_tree(&tree, mesh, options, error);
   if (result != TRAX_OK)
     return result;
-  struct palette palette;
-  result = make_palette(&palette, mesh, error);
+  struct palette palette = {0};
+  uint32_t *positions = NULL;
+  result = scene_order_nodes(&positions, &tree, mesh, options->cache_lines ? options->cache_lines : default_cache_lines,
+                             error);
   if (result == TRAX_OK) {
-    result = lay_out(scene, mesh, &tree, &palette, !options->without_source_ids, error);
+    result = make_palette(&palette, mesh, error);
+    if (result == TRAX_OK)
+      result = lay_out(scene, mesh, &tree, &palette, positions, !options->without_source_ids, error);
     palette_release(&palette);
+    free(positions);
   }
   scene_tree_release(&tree);
   return result;

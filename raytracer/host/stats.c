@@ -2,11 +2,6 @@
    using space subdivision", 1990). */
 #include "internal.h"
 
-static double half_area(const float min[3], const float max[3]) {
-  double x = (double)max[0] - min[0], y = (double)max[1] - min[1], z = (double)max[2] - min[2];
-  return x * y + y * z + z * x;
-}
-
 struct walk {
   const struct trax_scene *scene;
   struct trax_scene_stats *stats;
@@ -28,7 +23,7 @@ static void measure(const struct walk *walk, trax_scene_ref ref, unsigned depth,
   walk->stats->sah_nodes += probability;
   for (int i = 0; i < 2; i++)
     measure(walk, node->child[i], depth + 1,
-            walk->area > 0 ? half_area(node->box[i].min, node->box[i].max) / walk->area : 0);
+            walk->area > 0 ? scene_half_area(node->box[i].min, node->box[i].max) / walk->area : 0);
 }
 
 void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene *scene) {
@@ -36,7 +31,7 @@ void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene 
   if (scene->triangle_count == 0)
     return;
   const struct trax_scene_header *header = scene->header;
-  struct walk walk = {.scene = scene, .stats = stats, .area = half_area(header->bounds_min, header->bounds_max)};
+  struct walk walk = {.scene = scene, .stats = stats, .area = scene_half_area(header->bounds_min, header->bounds_max)};
   measure(&walk, header->root, 0, 1);
   stats->mean_leaf_depth /= stats->leaves;
 }

@@ -30,6 +30,7 @@ static const char usage[] =
     "      --depth N                at most N nodes from the root to a leaf, 1 to 48\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
+    "      --cache-lines N          order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first\n"
     "      --no-source-ids          leave out each triangle's number in the mesh\n"
     "  -q, --quiet                  no progress and no notes\n"
     "  -h, --help                   this text\n";
@@ -223,7 +224,21 @@ static bool parse_diffuse(char *text, struct trax_material_override *override) {
 
 /* Returns an exit status, or -1 to go on. */
 static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
-  enum { check = 256, stats, stats_json, diffuse, drop, keep, empty, leaf, depth, traversal, intersection, no_ids };
+  enum {
+    check = 256,
+    stats,
+    stats_json,
+    diffuse,
+    drop,
+    keep,
+    empty,
+    leaf,
+    depth,
+    traversal,
+    intersection,
+    cache,
+    no_ids
+  };
   static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                           {"check", required_argument, NULL, check},
                                           {"stats", no_argument, NULL, stats},
@@ -236,6 +251,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"depth", required_argument, NULL, depth},
                                           {"traversal-cost", required_argument, NULL, traversal},
                                           {"intersection-cost", required_argument, NULL, intersection},
+                                          {"cache-lines", required_argument, NULL, cache},
                                           {"no-source-ids", no_argument, NULL, no_ids},
                                           {"quiet", no_argument, NULL, 'q'},
                                           {"help", no_argument, NULL, 'h'},
@@ -282,6 +298,9 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       break;
     case intersection:
       good = parse_cost(options[index].name, optarg, &arguments->build.intersection_cost);
+      break;
+    case cache:
+      good = parse_unsigned(options[index].name, optarg, 1, 4096, &arguments->build.cache_lines);
       break;
     case no_ids:
       arguments->build.without_source_ids = true;

@@ -100,12 +100,13 @@ struct trax_scene {
 };
 
 struct trax_build_options {
-  unsigned max_leaf;             /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
-  unsigned max_depth;            /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
-  float traversal_cost;          /* of a node, relative to intersection_cost; 0: default */
-  float intersection_cost;       /* of a triangle; 0: default */
-  bool allow_empty;              /* a mesh without triangles gives a scene without triangles instead of an error */
-  bool without_source_ids;       /* leave that section out */
+  unsigned max_leaf;       /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
+  unsigned max_depth;      /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
+  unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
+  float traversal_cost;    /* of a node, relative to intersection_cost; 0: default */
+  float intersection_cost; /* of a triangle; 0: default */
+  bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
+  bool without_source_ids; /* leave that section out */
   trax_scene_progress *progress; /* may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */

@@ -34,8 +34,8 @@ typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
 
 enum trax_scene_section_kind {
-  TRAX_SCENE_NODES = 0,      /* struct trax_bvh_node, depth first, the root first */
-  TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in leaf order without gaps */
+  TRAX_SCENE_NODES = 0,      /* struct trax_bvh_node, the root first, otherwise in any order */
+  TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in the order of a depth-first traversal, without gaps */
   TRAX_SCENE_MATERIALS = 2,  /* struct trax_material; at least one if there are triangles */
   TRAX_SCENE_SOURCE_IDS = 3, /* uint32_t per triangle: its number in the imported mesh; for the host only */
   TRAX_SCENE_SECTIONS = 8    /* slots in the table; kinds 4..7 are absent in this version */
