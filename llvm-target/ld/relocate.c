@@ -60,7 +60,9 @@ static const char *describe_target(ld_context *ctx, const ld_reloc *reloc) {
 
 typedef struct missing {
   ld_symbol *symbol;
-  const char *places[SHOWN_REFERENCES];
+  struct {
+    const char *place, *function;
+  } references[SHOWN_REFERENCES];
   size_t count;
 } missing;
 typedef LD_VECTOR(missing) missing_list;
@@ -74,18 +76,22 @@ static void note_missing(ld_context *ctx, missing_list *list, const ld_section *
     ld_push(ctx, list, fresh);
   }
   missing *missing = &list->items[symbol->value];
-  if (missing->count < SHOWN_REFERENCES)
-    missing->places[missing->count] =
-        ld_format(ctx, "%s%s", ld_place(ctx, section, reloc->offset), in_function(ctx, section, reloc->offset));
+  if (missing->count < SHOWN_REFERENCES) {
+    missing->references[missing->count].place = ld_place(ctx, section, reloc->offset);
+    missing->references[missing->count].function = in_function(ctx, section, reloc->offset);
+  }
   missing->count++;
 }
 
 static void report_missing(ld_context *ctx, const missing *missing) {
-  const char *text = ld_format(ctx, "%s: undefined symbol '%s'", missing->places[0], missing->symbol->name);
+  const char *text = ld_format(ctx, "%s: undefined symbol '%s'%s", missing->references[0].place, missing->symbol->name,
+                               missing->references[0].function);
   for (size_t i = 1; i < missing->count && i < SHOWN_REFERENCES; i++)
-    text = ld_format(ctx, "%s\n>>> also needed at %s", text, missing->places[i]);
+    text = ld_format(ctx, "%s\n>>> also needed at %s%s", text, missing->references[i].place,
+                     missing->references[i].function);
   if (missing->count > SHOWN_REFERENCES)
-    text = ld_format(ctx, "%s\n>>> and at %zu more places", text, missing->count - SHOWN_REFERENCES);
+    text = ld_format(ctx, "%s\n>>> and at %zu more place%s", text, missing->count - SHOWN_REFERENCES,
+                     missing->count - SHOWN_REFERENCES == 1 ? "" : "s");
   ld_error(ctx, "%s", text);
 }
 
