@@ -20,15 +20,16 @@ static inline float dot(struct vector a, struct vector b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* How far the shadow ray's origin is moved along the normal, in units of the greatest magnitude M among the triangle's
-   coordinates. Rounding errors, u = 2^-24:
-   - the point, a weighted sum of the vertices with weights from a rounded reciprocal: 7u M in each coordinate;
-   - the moved point itself: u M in each coordinate;
-   - the shadow ray's test of the same triangle: its vertices, relative to the point at most 2M long, are rounded and
-     sheared with an error of at most 14u M across the ray, and the distance along it errs by at most 12u M.
-   As displacements off the plane these sum to less than sqrt(3) (7 + 1) + 14 + 12 < 40 u M. 64u M leaves a margin for
-   the normal's own error, and cannot be seen: at 1280 x 720, M in view spans far more than 2^18 such steps. */
-#define OFFSET_PER_MAGNITUDE 0x1p-18f
+/* How far the shadow ray's origin is moved along the normal, so that rounding cannot put it behind its own triangle: a
+   bound on all errors off the triangle's plane, in terms of M, the greatest magnitude among v0's coordinates, and E,
+   that among the edges' components. With u = 2^-24:
+   - the point relative to v0, a sum of the edges (what errors the weights have lies in the plane): 5u E a coordinate;
+   - the point itself: u M a coordinate;
+   - the shadow ray's test of the same triangle: vertices, at most 2E from the point, are off by at most 14u 2E across
+   the ray (see frame.c) and the distance along it by 12u 2E. As displacements off the plane these sum to less than
+   sqrt(3) (5u E + u M) + 52u E < 61u E + 2u M. The double leaves room for the normal's own error. */
+#define OFFSET_PER_EDGE 0x1p-17f
+#define OFFSET_PER_POSITION 0x1p-22f
 
 static inline void find_surface(struct surface *surface, const struct hit *hit, struct vector direction) {
   const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
@@ -48,15 +49,15 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   float scale = bits_float((0x7F000000 - exponent) | away);
   n.x *= scale, n.y *= scale, n.z *= scale;
 
-  int32_t reach = larger(
-      larger(larger(magnitude(a.x), magnitude(a.y)), larger(magnitude(a.z), magnitude(b.x))),
-      larger(larger(magnitude(b.y), magnitude(b.z)), larger(magnitude(c.x), larger(magnitude(c.y), magnitude(c.z)))));
+  int32_t position = larger(larger(magnitude(a.x), magnitude(a.y)), magnitude(a.z));
+  int32_t edge = larger(larger(larger(magnitude(e.x), magnitude(e.y)), larger(magnitude(e.z), magnitude(f.x))),
+                        larger(magnitude(f.y), magnitude(f.z)));
   float inverse_length = trax_rsqrt(dot(n, n));
-  float offset = bits_float(reach) * OFFSET_PER_MAGNITUDE * inverse_length;
-  float weight1 = hit->weight1, weight2 = hit->weight2, weight0 = 1.0f - weight1 - weight2;
-  surface->x = weight0 * a.x + weight1 * b.x + weight2 * c.x + offset * n.x;
-  surface->y = weight0 * a.y + weight1 * b.y + weight2 * c.y + offset * n.y;
-  surface->z = weight0 * a.z + weight1 * b.z + weight2 * c.z + offset * n.z;
+  float offset = (bits_float(position) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE) * inverse_length;
+  float weight1 = hit->weight1, weight2 = hit->weight2;
+  surface->x = a.x + (weight1 * e.x + weight2 * f.x + offset * n.x);
+  surface->y = a.y + (weight1 * e.y + weight2 * f.y + offset * n.y);
+  surface->z = a.z + (weight1 * e.z + weight2 * f.z + offset * n.z);
   surface->normal = n;
   surface->inverse_length = inverse_length;
   surface->material = load_word(hit->triangle + 36);

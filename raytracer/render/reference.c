@@ -42,12 +42,8 @@ static struct double3 cross(struct double3 a, struct double3 b) {
   return (struct double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-static double greatest_coordinate(const struct trax_triangle *triangle) {
-  const float *values[3] = {triangle->v0, triangle->v1, triangle->v2};
-  double greatest = 0;
-  for (int i = 0; i < 9; i++)
-    greatest = fmax(greatest, fabs((double)values[i / 3][i % 3]));
-  return greatest;
+static double greatest(struct double3 v) {
+  return fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
 }
 
 static uint32_t shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
@@ -91,7 +87,8 @@ static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_
   double facing = dot(normal, direction) < 0 ? 1 / length : -1 / length;
   normal = (struct double3){facing * normal.x, facing * normal.y, facing * normal.z};
   struct double3 point = plus_scaled(plus_scaled(v0, primary.hit.u, e), primary.hit.v, f);
-  point = plus_scaled(point, 0x1p-18 * greatest_coordinate(triangle), normal); /* as in device/shade.h */
+  double offset = 0x1p-22 * greatest(v0) + 0x1p-17 * fmax(greatest(e), greatest(f)); /* as in device/shade.h */
+  point = plus_scaled(point, offset, normal);
 
   struct double3 way = minus(from(params->light), point);
   double distance = sqrt(dot(way, way));
