@@ -128,8 +128,13 @@ bool compileForTrax(CompilerInstance &CI) {
   return Success;
 }
 
-/// -print-supported-cpus: the target machine prints them when it is asked for help.
+/// -print-supported-cpus: the target machine prints them when it is asked for help. One without features, as ours, does
+/// not.
 int printSupportedCPUs(StringRef Triple) {
+  if (trax::isTraxTriple(llvm::Triple(Triple))) {
+    llvm::errs() << "Available CPUs for this target:\n\n\tgeneric\n";
+    return 0;
+  }
   std::string Error;
   const llvm::Target *Target = llvm::TargetRegistry::lookupTarget(Triple, Error);
   if (!Target) {

@@ -119,7 +119,9 @@ int execute(Driver &TheDriver, Compilation &C) {
   return Result;
 }
 
-int drive(ArgVector &Args, llvm::StringSaver &Strings) {
+/// Does what the command line says. ForTrax if that is known to be the target before the arguments are looked at.
+int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
+  const ArgVector Given = Args;
   const bool Canonical = !hasArgument(Args, "-no-canonical-prefixes");
   const Installation Installed(Args[0], Canonical);
 
@@ -130,7 +132,7 @@ int drive(ArgVector &Args, llvm::StringSaver &Strings) {
     Name.TargetIsValid = false;
 
   const std::string Target = requestedTarget(Args, Name);
-  const bool ForTrax = !Target.empty() && trax::isTraxTriple(llvm::Triple(llvm::Triple::normalize(Target)));
+  ForTrax |= !Target.empty() && trax::isTraxTriple(llvm::Triple(llvm::Triple::normalize(Target)));
   if (ForTrax)
     trax::insertDefaults(Args, Installed.RuntimeDir, Strings);
   if (Name.DriverMode) // clang++
@@ -156,10 +158,16 @@ int drive(ArgVector &Args, llvm::StringSaver &Strings) {
   const std::unique_ptr<Compilation> C(TheDriver.BuildCompilation(Args));
   if (hasArgument(Args, "--version"))
     llvm::outs() << "TRaX " TRAX_VERSION ", with the target trax\n";
+  // A configuration file may have named the target: once more, with the defaults before all else.
+  if (C && !ForTrax && !C->getJobs().empty() && trax::isTraxTriple(C->getDefaultToolChain().getTriple()))
+    return drive(Given, Strings, /*ForTrax=*/true);
+
+  std::unique_ptr<trax::Linker> Linker;
   if (C && ForTrax) {
     if (!C->containsError())
       trax::checkOptions(*C);
-    trax::replaceLinkJobs(*C, Installed.RuntimeDir);
+    Linker = std::make_unique<trax::Linker>(C->getDefaultToolChain(), Installed.RuntimeDir);
+    Linker->replaceJobs(*C);
   }
   int Result = 1;
   if (C && !C->containsError() && !Diags.hasErrorOccurred())

@@ -58,35 +58,38 @@ void trax::checkOptions(const Compilation &C) {
     C.getDriver().Diag(diag::err_drv_unsupported_opt_for_target) << Given->getAsString(Args) << Triple;
   };
   using namespace options;
-  // The last of each pair decides; the first names what the machine cannot do.
-  static const std::pair<unsigned, unsigned> Impossible[] = {
-      {OPT_fPIC, OPT_fno_PIC},
-      {OPT_fpic, OPT_fno_pic},
-      {OPT_fPIE, OPT_fno_PIE},
-      {OPT_fpie, OPT_fno_pie},
-      {OPT_pie, OPT_no_pie},
-      {OPT_shared, OPT_shared},
-      {OPT_static_pie, OPT_static_pie},
-      {OPT_fopenmp, OPT_fno_openmp},
-      {OPT_fopenmp_EQ, OPT_fno_openmp},
-      {OPT_pg, OPT_pg},
-      {OPT_coverage, OPT_coverage},
-      {OPT_fprofile_generate, OPT_fno_profile_generate},
-      {OPT_fprofile_instr_generate, OPT_fno_profile_instr_generate},
-      {OPT_fstack_protector, OPT_fno_stack_protector},
-      {OPT_fstack_protector_strong, OPT_fno_stack_protector},
-      {OPT_fstack_protector_all, OPT_fno_stack_protector},
-      {OPT_fsplit_stack, OPT_fno_split_stack},
-      {OPT_femulated_tls, OPT_fno_emulated_tls},
-      {OPT_flto, OPT_fno_lto},
-      {OPT_flto_EQ, OPT_fno_lto},
-      {OPT_gsplit_dwarf, OPT_gno_split_dwarf},
-      {OPT_gsplit_dwarf_EQ, OPT_gno_split_dwarf},
+  // What the machine cannot do, and what takes it back: the last of a group decides.
+  struct Group {
+    std::initializer_list<unsigned> Refused, Harmless;
   };
-  for (const auto &[Positive, Negative] : Impossible)
-    if (const Arg *Given = Args.getLastArg(Positive, Negative))
-      if (Positive == Negative || !Given->getOption().matches(Negative))
-        Refuse(Given);
+  static const Group Groups[] = {
+      {{OPT_fPIC, OPT_fpic, OPT_fPIE, OPT_fpie}, {OPT_fno_PIC, OPT_fno_pic, OPT_fno_PIE, OPT_fno_pie}},
+      {{OPT_pie, OPT_static_pie}, {OPT_no_pie}},
+      {{OPT_shared}, {}},
+      {{OPT_flto, OPT_flto_EQ}, {OPT_fno_lto}},
+      {{OPT_fopenmp, OPT_fopenmp_EQ}, {OPT_fno_openmp}},
+      {{OPT_fstack_protector, OPT_fstack_protector_strong, OPT_fstack_protector_all}, {OPT_fno_stack_protector}},
+      {{OPT_fsplit_stack}, {OPT_fno_split_stack}},
+      {{OPT_femulated_tls}, {OPT_fno_emulated_tls}},
+      {{OPT_fprofile_generate, OPT_fprofile_generate_EQ}, {OPT_fno_profile_generate}},
+      {{OPT_fprofile_instr_generate, OPT_fprofile_instr_generate_EQ}, {OPT_fno_profile_instr_generate}},
+      {{OPT_pg, OPT_coverage}, {}},
+      {{OPT_gsplit_dwarf, OPT_gsplit_dwarf_EQ}, {OPT_gno_split_dwarf}},
+  };
+  for (const Group &G : Groups) {
+    const Arg *Last = nullptr;
+    bool IsRefused = false;
+    auto Matches = [](const Arg *Given, const std::initializer_list<unsigned> &Ids) {
+      return llvm::any_of(Ids, [&](unsigned Id) { return Given->getOption().matches(Id); });
+    };
+    for (const Arg *Given : Args)
+      if (const bool Refused = Matches(Given, G.Refused); Refused || Matches(Given, G.Harmless)) {
+        Last = Given;
+        IsRefused = Refused;
+      }
+    if (IsRefused)
+      Refuse(Last);
+  }
   if (const Arg *Given = Args.getLastArg(OPT_fuse_ld_EQ))
     if (StringRef(Given->getValue()) != "trax-ld")
       Refuse(Given);
@@ -94,75 +97,78 @@ void trax::checkOptions(const Compilation &C) {
 
 namespace {
 
-/// Writes the arguments of one call of trax-ld.
-class LinkCommand {
-public:
-  LinkCommand(Compilation &C, StringRef RuntimeDir) : C(C), Args(C.getArgs()), RuntimeDir(RuntimeDir) {}
+/// The file of that name in the directories of -B, else the one of the runtime.
+const char *findStartFile(const Compilation &C, StringRef Name, StringRef RuntimeDir) {
+  const std::string Found = C.getDriver().GetFilePath(Name, C.getDefaultToolChain());
+  return C.getArgs().MakeArgString(StringRef(Found) != Name ? Found : (RuntimeDir + "/" + Name).str());
+}
 
-  ArgStringList build(const Command &Job) {
-    using namespace options;
-    const bool Relocatable = Args.hasArg(OPT_r);
-    const bool NoLibraries = Relocatable || Args.hasArg(OPT_nostdlib, OPT_nodefaultlibs, OPT_nolibc);
-    Out.push_back("-o");
-    Out.push_back(Args.MakeArgString(Job.getOutputFilenames().front()));
-    if (!Relocatable)
-      Out.push_back("--gc-sections");
-    if (!Relocatable && !Args.hasArg(OPT_nostdlib, OPT_nostartfiles))
-      Out.push_back(startFile());
-    for (const auto Id : {OPT_L, OPT_u, OPT_s, OPT_t})
-      Args.AddAllArgs(Out, Id);
-    Args.AddAllArgs(Out, OPT_T_Group);
-    Out.push_back(Args.MakeArgString("-L" + RuntimeDir));
-    addInputs(Job, NoLibraries);
-    if (!NoLibraries)
-      Out.push_back("-lc");
-    return Out;
+const char *findLinker(const Compilation &C) {
+  if (const Arg *Path = C.getArgs().getLastArg(options::OPT_ld_path_EQ))
+    return Path->getValue();
+  return C.getArgs().MakeArgString(C.getDriver().GetProgramPath("trax-ld", C.getDefaultToolChain()));
+}
+
+/// Objects, libraries and -Wl, in the order of the command line, which archives depend on. A job lists its files only;
+/// its action has an input for every argument, so that the two together give the order.
+InputInfoList orderedInputs(const Command &Job) {
+  InputInfoList Inputs;
+  auto NextFile = Job.getInputInfos().begin();
+  for (const Action *Input : Job.getSource().getInputs()) {
+    const auto *Given = dyn_cast<InputAction>(Input);
+    if (Given && !Given->getInputArg().getOption().matches(options::OPT_INPUT))
+      Inputs.push_back(InputInfo(Given, &Given->getInputArg(), nullptr));
+    else
+      Inputs.push_back(*NextFile++);
   }
-
-  const char *linker() const {
-    if (const Arg *Path = Args.getLastArg(options::OPT_ld_path_EQ))
-      return Path->getValue();
-    return Args.MakeArgString(C.getDriver().GetProgramPath("trax-ld", C.getDefaultToolChain()));
-  }
-
-private:
-  Compilation &C;
-  const llvm::opt::DerivedArgList &Args;
-  const StringRef RuntimeDir;
-  ArgStringList Out;
-
-  const char *startFile() const {
-    const std::string Found = C.getDriver().GetFilePath("crt0.o", C.getDefaultToolChain());
-    return Args.MakeArgString(Found != "crt0.o" ? Found : (RuntimeDir + "/crt0.o").str());
-  }
-
-  /// Objects, libraries and -Wl, in the order of the command line, which archives depend on. The job lists its files
-  /// only; its action has an input for every argument, so that the two together give the order.
-  void addInputs(const Command &Job, bool NoLibraries) {
-    auto NextFile = Job.getInputInfos().begin();
-    for (const Action *Input : Job.getSource().getInputs()) {
-      const auto *Given = dyn_cast<InputAction>(Input);
-      if (!Given || Given->getInputArg().getOption().matches(options::OPT_INPUT)) {
-        Out.push_back(Args.MakeArgString((NextFile++)->getFilename()));
-        continue;
-      }
-      const Arg &Option = Given->getInputArg();
-      // The functions of <math.h> are in libc.a.
-      if (!NoLibraries && Option.getOption().matches(options::OPT_l) && StringRef(Option.getValue()) == "m")
-        continue;
-      Option.renderAsInput(Args, Out);
-    }
-  }
-};
+  return Inputs;
+}
 
 } // namespace
 
-void trax::replaceLinkJobs(Compilation &C, StringRef RuntimeDir) {
-  for (Command &Job : C.getJobs()) {
-    if (!isa<LinkJobAction>(Job.getSource()))
+std::unique_ptr<Command> trax::Linker::makeCommand(const Compilation &C, const Action &Link, const InputInfo &Output,
+                                                   const InputInfoList &Inputs) const {
+  using namespace options;
+  const llvm::opt::DerivedArgList &Args = C.getArgs();
+  const bool Relocatable = Args.hasArg(OPT_r);
+  const bool NoLibraries = Relocatable || Args.hasArg(OPT_nostdlib, OPT_nodefaultlibs, OPT_nolibc);
+  ArgStringList Out{"-o", Output.getFilename()};
+  if (!Relocatable)
+    Out.push_back("--gc-sections");
+  if (!Relocatable && !Args.hasArg(OPT_nostdlib, OPT_nostartfiles))
+    Out.push_back(findStartFile(C, "crt0.o", RuntimeDir));
+  for (const auto Id : {OPT_L, OPT_u, OPT_s, OPT_t})
+    Args.AddAllArgs(Out, Id);
+  for (const Arg *Address : Args.filtered(OPT_T_Group)) // -Ttext=ADDRESS is the option -T to clang
+    Out.push_back(Args.MakeArgString(Address->getSpelling() + Address->getValue()));
+  Out.push_back(Args.MakeArgString("-L" + RuntimeDir));
+
+  for (const InputInfo &Input : Inputs) {
+    if (Input.isFilename()) {
+      Out.push_back(Input.getFilename());
       continue;
-    LinkCommand Link(C, RuntimeDir);
-    Job.replaceArguments(Link.build(Job));
-    Job.replaceExecutable(Link.linker());
+    }
+    // The functions of <math.h> are in libc.a.
+    const Arg &Option = Input.getInputArg();
+    if (NoLibraries || !Option.getOption().matches(OPT_l) || StringRef(Option.getValue()) != "m")
+      Option.renderAsInput(Args, Out);
+  }
+  if (!NoLibraries)
+    Out.push_back("-lc");
+  return std::make_unique<Command>(Link, *this, ResponseFileSupport::AtFileUTF8(), findLinker(C), Out, Inputs, Output);
+}
+
+void trax::Linker::ConstructJob(Compilation &C, const JobAction &Link, const InputInfo &Output,
+                                const InputInfoList &Inputs, const llvm::opt::ArgList &, const char *) const {
+  C.addCommand(makeCommand(C, Link, Output, Inputs));
+}
+
+void trax::Linker::replaceJobs(Compilation &C) const {
+  // The list can only be added to, but it is the compilation's own and not constant.
+  for (std::unique_ptr<Command> &Job : const_cast<JobList::list_type &>(C.getJobs().getJobs())) {
+    if (!isa<LinkJobAction>(Job->getSource()))
+      continue;
+    const InputInfo Output(types::TY_Image, C.getArgs().MakeArgString(Job->getOutputFilenames().front()), "");
+    Job = makeCommand(C, Job->getSource(), Output, orderedInputs(*Job));
   }
 }

@@ -7,15 +7,14 @@
 #ifndef TRAX_CLANG_TRAXTOOLCHAIN_H
 #define TRAX_CLANG_TRAXTOOLCHAIN_H
 
-#include "llvm/ADT/ArrayRef.h"
+#include "clang/Driver/InputInfo.h"
+#include "clang/Driver/Job.h"
+#include "clang/Driver/Tool.h"
 #include "llvm/ADT/SmallVector.h"
 #include "llvm/ADT/StringRef.h"
 #include "llvm/Support/StringSaver.h"
-
-namespace clang::driver {
-class Compilation;
-class Driver;
-} // namespace clang::driver
+#include <memory>
+#include <string>
 
 namespace trax {
 
@@ -26,8 +25,30 @@ void insertDefaults(llvm::SmallVectorImpl<const char *> &Args, llvm::StringRef R
 /// Reports options that clang accepts for any target and this machine cannot obey.
 void checkOptions(const clang::driver::Compilation &C);
 
-/// Replaces the generic tool chain's link jobs, which call gcc, by calls of trax-ld.
-void replaceLinkJobs(clang::driver::Compilation &C, llvm::StringRef RuntimeDir);
+/// trax-ld, as the driver sees its tools.
+class Linker final : public clang::driver::Tool {
+public:
+  /// RuntimeDir holds crt0.o and libc.a. The linker must outlive the compilation's execution.
+  Linker(const clang::driver::ToolChain &TC, std::string RuntimeDir)
+      : Tool("trax::Linker", "linker", TC), RuntimeDir(std::move(RuntimeDir)) {}
+
+  /// Replaces the generic tool chain's link jobs, which call gcc.
+  void replaceJobs(clang::driver::Compilation &C) const;
+
+  bool hasIntegratedCPP() const override { return false; }
+  bool isLinkJob() const override { return true; }
+  void ConstructJob(clang::driver::Compilation &C, const clang::driver::JobAction &Link,
+                    const clang::driver::InputInfo &Output, const clang::driver::InputInfoList &Inputs,
+                    const llvm::opt::ArgList &Args, const char *LinkingOutput) const override;
+
+private:
+  const std::string RuntimeDir;
+
+  std::unique_ptr<clang::driver::Command> makeCommand(const clang::driver::Compilation &C,
+                                                      const clang::driver::Action &Link,
+                                                      const clang::driver::InputInfo &Output,
+                                                      const clang::driver::InputInfoList &Inputs) const;
+};
 
 } // namespace trax
 

@@ -1,9 +1,12 @@
-// An error names its place, gives status 1, and leaves an older output as it was.
-// RUN: echo untouched > %t.o
-// RUN: not %clang -c %s -o %t.o 2>&1 | FileCheck %s
-// RUN: FileCheck %s --check-prefix=OLD < %t.o
-// OLD: untouched
-// RUN: rm -f %t.new.o && not %clang -c %s -o %t.new.o 2> /dev/null && not ls %t.new.o
+// An error names its place, gives status 1 and leaves no output, not even an older one, as with clang's other errors. The
+// assembler by itself leaves an older one as it was.
+// RUN: rm -rf %t && mkdir %t
+// RUN: echo old > %t/x.o && not %clang -c %s -o %t/x.o 2>&1 | FileCheck %s
+// RUN: ls %t | count 0
+// RUN: echo old > %t/x.o && not %host_clang -cc1as -triple trax -filetype obj %s -o %t/x.o 2>&1 | FileCheck %s
+// RUN: FileCheck %s --check-prefix=OLD < %t/x.o
+// OLD: {{^}}old{{$}}
+// RUN: ls %t | count 1
 
 // CHECK: assembler-invalid.s:[[@LINE+1]]:{{[0-9]+}}: error:
 	frobnicate r1, r2

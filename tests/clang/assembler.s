@@ -14,7 +14,7 @@
 // ASM: addi r4, r0, 42
 // RUN: %host_clang -cc1as -triple trax -filetype null %s
 // RUN: %host_clang -cc1as -triple trax -filetype obj %s -o - | llvm-readelf -h - | FileCheck %s --check-prefix=PIPE
-// PIPE: Machine: {{.*}}0x7472
+// PIPE: Machine: 7472
 // RUN: %clang -c %s -o /dev/null
 // RUN: not %clang -c -Wa,--fatal-warnings %S/Inputs/warning.s -o %t.fatal.o 2>&1 | FileCheck %s --check-prefix=FATAL
 // FATAL: warning.s:1:{{[0-9]+}}: error: careful

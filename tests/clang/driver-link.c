@@ -7,7 +7,7 @@
 // RUN: %clang -### %s -L/first -L /second -e begin -u needed -s -Ttext=0x2000 -z now 2>&1 | FileCheck %s --check-prefix=OPTIONS
 // OPTIONS: "-cc1"
 // OPTIONS: trax-ld" "-o" "a.out"
-// OPTIONS-SAME: "-L/first" "-L" "/second" "-u" "needed" "-s" "-Ttext=0x2000"
+// OPTIONS-SAME: "-L/first" "-L/second" "-u" "needed" "-s" "-Ttext=0x2000"
 // OPTIONS-SAME: "{{[^"]+}}.o" "-e" "begin" "-z" "now" "-lc"
 
 // The functions of <math.h> are in libc.a.

@@ -13,7 +13,9 @@
 
 // Structs by value follow the other target's rules, not ours.
 // RUN: %host_clang --target=lanai -S -emit-llvm %s -o - | FileCheck %s --check-prefix=LANAI
-// LANAI: define{{.*}} @lengths(ptr {{.*}}byval
+// LANAI: define{{.*}} @lengths(i32 inreg %0, i32 inreg %1, i32 inreg %2)
+// RUN: %host_clang --target=msp430 -S -emit-llvm %s -o - | FileCheck %s --check-prefix=MSP430
+// MSP430: define{{.*}} @lengths(ptr {{.*}}byval
 struct vec3 { float x, y, z; };
 float lengths(struct vec3 v) { return v.x + v.y; }
 #ifdef BUILTIN
