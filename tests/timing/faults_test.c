@@ -133,6 +133,24 @@ static void record(void **state) {
   bench_end(&bench);
 }
 
+static void lowest_thread_of_the_cycle(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 2);
+  config.icache.ports_per_bank = 64;
+  /* One TP reaches an illegal instruction (step 2) in the cycle in which the other aborts (step 5), both ways round. */
+  for (unsigned aborting = 0; aborting < 2; aborting++) {
+    const uint32_t program[] = {U(RDSR, 1, TRAX_SR_TP), aborting ? B(BEQ, 1, 0, 8) : B(BNE, 1, 0, 8),
+                                T(0, TRAX_TRAP_ABORT), 0};
+    struct bench bench = bench_begin(&config, program, 4);
+    bench_run(&bench, 0);
+    const struct trax_fault *fault = trax_machine_fault(bench.machine);
+    assert_int_equal(fault->tp, 0);
+    assert_int_equal(fault->kind, aborting ? TRAX_FAULT_ILLEGAL : TRAX_FAULT_ABORT);
+    assert_int_equal(fault->cycle, 3);
+    bench_end(&bench);
+  }
+}
+
 static void guest_output(void **state) {
   (void)state;
   const struct trax_config config = bench_near(1, 2);
@@ -202,8 +220,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(data_addresses), cmocka_unit_test(allowed_addresses),
       cmocka_unit_test(instructions),   cmocka_unit_test(program_counters),
-      cmocka_unit_test(record),         cmocka_unit_test(guest_output),
-      cmocka_unit_test(segments),
+      cmocka_unit_test(record),         cmocka_unit_test(lowest_thread_of_the_cycle),
+      cmocka_unit_test(guest_output),   cmocka_unit_test(segments),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

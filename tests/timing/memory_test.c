@@ -245,6 +245,18 @@ static void places_go_round(void **state) {
   bench_end(&bench);
 }
 
+static void places_go_round_for_reads_past_the_cache(void **state) {
+  (void)state;
+  struct trax_config config = bench_far(1, 3);
+  config.memory.queue_depth = 1;
+  /* Words past the cache, two for each of three TPs, one place; each takes 101 cycles (past_the_cache). */
+  struct bench bench = BENCH(config, U(LUI, 1, 1), I(LWNT, 2, 1, 0), I(LWNT, 3, 1, 0), HALT);
+  ISSUES(&bench, 0, 104, 105, 408, 409);
+  ISSUES(&bench, 1, 104, 206, 509, 510);
+  ISSUES(&bench, 2, 104, 307, 610, 611);
+  bench_end(&bench);
+}
+
 static void bandwidth_is_exact(void **state) {
   (void)state;
   struct trax_config config = bench_far(1, 1);
@@ -303,6 +315,7 @@ int main(void) {
       cmocka_unit_test(stores_go_around),
       cmocka_unit_test(a_full_queue_stops_stores),
       cmocka_unit_test(places_go_round),
+      cmocka_unit_test(places_go_round_for_reads_past_the_cache),
       cmocka_unit_test(bandwidth_is_exact),
       cmocka_unit_test(streaming_reaches_the_bandwidth),
   };
