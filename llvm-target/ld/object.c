@@ -262,8 +262,10 @@ static ld_section *read_section(ld_context *ctx, ld_object *object, size_t index
 
 static bool read_sections(ld_context *ctx, ld_object *object) {
   size_t name_table;
-  if (elf_getshdrstrndx(object->elf, &name_table) != 0) {
-    ld_error(ctx, "%s: no section names: %s", object->name, elf_errmsg(-1));
+  GElf_Shdr names;
+  if (elf_getshdrstrndx(object->elf, &name_table) != 0 || name_table >= object->section_count ||
+      !section_header(ctx, object, name_table, &names) || names.sh_type != SHT_STRTAB) {
+    ld_error(ctx, "%s: has no table of section names", object->name);
     return false;
   }
   object->sections = ld_alloc_array(ctx, object->section_count + 1, sizeof(ld_section *));
