@@ -41,7 +41,6 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
 
   // Control.
   setOperationAction({ISD::BR_JT, ISD::BRCOND}, MVT::Other, Expand);
-  setOperationAction(ISD::BR_CC, MVT::f32, Custom);
   setOperationAction({ISD::TRAP, ISD::DEBUGTRAP}, MVT::Other, Legal);
   setOperationAction({ISD::STACKSAVE, ISD::STACKRESTORE}, MVT::Other, Expand);
   setOperationAction(ISD::DYNAMIC_STACKALLOC, MVT::i32, Expand);
@@ -57,7 +56,6 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
                      MVT::i32, Custom);
 
   // Floats. What is missing is expanded to integer operations, or a function of the library.
-  setOperationAction(ISD::SETCC, MVT::f32, Custom);
   setOperationAction({ISD::FMINNUM, ISD::FMAXNUM}, MVT::f32, Legal);
   setOperationAction({ISD::FMINIMUM, ISD::FMAXIMUM, ISD::FCOPYSIGN, ISD::FMA, ISD::FMAD, ISD::FREM, ISD::FSQRT,
                       ISD::FSIN, ISD::FCOS, ISD::FSINCOS, ISD::FTAN, ISD::FPOW, ISD::FPOWI, ISD::FEXP, ISD::FEXP2,
@@ -137,10 +135,6 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
     return lowerAddress(cast<JumpTableSDNode>(Op), DAG);
   case ISD::ConstantPool:
     return lowerAddress(cast<ConstantPoolSDNode>(Op), DAG);
-  case ISD::SETCC:
-    return lowerSetCC(Op, DAG);
-  case ISD::BR_CC:
-    return lowerBrCC(Op, DAG);
   case ISD::FP_TO_SINT_SAT:
   case ISD::FP_TO_UINT_SAT:
     return lowerFPToIntSat(Op, DAG);
@@ -259,87 +253,7 @@ SDValue TraxTargetLowering::PerformDAGCombine(SDNode *N, DAGCombinerInfo &DCI) c
   return N->getOpcode() == ISD::ADD ? performAddCombine(N, DCI) : SDValue();
 }
 
-//--- comparison ---------------------------------------------------------------
-
-/// Reduces a comparison of floats to feq, flt and fle. The result is 1 or 0; Inverted tells that it is of the opposite
-/// condition.
-static SDValue compareFloats(SDValue LHS, SDValue RHS, ISD::CondCode CC, const SDLoc &DL, SelectionDAG &DAG,
-                             bool &Inverted) {
-  auto Compare = [&](SDValue A, SDValue B, ISD::CondCode Code) {
-    return DAG.getNode(ISD::SETCC, DL, MVT::i32, A, B, DAG.getCondCode(Code));
-  };
-  Inverted = false;
-  switch (CC) {
-  case ISD::SETOEQ:
-  case ISD::SETEQ:
-    return Compare(LHS, RHS, ISD::SETOEQ);
-  case ISD::SETUNE:
-  case ISD::SETNE:
-    Inverted = true;
-    return Compare(LHS, RHS, ISD::SETOEQ);
-  case ISD::SETOLT:
-  case ISD::SETLT:
-    return Compare(LHS, RHS, ISD::SETOLT);
-  case ISD::SETOGT:
-  case ISD::SETGT:
-    return Compare(RHS, LHS, ISD::SETOLT);
-  case ISD::SETOLE:
-  case ISD::SETLE:
-    return Compare(LHS, RHS, ISD::SETOLE);
-  case ISD::SETOGE:
-  case ISD::SETGE:
-    return Compare(RHS, LHS, ISD::SETOLE);
-  case ISD::SETUGE:
-    Inverted = true;
-    return Compare(LHS, RHS, ISD::SETOLT);
-  case ISD::SETULE:
-    Inverted = true;
-    return Compare(RHS, LHS, ISD::SETOLT);
-  case ISD::SETUGT:
-    Inverted = true;
-    return Compare(LHS, RHS, ISD::SETOLE);
-  case ISD::SETULT:
-    Inverted = true;
-    return Compare(RHS, LHS, ISD::SETOLE);
-  case ISD::SETUEQ:
-    Inverted = true;
-    [[fallthrough]];
-  case ISD::SETONE:
-    return DAG.getNode(ISD::OR, DL, MVT::i32, Compare(LHS, RHS, ISD::SETOLT), Compare(RHS, LHS, ISD::SETOLT));
-  case ISD::SETUO:
-    Inverted = true;
-    [[fallthrough]];
-  case ISD::SETO:
-    if (LHS == RHS || (isa<ConstantFPSDNode>(RHS) && !cast<ConstantFPSDNode>(RHS)->isNaN()))
-      return Compare(LHS, LHS, ISD::SETOEQ);
-    return DAG.getNode(ISD::AND, DL, MVT::i32, Compare(LHS, LHS, ISD::SETOEQ), Compare(RHS, RHS, ISD::SETOEQ));
-  case ISD::SETTRUE:
-  case ISD::SETTRUE2:
-    return DAG.getConstant(1, DL, MVT::i32);
-  default: // SETFALSE
-    return DAG.getConstant(0, DL, MVT::i32);
-  }
-}
-
-SDValue TraxTargetLowering::lowerSetCC(SDValue Op, SelectionDAG &DAG) const {
-  ISD::CondCode CC = cast<CondCodeSDNode>(Op.getOperand(2))->get();
-  if (CC == ISD::SETOEQ || CC == ISD::SETOLT || CC == ISD::SETOLE)
-    return Op;
-  SDLoc DL(Op);
-  bool Inverted;
-  SDValue Result = compareFloats(Op.getOperand(0), Op.getOperand(1), CC, DL, DAG, Inverted);
-  return Inverted ? DAG.getNode(ISD::XOR, DL, MVT::i32, Result, DAG.getConstant(1, DL, MVT::i32)) : Result;
-}
-
-SDValue TraxTargetLowering::lowerBrCC(SDValue Op, SelectionDAG &DAG) const {
-  SDLoc DL(Op);
-  bool Inverted;
-  SDValue Condition = compareFloats(Op.getOperand(2), Op.getOperand(3), cast<CondCodeSDNode>(Op.getOperand(1))->get(),
-                                    DL, DAG, Inverted);
-  return DAG.getNode(ISD::BR_CC, DL, MVT::Other, Op.getOperand(0),
-                     DAG.getCondCode(Inverted ? ISD::SETEQ : ISD::SETNE), Condition,
-                     DAG.getConstant(0, DL, MVT::i32), Op.getOperand(4));
-}
+//--- conversion ----------------------------------------------------------------
 
 /// The machine saturates at 32 bits; narrower ranges are clamped first.
 SDValue TraxTargetLowering::lowerFPToIntSat(SDValue Op, SelectionDAG &) const {

@@ -101,8 +101,6 @@ private:
 
   template <class NodeTy> SDValue lowerAddress(NodeTy *N, SelectionDAG &DAG) const;
   SDValue lowerGlobalAddress(SDValue Op, SelectionDAG &DAG) const;
-  SDValue lowerSetCC(SDValue Op, SelectionDAG &DAG) const;
-  SDValue lowerBrCC(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerFPToIntSat(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerVAStart(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerFrameAddr(SDValue Op, SelectionDAG &DAG) const;

@@ -204,8 +204,6 @@ def : Pat<(debugtrap), (TRAP (i32 R0), 2)>;
 
 class PatFF<SDPatternOperator node, Instruction inst>
     : Pat<(f32 (node (f32 GPR:$a), (f32 GPR:$b))), (inst GPR:$a, GPR:$b)>;
-class PatFCompare<SDPatternOperator node, Instruction inst>
-    : Pat<(i32 (node (f32 GPR:$a), (f32 GPR:$b))), (inst GPR:$a, GPR:$b)>;
 
 def : PatFF<any_fadd, FADD>;
 def : PatFF<any_fsub, FSUB>;
@@ -213,13 +211,53 @@ def : PatFF<any_fmul, FMUL>;
 def : PatFF<any_fdiv, FDIV>;
 def : PatFF<any_fminnum, FMIN>;
 def : PatFF<any_fmaxnum, FMAX>;
-// The other conditions are reduced to these by TraxTargetLowering.
-def : PatFCompare<setoeq, FEQ>;
-def : PatFCompare<setolt, FLT>;
-def : PatFCompare<setole, FLE>;
-def : PatFCompare<seteq, FEQ>;
-def : PatFCompare<setlt, FLT>;
-def : PatFCompare<setle, FLE>;
+
+// A comparison as a value, in a branch and in a selection. Where only the opposite exists, the branch and the move are
+// opposite instead.
+class PatFSet<CondCode cond, dag result> : Pat<(i32 (setcc (f32 GPR:$a), (f32 GPR:$b), cond)), result>;
+class PatFBranch<CondCode cond, dag result>
+    : Pat<(brcc cond, (f32 GPR:$a), (f32 GPR:$b), bb:$target), result>;
+multiclass FloatCompare<list<CondCode> conditions, dag test> {
+  foreach cond = conditions in {
+    def : PatFSet<cond, test>;
+    def : PatFBranch<cond, (BNE test, (i32 R0), bb:$target)>;
+  }
+}
+multiclass FloatCompareOpposite<list<CondCode> conditions, dag test> {
+  foreach cond = conditions in {
+    def : PatFSet<cond, (XORI test, 1)>;
+    def : PatFBranch<cond, (BEQ test, (i32 R0), bb:$target)>;
+    foreach vt = [i32, f32] in
+      def : Pat<(vt (select (i32 (setcc (f32 GPR:$a), (f32 GPR:$b), cond)), (vt GPR:$t), (vt GPR:$f))),
+                (CMOVZ GPR:$f, GPR:$t, test)>;
+  }
+}
+defm : FloatCompare<[SETOEQ, SETEQ], (i32 (FEQ GPR:$a, GPR:$b))>;
+defm : FloatCompare<[SETOLT, SETLT], (i32 (FLT GPR:$a, GPR:$b))>;
+defm : FloatCompare<[SETOGT, SETGT], (i32 (FLT GPR:$b, GPR:$a))>;
+defm : FloatCompare<[SETOLE, SETLE], (i32 (FLE GPR:$a, GPR:$b))>;
+defm : FloatCompare<[SETOGE, SETGE], (i32 (FLE GPR:$b, GPR:$a))>;
+defm : FloatCompare<[SETONE], (i32 (OR (i32 (FLT GPR:$a, GPR:$b)), (i32 (FLT GPR:$b, GPR:$a))))>;
+defm : FloatCompare<[SETO], (i32 (AND (i32 (FEQ GPR:$a, GPR:$a)), (i32 (FEQ GPR:$b, GPR:$b))))>;
+defm : FloatCompareOpposite<[SETUNE, SETNE], (i32 (FEQ GPR:$a, GPR:$b))>;
+defm : FloatCompareOpposite<[SETUGE], (i32 (FLT GPR:$a, GPR:$b))>;
+defm : FloatCompareOpposite<[SETULE], (i32 (FLT GPR:$b, GPR:$a))>;
+defm : FloatCompareOpposite<[SETUGT], (i32 (FLE GPR:$a, GPR:$b))>;
+defm : FloatCompareOpposite<[SETULT], (i32 (FLE GPR:$b, GPR:$a))>;
+defm : FloatCompareOpposite<[SETUEQ], (i32 (OR (i32 (FLT GPR:$a, GPR:$b)), (i32 (FLT GPR:$b, GPR:$a))))>;
+defm : FloatCompareOpposite<[SETUO], (i32 (AND (i32 (FEQ GPR:$a, GPR:$a)), (i32 (FEQ GPR:$b, GPR:$b))))>;
+
+// A number is equal to itself.
+let AddedComplexity = 4 in {
+def : Pat<(i32 (setcc (f32 GPR:$a), (f32 GPR:$a), SETO)), (FEQ GPR:$a, GPR:$a)>;
+def : Pat<(i32 (setcc (f32 GPR:$a), (f32 GPR:$a), SETUO)), (XORI (i32 (FEQ GPR:$a, GPR:$a)), 1)>;
+def : Pat<(brcc SETO, (f32 GPR:$a), (f32 GPR:$a), bb:$target), (BNE (i32 (FEQ GPR:$a, GPR:$a)), (i32 R0), bb:$target)>;
+def : Pat<(brcc SETUO, (f32 GPR:$a), (f32 GPR:$a), bb:$target), (BEQ (i32 (FEQ GPR:$a, GPR:$a)), (i32 R0), bb:$target)>;
+foreach vt = [i32, f32] in
+  def : Pat<(vt (select (i32 (setcc (f32 GPR:$a), (f32 GPR:$a), SETUO)), (vt GPR:$t), (vt GPR:$f))),
+            (CMOVZ GPR:$f, GPR:$t, (i32 (FEQ GPR:$a, GPR:$a)))>;
+}
+
 def : Pat<(i32 (any_fp_to_sint (f32 GPR:$a))), (FCVT_W_S GPR:$a)>;
 def : Pat<(i32 (any_fp_to_uint (f32 GPR:$a))), (FCVT_WU_S GPR:$a)>;
 def : Pat<(i32 (fp_to_sint_sat (f32 GPR:$a), i32)), (FCVT_W_S GPR:$a)>;

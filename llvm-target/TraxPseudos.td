@@ -99,7 +99,7 @@ def PseudoCALLIndirect : TraxPseudo<(outs), (ins GPR:$ra, variable_ops)>,
 }
 
 let isReturn = true, isTerminator = true, isBarrier = true in {
-let Uses = [R1] in
+// Reads ra, which every function counts among the saved registers.
 def PseudoRET : TraxPseudo<(outs), (ins variable_ops)>, PseudoInstExpansion<(JALR R0, R1, 0)>;
 let isCall = true, Uses = [R2] in {
 def PseudoTAIL : TraxPseudo<(outs), (ins calltarget:$callee, variable_ops)>; // jal r0

@@ -1,0 +1,40 @@
+//===- ToolSupport.cpp - What the command-line tools share ---------------===//
+#include "ToolSupport.h"
+#include "LLVMTrax.h"
+#include "llvm/MC/TargetRegistry.h"
+#include "llvm/Support/CommandLine.h"
+#include "llvm/Support/Path.h"
+#include "llvm/Support/WithColor.h"
+#include "llvm/Support/raw_ostream.h"
+
+using namespace llvm;
+
+static std::string ToolName = "trax";
+
+const Target &trax::startTool(int Argc, char **Argv, StringRef Overview) {
+  ToolName = sys::path::filename(Argv[0]).str();
+  LLVMInitializeTrax();
+  cl::SetVersionPrinter([](raw_ostream &OS) { OS << ToolName << " (TRaX toolchain), LLVM " LLVM_VERSION_STRING "\n"; });
+  cl::ParseCommandLineOptions(Argc, Argv, Overview);
+  std::string Message;
+  const Target *T = TargetRegistry::lookupTarget("trax", Message);
+  if (!T)
+    fail(Message);
+  return *T;
+}
+
+void trax::fail(const Twine &Message) {
+  WithColor::error(errs(), ToolName) << Message << '\n';
+  exit(1);
+}
+
+void trax::fail(Error E, StringRef File) { fail("'" + File + "': " + toString(std::move(E))); }
+
+void trax::writeOutput(StringRef File, StringRef Bytes) {
+  Error E = writeToOutput(File, [&](raw_ostream &OS) {
+    OS << Bytes;
+    return Error::success();
+  });
+  if (E)
+    fail(std::move(E), File);
+}

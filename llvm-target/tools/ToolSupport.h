@@ -1,0 +1,29 @@
+//===- ToolSupport.h - What the command-line tools share -----------------===//
+#ifndef TRAX_TOOLS_TOOLSUPPORT_H
+#define TRAX_TOOLS_TOOLSUPPORT_H
+
+#include "llvm/ADT/STLFunctionalExtras.h"
+#include "llvm/ADT/StringRef.h"
+#include "llvm/Support/Error.h"
+
+namespace llvm {
+class raw_ostream;
+class Target;
+} // namespace llvm
+
+namespace trax {
+
+/// Registers the target, parses the command line ("Overview" heads the help), and sets up "TOOL: error: ..." messages.
+/// Exits on bad arguments.
+const llvm::Target &startTool(int Argc, char **Argv, llvm::StringRef Overview);
+
+/// Reports "TOOL: error: MESSAGE" and exits with status 1.
+[[noreturn]] void fail(const llvm::Twine &Message);
+[[noreturn]] void fail(llvm::Error E, llvm::StringRef File);
+
+/// Puts the bytes into the file by way of a temporary beside it; "-" is the standard output.
+void writeOutput(llvm::StringRef File, llvm::StringRef Bytes);
+
+} // namespace trax
+
+#endif
