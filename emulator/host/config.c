@@ -220,8 +220,8 @@ void trax_config_describe(FILE *out) {
       snprintf(range, sizeof range, "%.12g to %.12g", key->least, key->most);
       break;
     }
-    fprintf(out, "%s\n    %s\n    %s%s%s; default %s%s\n", key->name, key->meaning, range, *key->unit ? " " : "",
-            key->unit, initial, key->paper ? " (paper)" : "");
+    fprintf(out, "%-28s %s; %s%s%s; default %s%s\n", key->name, key->meaning, range, *key->unit ? " " : "", key->unit,
+            initial, key->paper ? " (paper)" : "");
   }
   fprintf(out, "\nPresets, TMs x TPs of a TM (the paper's Table 2):");
   for (size_t i = 0; i < PRESETS; ++i)

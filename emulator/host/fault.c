@@ -117,8 +117,7 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, "thread", fault->thread, fault->tm, fault->tp,
           fault->cycle);
   for (unsigned i = 0; i < TRAX_NUM_REGISTERS; ++i) {
-    char name[16];
-    snprintf(name, sizeof name, "r%u %s", i, register_names[i]);
-    fprintf(out, "%s%-7s %08x%s", i % 4 ? "   " : "  ", name, fault->registers[i], i % 4 == 3 ? "\n" : "");
+    fprintf(out, "%sr%-2u %-4s %08x%s", i % 4 ? "   " : "  ", i, register_names[i], fault->registers[i],
+            i % 4 == 3 ? "\n" : "");
   }
 }

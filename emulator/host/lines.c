@@ -53,8 +53,13 @@ size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line 
   dwarf_linecol(row, &lines[0].column);
   size_t count = 1;
 
-  Dwarf_Die *scopes = NULL;
-  int depth = dwarf_getscopes(&unit, pc, &scopes);
+  /* dwarf_getscopes follows an inlined function to where it was written; its first scope's own parents are the callers.
+   */
+  Dwarf_Die *at_pc = NULL, *scopes = NULL;
+  int depth = 0;
+  if (dwarf_getscopes(&unit, pc, &at_pc) > 0)
+    depth = dwarf_getscopes_die(&at_pc[0], &scopes);
+  free(at_pc);
   for (int i = 0; i < depth; ++i) {
     int tag = dwarf_tag(&scopes[i]);
     if (tag != DW_TAG_inlined_subroutine && tag != DW_TAG_subprogram)

@@ -157,7 +157,7 @@ static void print_value(FILE *out, const struct trax_figure *figure) {
   if (figure->whole)
     fprintf(out, "%20.0f", figure->value);
   else
-    fprintf(out, "%20.4f", figure->value);
+    fprintf(out, "%20.6g", figure->value);
 }
 
 static void print_figure(void *context, const struct trax_figure *figure) {
@@ -223,17 +223,41 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
   trax_config_print(&machine->config, out);
 }
 
+static void describe_row(FILE *out, const char *name, const char *unit, const char *meaning) {
+  fprintf(out, "%-32s %-22s %s\n", name, unit, meaning);
+}
+
+struct description {
+  FILE *out;
+  size_t column; /* of the list of operations; 0 before it */
+};
+
+/* Groups with the same members as another one take one row. */
 static void describe(void *context, const struct trax_figure *figure) {
-  FILE *out = context;
-  if (figure->group == TRAX_GROUP_OPERATION)
-    fprintf(out, "%s\n    %s\n    instructions issued: %s\n", figure->name, figure->unit, figure->meaning);
-  else
-    fprintf(out, "%s\n    %s%s%s\n", figure->name, figure->unit, *figure->unit ? ": " : "", figure->meaning);
+  struct description *description = context;
+  FILE *out = description->out;
+  const char *last = strrchr(figure->name, '.');
+  if (figure->group == TRAX_GROUP_SHARE) {
+    if (strcmp(figure->name, "cause_percent.issued") == 0)
+      describe_row(out, "cause_percent.<cause>", figure->unit, "the same, as a share of all thread-cycles");
+  } else if (figure->group != TRAX_GROUP_OPERATION) {
+    describe_row(out, figure->name, figure->unit, figure->meaning);
+  } else {
+    if (!description->column)
+      describe_row(out, "instructions_by_operation.<op>", figure->unit, "instructions issued; <op> is one of:");
+    if (description->column + strlen(last) > 100 || !description->column) {
+      fprintf(out, "%s   ", description->column ? "\n" : "");
+      description->column = 3;
+    }
+    description->column += (size_t)fprintf(out, " %s", last + 1);
+  }
 }
 
 void trax_stats_describe(FILE *out) {
-  fprintf(out,
-          "Members of the JSON file; a dot is a level. The figures are also what trax_stats_get finds by name.\n\n");
+  struct description description = {out, 0};
+  fprintf(out, "Members of the JSON file: name, unit, meaning. A dot in a name is a level.\n\n");
   trax_stats_describe_members(out);
-  trax_figures_visit(NULL, NULL, NULL, describe, out);
+  fprintf(out, "\nFigures; the public interface finds them by the same names.\n\n");
+  trax_figures_visit(NULL, NULL, NULL, describe, &description);
+  fprintf(out, "\n");
 }

@@ -14,13 +14,14 @@
   X("status", "how the run ended: finished, fault, interrupted, or stuck (max-cycles passed)")                         \
   X("partial", "true if the program did not finish: the figures are those up to its last cycle")                       \
   X("exit_status", "of the program; 1 for a fault, 134 for an abort")                                                  \
-  X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line")          \
+  X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line, message " \
+             "of an abort")                                                                                            \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
   X("tms", "for each TM: tm, and the figures that are counted in every TM")                                            \
   X("configuration", "every key of the machine's configuration")
 
 void trax_stats_describe_members(FILE *out) {
-#define MEMBER(NAME, MEANING) fprintf(out, "%s\n    %s\n", NAME, MEANING);
+#define MEMBER(NAME, MEANING) fprintf(out, "%-32s %s\n", NAME, MEANING);
   MEMBERS(MEMBER)
 #undef MEMBER
 }
@@ -62,8 +63,8 @@ static json_t *text_value(const char *text) {
   json_t *value = json_string(text);
   if (value)
     return value;
-  char plain[512];
-  snprintf(plain, sizeof plain, "%s", text);
+  char plain[1024];
+  snprintf(plain, sizeof plain, "%.*s", (int)sizeof plain - 1, text);
   for (char *c = plain; *c; ++c)
     if ((unsigned char)*c >= 0x80)
       *c = '?';
@@ -81,6 +82,9 @@ static void put_fault(struct document *document, const trax_machine *machine) {
   json_t *object = json_object();
   put(document, document->root, "fault", object);
   put(document, object, "kind", json_string(trax_fault_text(fault->kind)));
+  char message[1024];
+  if (fault->kind == TRAX_FAULT_ABORT && trax_space_string(&machine->space, fault->address, message, sizeof message))
+    put(document, object, "message", text_value(message));
   put(document, object, "address", hexadecimal(fault->address));
   put(document, object, "pc", hexadecimal(fault->pc));
   char instruction[128];

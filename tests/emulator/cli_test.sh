@@ -1,0 +1,218 @@
+#!/bin/sh
+# cli_test.sh TRAX_SIM EMULATOR_PROGRAMS: the command line of trax-sim, its exit statuses, its outputs and what it says when
+# something is wrong.
+set -u
+export LC_ALL=C
+sim=$1
+directory=$(mktemp -d) || exit 1
+trap 'chmod -R u+w "$directory"; rm -rf "$directory"' EXIT
+"$2" "$directory" || exit 1
+cd "$directory" || exit 1
+failures=0
+
+fail() {
+  printf 'FAILED: %s\n' "$*"
+  sed 's/^/    /' out err
+  failures=$((failures + 1))
+}
+
+# run STATUS ARGUMENT...: standard output goes to `out`, standard error to `err`.
+run() {
+  expected=$1
+  shift
+  timeout 60 "$sim" "$@" >out 2>err
+  status=$?
+  [ "$status" -eq "$expected" ] || fail "status $status, not $expected, of: $*"
+  command="$*"
+}
+
+says() { grep -qF -e "$1" err || fail "\"$1\" is not in what is said by: $command"; }
+prints() { grep -qF -e "$1" out || fail "\"$1\" is not printed by: $command"; }
+silent() { [ ! -s err ] || fail "something is said by: $command"; }
+nothing() { [ ! -s out ] || fail "something is printed by: $command"; }
+absent() { [ ! -e "$1" ] || fail "$1 exists after: $command"; }
+# Nothing but what is listed: no temporary file is left.
+no_litter() {
+  for file in *; do
+    case $file in *.elf | out | err | *.cfg | *.json | *.txt | *.bin | closed | link) ;; *) fail "$file is left by: $command" ;; esac
+  done
+}
+# refuse MESSAGE ARGUMENT...: an error of use, with status 1, one line and no output.
+refuse() {
+  message=$1
+  shift
+  run 1 "$@"
+  says "trax-sim: error: "
+  says "$message"
+  nothing
+  [ "$(wc -l <err)" -eq 1 ] || fail "more than a line is said by: $command"
+  no_litter
+}
+
+# --- running programs
+run 0 hello.elf
+[ "$(cat out)" = hello ] || fail "hello.elf"
+silent
+run 3 exit3.elf
+silent
+nothing
+run 3 --config 4x32 exit3.elf
+run 3 -- exit3.elf
+run 1 null.elf
+says "trax-sim: fault: access to the null page"
+says "outer+0x8, inner at dir/source.c:5:3"
+nothing
+run 134 abort.elf
+says "out of luck"
+run 124 spin.elf --max-cycles 10000
+says "the program has not ended after 10000 cycles; the statistics are partial"
+run 124 spin.elf --max-cycles=0x100
+
+# --- buffers
+printf 'twelve bytes' >input.bin
+run 0 --bind input=input.bin --alloc output=64 --dump output=output.bin copy.elf
+silent
+nothing
+{ cat input.bin; head -c 52 /dev/zero; } >expected.bin
+cmp -s output.bin expected.bin || fail "output.bin is not the copy"
+run 0 copy.elf --alloc=input=0 --alloc output=0 --dump output=empty.bin
+[ -f empty.bin ] && [ ! -s empty.bin ] || fail "empty.bin"
+refuse "the program has no symbol scene" --scene input.bin copy.elf
+refuse "no buffer output is bound" --dump output=x.bin copy.elf
+refuse "buffer input is bound twice" --alloc input=4 --bind input=input.bin copy.elf
+refuse "does not fit into memory" --alloc input=2000000000 copy.elf
+refuse "nowhere.bin: cannot be read for buffer input" --bind input=nowhere.bin copy.elf
+absent x.bin
+
+# --- statistics
+run 0 --config 2x32 --stats stats.json --report report.txt mix.elf
+silent
+nothing
+grep -q '"status": "finished"' stats.json || fail "stats.json"
+grep -q '"rays": 3200' stats.json || fail "stats.json: rays"
+grep -q 'threads x cycles, as it must be' report.txt || fail "report.txt"
+grep -q 'tps_per_tm = 32;' report.txt || fail "report.txt: configuration"
+run 0 --stats - hello.elf
+prints hello
+prints '"cycles": '
+run 0 --report - hello.elf
+prints "Thread-cycles by cause"
+run 0 --config 2x32 --stats again.json mix.elf
+for file in stats again; do grep -vE 'host_(seconds|mips)' $file.json >$file.txt; done
+cmp -s stats.txt again.txt || fail "two runs differ"
+run 1 --stats stats.json null.elf
+grep -q '"status": "fault"' stats.json || fail "stats.json of a fault"
+run 124 --stats stats.json --max-cycles 1000 spin.elf
+grep -q '"status": "stuck"' stats.json || fail "stats.json of a stuck program"
+grep -q '"cycles": 1000,' stats.json || fail "stats.json: --max-cycles"
+
+# --- outputs that cannot be written: said before the run, and nothing is left
+mkdir closed
+refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf
+refuse "closed: cannot be written: Is a directory" --report closed spin.elf
+refuse "none/o.bin: cannot be written" --alloc input=0 --alloc output=4 --dump output=none/o.bin copy.elf
+refuse "/dev/full: cannot be written: No space left on device" --stats /dev/full exit3.elf
+refuse "/dev/full: cannot be written: No space left on device" --report /dev/full exit3.elf
+if [ "$(id -u)" -ne 0 ]; then
+  chmod a-w closed
+  refuse "closed/x.json: cannot be written: Permission denied" --stats closed/x.json spin.elf
+fi
+"$sim" hello.elf >/dev/full 2>err
+[ $? -eq 1 ] || fail "a full standard output is no error"
+command="hello.elf >/dev/full"
+says "standard output cannot be written: No space left on device"
+"$sim" --help-config >/dev/full 2>err && fail "a full standard output is no error for --help-config"
+# An output replaces a file at once or not at all, keeps its mode, and goes through links.
+echo before >kept.json
+chmod 640 kept.json
+ln -s kept.json link
+run 3 --stats link exit3.elf
+[ -L link ] && grep -q '"exit_status": 3' kept.json || fail "the link is replaced, not its file"
+[ "$(stat -c %a kept.json)" = 640 ] || fail "the mode of kept.json is changed"
+run 0 --stats /dev/null hello.elf
+silent
+
+# --- options
+refuse "no program is given"
+refuse "unknown option --sats; did you mean --stats?" --sats x.json hello.elf
+refuse "unknown option --entirely-different" --entirely-different hello.elf
+refuse "unknown option -v" -v hello.elf
+refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
+refuse "--stats needs FILE" hello.elf --stats
+refuse "--stats: FILE is empty" hello.elf --stats=
+refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
+refuse "--quiet takes no value" --quiet=yes hello.elf
+refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
+refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf
+refuse "--alloc: \"4x\" is not a whole number from 0 to 4294967295" --alloc input=4x copy.elf
+refuse "--alloc: \"-1\" is not a whole number" --alloc input=-1 copy.elf
+refuse "--alloc: \"4294967296\" is not a whole number" --alloc input=4294967296 copy.elf
+refuse "--max-cycles: \"0\" is not a whole number from 1" --max-cycles 0 hello.elf
+refuse "--max-cycles: \"99999999999999999999\"" --max-cycles 99999999999999999999 hello.elf
+refuse "--progress-total: \"many\"" --progress-total many hello.elf
+refuse "missing.elf: cannot be read: No such file or directory" missing.elf
+refuse "input.bin: not an ELF file" input.bin
+head -c 300 hello.elf >cut.elf
+refuse "cut.elf: truncated or corrupt" cut.elf
+refuse "memory.size_mib is 0; allowed are 1 to 4095 MiB" --set memory.size_mib=0 hello.elf
+refuse "did you mean chip.tms?" --set chip.tsm=4 hello.elf
+refuse "dcache.bytes is 64; it must hold" --set dcache.bytes=64 --set dcache.ways=4 hello.elf
+refuse "no file and no preset \"4x31\" (did you mean" --config 4x31 hello.elf
+refuse "./none.cfg: cannot be read" --config ./none.cfg hello.elf
+refuse "--config is given twice" --config 4x32 --config 1x32 hello.elf
+
+# --- configuration: printed, and read back as it was, for every preset
+presets=$("$sim" --help-config | sed -n 's/^Presets.*: //p')
+[ "$(echo "$presets" | wc -w)" -eq 15 ] || fail "not fifteen presets: $presets"
+for preset in $presets; do
+  "$sim" --config "$preset" --set memory.bandwidth_gbps=12.8 --set special.pipelined=true --print-config >first.cfg || fail "$preset"
+  run 0 --config first.cfg --print-config
+  cmp -s first.cfg out || fail "$preset is not read back as it was"
+  run 0 --config "$preset" --set "chip.tms=1" --set "chip.tps_per_tm=1" --print-config
+  mv out single.cfg
+  run 0 --print-config
+  cmp -s single.cfg out || fail "$preset differs from the default in more than its TMs and TPs"
+done
+printf 'preset = "2x32";\nmemory: {\n  latency = 5;\n};\n' >bad.cfg
+refuse "bad.cfg:3: unknown key \"memory.latency\"" --config bad.cfg hello.elf
+run 0 --set chip.tms=2 --config 4x32 --print-config # --set is applied last, wherever it stands
+prints "tms = 2;"
+
+# --- what is told
+for option in help help-config help-stats version; do
+  run 0 --$option
+  silent
+  [ -s out ] || fail "--$option prints nothing"
+done
+run 0 --help
+for option in config set bind scene alloc dump stats report max-cycles progress-total quiet print-config; do
+  prints "--$option"
+done
+
+# --- interruption: partial statistics, no dumps; the statistics of before are replaced
+rm -f stats.json output.bin
+env --default-signal=INT timeout --preserve-status -s INT 1 "$sim" --stats stats.json spin.elf >out 2>err
+status=$?
+command="spin.elf, interrupted"
+[ $status -eq 130 ] || fail "status $status, not 130"
+says "interrupted in cycle"
+grep -q '"partial": true' stats.json || fail "stats.json of an interrupted program"
+grep -q '"status": "interrupted"' stats.json || fail "stats.json: status"
+grep -q '"holds": true' stats.json || fail "stats.json: identity of an interrupted program"
+no_litter
+
+# --- progress: on a terminal only, and gone at the end
+terminal() { script -qec "$*" /dev/null </dev/null >out 2>err; }
+run 124 --max-cycles 3000000 --progress-total 100000000 spin.elf
+[ "$(wc -l <err)" -eq 1 ] || fail "progress is shown to what is no terminal"
+terminal "$sim" --max-cycles 3000000 --progress-total 100000000 spin.elf
+prints "million cycles, "
+prints " of 100000000 items ("
+prints " left"
+[ "$(tr '\r' '\n' <out | grep -c 'million instructions/s')" -ge 1 ] || fail "no progress line"
+terminal "$sim" --quiet --max-cycles 3000000 spin.elf
+if grep -q 'million cycles' out; then fail "--quiet shows progress"; fi
+terminal "$sim" hello.elf
+prints hello
+
+[ $failures -eq 0 ] || { printf '%d failures\n' $failures; exit 1; }
