@@ -245,6 +245,8 @@ static ld_section *read_section(ld_context *ctx, ld_object *object, size_t index
     ld_error(ctx, "%s:(%s): is both writable and executable", object->name, name);
     return NULL;
   }
+  if ((section->flags & SHF_EXECINSTR) && section->alignment < 4)
+    section->alignment = 4; /* assembly forgets it, and instructions cannot do without */
   if (section->type != SHT_NOBITS) {
     const void *contents;
     size_t size;
