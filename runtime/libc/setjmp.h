@@ -1,0 +1,17 @@
+/* Jumps out of functions: ra, sp, fp and the twelve saved registers. */
+#ifndef TRAX_SETJMP_H
+#define TRAX_SETJMP_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef unsigned jmp_buf[15];
+
+__attribute__((returns_twice)) int setjmp(jmp_buf environment);
+__attribute__((noreturn)) void longjmp(jmp_buf environment, int value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,68 @@
+/* The C library's standard library functions. */
+#ifndef TRAX_STDLIB_H
+#define TRAX_STDLIB_H
+
+#define __need_size_t
+#define __need_NULL
+#define __need_wchar_t
+#include <stddef.h>
+
+#define EXIT_SUCCESS 0
+#define EXIT_FAILURE 1
+#define RAND_MAX 0x7FFFFFFF
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int quot, rem;
+} div_t;
+typedef struct {
+  long quot, rem;
+} ldiv_t;
+typedef struct {
+  long long quot, rem;
+} lldiv_t;
+
+int abs(int x);
+long labs(long x);
+long long llabs(long long x);
+div_t div(int n, int d);
+ldiv_t ldiv(long n, long d);
+lldiv_t lldiv(long long n, long long d);
+
+/* exit ends the calling thread with a status; the others go on (docs/abi.md, "Traps to the host"). abort stops the machine. */
+__attribute__((noreturn)) void exit(int status);
+__attribute__((noreturn)) void _Exit(int status);
+__attribute__((noreturn)) void abort(void);
+
+int atoi(const char *text);
+long atol(const char *text);
+long long atoll(const char *text);
+long strtol(const char *__restrict text, char **__restrict end, int base);
+unsigned long strtoul(const char *__restrict text, char **__restrict end, int base);
+long long strtoll(const char *__restrict text, char **__restrict end, int base);
+unsigned long long strtoull(const char *__restrict text, char **__restrict end, int base);
+
+/* Not stable; in place, without recursion, in about 2 n log2 n comparisons whatever the order (heapsort). */
+void qsort(void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
+void *bsearch(const void *key, const void *base, size_t count, size_t size,
+              int (*compare)(const void *, const void *));
+
+/* Memory from the heap behind the program, shared by all threads; aligned to 8 bytes. NULL if there is none left. */
+void *malloc(size_t size);
+void *calloc(size_t count, size_t size);
+void *realloc(void *memory, size_t size);
+void *aligned_alloc(size_t alignment, size_t size);
+void free(void *memory);
+
+/* Each thread has a sequence of its own. */
+int rand(void);
+void srand(unsigned seed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

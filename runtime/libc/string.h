@@ -1,0 +1,40 @@
+/* Memory and string functions of the C library. */
+#ifndef TRAX_STRING_H
+#define TRAX_STRING_H
+
+#define __need_size_t
+#define __need_NULL
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+void *memcpy(void *__restrict to, const void *__restrict from, size_t size);
+void *memmove(void *to, const void *from, size_t size);
+void *memset(void *to, int byte, size_t size);
+int memcmp(const void *a, const void *b, size_t size);
+void *memchr(const void *memory, int byte, size_t size);
+
+size_t strlen(const char *string);
+size_t strnlen(const char *string, size_t size);
+int strcmp(const char *a, const char *b);
+int strncmp(const char *a, const char *b, size_t size);
+char *strcpy(char *__restrict to, const char *__restrict from);
+char *strncpy(char *__restrict to, const char *__restrict from, size_t size);
+char *strcat(char *__restrict to, const char *__restrict from);
+char *strncat(char *__restrict to, const char *__restrict from, size_t size);
+char *strchr(const char *string, int c);
+char *strrchr(const char *string, int c);
+char *strstr(const char *string, const char *part);
+size_t strspn(const char *string, const char *set);
+size_t strcspn(const char *string, const char *set);
+char *strpbrk(const char *string, const char *set);
+char *strtok_r(char *__restrict string, const char *__restrict separators, char **__restrict rest);
+char *strdup(const char *string); /* by malloc */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

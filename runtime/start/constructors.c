@@ -1,0 +1,27 @@
+/* Functions that run before main (C++ constructors, __attribute__((constructor))): thread 0 runs them, the others wait, since
+   all threads share the objects. */
+#include "../internal/machine.h"
+
+void __trax_run_constructors(void);
+
+#ifdef __trax__
+
+extern void (*const __init_array_start[])(void);
+extern void (*const __init_array_end[])(void);
+
+static unsigned done;
+
+void __trax_run_constructors(void) {
+  if (trax_thread() == 0) {
+    for (void (*const *constructor)(void) = __init_array_start; constructor != __init_array_end; constructor++)
+      (*constructor)();
+    __asm__ volatile("" ::: "memory");
+    trax_store_nt(&done, 1);
+  } else {
+    while (!trax_load_nt(&done))
+      ;
+    __asm__ volatile("" ::: "memory");
+  }
+}
+
+#endif

@@ -1,0 +1,72 @@
+// The compiler's builtins as functions, for uses that take their address. Where the instruction holds a number that is an
+// argument here, a jump table of one instruction and a return per number does; other numbers fault as they would there.
+#include <trax/abi.h>
+
+.macro function name
+  .section .text.\name, "ax", @progbits
+  .globl \name
+  .type \name, @function
+\name:
+.endm
+
+function __builtin_trax_rsqrt
+  frsqrt r4, r4
+  jalr r0, 0(r1)
+  .size __builtin_trax_rsqrt, . - __builtin_trax_rsqrt
+
+function __builtin_trax_ainc
+  ainc r4, 0(r4)
+  jalr r0, 0(r1)
+  .size __builtin_trax_ainc, . - __builtin_trax_ainc
+
+function __builtin_trax_halt
+  halt
+  .size __builtin_trax_halt, . - __builtin_trax_halt
+
+function __builtin_trax_rdsr
+  addi r12, r0, TRAX_SR_COUNT
+  bgeu r4, r12, .Lillegal_register
+  slli r4, r4, 3
+  lui r12, %hi(.Lregisters)
+  add r12, r12, r4
+  jalr r0, %lo(.Lregisters)(r12)
+.Lregisters:
+  rdsr r4, 0
+  jalr r0, 0(r1)
+  rdsr r4, 1
+  jalr r0, 0(r1)
+  rdsr r4, 2
+  jalr r0, 0(r1)
+  rdsr r4, 3
+  jalr r0, 0(r1)
+  rdsr r4, 4
+  jalr r0, 0(r1)
+  rdsr r4, 5
+  jalr r0, 0(r1)
+.Lillegal_register:
+  .word 0
+  .size __builtin_trax_rdsr, . - __builtin_trax_rdsr
+
+function __builtin_trax_trap
+  addi r12, r0, TRAX_TRAP_COUNT
+  bgeu r5, r12, .Lillegal_code
+  slli r5, r5, 3
+  lui r12, %hi(.Lcodes)
+  add r12, r12, r5
+  jalr r0, %lo(.Lcodes)(r12)
+.Lcodes:
+  trap r4, 0
+  jalr r0, 0(r1)
+  trap r4, 1
+  jalr r0, 0(r1)
+  trap r4, 2
+  jalr r0, 0(r1)
+  trap r4, 3
+  jalr r0, 0(r1)
+  trap r4, 4
+  jalr r0, 0(r1)
+  trap r4, 5
+  jalr r0, 0(r1)
+.Lillegal_code:
+  .word 0
+  .size __builtin_trax_trap, . - __builtin_trax_trap

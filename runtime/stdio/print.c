@@ -1,0 +1,31 @@
+/* Ends of the formatting engine: standard output and memory. */
+#include "format.h"
+
+#include "../internal/machine.h"
+
+static struct ticket_lock output_lock;
+
+void trax_lock_output(void) { lock(&output_lock); }
+
+void trax_unlock_output(void) { unlock(&output_lock); }
+
+int trax_print(const char *format, va_list arguments, double_formatter *format_double) {
+  struct sink out = {NULL, NULL, 0};
+  trax_lock_output();
+  int count = trax_format(&out, format, arguments, format_double);
+  trax_unlock_output();
+  return count;
+}
+
+int trax_print_to(char *to, size_t size, const char *format, va_list arguments, double_formatter *format_double) {
+  static char nowhere; /* at is never NULL, and a size of 0 stores nothing */
+  if (size == 0)
+    to = &nowhere;
+  struct sink out = {to, size ? to + size - 1 : to, 0};
+  if (out.end < to) /* sprintf's size is "all there is" */
+    out.end = (char *)UINTPTR_MAX;
+  int count = trax_format(&out, format, arguments, format_double);
+  if (size)
+    *out.at = 0;
+  return count;
+}

@@ -1,0 +1,61 @@
+/* Unformatted output. */
+#include "format.h"
+
+#include "../internal/machine.h"
+
+#include <stdio.h>
+
+int putchar(int c) {
+  machine_put_char(c);
+  return (unsigned char)c;
+}
+
+int putc(int c, FILE *stream) {
+  (void)stream;
+  return putchar(c);
+}
+
+int fputc(int c, FILE *stream) {
+  (void)stream;
+  return putchar(c);
+}
+
+/* In one step of the host where it can read the string. */
+static void put_string(const char *s) {
+  if (machine_is_local(s))
+    while (*s)
+      machine_put_char(*s++);
+  else
+    machine_put_string(s);
+}
+
+int puts(const char *string) {
+  trax_lock_output();
+  put_string(string);
+  machine_put_char('\n');
+  trax_unlock_output();
+  return 1;
+}
+
+int fputs(const char *restrict string, FILE *restrict stream) {
+  (void)stream;
+  trax_lock_output();
+  put_string(string);
+  trax_unlock_output();
+  return 1;
+}
+
+size_t fwrite(const void *restrict memory, size_t size, size_t count, FILE *restrict stream) {
+  (void)stream;
+  trax_lock_output();
+  const char *end = (const char *)memory + size * count;
+  for (const char *p = memory; p != end; p++)
+    machine_put_char(*p);
+  trax_unlock_output();
+  return size ? count : 0;
+}
+
+int fflush(FILE *stream) {
+  (void)stream;
+  return 0;
+}

@@ -1,0 +1,466 @@
+/* The C library's memory, string, number, heap and formatting functions, compiled for the host, against the host's own. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host.h"
+#include "operands.h"
+
+void *rt_memcpy(void *, const void *, size_t);
+void *rt_memmove(void *, const void *, size_t);
+void *rt_memset(void *, int, size_t);
+int rt_memcmp(const void *, const void *, size_t);
+void *rt_memchr(const void *, int, size_t);
+size_t rt_strlen(const char *);
+size_t rt_strnlen(const char *, size_t);
+int rt_strcmp(const char *, const char *);
+int rt_strncmp(const char *, const char *, size_t);
+char *rt_strcpy(char *, const char *);
+char *rt_strncpy(char *, const char *, size_t);
+char *rt_strcat(char *, const char *);
+char *rt_strncat(char *, const char *, size_t);
+char *rt_strchr(const char *, int);
+char *rt_strrchr(const char *, int);
+char *rt_strstr(const char *, const char *);
+size_t rt_strspn(const char *, const char *);
+size_t rt_strcspn(const char *, const char *);
+char *rt_strpbrk(const char *, const char *);
+char *rt_strtok_r(char *, const char *, char **);
+long rt_strtol(const char *, char **, int);
+unsigned long rt_strtoul(const char *, char **, int);
+long long rt_strtoll(const char *, char **, int);
+unsigned long long rt_strtoull(const char *, char **, int);
+int rt_atoi(const char *);
+extern _Thread_local int rt_errno;
+void rt_qsort(void *, size_t, size_t, int (*)(const void *, const void *));
+void *rt_bsearch(const void *, const void *, size_t, size_t, int (*)(const void *, const void *));
+void *rt_malloc(size_t);
+void *rt_calloc(size_t, size_t);
+void *rt_realloc(void *, size_t);
+void *rt_aligned_alloc(size_t, size_t);
+void rt_free(void *);
+char *rt_strdup(const char *);
+extern uintptr_t rt___trax_heap, rt___trax_heap_end;
+int rt_printf(const char *, ...);
+int rt_iprintf(const char *, ...);
+int rt_snprintf(char *, size_t, const char *, ...);
+int rt_sniprintf(char *, size_t, const char *, ...);
+int rt_sprintf(char *, const char *, ...);
+int rt_puts(const char *);
+int rt_fputs(const char *, void *);
+size_t rt_fwrite(const void *, size_t, size_t, void *);
+#define CHARACTER_CLASSES(X)                                                                                           \
+  X(isalnum) X(isalpha) X(isblank) X(iscntrl) X(isdigit) X(isgraph) X(islower) X(isprint) X(ispunct) X(isspace)       \
+      X(isupper) X(isxdigit)
+#define DECLARE(name) int rt_##name(int);
+CHARACTER_CLASSES(DECLARE) DECLARE(tolower) DECLARE(toupper)
+
+/* Every start within a word, every size up to a few words, each byte around the target untouched. */
+static void memory_functions(void **state) {
+  (void)state;
+  unsigned char source[96], ours[96], theirs[96];
+  for (size_t i = 0; i < sizeof source; i++)
+    source[i] = (unsigned char)(i * 37 + 11);
+  for (size_t to = 8; to < 16; to++)
+    for (size_t from = 8; from < 16; from++)
+      for (size_t size = 0; size < 70; size++) {
+        memset(ours, 0xAA, sizeof ours);
+        memset(theirs, 0xAA, sizeof theirs);
+        assert_ptr_equal(rt_memcpy(ours + to, source + from, size), ours + to);
+        memcpy(theirs + to, source + from, size);
+        assert_memory_equal(ours, theirs, sizeof ours);
+
+        memcpy(ours, source, sizeof ours); /* overlapping */
+        memcpy(theirs, source, sizeof theirs);
+        assert_ptr_equal(rt_memmove(ours + to, ours + from, size), ours + to);
+        memmove(theirs + to, theirs + from, size);
+        assert_memory_equal(ours, theirs, sizeof ours);
+
+        memset(theirs + to, (int)from * 0x111, size);
+        assert_ptr_equal(rt_memset(ours + to, (int)from * 0x111, size), ours + to);
+        assert_memory_equal(ours, theirs, sizeof ours);
+
+        memcpy(ours + to, source + from, size);
+        assert_int_equal(rt_memcmp(ours + to, source + from, size), 0);
+        for (size_t at = 0; at < size; at += 5) {
+          ours[to + at] ^= 0x80;
+          int want = memcmp(ours + to, source + from, size), got = rt_memcmp(ours + to, source + from, size);
+          assert_int_equal((want > 0) - (want < 0), (got > 0) - (got < 0));
+          ours[to + at] ^= 0x80;
+          assert_ptr_equal(rt_memchr(source + from, source[from + at] | 0x300, size),
+                           memchr(source + from, source[from + at], size));
+        }
+        assert_null(rt_memchr(source + from, source[from + size], size));
+      }
+}
+
+static int sign_of(int x) { return (x > 0) - (x < 0); }
+
+/* Strings over an alphabet of two letters, so that everything occurs. */
+static void string_functions(void **unused) {
+  (void)unused;
+  uint64_t state = 7;
+  for (int round = 0; round < 300000; round++) {
+    _Alignas(4) char a[32], b[32], ours[80], theirs[80];
+    size_t offset_a = random64(&state) & 3, offset_b = random64(&state) & 3;
+    size_t length_a = random64(&state) % 20, length_b = random64(&state) % (round & 1 ? 20 : 4);
+    memset(a, 0, sizeof a);
+    memset(b, 0, sizeof b);
+    for (size_t i = 0; i < length_a; i++)
+      a[offset_a + i] = (char)("ab\x80"[random64(&state) % 3]);
+    for (size_t i = 0; i < length_b; i++)
+      b[offset_b + i] = round % 7 ? a[offset_a + i] : (char)("ab\x80"[random64(&state) % 3]);
+    const char *s = a + offset_a, *t = b + offset_b;
+    size_t n = random64(&state) % 24;
+    assert_int_equal(rt_strlen(s), strlen(s));
+    assert_int_equal(rt_strnlen(s, n), strnlen(s, n));
+    assert_int_equal(sign_of(rt_strcmp(s, t)), sign_of(strcmp(s, t)));
+    assert_int_equal(sign_of(rt_strncmp(s, t, n)), sign_of(strncmp(s, t, n)));
+    assert_ptr_equal(rt_strchr(s, 'b'), strchr(s, 'b'));
+    assert_ptr_equal(rt_strchr(s, 0), strchr(s, 0));
+    assert_ptr_equal(rt_strrchr(s, 'a'), strrchr(s, 'a'));
+    assert_ptr_equal(rt_strrchr(s, 0), strrchr(s, 0));
+    assert_ptr_equal(rt_strstr(s, t), strstr(s, t));
+    assert_int_equal(rt_strspn(s, "a\x80"), strspn(s, "a\x80"));
+    assert_int_equal(rt_strcspn(s, "b\x80"), strcspn(s, "b\x80"));
+    assert_ptr_equal(rt_strpbrk(s, "b\x80"), strpbrk(s, "b\x80"));
+    memset(ours, 0x55, sizeof ours);
+    memset(theirs, 0x55, sizeof theirs);
+    assert_ptr_equal(rt_strcpy(ours, s), ours);
+    strcpy(theirs, s);
+    assert_ptr_equal(rt_strcat(ours, t), ours);
+    strcat(theirs, t);
+    assert_ptr_equal(rt_strncat(ours, s, n), ours);
+    strncat(theirs, s, n);
+    assert_memory_equal(ours, theirs, sizeof ours);
+    assert_ptr_equal(rt_strncpy(ours, s, n), ours);
+    strncpy(theirs, s, n);
+    assert_memory_equal(ours, theirs, sizeof ours);
+    char *rest, *host_rest;
+    strcpy(ours, s);
+    strcpy(theirs, s);
+    char *token = rt_strtok_r(ours, "b", &rest), *host_token = strtok_r(theirs, "b", &host_rest);
+    for (;; token = rt_strtok_r(NULL, "b", &rest), host_token = strtok_r(NULL, "b", &host_rest)) {
+      assert_int_equal(token == NULL, host_token == NULL);
+      if (!token)
+        break;
+      assert_string_equal(token, host_token);
+    }
+  }
+}
+
+static void character_classes(void **state) {
+  (void)state;
+#define CHECK(name) assert_int_equal(rt_##name(c) != 0, name(c) != 0);
+  for (int c = -1; c < 128; c++) {
+    CHARACTER_CLASSES(CHECK)
+    assert_int_equal(rt_tolower(c), tolower(c));
+    assert_int_equal(rt_toupper(c), toupper(c));
+  }
+}
+
+static void check_text_to_integer(const char *text, int base) {
+  char *end, *host_end;
+#define CHECK_CONVERSION(name)                                                                                         \
+  do {                                                                                                                 \
+    errno = rt_errno = 0;                                                                                              \
+    unsigned long long want = (unsigned long long)name(text, &host_end, base);                                         \
+    unsigned long long got = (unsigned long long)rt_##name(text, &end, base);                                          \
+    if (got != want || end != host_end || rt_errno != errno)                                                           \
+      fail_msg("%s(\"%s\", %d): %llx, %td, errno %d; want %llx, %td, %d", #name, text, base, got, end - text, rt_errno, \
+               want, host_end - text, errno);                                                                          \
+  } while (0)
+  CHECK_CONVERSION(strtol);
+  CHECK_CONVERSION(strtoul);
+  CHECK_CONVERSION(strtoll);
+  CHECK_CONVERSION(strtoull);
+}
+
+static void text_to_integer(void **unused) {
+  (void)unused;
+  static const char *const texts[] = {"", " ", "-", "+", "0", "-0", "0x", "0xg", "0x1F", "-0X1f", "08", "017", " \t\n\v\f\r42", "+-1",
+                                      "zz", "ZZ", "123abc", "9223372036854775807", "9223372036854775808",
+                                      "-9223372036854775808", "-9223372036854775809", "18446744073709551615",
+                                      "18446744073709551616", "-18446744073709551615", "-18446744073709551616",
+                                      "99999999999999999999999999", "2147483647", "2147483648", "4294967296"};
+  static const int bases[] = {0, 2, 8, 10, 16, 36};
+  for (size_t i = 0; i < COUNT(texts); i++)
+    for (size_t j = 0; j < COUNT(bases); j++)
+      check_text_to_integer(texts[i], bases[j]);
+  uint64_t state = 8;
+  for (int i = 0; i < 200000; i++) {
+    char text[80];
+    int64_t x = (int64_t)random_integer(&state);
+    snprintf(text, sizeof text, (const char *[]){"%lld", "%llx", "0x%llx", "0%llo", "-%llu", "%lld7"}[i % 6], (long long)x);
+    check_text_to_integer(text, bases[random64(&state) % COUNT(bases)]);
+  }
+  assert_int_equal(rt_atoi("  -2147483648x"), INT32_MIN);
+}
+
+static int compare_count;
+static int compare_keys(const void *a, const void *b) {
+  compare_count++;
+  return *(const unsigned char *)a - *(const unsigned char *)b;
+}
+
+/* Elements of every size from 1 to 12, so that words and bytes are swapped; the key is the first byte. */
+static void sorting(void **unused) {
+  (void)unused;
+  uint64_t state = 9;
+  for (int round = 0; round < 20000; round++) {
+    size_t size = 1 + random64(&state) % 12, count = random64(&state) % (round % 50 ? 20 : 200);
+    _Alignas(4) unsigned char data[200 * 12 + 1];
+    unsigned sum = 0, sorted_sum = 0;
+    for (size_t i = 0; i < count; i++) {
+      unsigned char key = round % 3 == 0 ? (unsigned char)i : (unsigned char)(random64(&state) % (round % 2 ? 256 : 4));
+      for (size_t j = 0; j < size; j++)
+        data[i * size + j] = (unsigned char)(key * (j + 1)); /* tells whether an element stays whole */
+      sum += key;
+    }
+    data[count * size] = 0xEE;
+    compare_count = 0;
+    rt_qsort(data, count, size, compare_keys);
+    assert_true(compare_count <= 2 * (double)count * (log2((double)count + 2) + 1));
+    assert_int_equal(data[count * size], 0xEE);
+    for (size_t i = 0; i < count; i++) {
+      sorted_sum += data[i * size];
+      assert_true(i == 0 || data[(i - 1) * size] <= data[i * size]);
+      for (size_t j = 0; j < size; j++)
+        assert_int_equal(data[i * size + j], (unsigned char)(data[i * size] * (j + 1)));
+    }
+    assert_int_equal(sum, sorted_sum);
+    for (int key = 0; key < 256; key += 5) {
+      unsigned char byte = (unsigned char)key;
+      unsigned char *found = rt_bsearch(&byte, data, count, size, compare_keys);
+      int is_there = 0;
+      for (size_t i = 0; i < count; i++)
+        is_there |= data[i * size] == byte;
+      assert_int_equal(found != NULL, is_there);
+      if (found) {
+        assert_int_equal(*found, byte);
+        assert_int_equal((size_t)(found - data) % size, 0);
+      }
+    }
+  }
+}
+
+/* Random allocations, each filled with a pattern that must still be there when it is freed. */
+static void heap(void **unused) {
+  (void)unused;
+  enum { SIZE = 1 << 16, SLOTS = 64 };
+  char *arena = malloc(SIZE);
+  rt___trax_heap = (uintptr_t)arena + 4; /* the runtime aligns */
+  rt___trax_heap_end = (uintptr_t)arena + SIZE;
+  unsigned char *slot[SLOTS] = {0};
+  size_t size[SLOTS] = {0};
+  uint64_t state = 10;
+  int failures = 0;
+  for (int round = 0; round < 200000; round++) {
+    int i = (int)(random64(&state) % SLOTS);
+    size_t wanted = random64(&state) % (random64(&state) % 8 ? 200 : 8000);
+    for (size_t j = 0; slot[i] && j < size[i]; j++)
+      if (slot[i][j] != (unsigned char)(i + j))
+        fail_msg("block %d is damaged at %zu", i, j);
+    unsigned char *block;
+    size_t alignment = (size_t)1 << random64(&state) % 8;
+    switch (slot[i] ? random64(&state) % 2 : 2 + random64(&state) % 3) {
+    case 0:
+      rt_free(slot[i]);
+      slot[i] = NULL;
+      continue;
+    case 1:
+      block = rt_realloc(slot[i], wanted);
+      if (!block) {
+        failures++;
+        continue;
+      }
+      for (size_t j = 0; j < size[i] && j < wanted; j++)
+        assert_int_equal(block[j], (unsigned char)(i + j));
+      break;
+    case 2:
+      block = rt_calloc(wanted / 4, 4);
+      wanted = wanted / 4 * 4;
+      for (size_t j = 0; block && j < wanted; j++)
+        assert_int_equal(block[j], 0);
+      break;
+    case 3:
+      block = rt_aligned_alloc(alignment, wanted);
+      assert_int_equal((uintptr_t)block % alignment, 0);
+      break;
+    default:
+      block = rt_malloc(wanted);
+    }
+    if (!block) {
+      failures++;
+      continue;
+    }
+    assert_int_equal((uintptr_t)block % 8, 0);
+    assert_true((char *)block >= arena && (char *)block + wanted <= arena + SIZE);
+    slot[i] = block;
+    size[i] = wanted;
+    for (size_t j = 0; j < wanted; j++)
+      block[j] = (unsigned char)(i + j);
+  }
+  assert_true(failures > 0); /* the heap did run full, and went on */
+  for (int i = 0; i < SLOTS; i++)
+    rt_free(slot[i]);
+  unsigned char *all = rt_malloc(SIZE - 64); /* everything joined again */
+  assert_non_null(all);
+  rt_free(all);
+  assert_null(rt_malloc((size_t)-1));
+  assert_null(rt_malloc((size_t)-9));
+  assert_null(rt_calloc((size_t)-1 / 2, 4));
+  char *copy = rt_strdup("copied");
+  assert_string_equal(copy, "copied");
+
+  if (setjmp(host_abort_target) == 0) { /* freed twice */
+    rt_free(copy);
+    rt_free(copy);
+    fail_msg("no complaint");
+  }
+  assert_non_null(strstr(host_abort_message, "free"));
+  /* The lock is still held: nothing allocates after an abort. */
+}
+
+static void check_format(const char *want, const char *got, int want_count, int got_count, const char *format) {
+  if (want_count != got_count || strcmp(want, got))
+    fail_msg("\"%s\": got \"%s\" (%d), want \"%s\" (%d)", format, got, got_count, want, want_count);
+}
+
+#define SIZE 2048
+#define CHECK_FORMAT(format, ...)                                                                                      \
+  do {                                                                                                                 \
+    static char want[SIZE], got[SIZE];                                                                                 \
+    int want_count = snprintf(want, SIZE, format, __VA_ARGS__), got_count = rt_snprintf(got, SIZE, format, __VA_ARGS__); \
+    check_format(want, got, want_count, got_count, format);                                                            \
+  } while (0)
+
+#pragma GCC diagnostic ignored "-Wformat"
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+#pragma GCC diagnostic ignored "-Wformat-security"
+
+/* %, some flags, width and precision, a length, a letter. */
+static void random_format(uint64_t *state, char *format, const char *length, const char *letters) {
+  char *p = format;
+  *p++ = '[';
+  *p++ = '%';
+  for (int i = 0; i < 5; i++)
+    if (random64(state) % 4 == 0)
+      *p++ = "-+ #0"[i];
+  if (random64(state) % 2)
+    p += sprintf(p, "%d", 1 + (int)(random64(state) % 30));
+  if (random64(state) % 2)
+    p += sprintf(p, ".%d", (int)(random64(state) % 26));
+  char letter = letters[random64(state) % strlen(letters)];
+  char *alternate = strchr(format, '#');
+  if (alternate && (letter | 32) == 'g') /* glibc loses zeros here where rounding makes a power of ten */
+    *alternate = '+';
+  p += sprintf(p, "%s%c]", length, letter);
+}
+
+static void formatted_integers(void **unused) {
+  (void)unused;
+  uint64_t state = 11;
+  static const char *const lengths[] = {"", "h", "hh", "l", "ll", "j", "z", "t"};
+  for (int i = 0; i < 400000; i++) {
+    char format[40];
+    random_format(&state, format, lengths[i % 8], "diuoxX");
+    uint64_t x = random_integer(&state);
+    if (i % 8 < 3)
+      CHECK_FORMAT(format, (int)x);
+    else
+      CHECK_FORMAT(format, (long long)x);
+  }
+  CHECK_FORMAT("%d %5d|%-5d|%05d|%+d|% d", 0, 42, 42, -42, 7, 7);
+  CHECK_FORMAT("%.0d|%5.0d|%#.0o|%#x|%#X|%.0x|", 0, 0, 0, 0, 255, 0);
+  CHECK_FORMAT("%*d|%-*d|%.*d|%*.*d", 6, 1, 6, 2, 4, 3, -7, -1, 4);
+  CHECK_FORMAT("%c|%5c|%-5c|%%|%s|%.2s|%8s|%-8s|%08.3d", 'a', 'b', 'c', "string", "cut", "right", "left", 5);
+  CHECK_FORMAT("%p|%20p|%-20p|", (void *)4096, (void *)0x1234, (void *)255);
+  CHECK_FORMAT("no conversion %d", 0);
+  CHECK_FORMAT("%.3s|%.0s|%s", "abcdef", "x", "");
+}
+
+static void formatted_doubles(void **unused) {
+  (void)unused;
+  uint64_t state = 12;
+  for (int i = 0; i < 400000; i++) {
+    char format[40];
+    random_format(&state, format, "", "eEfFgGaA");
+    double x = random_double(&state);
+    CHECK_FORMAT(format, x);
+  }
+  /* Decimal ties and runs of nines. */
+  for (int i = 0; i < 200000; i++) {
+    char format[40];
+    random_format(&state, format, "", "efg");
+    double x = (double)(int64_t)(random64(&state) % 4000001 - 2000000) / (1 << random64(&state) % 12);
+    CHECK_FORMAT(format, i % 2 ? x : nextafter(rint(x), (double)(i % 4) - 1));
+  }
+  for (size_t i = 0; i < 2 * COUNT(special_doubles); i++) {
+    double x = double_of(special_doubles[i / 2] | (uint64_t)(i & 1) << 63);
+    CHECK_FORMAT("%f|%e|%g|%a|%.0f|%.0e|%#.0f|%G|%10.3f|%-12.4e|%+08.2f|%.17g|%.1100f|%.800e", x, x, x, x, x, x, x, x, x, x, x,
+                 x, x, x);
+  }
+  for (int power = -330; power <= 310; power++) {
+    double x = pow(10, power);
+    CHECK_FORMAT("%g|%.17g|%.3f|%e|%.16e", x, x, x, x, x);
+    x = nextafter(x, 0);
+    CHECK_FORMAT("%g|%.17g|%.3f|%e|%.16e", x, x, x, x, x);
+  }
+  CHECK_FORMAT("%.0f %.0f %.0f %.0f %.1f %.1f %g %g %g", 0.5, 1.5, 2.5, 3.5, 0.25, 0.35, 9.9999995, 999999.5, 0.00009999995);
+  static char got[SIZE];
+  rt_snprintf(got, SIZE, "%#.2g %#.3g %#.2g %#g %#.1g %#.3g", 99.6, 999.6, 100.0, 0.5, 2.0, 1e-5);
+  assert_string_equal(got, "1.0e+02 1.00e+03 1.0e+02 0.500000 2. 1.00e-05");
+  CHECK_FORMAT("%Lf|%lf", (long double)1.5, 1.5);
+}
+
+static void truncated_output(void **state) {
+  (void)state;
+  char got[16];
+  for (size_t size = 0; size <= 12; size++) {
+    memset(got, '#', sizeof got);
+    assert_int_equal(rt_snprintf(got, size, "%d-%s", 12345, "abc"), 9);
+    if (size)
+      assert_int_equal(strlen(got), size - 1 < 9 ? size - 1 : 9);
+    assert_int_equal(got[size > 10 ? 10 : size], '#');
+    assert_int_equal(strncmp(got, "12345-abc", size ? size - 1 : 0), 0);
+  }
+  assert_int_equal(rt_snprintf(NULL, 0, "%s", "measure"), 7);
+  assert_int_equal(rt_sprintf(got, "%s", "all of it"), 9);
+  assert_string_equal(got, "all of it");
+}
+
+static void standard_output(void **state) {
+  (void)state;
+  host_output_size = 0;
+  assert_int_equal(rt_printf("%s %d %.2f\n", "a", 1, 2.5), 9);
+  assert_int_equal(rt_iprintf("%s %d\n", "b", 2), 4);
+  rt_puts("line");
+  rt_fputs("text", NULL);
+  assert_int_equal(rt_fwrite("xyz", 1, 3, NULL), 3);
+  assert_string_equal(host_output, "a 1 2.50\nb 2\nline\ntextxyz");
+  char text[32];
+  assert_int_equal(rt_sniprintf(text, sizeof text, "%d %f %d", 1, 2.0, 3), 5);
+  assert_string_equal(text, "1 ? 3");
+  assert_int_equal(rt_snprintf(text, sizeof text, "%s|%y|%", (char *)NULL), 10);
+  assert_string_equal(text, "(null)|%y|");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(memory_functions),   cmocka_unit_test(string_functions),  cmocka_unit_test(character_classes),
+      cmocka_unit_test(text_to_integer),    cmocka_unit_test(sorting),           cmocka_unit_test(heap),
+      cmocka_unit_test(formatted_integers), cmocka_unit_test(formatted_doubles), cmocka_unit_test(truncated_output),
+      cmocka_unit_test(standard_output),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
