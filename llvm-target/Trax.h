@@ -4,6 +4,7 @@
 
 #include "MCTargetDesc/TraxBaseInfo.h"
 #include "MCTargetDesc/TraxMCTargetDesc.h"
+#include "llvm/IR/Instructions.h"
 #include "llvm/Support/CodeGen.h"
 
 namespace llvm {
@@ -17,7 +18,16 @@ FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel)
 /// Writes va_arg instructions out as loads, for every type.
 FunctionPass *createTraxLowerVAArgPass();
 
+/// Makes calls of atomic operations that the machine lacks.
+FunctionPass *createTraxLowerAtomicsPass();
+
+/// Whether the machine has this operation: the increment of a word by 1.
+bool isTraxAtomicIncrement(const AtomicRMWInst &RMW);
+/// The library's function for an operation, without the size in bytes that ends its name; empty if there is none.
+StringRef getTraxAtomicFunction(AtomicRMWInst::BinOp Operation);
+
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
+void initializeTraxLowerAtomicsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);
 
 } // namespace llvm

@@ -78,14 +78,10 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
 
   // Atomics: words and less are done by the machine; wider ones are calls of the library.
   setMaxAtomicSizeInBitsSupported(32);
-  setMinCmpXchgSizeInBits(32);
+  setMinCmpXchgSizeInBits(8);
   setOperationAction(ISD::ATOMIC_FENCE, MVT::Other, Custom);
   setOperationAction(ISD::ATOMIC_LOAD, MVT::i32, Custom);
-  setOperationAction({ISD::ATOMIC_LOAD_ADD, ISD::ATOMIC_LOAD_SUB, ISD::ATOMIC_LOAD_AND, ISD::ATOMIC_LOAD_OR,
-                      ISD::ATOMIC_LOAD_XOR, ISD::ATOMIC_LOAD_NAND, ISD::ATOMIC_LOAD_MIN, ISD::ATOMIC_LOAD_MAX,
-                      ISD::ATOMIC_LOAD_UMIN, ISD::ATOMIC_LOAD_UMAX, ISD::ATOMIC_LOAD_UINC_WRAP,
-                      ISD::ATOMIC_LOAD_UDEC_WRAP, ISD::ATOMIC_SWAP, ISD::ATOMIC_CMP_SWAP},
-                     MVT::i32, Custom);
+  setOperationAction({ISD::ATOMIC_LOAD_ADD, ISD::ATOMIC_LOAD_SUB}, MVT::i32, Custom);
 
   // Inline copies of up to eight words; longer ones are loops in the library.
   MaxStoresPerMemset = 8;
@@ -119,11 +115,6 @@ const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
   }
 }
 
-static void unsupported(SelectionDAG &DAG, const SDLoc &DL, const Twine &What) {
-  const Function &F = DAG.getMachineFunction().getFunction();
-  DAG.getContext()->diagnose(DiagnosticInfoUnsupported(F, What, DL.getDebugLoc()));
-}
-
 SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const {
   switch (Op.getOpcode()) {
   case ISD::GlobalAddress:
@@ -148,10 +139,10 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
     return DAG.getNode(ISD::MEMBARRIER, SDLoc(Op), MVT::Other, Op.getOperand(0));
   case ISD::ATOMIC_LOAD:
     return lowerAtomicLoad(Op, DAG);
+  case ISD::ATOMIC_LOAD_ADD:
+  case ISD::ATOMIC_LOAD_SUB:
+    return lowerAtomicRMW(Op, DAG);
   default:
-    if (isa<AtomicSDNode>(Op))
-      return lowerAtomicRMW(Op, DAG);
-    unsupported(DAG, SDLoc(Op), "operation without an expansion");
     return SDValue();
   }
 }
@@ -380,27 +371,25 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
   return DAG.getMergeValues({Value, Word.getValue(1)}, DL);
 }
 
-static bool isIncrement(SDValue Op) {
-  auto *Amount = dyn_cast<ConstantSDNode>(Op.getOperand(Op.getNumOperands() - 1));
-  return Amount && ((Op.getOpcode() == ISD::ATOMIC_LOAD_ADD && Amount->isOne()) ||
-                    (Op.getOpcode() == ISD::ATOMIC_LOAD_SUB && Amount->isAllOnes()));
-}
-
-/// The increment is the machine's one atomic operation. Others cannot be made of it: a lock in the library would not exclude
-/// increments and stores of the same word.
+/// The increment is the machine's one read-modify-write; TraxLowerAtomics has made calls of the others.
 SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
   auto *N = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);
-  if (isIncrement(Op) && N->getMemoryVT() == MVT::i32)
-    return DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
-                                   {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
-  unsupported(DAG, DL,
-              "unsupported atomic operation: the machine has only the atomic increment of a word by the constant 1");
-  return DAG.getMergeValues({DAG.getUNDEF(MVT::i32), N->getChain()}, DL);
+  if (isLocalMemory(N)) { // of this thread alone, and out of the memory controller's reach
+    SDValue Old = DAG.getLoad(MVT::i32, DL, N->getChain(), N->getBasePtr(), MachinePointerInfo(), Align(4),
+                              MachineMemOperand::MOVolatile);
+    SDValue New = DAG.getNode(ISD::ADD, DL, MVT::i32, Old, DAG.getConstant(1, DL, MVT::i32));
+    SDValue Chain = DAG.getStore(Old.getValue(1), DL, New, N->getBasePtr(), MachinePointerInfo(), Align(4),
+                                 MachineMemOperand::MOVolatile);
+    return DAG.getMergeValues({Old, Chain}, DL);
+  }
+  return DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
+                                 {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
 }
 
-TargetLowering::AtomicExpansionKind TraxTargetLowering::shouldExpandAtomicRMWInIR(AtomicRMWInst *) const {
-  return AtomicExpansionKind::None; // increment or diagnostic, both at instruction selection
+TargetLowering::AtomicExpansionKind TraxTargetLowering::shouldExpandAtomicRMWInIR(AtomicRMWInst *RMW) const {
+  bool HasFunction = !getTraxAtomicFunction(RMW->getOperation()).empty() && RMW->getType()->isIntegerTy();
+  return HasFunction ? AtomicExpansionKind::None : AtomicExpansionKind::CmpXChg;
 }
 
 //--- inline assembly ----------------------------------------------------------

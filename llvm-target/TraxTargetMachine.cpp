@@ -18,6 +18,7 @@ void LLVMInitializeTraxTarget() {
   RegisterTargetMachine<TraxTargetMachine> X(getTheTraxTarget());
   PassRegistry &PR = *PassRegistry::getPassRegistry();
   initializeTraxDAGToDAGISelLegacyPass(PR);
+  initializeTraxLowerAtomicsPass(PR);
   initializeTraxLowerVAArgPass(PR);
 }
 
@@ -61,6 +62,7 @@ public:
   void addIRPasses() override {
     addPass(createTraxLowerVAArgPass());
     addPass(createAtomicExpandLegacyPass());
+    addPass(createTraxLowerAtomicsPass());
     TargetPassConfig::addIRPasses();
   }
 

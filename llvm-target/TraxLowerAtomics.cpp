@@ -1,0 +1,138 @@
+//===- TraxLowerAtomics.cpp - Atomic operations that the machine lacks ---===//
+//
+// The machine loads, stores and increments atomically. Every other read-modify-write becomes a call of the runtime's function of
+// libatomic's name, which takes a lock. Runs behind AtomicExpand, which has reduced operations without such a function to
+// compare-and-exchange, and has made calls of operations wider than a word.
+//
+//===----------------------------------------------------------------------===//
+#include "Trax.h"
+#include "llvm/IR/Constants.h"
+#include "llvm/IR/IRBuilder.h"
+#include "llvm/IR/InstIterator.h"
+#include "llvm/IR/Instructions.h"
+#include "llvm/IR/Module.h"
+#include "llvm/InitializePasses.h"
+#include "llvm/Pass.h"
+#include "llvm/Support/AtomicOrdering.h"
+
+using namespace llvm;
+
+#define DEBUG_TYPE "trax-lower-atomics"
+
+bool llvm::isTraxAtomicIncrement(const AtomicRMWInst &RMW) {
+  const auto *Amount = dyn_cast<ConstantInt>(RMW.getValOperand());
+  return Amount && Amount->getType()->isIntegerTy(32) &&
+         ((RMW.getOperation() == AtomicRMWInst::Add && Amount->isOne()) ||
+          (RMW.getOperation() == AtomicRMWInst::Sub && Amount->isMinusOne()));
+}
+
+StringRef llvm::getTraxAtomicFunction(AtomicRMWInst::BinOp Operation) {
+  switch (Operation) {
+  case AtomicRMWInst::Xchg:
+    return "__atomic_exchange_";
+  case AtomicRMWInst::Add:
+    return "__atomic_fetch_add_";
+  case AtomicRMWInst::Sub:
+    return "__atomic_fetch_sub_";
+  case AtomicRMWInst::And:
+    return "__atomic_fetch_and_";
+  case AtomicRMWInst::Or:
+    return "__atomic_fetch_or_";
+  case AtomicRMWInst::Xor:
+    return "__atomic_fetch_xor_";
+  case AtomicRMWInst::Nand:
+    return "__atomic_fetch_nand_";
+  default:
+    return "";
+  }
+}
+
+namespace {
+
+class TraxLowerAtomics : public FunctionPass {
+public:
+  static char ID;
+  TraxLowerAtomics() : FunctionPass(ID) {}
+
+  StringRef getPassName() const override { return "TRaX atomic operations to calls"; }
+  bool runOnFunction(Function &F) override;
+  void getAnalysisUsage(AnalysisUsage &AU) const override { AU.setPreservesCFG(); }
+
+private:
+  static void lower(AtomicRMWInst &RMW);
+  static void lower(AtomicCmpXchgInst &CmpXchg);
+};
+
+} // namespace
+
+/// NAME##SIZE(Arguments...), small integers extended as C has them, unsigned.
+static CallInst *callLibrary(IRBuilder<> &Builder, StringRef Name, Type *ObjectTy, Type *ResultTy,
+                             ArrayRef<Value *> Arguments) {
+  Module &M = *Builder.GetInsertBlock()->getModule();
+  SmallVector<Type *, 5> Types;
+  for (Value *Argument : Arguments)
+    Types.push_back(Argument->getType());
+  std::string FullName = (Name + Twine(ObjectTy->getIntegerBitWidth() / 8)).str();
+  FunctionCallee Callee = M.getOrInsertFunction(FullName, FunctionType::get(ResultTy, Types, /*isVarArg=*/false));
+  CallInst *Call = Builder.CreateCall(Callee, Arguments);
+  Call->setDoesNotThrow();
+  auto IsSmall = [](Type *Ty) { return Ty->isIntegerTy() && Ty->getIntegerBitWidth() < 32; };
+  for (unsigned I = 0; I != Arguments.size(); ++I)
+    if (IsSmall(Types[I]))
+      Call->addParamAttr(I, Attribute::ZExt);
+  if (IsSmall(ResultTy))
+    Call->addRetAttr(Attribute::ZExt);
+  return Call;
+}
+
+static Value *orderingOf(IRBuilder<> &Builder, AtomicOrdering Ordering) {
+  return Builder.getInt32(unsigned(toCABI(Ordering)));
+}
+
+void TraxLowerAtomics::lower(AtomicRMWInst &RMW) {
+  IRBuilder<> Builder(&RMW);
+  Value *Old = callLibrary(Builder, getTraxAtomicFunction(RMW.getOperation()), RMW.getType(), RMW.getType(),
+                           {RMW.getPointerOperand(), RMW.getValOperand(), orderingOf(Builder, RMW.getOrdering())});
+  RMW.replaceAllUsesWith(Old);
+  RMW.eraseFromParent();
+}
+
+/// bool __atomic_compare_exchange_N(object, &expected, desired, success order, failure order)
+void TraxLowerAtomics::lower(AtomicCmpXchgInst &CmpXchg) {
+  Type *Ty = CmpXchg.getNewValOperand()->getType();
+  BasicBlock &Entry = CmpXchg.getFunction()->getEntryBlock();
+  AllocaInst *Expected = IRBuilder<>(&Entry, Entry.getFirstInsertionPt()).CreateAlloca(Ty, nullptr, "expected");
+  IRBuilder<> Builder(&CmpXchg);
+  Builder.CreateStore(CmpXchg.getCompareOperand(), Expected);
+  Value *Success = callLibrary(Builder, "__atomic_compare_exchange_", Ty, Builder.getInt1Ty(),
+                               {CmpXchg.getPointerOperand(), Expected, CmpXchg.getNewValOperand(),
+                                orderingOf(Builder, CmpXchg.getSuccessOrdering()),
+                                orderingOf(Builder, CmpXchg.getFailureOrdering())});
+  Value *Old = Builder.CreateLoad(Ty, Expected);
+  Value *Result = Builder.CreateInsertValue(PoisonValue::get(CmpXchg.getType()), Old, 0);
+  Result = Builder.CreateInsertValue(Result, Success, 1);
+  CmpXchg.replaceAllUsesWith(Result);
+  CmpXchg.eraseFromParent();
+}
+
+bool TraxLowerAtomics::runOnFunction(Function &F) {
+  bool Changed = false;
+  for (Instruction &I : make_early_inc_range(instructions(F))) {
+    if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
+      if (isTraxAtomicIncrement(*RMW))
+        continue;
+      lower(*RMW);
+      Changed = true;
+    } else if (auto *CmpXchg = dyn_cast<AtomicCmpXchgInst>(&I)) {
+      lower(*CmpXchg);
+      Changed = true;
+    }
+  }
+  return Changed;
+}
+
+char TraxLowerAtomics::ID = 0;
+
+INITIALIZE_PASS(TraxLowerAtomics, DEBUG_TYPE, "TRaX atomic operations to calls", false, false)
+
+FunctionPass *llvm::createTraxLowerAtomicsPass() { return new TraxLowerAtomics(); }
