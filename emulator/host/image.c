@@ -59,6 +59,9 @@ static trax_status check_header(const trax_image *image, const Elf32_Ehdr *heade
   if (!inside_file(image, header->e_phoff, (uint64_t)header->e_phnum * sizeof(Elf32_Phdr)))
     return trax_fail(error, "%s: truncated or corrupt: %u program headers at offset 0x%x, but the file ends at 0x%zx",
                      image->path, header->e_phnum, header->e_phoff, image->size);
+  if (header->e_phoff % 4 != 0 || header->e_shoff % 4 != 0)
+    return trax_fail(error, "%s: corrupt: headers at offsets 0x%x and 0x%x, which are not multiples of 4", image->path,
+                     header->e_phoff, header->e_shoff);
   if (header->e_shoff == 0) /* no sections: stripped to the segments */
     return TRAX_OK;
   if (header->e_shentsize != sizeof(Elf32_Shdr))
@@ -197,9 +200,9 @@ static const Elf32_Shdr *section_in_file(const trax_image *image, size_t index, 
 static trax_status add_symbols(trax_image *image, size_t index, const Elf32_Shdr *table, size_t sections,
                                trax_error *error) {
   const char *path = image->path;
-  if (table->sh_entsize != sizeof(Elf32_Sym) || table->sh_size % sizeof(Elf32_Sym) != 0)
-    return trax_fail(error, "%s: corrupt symbol table: %u bytes of entries of %u", path, table->sh_size,
-                     table->sh_entsize);
+  if (table->sh_entsize != sizeof(Elf32_Sym) || table->sh_size % sizeof(Elf32_Sym) != 0 || table->sh_offset % 4 != 0)
+    return trax_fail(error, "%s: corrupt symbol table: %u bytes at offset 0x%x, of entries of %u", path, table->sh_size,
+                     table->sh_offset, table->sh_entsize);
   if (table->sh_link == SHN_UNDEF || table->sh_link >= sections)
     return trax_fail(error, "%s: corrupt symbol table: names in section %u of %zu", path, table->sh_link, sections);
   const Elf32_Shdr *strings = section_in_file(image, table->sh_link, "symbol names", error);

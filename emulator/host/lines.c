@@ -1,7 +1,5 @@
 /* Source lines from DWARF. Debug information is only ever a help: whatever is wrong with it means "unknown". */
 #include <dwarf.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "image_internal.h"
 
@@ -36,6 +34,53 @@ static const char *file_of(Dwarf_Die *unit, int number) {
   return dwarf_filesrc(files, (size_t)number, NULL, NULL);
 }
 
+enum { MAX_DEPTH = 64 }; /* of scopes within each other */
+
+/* The functions around a place, outermost first. */
+struct scopes {
+  Dwarf_Die functions[MAX_DEPTH];
+  size_t count;
+};
+
+/* Adds the functions, inlined ones among them, that contain pc and lie within parent. (dwarf_getscopes would continue
+   from an inlined function to where it was written, not to where it was called.) Damaged information must not lead in
+   circles: offsets only grow. */
+static bool add_scopes(Dwarf_Die *parent, uint32_t pc, int depth, struct scopes *scopes) {
+  Dwarf_Die child;
+  if (depth == MAX_DEPTH || dwarf_child(parent, &child) != 0)
+    return false;
+  for (Dwarf_Off last = dwarf_dieoffset(parent);;) {
+    Dwarf_Off offset = dwarf_dieoffset(&child);
+    if (offset <= last)
+      return false;
+    last = offset;
+    switch (dwarf_tag(&child)) {
+    case DW_TAG_subprogram:
+    case DW_TAG_inlined_subroutine:
+      if (dwarf_haspc(&child, pc) == 1) {
+        scopes->functions[scopes->count++] = child;
+        add_scopes(&child, pc, depth + 1, scopes);
+        return true;
+      }
+      break;
+    case DW_TAG_lexical_block:
+      if (dwarf_haspc(&child, pc) == 1)
+        return add_scopes(&child, pc, depth + 1, scopes);
+      break;
+    case DW_TAG_namespace: /* has no addresses of its own */
+    case DW_TAG_structure_type:
+    case DW_TAG_class_type:
+      if (add_scopes(&child, pc, depth + 1, scopes))
+        return true;
+      break;
+    default:
+      break;
+    }
+    if (dwarf_siblingof(&child, &child) != 0)
+      return false;
+  }
+}
+
 size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line *lines, size_t capacity) {
   if (!image->dwarf_tried) {
     image->dwarf_tried = true;
@@ -53,28 +98,19 @@ size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line 
   dwarf_linecol(row, &lines[0].column);
   size_t count = 1;
 
-  /* dwarf_getscopes follows an inlined function to where it was written; its first scope's own parents are the callers.
-   */
-  Dwarf_Die *at_pc = NULL, *scopes = NULL;
-  int depth = 0;
-  if (dwarf_getscopes(&unit, pc, &at_pc) > 0)
-    depth = dwarf_getscopes_die(&at_pc[0], &scopes);
-  free(at_pc);
-  for (int i = 0; i < depth; ++i) {
-    int tag = dwarf_tag(&scopes[i]);
-    if (tag != DW_TAG_inlined_subroutine && tag != DW_TAG_subprogram)
-      continue;
-    lines[count - 1].function = name_of(&scopes[i]);
-    if (tag == DW_TAG_subprogram || count == capacity)
+  struct scopes scopes = {.count = 0};
+  add_scopes(&unit, pc, 0, &scopes);
+  while (scopes.count) {
+    Dwarf_Die *function = &scopes.functions[--scopes.count];
+    lines[count - 1].function = name_of(function);
+    if (dwarf_tag(function) == DW_TAG_subprogram || count == capacity)
       break;
-    const char *caller = file_of(&unit, number_of(&scopes[i], DW_AT_call_file));
+    const char *caller = file_of(&unit, number_of(function, DW_AT_call_file));
     if (!caller)
       break;
-    lines[count++] = (struct trax_source_line){.file = caller,
-                                               .line = number_of(&scopes[i], DW_AT_call_line),
-                                               .column = number_of(&scopes[i], DW_AT_call_column)};
+    lines[count++] = (struct trax_source_line){
+        .file = caller, .line = number_of(function, DW_AT_call_line), .column = number_of(function, DW_AT_call_column)};
   }
-  free(scopes);
   return count;
 }
 

@@ -139,6 +139,7 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
 
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
+  catch_signals();
   if (check_outputs(options, &error) != TRAX_OK)
     return complain(&error);
   trax_machine *machine = trax_machine_create(config, &error);
@@ -149,7 +150,6 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_machine_destroy(machine);
     return complain(&error);
   }
-  catch_signals();
   status = run(machine, options, &error);
   int result = trax_machine_exit_status(machine) & 0xFF;
   switch (status) {

@@ -145,6 +145,8 @@ DAMAGE(header_size, elf_header(file)->e_ehsize = 64)
 DAMAGE(no_programs, elf_header(file)->e_phnum = 0)
 DAMAGE(program_size, elf_header(file)->e_phentsize = 56)
 DAMAGE(programs_outside, elf_header(file)->e_phoff = 0xFFFFFFF0)
+DAMAGE(programs_unaligned, elf_header(file)->e_phoff += 1)
+DAMAGE(sections_unaligned, elf_header(file)->e_shoff -= 2)
 DAMAGE(section_size, elf_header(file)->e_shentsize = 64)
 DAMAGE(sections_outside, elf_header(file)->e_shoff = (Elf32_Off)file->size)
 DAMAGE(no_sections, elf_header(file)->e_shnum = 0)
@@ -173,6 +175,7 @@ DAMAGE(tls_large, tls_elsewhere(file); elf_program_header(file, 1)->p_vaddr = TR
        elf_program_header(file, 1)->p_memsz = 513)
 DAMAGE(symbols_outside, elf_section(file, ".symtab")->sh_offset = 0x7FFFFFF0)
 DAMAGE(symbol_size, elf_section(file, ".symtab")->sh_entsize = 24)
+DAMAGE(symbols_unaligned, elf_section(file, ".symtab")->sh_offset += 2)
 DAMAGE(symbol_part, elf_section(file, ".symtab")->sh_size -= 1)
 DAMAGE(symbol_strings, elf_section(file, ".symtab")->sh_link = 77)
 DAMAGE(symbol_no_strings, elf_section(file, ".symtab")->sh_link = 1)
@@ -202,6 +205,8 @@ static void test_refusals(void **state) {
       {no_programs, "no program headers"},
       {program_size, "program headers of 56 bytes"},
       {programs_outside, "2 program headers at offset 0xfffffff0, but the file ends at"},
+      {programs_unaligned, "which are not multiples of 4"},
+      {sections_unaligned, "which are not multiples of 4"},
       {section_size, "section headers of 64 bytes"},
       {sections_outside, "section headers at offset"},
       {no_sections, "none where the header announces a table"},
@@ -229,6 +234,7 @@ static void test_refusals(void **state) {
       {tls_large, "513 bytes of thread-local data"},
       {symbols_outside, "(section 3): "},
       {symbol_size, "corrupt symbol table"},
+      {symbols_unaligned, "corrupt symbol table"},
       {symbol_part, "corrupt symbol table"},
       {symbol_strings, "names in section 77"},
       {symbol_no_strings, "not a table of strings"},
