@@ -18,6 +18,10 @@ static inline float bits_float(int32_t bits) {
   return value;
 }
 
+/* Keeps the compiler from reasoning about a value (and so from turning integer tests of floats back into tests of
+   floats, which the adder would do). Takes no instruction. */
+#define HIDE_ORIGIN(value) __asm__("" : "+r"(value))
+
 #define SIGN_BIT INT32_MIN
 
 /* The bits of |value|; ordered like the magnitudes themselves. */

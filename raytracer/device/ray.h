@@ -46,6 +46,9 @@ static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, fl
   ray->near_offset_x = float_bits(cx) >> 31 & 12;
   ray->near_offset_y = float_bits(cy) >> 31 & 12;
   ray->near_offset_z = float_bits(cz) >> 31 & 12;
+  HIDE_ORIGIN(ray->near_offset_x); /* else their negatives would take registers, too */
+  HIDE_ORIGIN(ray->near_offset_y);
+  HIDE_ORIGIN(ray->near_offset_z);
   float margin_x = bits_float(float_bits(box_margin) | (float_bits(cx) & SIGN_BIT));
   float margin_y = bits_float(float_bits(box_margin) | (float_bits(cy) & SIGN_BIT));
   float margin_z = bits_float(float_bits(box_margin) | (float_bits(cz) & SIGN_BIT));

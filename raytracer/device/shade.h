@@ -10,7 +10,7 @@
 #include <trax.h>
 
 struct surface {
-  float x, y, z;        /* where the shadow ray starts */
+  struct vector point;  /* where the shadow ray starts */
   struct vector normal; /* towards the viewer; its largest component within 1 and 4 */
   float inverse_length; /* of the normal */
   uint32_t material;
@@ -31,7 +31,7 @@ static inline float dot(struct vector a, struct vector b) {
 #define OFFSET_PER_EDGE 0x1p-17f
 #define OFFSET_PER_POSITION 0x1p-22f
 
-static inline void find_surface(struct surface *surface, const struct hit *hit, struct vector direction) {
+static inline void find_surface(struct surface *surface, const struct hit *hit, struct vector eye) {
   const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
   struct vector a = {v0[0], v0[1], v0[2]}, b = {v1[0], v1[1], v1[2]}, c = {v2[0], v2[1], v2[2]};
   struct vector e = {b.x - a.x, b.y - a.y, b.z - a.z}, f = {c.x - a.x, c.y - a.y, c.z - a.z};
@@ -39,13 +39,14 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
 
   /* By a power of two to about unit length, so that no square below leaves the range of floats; then towards the
      viewer. A needle's normal may vanish in rounding. */
+  struct vector sight = {a.x - eye.x, a.y - eye.y, a.z - eye.z};
   int32_t size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
   if (size == 0) {
-    n = direction;
+    n = sight;
     size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
   }
   int32_t exponent = size & 0x7F800000;
-  int32_t away = ~float_bits(dot(n, direction)) & SIGN_BIT;
+  int32_t away = ~float_bits(dot(n, sight)) & SIGN_BIT;
   float scale = bits_float((0x7F000000 - exponent) | away);
   n.x *= scale, n.y *= scale, n.z *= scale;
 
@@ -55,9 +56,9 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   float inverse_length = trax_rsqrt(dot(n, n));
   float offset = (bits_float(position) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE) * inverse_length;
   float weight1 = hit->weight1, weight2 = hit->weight2;
-  surface->x = a.x + (weight1 * e.x + weight2 * f.x + offset * n.x);
-  surface->y = a.y + (weight1 * e.y + weight2 * f.y + offset * n.y);
-  surface->z = a.z + (weight1 * e.z + weight2 * f.z + offset * n.z);
+  surface->point.x = a.x + (weight1 * e.x + weight2 * f.x + offset * n.x);
+  surface->point.y = a.y + (weight1 * e.y + weight2 * f.y + offset * n.y);
+  surface->point.z = a.z + (weight1 * e.z + weight2 * f.z + offset * n.z);
   surface->normal = n;
   surface->inverse_length = inverse_length;
   surface->material = load_word(hit->triangle + 36);
@@ -70,7 +71,7 @@ struct light {
 };
 
 static inline void aim_at_light(struct light *light, const struct surface *surface, const float *position) {
-  struct vector way = {position[0] - surface->x, position[1] - surface->y, position[2] - surface->z};
+  struct vector way = {position[0] - surface->point.x, position[1] - surface->point.y, position[2] - surface->point.z};
   float square = dot(way, way);
   float inverse = trax_rsqrt(square);
   float cosine = dot(surface->normal, way) * surface->inverse_length * inverse;
@@ -80,12 +81,14 @@ static inline void aim_at_light(struct light *light, const struct surface *surfa
   light->cosine_bits = float_bits(square) >= float_bits(0x1p-80f) ? float_bits(cosine) : 0;
 }
 
-/* Gamma 2: the palette has the square roots of the colours. lit is the cosine at the light, at most 1 but for rounding.
- */
-static inline uint32_t shade(const struct trax_render_params *frame, const float *colour, const struct surface *surface,
-                             float lit) {
+/* What the surface sends back of the light from everywhere; at most 1 together with that of the point light. */
+static inline float ambient_light(const struct trax_render_params *frame, const struct surface *surface) {
   struct vector fill = {frame->fill[0], frame->fill[1], frame->fill[2]};
-  float light = frame->ambient + dot(surface->normal, fill) * surface->inverse_length + frame->light_strength * lit;
+  return frame->ambient + dot(surface->normal, fill) * surface->inverse_length;
+}
+
+/* Gamma 2: the palette has the square roots of the colours. */
+static inline uint32_t shade(const float *colour, float light) {
   light = bits_float(larger(float_bits(light), float_bits(0x1p-40f)));
   float root = light * trax_rsqrt(light);
   uint32_t red = (uint32_t)(int32_t)(colour[0] * root + 0.5f);

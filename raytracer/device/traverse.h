@@ -11,6 +11,7 @@
 #include "trax/scene_format.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 struct hit {
   int32_t distance_bits;  /* float_bits of the parameter along the ray */
@@ -57,10 +58,13 @@ static inline __attribute__((always_inline)) int32_t enter_box(const struct ray 
 /* Of edge values: not on the same side. Zeros of either sign are on both sides. */
 static inline bool opposite(float a, float b) {
   uint32_t a_bits = (uint32_t)float_bits(a), b_bits = (uint32_t)float_bits(b);
+  HIDE_ORIGIN(a_bits);
+  HIDE_ORIGIN(b_bits);
   return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
 }
 
-/* Is the triangle hit before hit->distance_bits? If so, and unless any hit will do, *hit becomes this one. */
+/* Is the triangle hit before hit->distance_bits? If so *hit becomes this one; if any hit will do, only the answer
+ * counts. */
 static inline __attribute__((always_inline)) bool hit_triangle(const struct ray *ray, const char *triangle, bool any,
                                                                struct hit *hit) {
   const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
@@ -101,58 +105,54 @@ static inline __attribute__((always_inline)) bool hit_triangle(const struct ray 
   return true;
 }
 
-/* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The stack holds
-   the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which the host checks.
- */
+/* The stack holds the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which
+   the host checks. */
+struct stack_entry {
+  trax_scene_ref reference;
+  int32_t enter; /* where the ray enters its box */
+};
+
+/* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The probabilities
+   tell the register allocator what matters: rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(const char *scene, trax_scene_ref reference,
                                                             const struct ray *ray, bool any, struct hit *hit) {
-  struct {
-    trax_scene_ref reference;
-    int32_t enter; /* where the ray enters its box */
-  } stack[TRAX_SCENE_MAX_DEPTH], *top = stack;
+  struct stack_entry stack[TRAX_SCENE_MAX_DEPTH], *top = stack;
 
   if (reference == 0)
     return false;
   for (;;) {
-    if (TRAX_SCENE_REF_COUNT(reference) == 0) {
+    while (__builtin_expect_with_probability(TRAX_SCENE_REF_COUNT(reference) == 0, 1, 0.95)) {
       const char *node = scene + reference;
       int32_t enter0 = enter_box(ray, node, 0, hit->distance_bits);
       int32_t enter1 = enter_box(ray, node, 1, hit->distance_bits);
       if (enter0 <= enter1) {
-        if (enter0 != BOX_MISSED) {
-          reference = load_word(node + 48);
-          if (enter1 != BOX_MISSED) {
-            top->reference = load_word(node + 52);
-            top->enter = enter1;
-            top++;
-          }
-          continue;
-        }
+        if (enter0 == BOX_MISSED)
+          goto back;
+        reference = load_word(node + 48);
+        if (enter1 != BOX_MISSED)
+          *top++ = (struct stack_entry){load_word(node + 52), enter1};
       } else {
         reference = load_word(node + 52);
-        if (enter0 != BOX_MISSED) {
-          top->reference = load_word(node + 48);
-          top->enter = enter0;
-          top++;
-        }
-        continue;
+        if (enter0 != BOX_MISSED)
+          *top++ = (struct stack_entry){load_word(node + 48), enter0};
       }
-    } else {
-      const char *triangle = scene + TRAX_SCENE_REF_OFFSET(reference);
-      const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
-      do {
-        if (hit_triangle(ray, triangle, any, hit) && any)
-          return true;
-        triangle += sizeof(struct trax_triangle);
-      } while (triangle != end);
     }
 
-    /* Back to the latest box that begins before the nearest hit so far. */
+    const char *triangle = scene + TRAX_SCENE_REF_OFFSET(reference);
+    const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
+    do {
+      HIDE_ORIGIN(triangle); /* else three pointers would be stepped instead of one */
+      if (hit_triangle(ray, triangle, any, hit) && any)
+        return true;
+      triangle += sizeof(struct trax_triangle);
+    } while (__builtin_expect_with_probability(triangle != end, 1, 0.5));
+
+  back:
     do {
       if (top == stack)
-        return !any && hit->triangle;
+        return hit->triangle != NULL;
       top--;
-    } while (!any && top->enter >= hit->distance_bits);
+    } while (top->enter >= hit->distance_bits);
     reference = top->reference;
   }
 }

@@ -27,7 +27,7 @@
 #define TRAX_SCENE_VERSION 1u
 #define TRAX_SCENE_ALIGNMENT 64u
 #define TRAX_SCENE_MAX_LEAF 7u   /* triangles in a leaf, at most */
-#define TRAX_SCENE_MAX_DEPTH 48u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
+#define TRAX_SCENE_MAX_DEPTH 40u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
 
 typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_COUNT(ref) ((ref)&7u)     /* triangles of a leaf; 0: an inner node */
