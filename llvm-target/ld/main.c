@@ -12,7 +12,7 @@ static bool link_program(ld_context *ctx) {
     ld_error(ctx, "%u warning%s, treated as errors", ctx->warning_count, ctx->warning_count == 1 ? "" : "s");
     return false;
   }
-  return ld_write_image(ctx) && (!ctx->options.map_path || ld_write_map(ctx));
+  return (!ctx->options.map_path || ld_write_map(ctx)) && ld_write_image(ctx);
 }
 
 int main(int argc, char **argv) {
