@@ -103,8 +103,8 @@ struct trax_stats {
   X(instructions, "instructions", "instructions", "instructions issued by all threads", S->instructions)               \
   X(seconds, "seconds", "s", "simulated time", TRAX_SECONDS(S, C))                                                     \
   X(host_seconds, "host_seconds", "s", "wall time of the simulation", S->host_seconds)                                 \
-  X(host_mips, "host_mips", "million instructions/s", "speed of the simulation",                                       \
-    S->instructions / 1e6 / S->host_seconds)                                                                           \
+  X(instructions_per_host_second, "instructions_per_host_second", "instructions/s", "speed of the simulation",         \
+    S->instructions / S->host_seconds)                                                                                 \
   X(ipc, "instructions_per_cycle", "instructions/cycle", "whole chip", (double)S->instructions / S->cycles)            \
   X(mrps, "mrps", "million rays/s", "simulated rays per simulated second", S->total.rays / TRAX_SECONDS(S, C) / 1e6)   \
   X(gflops, "gflops", "10^9 operations/s", "adds, subtractions and multiplications per simulated second",              \
