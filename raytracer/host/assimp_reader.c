@@ -10,9 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-
-const float trax_default_diffuse[3] = {0.75f, 0.75f, 0.75f};
 
 /* --- the file system that assimp sees --- */
 
@@ -75,11 +72,6 @@ static void flush_file(struct aiFile *file) {
   (void)file;
 }
 
-static bool has_extension(const char *name, const char *extension) {
-  size_t length = strlen(name), tail = strlen(extension);
-  return length > tail && !strcasecmp(name + length - tail, extension);
-}
-
 static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode) {
   struct file_system *system = (struct file_system *)io->UserData;
   if (mode[0] != 'r')
@@ -119,30 +111,10 @@ static void close_file(struct aiFileIO *io, struct aiFile *file) {
 
 /* --- materials --- */
 
-static bool begins_with_property(const unsigned char *line, size_t left, const char *text) {
-  return left >= strlen(text) && !memcmp(line, text, strlen(text));
-}
-
-/* Whether a PLY header declares materials; where it does not, assimp makes a white one up. */
-static bool ply_has_materials(const struct scene_bytes *file) {
-  for (size_t at = 0; at < file->size; at++) {
-    if (at > 0 && file->data[at - 1] != '\n')
-      continue;
-    if (begins_with_property(file->data + at, file->size - at, "element material"))
-      return true;
-    if (begins_with_property(file->data + at, file->size - at, "end_header"))
-      return false;
-  }
-  return false;
-}
-
-/* assimp gives its own defaults to what has no material: white for PLY, 0.6 for OBJ without a library. They become
- * ours. */
+/* assimp makes a material up for what has none; ours takes its place. */
 static bool is_placeholder(const struct aiScene *scene, unsigned number, const char *name,
                            const struct file_system *system) {
-  if (has_extension(system->main_name, ".ply"))
-    return !ply_has_materials(&system->main_file);
-  if (has_extension(system->main_name, ".gltf") || has_extension(system->main_name, ".glb"))
+  if (scene_has_extension(system->main_name, ".gltf") || scene_has_extension(system->main_name, ".glb"))
     return number + 1 == scene->mNumMaterials && name[0] == 0; /* appended by assimp for primitives without one */
   return !strcmp(name, AI_DEFAULT_MATERIAL_NAME);
 }
@@ -269,11 +241,9 @@ static trax_status copy_geometry(struct trax_mesh *mesh, const struct aiScene *s
   return TRAX_OK;
 }
 
-trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                            trax_error *error) {
+trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                                   trax_error *error) {
   *mesh = (struct trax_mesh){0};
-  if (has_extension(path, ".obj") || has_extension(path, ".obj.xz") || has_extension(path, ".obj.gz"))
-    return scene_read_obj(mesh, path, report, error);
   struct file_system system = {.io = {.OpenProc = open_file, .CloseProc = close_file}};
   system.io.UserData = (aiUserData)&system;
   char *name = scene_unpacked_name(path);

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -184,6 +185,41 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, trax_er
     *bytes = (struct scene_bytes){0};
   }
   return result;
+}
+
+trax_status scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error) {
+  trax_status result = scene_load_file(bytes, path, error);
+  if (result != TRAX_OK)
+    return result;
+  unsigned char *terminated = realloc(bytes->data, bytes->size + 1);
+  if (!terminated) {
+    free(bytes->data);
+    *bytes = (struct scene_bytes){0};
+    return scene_out_of_memory(error, path);
+  }
+  terminated[bytes->size] = 0;
+  bytes->data = terminated;
+  return TRAX_OK;
+}
+
+bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacity) {
+  if (count < *capacity)
+    return true;
+  if (count == UINT32_MAX)
+    return false;
+  size_t larger = *capacity ? *capacity * 2 : 1024;
+  void **pointer = array;
+  void *moved = realloc(*pointer, larger * record_size);
+  if (!moved)
+    return false;
+  *pointer = moved;
+  *capacity = larger;
+  return true;
+}
+
+bool scene_has_extension(const char *name, const char *extension) {
+  size_t length = strlen(name), tail = strlen(extension);
+  return length > tail && !strcasecmp(name + length - tail, extension);
 }
 
 char *scene_unpacked_name(const char *path) {

@@ -21,17 +21,33 @@ struct scene_bytes {
 /* Reads a whole file, unpacking it if it begins as an .xz or .gz file does. */
 trax_status scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error);
 
+/* extension with its dot; upper and lower case are the same. */
+bool scene_has_extension(const char *name, const char *extension);
+
+/* The same as scene_load_file, with a NUL behind the last byte that size does not count. */
+trax_status scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error);
+
+/* Makes room for a record behind count others: array is the address of a pointer that realloc may change. False when
+   out of memory. */
+bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacity);
+
 /* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
 char *scene_unpacked_name(const char *path);
 
-/* --- assimp_reader.c, obj_reader.c --- */
+/* --- assimp_reader.c, obj_reader.c, ply_reader.c --- */
 
 /* Import one file in this process. source_id and material of the triangles count within the file; report is added to.
  */
-trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                            trax_error *error);
+trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                                   trax_error *error);
 trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                            trax_error *error);
+
+trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                           trax_error *error);
+/* By the ending of the path. */
+trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                            trax_error *error);
 
 /* Into 0 to 1; NaN and -0 become 0. */
 static inline float scene_clamp_colour(float value) {

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -21,7 +22,26 @@ void trax_mesh_release(struct trax_mesh *mesh) {
   *mesh = (struct trax_mesh){0};
 }
 
+const float trax_default_diffuse[3] = {0.75f, 0.75f, 0.75f};
+
+trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                            trax_error *error) {
+  *mesh = (struct trax_mesh){0};
+  char *name = scene_unpacked_name(path);
+  if (!name)
+    return scene_out_of_memory(error, path);
+  trax_status (*read)(struct trax_mesh *, const char *, struct trax_import_report *, trax_error *) =
+      scene_has_extension(name, ".ply")   ? scene_read_ply
+      : scene_has_extension(name, ".obj") ? scene_read_obj
+                                          : scene_read_with_assimp;
+  free(name);
+  return read(mesh, path, report, error);
+}
+
 /* --- the child process --- */
+
+/* Processor time after which the importer is taken to hang: the largest scenes need a hundredth. */
+enum { max_import_seconds = 600 };
 
 /* The first record of what the child hands back; on success the mesh's three arrays follow. */
 struct child_result {
@@ -35,6 +55,7 @@ static _Noreturn void run_child(FILE *out, const char *path) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGINT, SIG_DFL);
   signal(SIGTERM, SIG_DFL);
+  setrlimit(RLIMIT_CPU, &(struct rlimit){max_import_seconds, max_import_seconds});
   /* What a crashing importer prints is of no use to the user. */
   int null = open("/dev/null", O_WRONLY);
   if (null >= 0) {

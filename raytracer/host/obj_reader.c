@@ -97,37 +97,12 @@ static bool parse_float(const char *word, float *value) {
   return end != word && !*end;
 }
 
-/* Puts a NUL behind the file's text; releases it on failure. */
-static trax_status make_text(struct scene_bytes *file, const char *path, trax_error *error) {
-  trax_status result = TRAX_OK;
-  unsigned char *text = realloc(file->data, file->size + 1);
-  if (!text)
-    result = scene_out_of_memory(error, path);
-  else {
-    file->data = text;
-    text[file->size] = 0;
-    if (memchr(text, 0, file->size))
-      result = scene_fail(error, "%s: not a mesh: binary data where text should be", path);
-  }
-  if (result != TRAX_OK)
-    free(file->data);
-  return result;
-}
-
-/* Makes room for one more record; the array may move. */
-static bool grow(void *array, size_t record_size, uint32_t count, size_t *capacity) {
-  if (count < *capacity)
-    return true;
-  if (count == UINT32_MAX)
-    return false;
-  size_t larger = *capacity ? *capacity * 2 : 1024;
-  void **pointer = array;
-  void *moved = realloc(*pointer, larger * record_size);
-  if (!moved)
-    return false;
-  *pointer = moved;
-  *capacity = larger;
-  return true;
+/* A text file holds no NUL; releases the bytes on failure. */
+static trax_status check_text(struct scene_bytes *file, const char *path, trax_error *error) {
+  if (!memchr(file->data, 0, file->size))
+    return TRAX_OK;
+  free(file->data);
+  return scene_fail(error, "%s: not a mesh: binary data where text should be", path);
 }
 
 /* --- materials --- */
@@ -143,7 +118,7 @@ static uint32_t find_material(const struct obj_reader *reader, const char *name)
 
 static uint32_t add_material(struct obj_reader *reader, const char *name) {
   struct trax_mesh *mesh = reader->mesh;
-  if (!grow(&mesh->materials, sizeof *mesh->materials, mesh->material_count, &reader->material_capacity))
+  if (!scene_grow(&mesh->materials, sizeof *mesh->materials, mesh->material_count, &reader->material_capacity))
     return no_material;
   struct trax_mesh_material *material = &mesh->materials[mesh->material_count];
   *material = (struct trax_mesh_material){{0}, {0}};
@@ -175,12 +150,12 @@ static trax_status read_kd(struct obj_reader *library, char *rest) {
 
 static trax_status read_library(struct obj_reader *reader, const char *path) {
   struct scene_bytes file;
-  if (scene_load_file(&file, path, NULL) != TRAX_OK) {
+  if (scene_load_text(&file, path, NULL) != TRAX_OK) {
     if (reader->report->missing_files++ == 0)
       snprintf(reader->report->first_missing_file, sizeof reader->report->first_missing_file, "%s", path);
     return TRAX_OK;
   }
-  trax_status result = make_text(&file, path, reader->error);
+  trax_status result = check_text(&file, path, reader->error);
   if (result != TRAX_OK)
     return result;
   struct obj_reader library = *reader;
@@ -238,7 +213,7 @@ static trax_status use_material(struct obj_reader *reader, char *rest) {
 
 static trax_status read_vertex(struct obj_reader *reader, char *rest) {
   struct trax_mesh *mesh = reader->mesh;
-  if (!grow(&mesh->vertices, sizeof *mesh->vertices, mesh->vertex_count, &reader->vertex_capacity))
+  if (!scene_grow(&mesh->vertices, sizeof *mesh->vertices, mesh->vertex_count, &reader->vertex_capacity))
     return scene_out_of_memory(reader->error, reader->path);
   float *vertex = mesh->vertices[mesh->vertex_count];
   for (int axis = 0; axis < 3; axis++) {
@@ -269,7 +244,7 @@ static trax_status read_corner(struct obj_reader *reader, const char *word, uint
 
 static trax_status add_triangle(struct obj_reader *reader, const uint32_t vertices[3]) {
   struct trax_mesh *mesh = reader->mesh;
-  if (!grow(&mesh->triangles, sizeof *mesh->triangles, mesh->triangle_count, &reader->triangle_capacity))
+  if (!scene_grow(&mesh->triangles, sizeof *mesh->triangles, mesh->triangle_count, &reader->triangle_capacity))
     return scene_out_of_memory(reader->error, reader->path);
   mesh->triangles[mesh->triangle_count] =
       (struct trax_mesh_triangle){.vertices = {vertices[0], vertices[1], vertices[2]},
@@ -284,7 +259,7 @@ static trax_status read_face(struct obj_reader *reader, char *rest) {
   corners->count = 0;
   for (const char *word; (word = next_word(&rest));) {
     size_t capacity = corners->capacity;
-    if (!grow(&corners->vertices, sizeof *corners->vertices, corners->count, &capacity))
+    if (!scene_grow(&corners->vertices, sizeof *corners->vertices, corners->count, &capacity))
       return scene_out_of_memory(reader->error, reader->path);
     corners->capacity = (uint32_t)capacity;
     trax_status result = read_corner(reader, word, &corners->vertices[corners->count]);
@@ -335,9 +310,9 @@ trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, struct trax
                            trax_error *error) {
   *mesh = (struct trax_mesh){0};
   struct scene_bytes file;
-  trax_status result = scene_load_file(&file, path, error);
+  trax_status result = scene_load_text(&file, path, error);
   if (result == TRAX_OK)
-    result = make_text(&file, path, error);
+    result = check_text(&file, path, error);
   if (result != TRAX_OK)
     return result;
   struct obj_reader reader = {.path = path,

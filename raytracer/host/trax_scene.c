@@ -26,8 +26,8 @@ static const char usage[] =
     "      --drop-nonfinite         leave triangles with NaN or infinite vertices out instead of refusing the mesh\n"
     "      --keep-degenerate        keep triangles of exactly zero area, which no ray can hit\n"
     "      --allow-empty            write a scene without triangles if the mesh has none\n"
-    "      --leaf N                 at most N triangles in a leaf, 1 to 7\n"
-    "      --depth N                at most N nodes from the root to a leaf, 1 to 48\n"
+    "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"
+    "      --depth N                at most N nodes from the root to a leaf, 1 to %u\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
     "      --cache-lines N          order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first\n"
@@ -309,7 +309,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       arguments->quiet = true;
       break;
     case 'h':
-      fputs(usage, stdout);
+      printf(usage, TRAX_SCENE_MAX_LEAF, TRAX_SCENE_MAX_DEPTH);
       return 0;
     default:
       good = false; /* getopt_long has said why */

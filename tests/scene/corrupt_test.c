@@ -1,0 +1,357 @@
+/* Scene files that are not what they should be: every damage is found, and what is well-sealed but wrong is refused or
+   harmless. */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct trax_scene good;
+
+static int make_scene(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  mesh_soup(&mesh, 23, 0.3f, 42);
+  build_good(&good, &mesh, &(struct trax_build_options){.max_leaf = 2});
+  trax_mesh_release(&mesh);
+  assert_true(good.node_count >= 8);
+  return 0;
+}
+
+static int drop_scene(void **state) {
+  (void)state;
+  trax_scene_release(&good);
+  return 0;
+}
+
+/* A copy in a block of exactly its size, so that a sanitizer sees every read beyond it. */
+static unsigned char *copy_scene(size_t size) {
+  void *bytes = NULL;
+  assert_int_equal(posix_memalign(&bytes, TRAX_SCENE_ALIGNMENT, size ? size : 1), 0);
+  memcpy(bytes, good.bytes, size);
+  return bytes;
+}
+
+static void test_every_bit(void **state) {
+  (void)state;
+  unsigned char *bytes = copy_scene(good.size);
+  trax_error error;
+  assert_int_equal(trax_scene_check(NULL, bytes, good.size, "scene", &error), TRAX_OK);
+  for (size_t at = 0; at < good.size; at++)
+    for (int bit = 0; bit <= 8; bit++) {
+      unsigned char flip = bit < 8 ? (unsigned char)(1 << bit) : 0xFF;
+      bytes[at] ^= flip;
+      if (trax_scene_check(NULL, bytes, good.size, "scene", &error) != TRAX_ERROR)
+        fail_msg("byte %zu, changed by %02x, was not noticed", at, flip);
+      bytes[at] ^= flip;
+    }
+  free(bytes);
+}
+
+static void test_every_length(void **state) {
+  (void)state;
+  for (size_t size = 0; size < good.size; size++) {
+    unsigned char *bytes = copy_scene(size);
+    trax_error error;
+    assert_int_equal(trax_scene_check(NULL, bytes, size, "scene", &error), TRAX_ERROR);
+    free(bytes);
+  }
+  /* and one that is too long */
+  unsigned char *bytes = calloc(1, good.size + 64);
+  memcpy(bytes, good.bytes, good.size);
+  const char *path = test_file("long.trax", bytes, good.size + 64);
+  free(bytes);
+  struct trax_scene scene;
+  trax_error error;
+  assert_int_equal(trax_scene_read(&scene, path, &error), TRAX_ERROR);
+  assert_contains(error.message, "long.trax: ");
+  assert_contains(error.message, "where its header says");
+}
+
+/* --- sealed after the change --- */
+
+/* Follows every reference as a traversal would; the test ends if one leads out of the file or in a circle. */
+static void follow(const unsigned char *bytes, size_t size, uint32_t ref, unsigned depth, unsigned limit) {
+  uint32_t offset = ref & ~7u, count = ref & 7u;
+  if (count) {
+    assert_true(offset + 40 * (size_t)count <= size);
+    return;
+  }
+  assert_true(depth < limit);
+  assert_true(offset + 64 <= size);
+  struct trax_bvh_node node;
+  memcpy(&node, bytes + offset, sizeof node);
+  follow(bytes, size, node.child[0], depth + 1, limit);
+  follow(bytes, size, node.child[1], depth + 1, limit);
+}
+
+static void check_harmless(const unsigned char *bytes, size_t size, const struct trax_scene *scene) {
+  const struct trax_scene_header *header = scene->header;
+  if (header->root == 0)
+    assert_int_equal(scene->triangle_count, 0);
+  else
+    follow(bytes, size, header->root, 0, header->max_depth);
+  for (uint32_t i = 0; i < scene->triangle_count; i++)
+    assert_true(scene->triangles[i].material < scene->material_count);
+}
+
+static void test_sealed_changes(void **state) {
+  (void)state;
+  unsigned char *bytes = copy_scene(good.size);
+  uint32_t seed = 1;
+  unsigned accepted = 0, rejected = 0;
+  for (int round = 0; round < 60000; round++) {
+    /* Mostly where the structure is: header and nodes. */
+    size_t range = round % 4 ? sizeof(struct trax_scene_header) + good.node_count * 64 : good.size;
+    size_t at = (size_t)(random_unit(&seed) * (float)(range / 4)) * 4;
+    uint32_t word, old;
+    memcpy(&old, bytes + at, 4);
+    static const uint32_t steps[] = {1, 2, 4, 7, 8, 16, 40, 64, 128, 0x80000000u, 0x7F800000u};
+    uint32_t step = steps[(size_t)(random_unit(&seed) * 11)];
+    switch (round % 5) {
+    case 0:
+      word = old + step;
+      break;
+    case 1:
+      word = old - step;
+      break;
+    case 2:
+      word = old ^ step;
+      break;
+    case 3: /* a word of the file elsewhere */
+      memcpy(&word, bytes + (size_t)(random_unit(&seed) * (float)(good.size / 4)) * 4, 4);
+      break;
+    default:
+      word = round % 2 ? 0 : UINT32_MAX;
+    }
+    memcpy(bytes + at, &word, 4);
+    seal(bytes, good.size);
+    struct trax_scene scene;
+    trax_error error;
+    if (trax_scene_check(&scene, bytes, good.size, "scene", &error) == TRAX_OK) {
+      accepted++;
+      check_harmless(bytes, good.size, &scene);
+    } else
+      rejected++;
+    memcpy(bytes, good.bytes, sizeof(struct trax_scene_header));
+    memcpy(bytes + at, (const unsigned char *)good.bytes + at, 4);
+  }
+  assert_true(rejected > accepted && accepted > 100); /* colours, and vertices inside of their boxes, may change */
+  free(bytes);
+}
+
+/* --- one change each, with its message --- */
+
+static void expect(void (*change)(struct trax_scene_header *, struct trax_bvh_node *, struct trax_triangle *),
+                   const char *message) {
+  unsigned char *bytes = copy_scene(good.size);
+  struct trax_scene_header *header = (struct trax_scene_header *)bytes;
+  change(header, (struct trax_bvh_node *)(bytes + header->sections[TRAX_SCENE_NODES].offset),
+         (struct trax_triangle *)(bytes + header->sections[TRAX_SCENE_TRIANGLES].offset));
+  seal(bytes, good.size);
+  trax_error error = {{0}};
+  if (trax_scene_check(NULL, bytes, good.size, "scene", &error) != TRAX_ERROR)
+    fail_msg("accepted, instead of: %s", message);
+  assert_contains(error.message, "scene: ");
+  assert_contains(error.message, message);
+  free(bytes);
+}
+
+#define CHANGE(name)                                                                                                   \
+  static void name(struct trax_scene_header *header, struct trax_bvh_node *nodes, struct trax_triangle *triangles)
+#define UNUSED (void)header, (void)nodes, (void)triangles
+
+CHANGE(newer) {
+  UNUSED, header->version = 2;
+}
+CHANGE(other_magic) {
+  UNUSED, header->magic = 0x464C457Fu;
+}
+CHANGE(root_of_nothing) {
+  UNUSED, header->root = 0;
+}
+CHANGE(root_off_by_8) {
+  UNUSED, header->root += 8;
+}
+CHANGE(root_below) {
+  UNUSED, header->root = nodes[0].child[0] & 7u ? nodes[0].child[1] : nodes[0].child[0];
+}
+CHANGE(circle) {
+  UNUSED;
+  nodes[1].child[0] = header->root;
+}
+CHANGE(twice) {
+  UNUSED;
+  nodes[0].child[0] = nodes[0].child[1];
+}
+CHANGE(node_in_triangles) {
+  UNUSED, nodes[0].child[0] = header->sections[TRAX_SCENE_TRIANGLES].offset;
+}
+CHANGE(leaf_in_nodes) {
+  UNUSED, nodes[0].child[0] = header->root | 1;
+}
+CHANGE(leaf_beyond) {
+  UNUSED;
+  const struct trax_scene_section *section = &header->sections[TRAX_SCENE_TRIANGLES];
+  nodes[0].child[0] = section->offset + section->size - 40 + 2; /* needs two, one is left */
+}
+CHANGE(loose_box) {
+  UNUSED, nodes[0].box[1].max[2] = nextafterf(nodes[0].box[1].max[2], INFINITY);
+}
+CHANGE(tight_box) {
+  UNUSED, nodes[3].box[0].min[1] = nextafterf(nodes[3].box[0].min[1], INFINITY);
+}
+CHANGE(nan_box) {
+  UNUSED, nodes[2].box[0].min[0] = NAN;
+}
+CHANGE(nan_vertex) {
+  UNUSED, triangles[5].v1[1] = NAN;
+}
+CHANGE(infinite_vertex) {
+  UNUSED, triangles[0].v2[2] = -INFINITY;
+}
+CHANGE(no_material) {
+  UNUSED, triangles[7].material = 3;
+}
+CHANGE(shallow) {
+  UNUSED, header->max_depth--;
+}
+CHANGE(larger_leaves) {
+  UNUSED, header->max_leaf = 1;
+}
+CHANGE(small_bounds) {
+  UNUSED, header->bounds_max[0] = 0;
+}
+CHANGE(fewer) {
+  UNUSED, header->triangle_count--;
+}
+CHANGE(overlap) {
+  UNUSED, header->sections[TRAX_SCENE_SOURCE_IDS].offset = header->sections[TRAX_SCENE_NODES].offset;
+}
+CHANGE(outside) {
+  UNUSED, header->sections[TRAX_SCENE_SOURCE_IDS].offset = header->file_size;
+}
+CHANGE(misaligned) {
+  UNUSED, header->sections[TRAX_SCENE_NODES].offset += 32;
+}
+CHANGE(wrapping) {
+  UNUSED;
+  header->sections[TRAX_SCENE_SOURCE_IDS].count = 0x40000001;
+  header->sections[TRAX_SCENE_SOURCE_IDS].size = 4;
+}
+CHANGE(unknown_section) {
+  UNUSED, header->sections[5] = (struct trax_scene_section){192, 64, 1, 64};
+}
+CHANGE(other_records) {
+  UNUSED, header->sections[TRAX_SCENE_NODES].record_size = 32;
+}
+CHANGE(used_reserve) {
+  UNUSED, nodes[4].reserved[1] = 1;
+}
+CHANGE(used_header_reserve) {
+  UNUSED, header->reserved[0] = 1;
+}
+
+static void test_messages(void **state) {
+  (void)state;
+  expect(newer, "scene file version 2; this program reads version 1");
+  expect(other_magic, "not a scene file");
+  expect(root_of_nothing, "is to no node");
+  expect(root_off_by_8, "is to no node");
+  expect(root_below, "nodes are not in the tree");
+  expect(circle, "node 0 is referred to twice");
+  expect(twice, "is to triangle");
+  expect(node_in_triangles, "is to no node");
+  expect(leaf_in_nodes, "is to no triangle");
+  expect(leaf_beyond, "is to triangles behind the last");
+  expect(loose_box, "node 0: box 1 is not that of its triangles");
+  expect(tight_box, "node 3: box 0 is not that of its triangles");
+  expect(nan_box, "node 2: box 0 is not that of its triangles");
+  expect(nan_vertex, "triangle 5: a coordinate is not finite");
+  expect(infinite_vertex, "triangle 0: a coordinate is not finite");
+  expect(no_material, "triangle 7: material 3 is out of range (3 materials)");
+  expect(shallow, "where its header says");
+  expect(larger_leaves, "where its header says");
+  expect(small_bounds, "the bounds are not those of its triangles");
+  expect(fewer, "23 triangles, where its header says 22");
+  expect(overlap, "the sections nodes and source ids overlap");
+  expect(outside, "source ids: bytes");
+  expect(misaligned, "nodes: bytes");
+  expect(wrapping, "source ids: 1073741825 records do not make 4 bytes");
+  expect(unknown_section, "section 5 is of an unknown kind");
+  expect(other_records, "nodes: records of 32 bytes instead of 64");
+  expect(used_reserve, "node 4: reserved words are not zero");
+  expect(used_header_reserve, "reserved words of the header are not zero");
+}
+
+/* A chain deeper than the device's stack is refused, however well it is made. */
+static void test_deep_chain(void **state) {
+  (void)state;
+  for (unsigned depth = TRAX_SCENE_MAX_DEPTH; depth <= TRAX_SCENE_MAX_DEPTH + 1; depth++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene built;
+    mesh_soup(&mesh, depth + 1, 0.5f, 3);
+    build_good(&built, &mesh, &(struct trax_build_options){.max_leaf = 1, .without_source_ids = true});
+    struct trax_scene_header *header = built.bytes;
+    struct trax_bvh_node *nodes = (struct trax_bvh_node *)built.nodes;
+    assert_int_equal(built.node_count, depth);
+    header->root = header->sections[TRAX_SCENE_NODES].offset;
+    header->max_depth = depth;
+    for (unsigned i = depth; i-- > 0;) { /* node i: triangle i, and below it the rest */
+      uint32_t triangle = header->sections[TRAX_SCENE_TRIANGLES].offset + 40 * i;
+      nodes[i].child[0] = triangle | 1;
+      nodes[i].child[1] = i + 1 < depth ? header->root + 64 * (i + 1) : (triangle + 40) | 1;
+      for (unsigned side = 0; side < 2; side++) {
+        float *min = nodes[i].box[side].min, *max = nodes[i].box[side].max;
+        for (int axis = 0; axis < 3; axis++) {
+          min[axis] = INFINITY;
+          max[axis] = -INFINITY;
+          for (unsigned t = i + side; t < (side ? built.triangle_count : i + 1); t++) {
+            const struct trax_triangle *tri = &built.triangles[t];
+            min[axis] = fminf(min[axis], fminf(tri->v0[axis], fminf(tri->v1[axis], tri->v2[axis])));
+            max[axis] = fmaxf(max[axis], fmaxf(tri->v0[axis], fmaxf(tri->v1[axis], tri->v2[axis])));
+          }
+        }
+      }
+    }
+    seal(built.bytes, built.size);
+    trax_error error = {{0}};
+    trax_status result = trax_scene_check(NULL, built.bytes, built.size, "scene", &error);
+    if (depth <= TRAX_SCENE_MAX_DEPTH)
+      assert_int_equal(result, TRAX_OK);
+    else {
+      assert_int_equal(result, TRAX_ERROR);
+      char message[64];
+      snprintf(message, sizeof message, "node %u is deeper than %u", TRAX_SCENE_MAX_DEPTH, TRAX_SCENE_MAX_DEPTH);
+      assert_contains(error.message, message);
+    }
+    trax_scene_release(&built);
+    trax_mesh_release(&mesh);
+  }
+}
+
+static void test_not_scenes(void **state) {
+  (void)state;
+  struct trax_scene scene;
+  trax_error error;
+  const struct {
+    const char *path, *message;
+  } bad[] = {{test_path("nowhere.trax"), "nowhere.trax: cannot open: No such file"},
+             {test_directory(), "cannot read: Is a directory"},
+             {test_text("empty.trax", ""), "empty.trax: not a scene file"},
+             {test_text("tiny.trax", "TRXS"), "tiny.trax: cut off: 4 bytes"},
+             {test_text("text.trax", "This is not a scene."), "text.trax: not a scene file"}};
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    assert_int_equal(trax_scene_read(&scene, bad[i].path, &error), TRAX_ERROR);
+    assert_contains(error.message, bad[i].message);
+    assert_null(scene.bytes);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_every_bit), cmocka_unit_test(test_every_length), cmocka_unit_test(test_sealed_changes),
+      cmocka_unit_test(test_messages),  cmocka_unit_test(test_deep_chain),   cmocka_unit_test(test_not_scenes),
+  };
+  return cmocka_run_group_tests_name("corrupt scenes", tests, make_scene, drop_scene);
+}

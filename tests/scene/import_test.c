@@ -1,0 +1,516 @@
+/* Meshes in all formats, the odd corners of OBJ, and what must be refused. */
+#include "support.h"
+
+#include <lzma.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+/* The corners of triangle i of a mesh. */
+static const float *corner(const struct trax_mesh *mesh, uint32_t triangle, int which) {
+  assert_true(triangle < mesh->triangle_count);
+  return mesh->vertices[mesh->triangles[triangle].vertices[which]];
+}
+
+static void assert_corner(const struct trax_mesh *mesh, uint32_t triangle, int which, float x, float y, float z) {
+  const float *p = corner(mesh, triangle, which);
+  if (p[0] != x || p[1] != y || p[2] != z)
+    fail_msg("triangle %u corner %d: %g %g %g instead of %g %g %g", triangle, which, (double)p[0], (double)p[1],
+             (double)p[2], (double)x, (double)y, (double)z);
+}
+
+/* --- the same two triangles, in every format: a unit square at z = 1 and a triangle at z = -2 --- */
+
+static const char square_ply[] = "ply\nformat ascii 1.0\ncomment two faces\nelement vertex 7\nproperty float x\n"
+                                 "property float y\nproperty float z\nelement face 2\n"
+                                 "property list uchar int vertex_indices\nend_header\n"
+                                 "0 0 1\n1 0 1\n1 1 1\n0 1 1\n.5 -0.25 -2\n1.5e0 0 -2\n0 3 -2\n4 0 1 2 3\n3 4 5 6\n";
+static const char square_obj[] = "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv .5 -0.25 -2\nv 1.5e0 0 -2\nv 0 3 -2\n"
+                                 "f 1 2 3 4\nf 5 6 7\n";
+
+static void check_square(const char *path) {
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  import_good(&mesh, path, &report);
+  assert_int_equal(mesh.triangle_count, 3);
+  assert_int_equal(report.source_triangles, 3);
+  float area = 0;
+  for (uint32_t t = 0; t < 2; t++) {
+    const float *a = corner(&mesh, t, 0), *b = corner(&mesh, t, 1), *c = corner(&mesh, t, 2);
+    assert_true(a[2] == 1 && b[2] == 1 && c[2] == 1);
+    float twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    assert_true(twice > 0); /* the winding stays */
+    area += twice / 2;
+  }
+  assert_true(area == 1);
+  assert_corner(&mesh, 2, 0, 0.5f, -0.25f, -2);
+  assert_corner(&mesh, 2, 1, 1.5f, 0, -2);
+  assert_corner(&mesh, 2, 2, 0, 3, -2);
+  assert_int_equal(mesh.material_count, 1);
+  for (int channel = 0; channel < 3; channel++)
+    assert_true(mesh.materials[0].diffuse[channel] == trax_default_diffuse[channel]);
+  trax_mesh_release(&mesh);
+}
+
+static void test_text_formats(void **state) {
+  (void)state;
+  check_square(test_text("square.ply", square_ply));
+  check_square(test_text("square.obj", square_obj));
+  check_square(test_text("SQUARE.OBJ", square_obj));
+}
+
+static void append(unsigned char *bytes, size_t *size, const void *more, size_t count) {
+  memcpy(bytes + *size, more, count);
+  *size += count;
+}
+
+static void test_binary_ply(void **state) {
+  (void)state;
+  static const char header[] = "ply\nformat binary_little_endian 1.0\nelement vertex 7\nproperty float x\n"
+                               "property float y\nproperty float z\nelement face 2\n"
+                               "property list uchar int vertex_indices\nend_header\n";
+  static const float vertices[7][3] = {{0, 0, 1},          {1, 0, 1},     {1, 1, 1}, {0, 1, 1},
+                                       {0.5f, -0.25f, -2}, {1.5f, 0, -2}, {0, 3, -2}};
+  static const int32_t quad[4] = {0, 1, 2, 3}, triangle[3] = {4, 5, 6};
+  unsigned char bytes[1024];
+  size_t size = 0;
+  append(bytes, &size, header, strlen(header));
+  append(bytes, &size, vertices, sizeof vertices);
+  append(bytes, &size, "\4", 1);
+  append(bytes, &size, quad, sizeof quad);
+  append(bytes, &size, "\3", 1);
+  append(bytes, &size, triangle, sizeof triangle);
+  check_square(test_file("binary.ply", bytes, size));
+}
+
+/* Big endian, coordinates of three types behind a property and an element that mean nothing, and triangle strips. */
+static void test_ply_types(void **state) {
+  (void)state;
+  static const char header[] =
+      "ply\r\nformat binary_big_endian 1.0\r\nobj_info x\r\nelement camera 1\r\nproperty list ushort double matrix\r\n"
+      "element vertex 5\r\nproperty uchar red\r\nproperty short x\r\nproperty double y\r\nproperty float z\r\n"
+      "element tristrips 1\r\nproperty list int int vertex_indices\r\nend_header\r\n";
+  static const unsigned char one_double[] = {0x3F, 0xF0, 0, 0, 0, 0, 0, 0}, one_float[] = {0x3F, 0x80, 0, 0};
+  unsigned char bytes[1024] = {0};
+  size_t size = 0;
+  append(bytes, &size, header, strlen(header));
+  append(bytes, &size, "\0\2", 2);
+  append(bytes, &size, one_double, 8);
+  append(bytes, &size, one_double, 8);
+  for (int i = 0; i < 5; i++) { /* x = -300 + i, y = 0 or 1, z = 1 */
+    unsigned x = (unsigned)(-300 + i) & 0xFFFF;
+    const unsigned char head[] = {200, (unsigned char)(x >> 8), (unsigned char)x};
+    append(bytes, &size, head, 3);
+    append(bytes, &size, i % 2 ? one_double : (const unsigned char[8]){0}, 8);
+    append(bytes, &size, one_float, 4);
+  }
+  static const signed char strip[] = {0, 1, 2, 3, -1, 2, 3, 4};
+  append(bytes, &size, "\0\0\0\10", 4);
+  for (size_t i = 0; i < sizeof strip; i++) {
+    const unsigned char index[] = {strip[i] < 0 ? 255 : 0, strip[i] < 0 ? 255 : 0, strip[i] < 0 ? 255 : 0,
+                                   (unsigned char)strip[i]};
+    append(bytes, &size, index, 4);
+  }
+  struct trax_mesh mesh;
+  import_good(&mesh, test_file("types.ply", bytes, size), NULL);
+  assert_int_equal(mesh.triangle_count, 3);
+  static const int expected[3][3] = {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}; /* all turn the same way */
+  for (uint32_t t = 0; t < 3; t++)
+    for (int c = 0; c < 3; c++)
+      assert_corner(&mesh, t, c, -300.0f + (float)expected[t][c], (float)(expected[t][c] % 2), 1);
+  trax_mesh_release(&mesh);
+  /* Cut anywhere it is refused. */
+  for (size_t length = 0; length < size; length++) {
+    const char *path = test_file("cut.ply", bytes, length);
+    trax_error error;
+    struct trax_import_options options = {.in_process = true};
+    assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
+    assert_contains(error.message, "cut.ply:");
+  }
+}
+
+static void test_compressed(void **state) {
+  (void)state;
+  unsigned char packed[4096];
+  size_t size = 0;
+  assert_int_equal(lzma_easy_buffer_encode(6, LZMA_CHECK_CRC32, NULL, (const uint8_t *)square_ply, strlen(square_ply),
+                                           packed, &size, sizeof packed),
+                   LZMA_OK);
+  check_square(test_file("square.ply.xz", packed, size));
+  trax_error error;
+  struct trax_mesh mesh;
+  const char *cut = test_file("cut.ply.xz", packed, size - 5);
+  assert_int_equal(trax_mesh_import(&mesh, &cut, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "cut.ply.xz: the .xz data ends too early");
+  packed[size / 2] ^= 0x10;
+  const char *bad = test_file("bad.ply.xz", packed, size);
+  assert_int_equal(trax_mesh_import(&mesh, &bad, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "bad.ply.xz: the .xz data is corrupt");
+
+  const char *path = test_path("square.obj.gz");
+  gzFile file = gzopen(path, "wb");
+  gzputs(file, square_obj);
+  gzclose(file);
+  file = gzopen(path, "ab"); /* a second member */
+  gzputs(file, "# the end\n");
+  gzclose(file);
+  check_square(path);
+  FILE *stream = fopen(path, "rb");
+  size = fread(packed, 1, sizeof packed, stream);
+  fclose(stream);
+  cut = test_file("cut.obj.gz", packed, size - 9);
+  assert_int_equal(trax_mesh_import(&mesh, &cut, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "cut.obj.gz: the .gz data ends too early");
+}
+
+/* --- glTF: nodes, transforms, materials --- */
+
+static const float gltf_positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+static const char gltf_start[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+    /* node 1 is moved by 10 along x, then scaled by 2 with node 0; node 2 mirrors x */
+    "\"nodes\":[{\"scale\":[2,2,2],\"children\":[1,2]},{\"translation\":[10,0,0],\"mesh\":0},"
+    "{\"scale\":[-1,1,1],\"mesh\":0}],"
+    "\"materials\":[{\"name\":\"red\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,0,1]}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+    "\"min\":[0,0,0],\"max\":[1,1,0]}],";
+
+static void check_gltf(const char *path) {
+  struct trax_mesh mesh;
+  import_good(&mesh, path, NULL);
+  assert_int_equal(mesh.triangle_count, 2);
+  assert_corner(&mesh, 0, 0, 20, 0, 0);
+  assert_corner(&mesh, 0, 1, 22, 0, 0);
+  assert_corner(&mesh, 0, 2, 20, 2, 0);
+  assert_corner(&mesh, 1, 0, 0, 0, 0); /* mirrored: the winding is turned so that the outside stays outside */
+  assert_corner(&mesh, 1, 1, 0, 2, 0);
+  assert_corner(&mesh, 1, 2, -2, 0, 0);
+  const struct trax_mesh_material *material = &mesh.materials[mesh.triangles[0].material];
+  assert_string_equal(material->name, "red");
+  assert_true(material->diffuse[0] == 0.5f && material->diffuse[1] == 0.25f && material->diffuse[2] == 0);
+  trax_mesh_release(&mesh);
+}
+
+static void test_gltf(void **state) {
+  (void)state;
+  char json[2048];
+  snprintf(json, sizeof json, "%s\"buffers\":[{\"byteLength\":36,\"uri\":\"gltf.bin\"}]}", gltf_start);
+  test_file("gltf.bin", gltf_positions, sizeof gltf_positions);
+  check_gltf(test_text("outside.gltf", json));
+
+  int length = snprintf(json, sizeof json, "%s\"buffers\":[{\"byteLength\":36}]}", gltf_start);
+  while (length % 4)
+    json[length++] = ' ';
+  uint32_t header[] = {0x46546C67u, 2, 12 + 8 + (uint32_t)length + 8 + 36, (uint32_t)length, 0x4E4F534Au};
+  uint32_t chunk[] = {36, 0x004E4942u};
+  unsigned char bytes[4096];
+  size_t size = 0;
+  append(bytes, &size, header, sizeof header);
+  append(bytes, &size, json, (size_t)length);
+  append(bytes, &size, chunk, sizeof chunk);
+  append(bytes, &size, gltf_positions, sizeof gltf_positions);
+  check_gltf(test_file("one.glb", bytes, size));
+}
+
+/* --- OBJ --- */
+
+static void test_obj_syntax(void **state) {
+  (void)state;
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  import_good(&mesh,
+              test_text("syntax.obj", "# comment\r\n\tv\t.5 0 0 # trailing\r\nv 1 \\\r\n 0 0\r\n\r\nv 0 1. 0 1.0\n"
+                                      "vt 0 0\nvn 0 0 1\ng a b\ns off\n  f  -3/1 -2//1 -1/1/1  # last three\n"
+                                      "v 0 0 -5\nl 1 2\np 1\nf 1 2 4\nunknown words\nf 1 2 3"),
+              &report);
+  assert_int_equal(mesh.triangle_count, 3);
+  assert_int_equal(report.other_primitives, 2);
+  assert_corner(&mesh, 0, 0, 0.5f, 0, 0);
+  assert_corner(&mesh, 0, 1, 1, 0, 0);
+  assert_corner(&mesh, 0, 2, 0, 1, 0);
+  assert_corner(&mesh, 1, 2, 0, 0, -5);
+  assert_corner(&mesh, 2, 2, 0, 1, 0);
+  trax_mesh_release(&mesh);
+}
+
+/* A comb of six teeth with a concave outline, on each of the three planes and from both sides. */
+static void test_concave_polygons(void **state) {
+  (void)state;
+  static const float outline[][2] = {{0, 0}, {11, 0}, {11, 5}, {10, 5}, {10, 1}, {9, 1}, {9, 5}, {8, 5},
+                                     {8, 1}, {7, 1},  {7, 5},  {6, 5},  {6, 1},  {5, 1}, {5, 5}, {4, 5},
+                                     {4, 1}, {3, 1},  {3, 5},  {2, 5},  {2, 1},  {1, 1}, {1, 5}, {0, 5}};
+  enum { count = sizeof outline / sizeof outline[0] };
+  for (int plane = 0; plane < 6; plane++) {
+    char text[4096], *to = text;
+    for (int i = 0; i < count; i++) {
+      float p[3] = {7, 7, 7};
+      p[(plane + 1) % 3] = outline[i][0];
+      p[(plane + 2) % 3] = outline[i][1];
+      to += sprintf(to, "v %g %g %g\n", (double)p[0], (double)p[1], (double)p[2]);
+    }
+    to += sprintf(to, "f");
+    for (int i = 0; i < count; i++)
+      to += sprintf(to, " %d", plane < 3 ? i + 1 : count - i);
+    struct trax_mesh mesh;
+    import_good(&mesh, test_text("comb.obj", text), NULL);
+    assert_int_equal(mesh.triangle_count, count - 2);
+    float area = 0;
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+      const float *a = corner(&mesh, t, 0), *b = corner(&mesh, t, 1), *c = corner(&mesh, t, 2);
+      int x = (plane + 1) % 3, y = (plane + 2) % 3;
+      float twice = (b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]);
+      assert_true(plane < 3 ? twice > 0 : twice < 0); /* all turn as the polygon does: they cannot overlap */
+      area += fabsf(twice) / 2;
+    }
+    assert_true(area == 11 + 6 * 4);
+    trax_mesh_release(&mesh);
+  }
+}
+
+static const struct trax_mesh_material *material_of(const struct trax_mesh *mesh, uint32_t triangle) {
+  return &mesh->materials[mesh->triangles[triangle].material];
+}
+
+static void test_materials(void **state) {
+  (void)state;
+  test_text("two words.mtl", "newmtl Material #3\n Kd 0.5 0.25 2\nNs 10\nnewmtl grey\nKd 0.125\nnewmtl none\n");
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  const char *path = test_text("coloured.obj", "mtllib two words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+                                               "usemtl Material #3\nf 1 2 3\nusemtl grey\nf 1 2 3\nusemtl none\n"
+                                               "f 1 2 3\nusemtl nowhere\nf 1 2 3\n");
+  import_good(&mesh, path, &report);
+  assert_int_equal(report.missing_files, 0);
+  assert_int_equal(mesh.triangle_count, 5);
+  assert_string_equal(material_of(&mesh, 1)->name, "Material #3");
+  const float expected[5][3] = {
+      {0.75f, 0.75f, 0.75f}, {0.5f, 0.25f, 1}, {0.125f, 0.125f, 0.125f}, {0.75f, 0.75f, 0.75f}, {0.75f, 0.75f, 0.75f}};
+  for (uint32_t t = 0; t < 5; t++)
+    assert_memory_equal(material_of(&mesh, t)->diffuse, expected[t], sizeof expected[t]);
+  trax_mesh_release(&mesh);
+
+  const struct trax_material_override overrides[] = {{NULL, {0.25f, 0.25f, 0.25f}}, {"grey", {1, 0, 0}}};
+  struct trax_import_options options = {.in_process = true, .overrides = overrides, .override_count = 2};
+  trax_error error;
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
+  assert_true(material_of(&mesh, 1)->diffuse[1] == 0.25f);
+  assert_true(material_of(&mesh, 2)->diffuse[0] == 1 && material_of(&mesh, 2)->diffuse[1] == 0);
+  /* The scene has what is used, each colour once. */
+  struct trax_scene scene;
+  build_good(&scene, &mesh, NULL);
+  assert_int_equal(scene.material_count, 2);
+  trax_scene_release(&scene);
+  trax_mesh_release(&mesh);
+  const struct trax_material_override wrong = {"gray", {1, 0, 0}};
+  options = (struct trax_import_options){.in_process = true, .overrides = &wrong, .override_count = 1};
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "no material is named 'gray'");
+
+  import_good(&mesh, test_text("lost.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"), &report);
+  assert_int_equal(report.missing_files, 1);
+  assert_contains(report.first_missing_file, "lost.mtl");
+  trax_mesh_release(&mesh);
+}
+
+/* --- several files --- */
+
+static void test_merge(void **state) {
+  (void)state;
+  test_text("a.mtl", "newmtl a\nKd 1 0 0\n");
+  const char *paths[] = {test_text("a.obj", "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n"),
+                         test_text("b.ply", square_ply)};
+  for (int in_process = 0; in_process < 2; in_process++) {
+    struct trax_mesh mesh;
+    struct trax_import_report report;
+    trax_error error;
+    struct trax_import_options options = {.in_process = in_process};
+    assert_int_equal(trax_mesh_import(&mesh, paths, 2, &options, &report, &error), TRAX_OK);
+    assert_int_equal(mesh.triangle_count, 4);
+    assert_int_equal(report.source_triangles, 5);
+    assert_int_equal(report.degenerate, 1);
+    const uint32_t ids[] = {0, 2, 3, 4}; /* 1 was dropped */
+    for (uint32_t t = 0; t < 4; t++)
+      assert_int_equal(mesh.triangles[t].source_id, ids[t]);
+    assert_corner(&mesh, 3, 0, 0.5f, -0.25f, -2);
+    assert_true(material_of(&mesh, 0)->diffuse[1] == 0);
+    assert_true(material_of(&mesh, 1)->diffuse[1] == 0.75f);
+    trax_mesh_release(&mesh);
+  }
+}
+
+/* --- triangles that cannot be traced --- */
+
+static bool is_dropped(const char *a, const char *b, const char *c) {
+  char text[256];
+  snprintf(text, sizeof text, "v %s\nv %s\nv %s\nf 1 2 3\n", a, b, c);
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  import_good(&mesh, test_text("one.obj", text), &report);
+  assert_int_equal(report.degenerate + mesh.triangle_count, 1);
+  trax_mesh_release(&mesh);
+  return report.degenerate == 1;
+}
+
+static void test_degenerate(void **state) {
+  (void)state;
+  assert_true(is_dropped("1 2 3", "1 2 3", "4 5 6"));
+  assert_true(is_dropped("1 2 3", "4 5 6", "1 2 3"));
+  assert_true(is_dropped("4 5 6", "1 2 3", "1 2 3"));
+  assert_true(is_dropped("1 2 3", "2 4 6", "-3 -6 -9"));
+  assert_true(is_dropped("0.1 0.1 0.1", "0.2 0.2 0.2", "0.4 0.4 0.4"));
+  assert_true(is_dropped("1e-30 0 0", "3e-30 0 0", "-1e-30 0 0"));
+  assert_true(is_dropped("1e-44 0 0", "3e-44 0 0", "-1e-44 0 0"));
+  /* The least that binary32 can tell from a line. */
+  assert_false(is_dropped("1 2 3", "2 4 6", "-3 -6 -9.000001"));
+  assert_false(is_dropped("1e-30 0 0", "3e-30 0 0", "-1e-30 1e-44 0"));
+  assert_false(is_dropped("0 0 0", "1 0 0", "0.5 1e-45 0"));
+  assert_false(is_dropped("0 0 0", "1e15 0 0", "5e14 1e-45 0"));
+  /* The products of the edges agree in binary64 but not exactly. */
+  assert_false(is_dropped("0 0 0", "1.00000012 1 0", "1 0.99999988 0"));
+
+  struct trax_mesh mesh;
+  trax_error error;
+  const char *path = test_text("flat.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n");
+  struct trax_import_options keep = {.in_process = true, .keep_degenerate = true};
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &keep, NULL, &error), TRAX_OK);
+  assert_int_equal(mesh.triangle_count, 1);
+  trax_mesh_release(&mesh);
+}
+
+static void test_nonfinite(void **state) {
+  (void)state;
+  const char *path = test_text("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e30\nv 0 0 1e39\n"
+                                          "f 1 2 3\nf 1 2 4\nf 3 2 1\nf 1 5 2\nf 6 1 2\nf 1 2 7\n");
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  trax_error error;
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "nan.obj: 4 of 6 triangles");
+  assert_contains(error.message, "the first is triangle 1 ");
+  struct trax_import_options drop = {.drop_nonfinite = true};
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &drop, &report, &error), TRAX_OK);
+  assert_int_equal(mesh.triangle_count, 2);
+  assert_int_equal(mesh.triangles[1].source_id, 2);
+  assert_int_equal(report.nonfinite, 4);
+  trax_mesh_release(&mesh);
+  /* A vertex that no triangle has does not matter. */
+  import_good(&mesh, test_text("unused.obj", "v nan 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n"), NULL);
+  trax_mesh_release(&mesh);
+}
+
+/* --- what is refused --- */
+
+#define PLY_START "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+#define PLY_FACES "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+
+static const struct bad_mesh {
+  const char *name, *text, *message;
+} bad_meshes[] = {
+    {"high.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", "high.obj:5: vertex index 4 is out of range (3 vertices"},
+    {"low.obj", "v 0 0 0\nv 1 0 0\nf 1 2 -3\n", "low.obj:3: vertex index -3 is out of range (2 vertices"},
+    {"zero.obj", "v 0 0 0\nf 0 1 1\n", "zero.obj:2: not a vertex index: '0'"},
+    {"huge.obj", "v 0 0 0\nf 1 1 99999999999999999999\n", "huge.obj:2: vertex index 9999"},
+    {"word.obj", "v 0 0 0\nf 1 1 one\n", "word.obj:2: not a vertex index: 'one'"},
+    {"tail.obj", "v 0 0 0\nf 1 1 1x\n", "tail.obj:2: not a vertex index: '1x'"},
+    {"short.obj", "v 0 0 0\nf 1 1\n", "short.obj:2: a face needs at least three vertices"},
+    {"flat.obj", "v 0 0\n", "flat.obj:1: a vertex needs three coordinates"},
+    {"letter.obj", "v 0 0 \\\n0\nv 0 x 0\n", "letter.obj:3: a vertex's coordinate is not a number: 'x'"},
+    {"comma.obj", "v 0,5 0 0\n", "comma.obj:1: a vertex's coordinate is not a number: '0,5'"},
+    {"nothing.obj", "# nothing\n", "nothing.obj: not a mesh: no vertices"},
+    {"prose.obj", "What is this?\n", "prose.obj: not a mesh"},
+    {"empty.obj", "", "empty.obj: not a mesh: no vertices"},
+    {"empty.ply", "", "empty.ply: not a mesh"},
+    {"empty.glb", "", "empty.glb: the file is empty"},
+    {"text.txt", "hello\n", "text.txt: not a mesh that can be read"},
+    {"half.gltf", "{\"asset\":", "half.gltf: not a mesh that can be read"},
+    {"prose.ply", "plywood\n", "prose.ply: not a mesh"},
+    {"cut.ply", PLY_START, "cut.ply:7: the file ends in its header"},
+    {"format.ply", "ply\nend_header\n", "format.ply:2: the header has no format"},
+    {"middle.ply", "ply\nformat binary_middle_endian 1.0\n", "middle.ply:2: the format is none of"},
+    {"version.ply", "ply\nformat ascii 2.0\n", "version.ply:2: the format's version"},
+    {"count.ply", "ply\nformat ascii 1.0\nelement vertex many\n", "count.ply:3: an element's count is not a number"},
+    {"minus.ply", "ply\nformat ascii 1.0\nelement vertex -1\n", "minus.ply:3: an element's count is not a number"},
+    {"many.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\n", "many.ply:3: an element's count is too large"},
+    {"early.ply", "ply\nproperty float x\n", "early.ply:2: a property before any element"},
+    {"type.ply", PLY_START "property quad q\n", "type.ply:7: unknown type of a property"},
+    {"list.ply", PLY_START "property list float int q\n", "list.ply:7: the type of a list's length"},
+    {"real.ply", PLY_START "element face 1\nproperty list int float vertex_indices\n",
+     "real.ply:8: the type of vertex"},
+    {"keyword.ply", PLY_START "elephant face 1\n", "keyword.ply:7: unknown keyword in the header"},
+    {"flat.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n",
+     "flat.ply: no vertices with"},
+    {"faceless.ply", PLY_START "end_header\n0 0 0\n1 0 0\n0 1 0\n", "faceless.ply: no faces"},
+    {"large.ply",
+     "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
+     "property float z\n" PLY_FACES "3 0 1 2\n",
+     "large.ply: cut off: too short for the 4000000000 records"},
+    {"few.ply", PLY_START PLY_FACES "3 0", "few.ply:13: a list is longer than the file"},
+    {"blank.ply", PLY_START PLY_FACES "3 0 1     \n", "blank.ply:14: the file ends too early"},
+    {"long.ply", PLY_START PLY_FACES "100 0 1 2\n", "long.ply:13: a list is longer than the file"},
+    {"negative.ply", PLY_START PLY_FACES "-3 0 1 2\n", "negative.ply:13: a list's length is negative"},
+    {"line.ply", PLY_START PLY_FACES "2 0 1\n", "line.ply:13: a face needs at least three vertices"},
+    {"high.ply", PLY_START PLY_FACES "3 0 1 3\n", "high.ply:13: vertex index 3 is out of range (3 vertices)"},
+    {"low.ply", PLY_START PLY_FACES "3 0 1 -1\n", "low.ply:13: vertex index -1 is out of range (3 vertices)"},
+    {"more.ply", PLY_START PLY_FACES "3 0 1 2 0\n", "more.ply:13: more values than the header says"},
+    {"half.ply", PLY_START PLY_FACES "3 0 1 1.5\n", "half.ply:13: not an integer"},
+    {"word.ply",
+     PLY_START "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n",
+     "word.ply:11: not a number"},
+    {"order.ply",
+     "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
+     "property float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n",
+     "order.ply:10: faces before the vertices"},
+};
+
+static void test_bad_meshes(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof bad_meshes / sizeof bad_meshes[0]; i++) {
+    const char *path = test_text(bad_meshes[i].name, bad_meshes[i].text);
+    struct trax_mesh mesh;
+    trax_error error = {{0}};
+    if (trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error) != TRAX_ERROR)
+      fail_msg("%s was imported", bad_meshes[i].name);
+    assert_contains(error.message, bad_meshes[i].message);
+    assert_null(mesh.vertices);
+  }
+}
+
+static void test_bad_files(void **state) {
+  (void)state;
+  struct trax_mesh mesh;
+  trax_error error;
+  const char *path = test_path("nowhere.ply");
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "nowhere.ply: cannot open: No such file");
+  path = test_directory();
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "cannot read: Is a directory");
+  path = test_file("zeros.obj", "v 0 0 0\n\0\0", 10);
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "zeros.obj: not a mesh: binary data");
+}
+
+static void test_interrupt(void **state) {
+  (void)state;
+  const char *path = test_text("square.ply", square_ply);
+  const volatile int interrupt = 1;
+  struct trax_import_options options = {.interrupt = &interrupt};
+  struct trax_mesh mesh;
+  trax_error error;
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_INTERRUPTED);
+  assert_null(mesh.vertices);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_text_formats),     cmocka_unit_test(test_binary_ply), cmocka_unit_test(test_ply_types),
+      cmocka_unit_test(test_compressed),       cmocka_unit_test(test_gltf),       cmocka_unit_test(test_obj_syntax),
+      cmocka_unit_test(test_concave_polygons), cmocka_unit_test(test_materials),  cmocka_unit_test(test_merge),
+      cmocka_unit_test(test_degenerate),       cmocka_unit_test(test_nonfinite),  cmocka_unit_test(test_bad_meshes),
+      cmocka_unit_test(test_bad_files),        cmocka_unit_test(test_interrupt),
+  };
+  return cmocka_run_group_tests_name("scene import", tests, NULL, NULL);
+}

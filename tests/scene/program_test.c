@@ -1,0 +1,194 @@
+/* trax-scene as its user meets it: arguments, messages, exit status, and what is left on the disk. */
+#define _GNU_SOURCE
+#include "support.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+struct outcome {
+  int status; /* as from waitpid */
+  char out[8192], err[8192];
+};
+
+static void read_back(int descriptor, char *text, size_t size) {
+  ssize_t got = pread(descriptor, text, size - 1, 0);
+  assert_true(got >= 0);
+  text[got] = 0;
+  close(descriptor);
+}
+
+static pid_t start(int out, int err, const char *const *arguments) {
+  const char *argv[32] = {TRAX_SCENE_PROGRAM};
+  for (int i = 0; arguments[i]; i++) {
+    assert_in_range(i, 0, 29);
+    argv[i + 1] = arguments[i];
+  }
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    dup2(out, STDOUT_FILENO);
+    dup2(err, STDERR_FILENO);
+    execv(argv[0], (char *const *)argv);
+    _exit(127);
+  }
+  return child;
+}
+
+static void run(struct outcome *outcome, const char *const *arguments) {
+  int out = memfd_create("out", MFD_CLOEXEC), err = memfd_create("err", MFD_CLOEXEC);
+  assert_true(out >= 0 && err >= 0);
+  pid_t child = start(out, err, arguments);
+  assert_int_equal(waitpid(child, &outcome->status, 0), child);
+  read_back(out, outcome->out, sizeof outcome->out);
+  read_back(err, outcome->err, sizeof outcome->err);
+}
+
+#define RUN(outcome, ...) run(outcome, (const char *const[]){__VA_ARGS__, NULL})
+
+static int exit_status(const struct outcome *outcome) {
+  return WIFEXITED(outcome->status) ? WEXITSTATUS(outcome->status) : -1;
+}
+
+static const char *triangle(void) {
+  return test_text("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+}
+
+static void test_success(void **state) {
+  (void)state;
+  struct outcome outcome;
+  const char *scene = test_path("out.trax"), *json = test_path("out.json");
+  RUN(&outcome, triangle(), triangle(), "-o", scene, "--stats", "--stats-json", json);
+  assert_string_equal(outcome.err, "");
+  assert_int_equal(exit_status(&outcome), 0);
+  assert_contains(outcome.out, "scene.triangles                   2");
+  char text[8192];
+  int descriptor = open(json, O_RDONLY);
+  assert_true(descriptor >= 0);
+  read_back(descriptor, text, sizeof text);
+  assert_contains(text, "\"scene.triangles\": 2,");
+  RUN(&outcome, "--check", scene);
+  assert_int_equal(exit_status(&outcome), 0);
+  assert_string_equal(outcome.out, "");
+  RUN(&outcome, "--check", scene, "--stats");
+  assert_contains(outcome.out, "bvh.leaves                        1");
+  RUN(&outcome, "--help");
+  assert_int_equal(exit_status(&outcome), 0);
+  assert_contains(outcome.out, "usage: trax-scene");
+}
+
+static void test_notes(void **state) {
+  (void)state;
+  struct outcome outcome;
+  const char *mesh = test_text("notes.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 2\n"
+                                            "f 1 2 4\nl 1 2\n");
+  const char *scene = test_path("notes.trax");
+  RUN(&outcome, mesh, "-o", scene, "--drop-nonfinite");
+  assert_int_equal(exit_status(&outcome), 0);
+  assert_contains(outcome.err, "lost.mtl cannot be read: materials are light grey");
+  assert_contains(outcome.err, "1 of 3 triangles have no area");
+  assert_contains(outcome.err, "1 of 3 triangles are not finite");
+  assert_contains(outcome.err, "1 points and lines are left out");
+  RUN(&outcome, mesh, "-o", scene, "--drop-nonfinite", "-q");
+  assert_string_equal(outcome.err, "");
+}
+
+static void test_refusals(void **state) {
+  (void)state;
+  const char *good = triangle(), *flat = test_text("flat.obj", "v 0 0 0\nf 1 1 1\n");
+  const char *nan = test_text("nan.obj", "v nan 0 0\nf 1 1 1\n"), *scene = test_path("never.trax");
+  const char *lost = test_path("lost.ply"), *nowhere = test_path("no/where.trax");
+  const struct {
+    const char *arguments[8], *message;
+  } bad[] = {
+      {{NULL}, "no mesh; try --help"},
+      {{good}, "no output; give one with -o"},
+      {{"-o", scene}, "no mesh"},
+      {{"--check", scene, good}, "--check takes neither"},
+      {{good, "-o", scene, "--leaf", "8"}, "--leaf: '8' is not a number from 1 to 7"},
+      {{good, "-o", scene, "--leaf", "2x"}, "--leaf: '2x'"},
+      {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
+      {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
+      {{good, "-o", scene, "--diffuse", "1,2"}, "--diffuse: '1,2' is not [NAME=]R,G,B"},
+      {{good, "-o", scene, "--diffuse", "a=0,0,1.5"}, "--diffuse: 'a=0,0,1.5'"},
+      {{good, "-o", scene, "--diffuse", "a=0,0,1"}, "no material is named 'a'"},
+      {{good, "-o", scene, "--unknown"}, "unrecognized option '--unknown'"},
+      {{lost, "-o", scene}, "trax-scene: error: "},
+      {{good, lost, "-o", scene}, "lost.ply: cannot open: No such file"},
+      {{flat, "-o", scene}, "flat.obj: no triangles are left: all are of zero area"},
+      {{nan, "-o", scene}, "nan.obj: 1 of 1 triangles have a vertex that is NaN"},
+      {{good, "-o", nowhere}, "where.trax: cannot create"},
+      {{"--check", good}, "triangle.obj: not a scene file"},
+  };
+  unsigned files = count_files();
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    struct outcome outcome;
+    run(&outcome, bad[i].arguments);
+    assert_contains(outcome.err, bad[i].message);
+    assert_int_equal(exit_status(&outcome), 1);
+    assert_string_equal(outcome.out, "");
+    assert_int_equal(count_files(), files);
+  }
+}
+
+static void test_empty(void **state) {
+  (void)state;
+  struct outcome outcome;
+  const char *scene = test_path("empty.trax");
+  RUN(&outcome, test_text("flat.obj", "v 0 0 0\nf 1 1 1\n"), "-o", scene, "--allow-empty", "-q");
+  assert_int_equal(exit_status(&outcome), 0);
+  RUN(&outcome, "--check", scene);
+  assert_int_equal(exit_status(&outcome), 0);
+}
+
+/* What is at the output stays when the input is bad. */
+static void test_output_survives(void **state) {
+  (void)state;
+  struct outcome outcome;
+  const char *scene = test_text("old.trax", "old");
+  RUN(&outcome, test_text("bad.obj", "v 0 0 0\nf 1 2 3\n"), "-o", scene);
+  assert_int_equal(exit_status(&outcome), 1);
+  assert_contains(outcome.err, "bad.obj:2: vertex index 2 is out of range");
+  char text[16];
+  read_back(open(scene, O_RDONLY), text, sizeof text);
+  assert_string_equal(text, "old");
+}
+
+/* Interrupted while the importer waits for its input (a pipe that nobody writes): ends by the signal, at once, with
+   nothing left behind. */
+static void test_interrupt(void **state) {
+  (void)state;
+  const char *pipe = test_path("pipe.obj"), *scene = test_path("interrupted.trax");
+  assert_int_equal(mkfifo(pipe, 0600), 0);
+  unsigned files = count_files();
+  int writer = open(pipe, O_RDWR | O_CLOEXEC); /* so that opening it for reading does not wait */
+  assert_true(writer >= 0);
+  int null = open("/dev/null", O_RDWR | O_CLOEXEC), err = memfd_create("err", MFD_CLOEXEC);
+  pid_t child = start(null, err, (const char *const[]){pipe, "-o", scene, NULL});
+  usleep(300000);
+  assert_int_equal(kill(child, SIGINT), 0);
+  int status;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFSIGNALED(status));
+  assert_int_equal(WTERMSIG(status), SIGINT);
+  char text[1024];
+  read_back(err, text, sizeof text);
+  assert_contains(text, "interrupted; nothing was written");
+  assert_int_equal(count_files(), files);
+  close(writer);
+  close(null);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_success), cmocka_unit_test(test_notes),           cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_empty),   cmocka_unit_test(test_output_survives), cmocka_unit_test(test_interrupt),
+  };
+  return cmocka_run_group_tests_name("trax-scene", tests, NULL, NULL);
+}

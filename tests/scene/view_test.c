@@ -1,0 +1,148 @@
+/* View files: what is read, what is refused and where; and the framing of scenes without one. */
+#include "support.h"
+
+#include "trax/view.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <string.h>
+
+static float dot(const float a[3], const float b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void check_frame_of_reference(const struct trax_view *view) {
+  assert_true(fabsf(dot(view->direction, view->direction) - 1) < 1e-6f);
+  assert_true(fabsf(dot(view->up, view->up) - 1) < 1e-6f);
+  assert_true(fabsf(dot(view->up, view->direction)) < 1e-6f);
+}
+
+static void read_good(struct trax_view *view, const char *text) {
+  trax_error error;
+  if (trax_view_read(view, test_text("good.view", text), &error) != TRAX_OK)
+    fail_msg("%s", error.message);
+  check_frame_of_reference(view);
+}
+
+static void test_values(void **state) {
+  (void)state;
+  struct trax_view view;
+  read_good(&view, "eye = [1, 2, 3];\ndirection = [0.0, 0.0, -4.0]; up = (0, 2.5, 1); # mixed needs a list\n"
+                   "fov = 45; light = [-1.0, 1.0e2, 0.5];\n");
+  const float eye[3] = {1, 2, 3}, direction[3] = {0, 0, -1}, up[3] = {0, 1, 0}, light[3] = {-1, 100, 0.5f};
+  assert_memory_equal(view.eye, eye, sizeof eye);
+  assert_true(view.direction[0] == direction[0] && view.direction[2] == direction[2]);
+  assert_true(view.up[1] == up[1] && view.up[2] == 0);
+  assert_memory_equal(view.light, light, sizeof light);
+  assert_true(view.fov == 45);
+  read_good(&view, "eye = [1, 2, 3]; look_at = [1, 2, 13]; up = [0, 1, 0]; fov = 45; light = [0, 0, 0];");
+  assert_true(view.direction[0] == 0 && view.direction[1] == 0 && view.direction[2] == 1);
+}
+
+static void test_errors(void **state) {
+  (void)state;
+  static const struct {
+    const char *text, *message;
+  } bad[] = {
+      {"eye = [1, 2, 3];\ndirection = [0, 0, 1];\nup = [0, 1, 0];\nfov = 45;\n", "bad.view:1: light: missing"},
+      {"direction = [0, 0, 1];", "bad.view:1: eye: missing"},
+      {"eye = [0, 0, 0]; up = [0, 1, 0];", "bad.view:1: direction: missing, and so is look_at"},
+      {"eye = [0, 0, 0];\ndirection = [0, 0, 1];\nlook_at = [0, 0, 1];", "bad.view:3: look_at: direction is given"},
+      {"\n\neye = [1, 2];", "bad.view:3: eye: must have exactly three numbers"},
+      {"\neye = 7;", "bad.view:2: eye: must be three numbers"},
+      {"eye = [\"a\", \"b\", \"c\"];", "bad.view:1: eye: must be three numbers"},
+      {"eye = [1e30, 0.0, 0.0];", "bad.view:1: eye: must be three numbers of ordinary size"},
+      {"eye = [0, 0, 0];\ndirection = [0, 0, 0];", "bad.view:2: direction: has no length"},
+      {"eye = [0, 1, 0];\nlook_at = [0, 1, 0];", "bad.view:2: look_at: is the eye itself"},
+      {"eye = [0, 0, 0];\ndirection = [0, 2, 0];\nup = [0, -3, 0];", "bad.view:3: up: is parallel to the direction"},
+      {"eye = [0, 0, 0];\ndirection = [0, 2, 0];\nup = [0, 0, 0];", "bad.view:3: up: has no length"},
+      {"eye = [0, 0, 0]; direction = [0, 2, 0]; up = [1, 0, 0];\nfov = 180.0;", "bad.view:2: fov: must be"},
+      {"eye = [0, 0, 0]; direction = [0, 2, 0]; up = [1, 0, 0];\nfov = \"wide\";", "bad.view:2: fov: must be"},
+      {"eye = [0, 0, 0];\nlihgt = [0, 0, 0];", "bad.view:2: lihgt: unknown"},
+      {"eye = [0, 0, 0];\neye = [0, 0, 0];", "bad.view:2: "},
+      {"eye = [0, 0, 0", "bad.view:1: syntax error"},
+      {"\n\n?", "bad.view:3: syntax error"},
+      {"@include \"/nowhere.view\"\n", "bad.view:1: "},
+  };
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    struct trax_view view;
+    trax_error error;
+    if (trax_view_read(&view, test_text("bad.view", bad[i].text), &error) != TRAX_ERROR)
+      fail_msg("accepted: %s", bad[i].text);
+    assert_contains(error.message, bad[i].message);
+  }
+  struct trax_view view;
+  trax_error error;
+  assert_int_equal(trax_view_read(&view, test_path("nowhere.view"), &error), TRAX_ERROR);
+  assert_contains(error.message, "nowhere.view: cannot open");
+  assert_int_equal(trax_view_read(&view, test_directory(), &error), TRAX_ERROR);
+  assert_int_equal(trax_view_read(&view, test_file("zeros.view", "eye\0", 4), &error), TRAX_ERROR);
+  assert_contains(error.message, "zeros.view:1: not text");
+}
+
+static void test_shipped_views(void **state) {
+  (void)state;
+  DIR *stream = opendir(VIEWS);
+  assert_non_null(stream);
+  unsigned count = 0;
+  for (struct dirent *entry; (entry = readdir(stream));) {
+    if (!strstr(entry->d_name, ".view"))
+      continue;
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", VIEWS, entry->d_name);
+    struct trax_view view;
+    trax_error error;
+    if (trax_view_read(&view, path, &error) != TRAX_OK)
+      fail_msg("%s", error.message);
+    check_frame_of_reference(&view);
+    count++;
+  }
+  closedir(stream);
+  assert_true(count >= 6);
+}
+
+/* All of a box is in the picture, and its picture fills most of it in one direction. */
+static void test_framing(void **state) {
+  (void)state;
+  static const float boxes[][2][3] = {{{-1, -1, -1}, {1, 1, 1}},        {{0, 0, 0}, {556, 559, 549}},
+                                      {{1000, 0, 0}, {1001, 50, 0.5f}}, {{-5, -0.1f, -5}, {5, 0, 5}},
+                                      {{0, 0, 0}, {0, 3, 0}},           {{-1e-6f, 0, 0}, {1e-6f, 1e-6f, 0}},
+                                      {{0, 0, -1e6f}, {1, 1, 1e6f}}};
+  static const float aspects[] = {0.5f, 1, 16 / 9.0f, 4};
+  for (size_t b = 0; b < sizeof boxes / sizeof boxes[0]; b++)
+    for (size_t a = 0; a < sizeof aspects / sizeof aspects[0]; a++) {
+      struct trax_view view;
+      trax_view_frame(&view, boxes[b][0], boxes[b][1], aspects[a]);
+      check_frame_of_reference(&view);
+      const float *d = view.direction, *u = view.up;
+      const float right[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
+      float tangent = tanf(view.fov * 3.14159265f / 360), widest = 0;
+      for (int corner = 0; corner < 8; corner++) {
+        float p[3];
+        for (int axis = 0; axis < 3; axis++)
+          p[axis] = boxes[b][corner >> axis & 1][axis] - view.eye[axis];
+        float depth = dot(p, d);
+        assert_true(depth > 0);
+        float x = fabsf(dot(p, right)) / (depth * tangent * aspects[a]), y = fabsf(dot(p, u)) / (depth * tangent);
+        assert_true(x <= 1 && y <= 1);
+        widest = fmaxf(widest, fmaxf(x, y));
+      }
+      assert_true(widest > 0.5f);
+    }
+  /* A point has no size to fit. */
+  const float point[3] = {3, 4, 5};
+  struct trax_view view;
+  trax_view_frame(&view, point, point, 1);
+  check_frame_of_reference(&view);
+  assert_true(view.eye[2] > 5);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_values),
+      cmocka_unit_test(test_errors),
+      cmocka_unit_test(test_shipped_views),
+      cmocka_unit_test(test_framing),
+  };
+  return cmocka_run_group_tests_name("views", tests, NULL, NULL);
+}
