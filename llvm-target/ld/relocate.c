@@ -206,9 +206,10 @@ static void apply(const place *place, uint32_t target, uint32_t address) {
   }
 }
 
-/* What debug information says about code and data that are gone: the highest address, where no code can be. (0, the usual
-   choice, will not do: a dropped function of more than 4 kB would seem to reach from 0 into the text at 0x1000.) In lists of
-   ranges that address would introduce a new base and two zeros would end the list, so there it is 1, an empty range. */
+/* What debug information says about code and data that are gone: the highest address, where no code can be. (0, the
+   usual choice, will not do: a dropped function of more than 4 kB would seem to reach from 0 into the text at 0x1000.)
+   In lists of ranges that address would introduce a new base and two zeros would end the list, so there it is 1, an
+   empty range. */
 static uint32_t tombstone(const ld_section *section) {
   bool is_list = strcmp(section->name, ".debug_loc") == 0 || strcmp(section->name, ".debug_ranges") == 0;
   return is_list ? 1 : UINT32_MAX;

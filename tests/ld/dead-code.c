@@ -1,3 +1,4 @@
+// clang-format off
 /* A program as the compiler makes it, with dead code of more than 4 kB. Its debug information must stay consistent and must not
    claim the text for what was dropped.
 
