@@ -46,12 +46,14 @@ def srnum : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]>
       "special register must be thread, tm, tp, threads, cycle, cycleh or a number in the range [0, 5]",
       "parseSpecialRegister">;
   let PrintMethod = "printSpecialRegister";
+  let DecoderMethod = "decodeSpecialRegister";
 }
 def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
   let ParserMatchClass = TraxImmAsmOperand<"TrapCode",
       "trap code must be exit, putc, abort, rays, items, puts or a number in the range [0, 5]",
       "parseTrapCode">;
   let PrintMethod = "printTrapCode";
+  let DecoderMethod = "decodeTrapCode";
 }
 def brtarget : Operand<OtherVT> {
   let ParserMatchClass = TraxImmAsmOperand<"BrTarget",

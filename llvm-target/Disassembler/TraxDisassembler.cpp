@@ -1,5 +1,6 @@
 //===- TraxDisassembler.cpp - Bits to MCInst -----------------------------===//
 #include "LLVMTrax.h"
+#include "MCTargetDesc/TraxBaseInfo.h"
 #include "MCTargetDesc/TraxMCTargetDesc.h"
 #include "TargetInfo/TraxTargetInfo.h"
 #include "llvm/MC/MCContext.h"
@@ -55,6 +56,22 @@ static DecodeStatus decodeBrTarget(MCInst &Inst, uint64_t Field, uint64_t, const
 static DecodeStatus decodeJalTarget(MCInst &Inst, uint64_t Field, uint64_t, const MCDisassembler *) {
   Inst.addOperand(MCOperand::createImm(SignExtend64<21>(Field) * 4));
   return MCDisassembler::Success;
+}
+
+/// Numbers that nothing is assigned to make an illegal instruction.
+static DecodeStatus decodeAssigned(MCInst &Inst, uint64_t Field, StringRef Name) {
+  if (Name.empty())
+    return MCDisassembler::Fail;
+  Inst.addOperand(MCOperand::createImm(Field));
+  return MCDisassembler::Success;
+}
+
+static DecodeStatus decodeSpecialRegister(MCInst &Inst, uint64_t Field, uint64_t, const MCDisassembler *) {
+  return decodeAssigned(Inst, Field, TraxII::getSpecialRegisterName(Field));
+}
+
+static DecodeStatus decodeTrapCode(MCInst &Inst, uint64_t Field, uint64_t, const MCDisassembler *) {
+  return decodeAssigned(Inst, Field, TraxII::getTrapName(Field));
 }
 
 #include "TraxGenDisassemblerTables.inc"

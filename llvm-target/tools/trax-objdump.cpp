@@ -208,7 +208,7 @@ Error Listing::printSection(const SectionRef &Section, raw_ostream &OS) const {
       Printer->printInst(&Inst, Address, "", *STI, OS);
       printTarget(Inst, Address, *Symbols, OS);
     } else {
-      OS << "\t(illegal)";
+      OS << "\t.word\t" << format_hex(support::endian::read32le(Bytes.data() + Offset), 10);
     }
     OS << '\n';
     for (auto [It, End] = Relocations.equal_range(Offset); It != End; ++It)
