@@ -227,8 +227,10 @@ static bool exact_difference(double a, double b, double *difference) {
 static bool is_degenerate(const float p[3], const float q[3], const float r[3]) {
   double u[3], v[3];
   bool exact = true;
-  for (int axis = 0; axis < 3; axis++)
-    exact &= exact_difference(q[axis], p[axis], &u[axis]) & exact_difference(r[axis], p[axis], &v[axis]);
+  for (int axis = 0; axis < 3; axis++) {
+    bool exact_u = exact_difference(q[axis], p[axis], &u[axis]), exact_v = exact_difference(r[axis], p[axis], &v[axis]);
+    exact = exact && exact_u && exact_v;
+  }
   bool same_pq = u[0] == 0 && u[1] == 0 && u[2] == 0, same_pr = v[0] == 0 && v[1] == 0 && v[2] == 0;
   bool same_qr = q[0] == r[0] && q[1] == r[1] && q[2] == r[2];
   if (same_pq || same_pr || same_qr)

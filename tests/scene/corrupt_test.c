@@ -217,7 +217,7 @@ CHANGE(shallow) {
   UNUSED, header->max_depth--;
 }
 CHANGE(larger_leaves) {
-  UNUSED, header->max_leaf = 1;
+  UNUSED, header->max_leaf++;
 }
 CHANGE(small_bounds) {
   UNUSED, header->bounds_max[0] = 0;
