@@ -188,10 +188,11 @@ static trax_status wrong_option(char **argv, int which, trax_error *error) {
   const char *text = argv[optind - 1];
   if (which == ':')
     return trax_fail(error, "%s needs a value", text);
-  if (optopt && optopt < 256) /* a single letter, perhaps among others */
+  bool is_long = strncmp(text, "--", 2) == 0;
+  if (!is_long) /* one letter, perhaps among others */
     return trax_fail(error, "unknown option -%c", optopt);
   if (optopt)
-    return trax_fail(error, "%s takes no value", text);
+    return trax_fail(error, "%s: the option takes no value", text);
   char name[64];
   snprintf(name, sizeof name, "%.*s", (int)strcspn(text + 2, "="), text + 2);
   const char *nearest = trax_nearest_name(name, sizeof long_options / sizeof *long_options - 1, option_name, NULL);

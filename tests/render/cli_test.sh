@@ -1,0 +1,126 @@
+#!/bin/sh
+# The command lines of trax-render and trax-compare: what they refuse, what they leave behind, what they print.
+# Usage: cli_test.sh BIN SOURCE; BIN has the programs, SOURCE this folder.
+set -u
+bin=$1
+source=$2
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+out=$work/out err=$work/err # of the last command
+mkdir "$work/here" && cd "$work/here" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# refuse PATTERN COMMAND...: status 1, nothing on standard output, one line on standard error that matches, no new files.
+refuse() {
+  pattern=$1
+  shift
+  before=$(ls -A)
+  "$@" >"$out" 2>"$err"
+  status=$?
+  [ $status -eq 1 ] || fail "$*: status $status instead of 1"
+  [ -s "$out" ] && fail "$*: printed $(cat "$out")"
+  grep -q -- "$pattern" "$err" || fail "$*: '$(cat "$err")' does not match '$pattern'"
+  [ "$(wc -l <"$err")" -eq 1 ] || fail "$*: more than a line of error"
+  [ "$(ls -A)" = "$before" ] || fail "$*: left $(ls -A)"
+}
+
+# accept COMMAND...: status 0.
+accept() {
+  "$@" >"$out" 2>"$err" || fail "$*: status $?: $(cat "$err")"
+}
+
+render="$bin/trax-render"
+compare="$bin/trax-compare"
+box="$source/box.obj"
+native="--engine native --view $source/box.view"
+
+# --- options
+refuse 'no mesh' "$render"
+refuse 'no mesh' "$render" -o x.png
+refuse 'no picture given' "$render" "$box"
+refuse 'unknown.*--siez; did you mean --size' "$render" "$box" -o x.png --siez 10x10
+refuse 'unknown option -z' "$render" "$box" -o x.png -z
+refuse '--size needs a value' "$render" "$box" -o x.png --size
+refuse '--quiet=1: the option takes no value' "$render" "$box" -o x.png --quiet=1
+for size in '' 0x10 10x0 10 10x 10x10x10 -1x5 16385x1 1x16385 1e3x10 99999999999999999999x1 ' 1x1'; do
+  refuse '--size' "$render" "$box" -o x.png --size "$size"
+done
+refuse '--engine gpu' "$render" "$box" -o x.png --engine gpu
+refuse '--ambient 2' "$render" "$box" -o x.png --ambient 2
+refuse '--ambient nan' "$render" "$box" -o x.png --ambient nan
+refuse '--background' "$render" "$box" -o x.png --background 12345g
+refuse '--set bandwidth: expected KEY=VALUE' "$render" "$box" -o x.png --set bandwidth
+refuse '--threads' "$render" "$box" -o x.png --engine native --threads 0
+refuse '--stats needs the emulator' "$render" "$box" -o x.png --engine native --stats s.json
+refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --config 4x32
+
+# --- files
+refuse 'missing.obj' "$render" missing.obj -o x.png
+refuse 'nowhere' "$render" "$box" -o nowhere/x.png
+refuse 'nowhere' "$render" "$box" -o x.png --stats nowhere/s.json
+refuse 'missing.view' "$render" "$box" -o x.png --view missing.view
+printf 'eye = [0, 0];\n' >bad.view
+refuse 'bad.view:1' "$render" "$box" -o x.png --view bad.view
+printf 'not a scene' >bad.trax
+refuse 'bad.trax' "$render" bad.trax -o x.png
+refuse 'stands alone' "$render" bad.trax "$box" -o x.png
+printf 'o nothing\n' >empty.obj
+refuse 'empty.obj\|triangle' "$render" empty.obj -o x.png
+sed 's/^light.*/light = [1e30, 1e30, 1e30];/' "$source/box.view" >far.view
+refuse 'light' "$render" "$box" -o x.png --engine native --view far.view
+
+# --- pictures
+accept "$render" "$box" -o a.png $native --size 32x24
+grep -q '^picture     a.png$' "$out" || fail "no line about the picture"
+accept "$render" "$box" -o b.png $native --size 32x24 --quiet --threads 7
+[ -s "$out" ] && fail "--quiet printed $(cat "$out")"
+accept "$compare" a.png b.png
+accept "$render" "$box" -o reference.png --engine embree --view "$source/box.view" --size 32x24
+accept "$compare" a.png reference.png --within 2 --at-least 99
+cp a.png kept.png
+refuse 'missing.obj' "$render" missing.obj -o a.png
+cmp -s a.png kept.png || fail "a failed run changed an earlier picture"
+accept "$bin/trax-scene" "$box" -o box.trax
+accept "$render" box.trax -o b.png $native --size 32x24
+accept "$compare" a.png b.png
+accept "$render" "$box" -o tiny.png --engine native --size 1x1
+accept "$render" "$box" -o line.png --engine native --size 1x1000
+accept "$render" "$box" -o sky.png --engine native --size 4x3 --background 123456
+accept "$render" "$box" -o b.png $native --size 32x24 --ambient 0.5
+"$compare" -q a.png b.png && fail "other ambient light makes no difference"
+"$render" --help | grep -q -- --compare || fail "--help"
+"$render" --version | grep -q '^trax-render [0-9]' || fail "--version"
+
+# --- comparison
+refuse 'two pictures' "$compare" a.png
+refuse 'missing.png' "$compare" a.png missing.png
+refuse 'not a readable PNG' "$compare" a.png bad.trax
+head -c 200 a.png >cut.png
+refuse 'cut.png: not a readable PNG' "$compare" cut.png a.png
+refuse '32 x 24.*1 x 1' "$compare" a.png tiny.png
+refuse '--within' "$compare" --within 256 a.png a.png
+refuse '--at-least' "$compare" --at-least 101 a.png a.png
+refuse 'unknown option' "$compare" --nonsense a.png a.png
+"$compare" a.png b.png --within 255 | grep -q '^100.0000 %' || fail "everything is within 255"
+"$compare" a.png b.png --within 2 --at-least 99.9 >"$out" && fail "different pictures agree"
+grep -q 'differ, by up to' "$out" || fail "the difference is not told: $(cat "$out")"
+
+# --- interrupted: status 130 and no picture
+"$render" "$box" -o interrupted.png $native --size 16384x16384 2>"$err" &
+process=$!
+sleep 1
+kill -INT $process 2>/dev/null
+wait $process
+status=$?
+[ $status -eq 130 ] || fail "interrupted: status $status instead of 130"
+for file in interrupted.png*; do
+  [ -e "$file" ] && fail "interrupted: left $file"
+done
+
+[ $failures -eq 0 ] && echo "all command lines as expected"
+exit $((failures > 0))

@@ -1,0 +1,72 @@
+#!/bin/sh
+# Pictures by the emulated machine: the same bits as the native twin's, and close to Embree's, on several chips.
+# Usage: emulator_test.sh BIN SOURCE [CASE...]
+set -u
+bin=$1
+source=$2
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+bunny=/usr/share/glmark2/models/bunny.obj
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# same ARGUMENTS...: --compare finds nothing; what it printed stays in .out.
+same() {
+  "$bin/trax-render" "$@" -o x.png --compare >.out 2>.err || fail "$*: status $?: $(cat .out .err)"
+  grep -q '^twin        identical in every bit$' .out || fail "$*: $(cat .out)"
+}
+
+view="--view $source/box.view"
+same "$source/box.obj" $view --size 64x36 --stats a.json
+cp x.png box.png
+grep -q '"rays": [1-9]' a.json || fail "no rays counted"
+grep -q '"items": 2304' a.json || fail "not every pixel counted"
+for chip in 1x32 2x64; do # the same picture on any chip
+  same "$source/box.obj" $view --size 64x36 --config $chip
+  "$bin/trax-compare" -q x.png box.png || fail "$chip renders another picture"
+done
+same "$source/box.obj" $view --size 64x36 --config 1x32 --set memory.latency_cycles=7 --set dcache.bytes=1024
+"$bin/trax-compare" -q x.png box.png || fail "timing changes the picture"
+same "$source/box.obj" --size 1x1 # one pixel, 128 threads
+same "$source/box.obj" $view --size 1x61
+same "$source/box.obj" $view --size 61x1
+[ -r $bunny ] && same $bunny --view bunny --size 64x36
+
+# A less precise divider changes the picture: --compare tells.
+"$bin/trax-render" "$source/box.obj" $view --size 64x36 --config 1x32 --set special.precision_bits=8 -o x.png --compare \
+  >.out 2>.err && fail "8 bits of precision go unnoticed"
+grep -q 'pixels differ' .out || fail "8 bits: $(cat .out .err)"
+
+# The machine's statistics do not depend on what the host does.
+same "$source/box.obj" $view --size 64x36 --stats b.json
+for name in cycles instructions; do
+  [ "$(grep -m1 "\"$name\"" a.json)" = "$(grep -m1 "\"$name\"" b.json)" ] || fail "$name differ between two runs"
+done
+
+# What --keep writes runs by itself to the same picture.
+same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept
+TRAX_SIM=$bin/trax-sim sh kept/run.sh >.out 2>.err || fail "run.sh: $(cat .err)"
+[ "$(wc -c <kept/image.raw)" -eq 576 ] || fail "image.raw has $(wc -c <kept/image.raw) bytes"
+
+# Faults and wrong programs end in an error, without a picture.
+refuse() {
+  pattern=$1
+  shift
+  rm -f x.png
+  "$bin/trax-render" "$@" -o x.png >.out 2>.err && fail "$*: no error"
+  grep -q -- "$pattern" .err || fail "$*: '$(cat .err)' does not match '$pattern'"
+  [ -e x.png ] && fail "$*: left a picture"
+}
+refuse 'missing.elf' "$source/box.obj" --program missing.elf
+refuse 'box.obj' "$source/box.obj" --program "$source/box.obj"
+refuse 'memory' "$source/box.obj" --set memory.size_mib=1 --size 1000x1000
+refuse 'no.such' "$source/box.obj" --set no.such=1
+refuse 'no-such-chip' "$source/box.obj" --config no-such-chip
+
+[ $failures -eq 0 ] && echo "all pictures as expected"
+exit $((failures > 0))
