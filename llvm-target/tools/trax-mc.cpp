@@ -64,6 +64,7 @@ struct Machine {
     Options.AsmVerbose = true; // comments: the encodings
     MRI.reset(T.createMCRegInfo(TT.str()));
     MAI.reset(T.createMCAsmInfo(*MRI, TT.str(), Options));
+    MAI->setPreserveAsmComments(false);
     MII.reset(T.createMCInstrInfo());
     STI.reset(T.createMCSubtargetInfo(TT.str(), "", ""));
     Sources.setIncludeDirs(IncludeDirs);

@@ -88,7 +88,8 @@ public:
 private:
   Expected<SymbolMap> symbolsOf(const SectionRef &Section) const;
   Error printRelocation(const RelocationRef &Relocation, raw_ostream &OS) const;
-  void printTarget(const MCInst &Inst, uint64_t Address, const SymbolMap &Symbols, raw_ostream &OS) const;
+  void printTarget(const MCInst &Inst, uint64_t Address, const SectionRef &Section, const SymbolMap &Symbols,
+                   raw_ostream &OS) const;
 };
 
 } // namespace
@@ -130,9 +131,11 @@ Expected<Listing::SymbolMap> Listing::symbolsOf(const SectionRef &Section) const
   return Symbols;
 }
 
-void Listing::printTarget(const MCInst &Inst, uint64_t Address, const SymbolMap &Symbols, raw_ostream &OS) const {
+void Listing::printTarget(const MCInst &Inst, uint64_t Address, const SectionRef &Section, const SymbolMap &Symbols,
+                          raw_ostream &OS) const {
   uint64_t Target;
-  if (!Analysis->evaluateBranch(Inst, Address, 4, Target))
+  if (!Analysis->evaluateBranch(Inst, Address, 4, Target) || Target < Section.getAddress() ||
+      Target >= Section.getAddress() + Section.getSize())
     return;
   auto Next = Symbols.upper_bound(Target);
   if (Next == Symbols.begin())
@@ -206,7 +209,7 @@ Error Listing::printSection(const SectionRef &Section, raw_ostream &OS) const {
     OS << format("%8x: %08x  ", unsigned(Address), support::endian::read32le(Bytes.data() + Offset));
     if (Decoder->getInstruction(Inst, Size, Bytes.slice(Offset), Address, nulls()) == MCDisassembler::Success) {
       Printer->printInst(&Inst, Address, "", *STI, OS);
-      printTarget(Inst, Address, *Symbols, OS);
+      printTarget(Inst, Address, Section, *Symbols, OS);
     } else {
       OS << "\t.word\t" << format_hex(support::endian::read32le(Bytes.data() + Offset), 10);
     }
