@@ -25,8 +25,8 @@ double __adddf3(double x, double y) {
   }
   uint64_t sum = significand(a, &exponent);
   uint64_t other = significand(b, &smaller);
-  /* Ten bits below the last place: a shift of more than two places loses at most one bit to normalisation, so the sticky bit
-     stays below the rounding position. */
+  /* Ten bits below the last place: a shift of more than two places loses at most one bit to normalisation, so the
+     sticky bit stays below the rounding position. */
   other = shift_right_sticky64(other, (unsigned)(exponent - smaller));
   if (!subtract) {
     sum += other;
@@ -51,6 +51,10 @@ double __adddf3(double x, double y) {
   return trax_round_double(sign, exponent, sum);
 }
 
-double __subdf3(double a, double b) { return __adddf3(a, bits_double(double_bits(b) ^ DOUBLE_SIGN)); }
+double __subdf3(double a, double b) {
+  return __adddf3(a, bits_double(double_bits(b) ^ DOUBLE_SIGN));
+}
 
-double __negdf2(double a) { return bits_double(double_bits(a) ^ DOUBLE_SIGN); }
+double __negdf2(double a) {
+  return bits_double(double_bits(a) ^ DOUBLE_SIGN);
+}

@@ -1,8 +1,9 @@
-/* Atomic operations that the machine has no instruction for, under a lock made from the one it has. The functions are those of
-   GCC's and LLVM's libatomic. Each object belongs to one of a few locks by its address.
+/* Atomic operations that the machine has no instruction for, under a lock made from the one it has. The functions are
+   those of GCC's and LLVM's libatomic. Each object belongs to one of a few locks by its address.
 
-   A read-modify-write that leaves the value as it was stores nothing: a plain atomic store by another thread, which takes no lock,
-   then is not overwritten by the old value. So a flag that is set by exchange and cleared by a store works as a spinlock. */
+   A read-modify-write that leaves the value as it was stores nothing: a plain atomic store by another thread, which
+   takes no lock, then is not overwritten by the old value. So a flag that is set by exchange and cleared by a store
+   works as a spinlock. */
 #include "../internal/machine.h"
 
 #include <stdbool.h>
@@ -15,14 +16,17 @@
 
 static struct ticket_lock locks[LOCKS];
 
-static inline struct ticket_lock *lock_of(const volatile void *p) { return &locks[(uintptr_t)p >> 3 & (LOCKS - 1)]; }
+static inline struct ticket_lock *lock_of(const volatile void *p) {
+  return &locks[(uintptr_t)p >> 3 & (LOCKS - 1)];
+}
 
 /* Clang takes these names for its own generic builtins, so they get them from the assembler. */
 #define NAMED(name) __asm__(#name)
 
 void trax_atomic_load(size_t size, const volatile void *from, void *to, int order) NAMED(__atomic_load);
 void trax_atomic_store(size_t size, volatile void *to, const void *from, int order) NAMED(__atomic_store);
-void trax_atomic_exchange(size_t size, volatile void *p, const void *value, void *old, int order) NAMED(__atomic_exchange);
+void trax_atomic_exchange(size_t size, volatile void *p, const void *value, void *old, int order)
+    NAMED(__atomic_exchange);
 bool trax_atomic_compare_exchange(size_t size, volatile void *p, void *expected, const void *desired, int success,
                                   int failure) NAMED(__atomic_compare_exchange);
 bool trax_atomic_is_lock_free(size_t size, const volatile void *p) NAMED(__atomic_is_lock_free);
@@ -73,8 +77,8 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
 
 /* A fetch-and-change of one size: the old value is returned, the new one is an expression of old and value. */
 #define FETCH(name, bytes, type, expression)                                                                           \
-  type trax_##name##_##bytes(volatile type *p, type value, int order) NAMED(__##name##_##bytes);                      \
-  type trax_##name##_##bytes(volatile type *p, type value, int order) {                                               \
+  type trax_##name##_##bytes(volatile type *p, type value, int order) NAMED(__##name##_##bytes);                       \
+  type trax_##name##_##bytes(volatile type *p, type value, int order) {                                                \
     (void)order;                                                                                                       \
     struct ticket_lock *l = lock_of(p);                                                                                \
     lock(l);                                                                                                           \

@@ -1,5 +1,5 @@
-/* The routines that the compiler calls for what the machine has no instruction for. Names and meaning are those of libgcc and
-   of LLVM's runtime library interface. */
+/* The routines that the compiler calls for what the machine has no instruction for. Names and meaning are those of
+   libgcc and of LLVM's runtime library interface. */
 #ifndef TRAX_RUNTIME_BUILTINS_H
 #define TRAX_RUNTIME_BUILTINS_H
 

@@ -14,32 +14,62 @@ static inline int compare(double x, double y, int unordered) {
 }
 
 /* Two bodies serve the eight names: they differ in what a NaN gives. */
-int __ledf2(double a, double b) { return compare(a, b, 1); }
+int __ledf2(double a, double b) {
+  return compare(a, b, 1);
+}
 
-int __gedf2(double a, double b) { return compare(a, b, -1); }
+int __gedf2(double a, double b) {
+  return compare(a, b, -1);
+}
 
-int __eqdf2(double a, double b) { return __ledf2(a, b); }
+int __eqdf2(double a, double b) {
+  return __ledf2(a, b);
+}
 
-int __nedf2(double a, double b) { return __ledf2(a, b); }
+int __nedf2(double a, double b) {
+  return __ledf2(a, b);
+}
 
-int __ltdf2(double a, double b) { return __ledf2(a, b); }
+int __ltdf2(double a, double b) {
+  return __ledf2(a, b);
+}
 
-int __cmpdf2(double a, double b) { return __ledf2(a, b); }
+int __cmpdf2(double a, double b) {
+  return __ledf2(a, b);
+}
 
-int __gtdf2(double a, double b) { return __gedf2(a, b); }
+int __gtdf2(double a, double b) {
+  return __gedf2(a, b);
+}
 
-int __unorddf2(double a, double b) { return is_nan_bits(double_bits(a)) || is_nan_bits(double_bits(b)); }
+int __unorddf2(double a, double b) {
+  return is_nan_bits(double_bits(a)) || is_nan_bits(double_bits(b));
+}
 
-int __lesf2(float a, float b) { return a < b ? -1 : a == b ? 0 : 1; }
+int __lesf2(float a, float b) {
+  return a < b ? -1 : a == b ? 0 : 1;
+}
 
-int __gesf2(float a, float b) { return a > b ? 1 : a == b ? 0 : -1; }
+int __gesf2(float a, float b) {
+  return a > b ? 1 : a == b ? 0 : -1;
+}
 
-int __eqsf2(float a, float b) { return __lesf2(a, b); }
+int __eqsf2(float a, float b) {
+  return __lesf2(a, b);
+}
 
-int __nesf2(float a, float b) { return __lesf2(a, b); }
+int __nesf2(float a, float b) {
+  return __lesf2(a, b);
+}
 
-int __ltsf2(float a, float b) { return __lesf2(a, b); }
+int __ltsf2(float a, float b) {
+  return __lesf2(a, b);
+}
 
-int __gtsf2(float a, float b) { return __gesf2(a, b); }
+int __gtsf2(float a, float b) {
+  return __gesf2(a, b);
+}
 
-int __unordsf2(float a, float b) { return a != a || b != b; }
+int __unordsf2(float a, float b) {
+  return a != a || b != b;
+}

@@ -1,10 +1,14 @@
-/* Complex products and quotients, with C's rules for infinities (C17 annex G.5.1). The quotient scales the divisor by a power of two,
-   so that nothing overflows or vanishes on the way. */
+/* Complex products and quotients, with C's rules for infinities (C17 annex G.5.1). The quotient scales the divisor by a
+   power of two, so that nothing overflows or vanishes on the way. */
 #include "double.h"
 
 #define COMPLEX_ARITHMETIC(suffix, type, fabs_, copysign_, inf_, scale_of, scaled)                                     \
-  static inline int is_infinite_##suffix(type x) { return fabs_(x) == inf_; }                                          \
-  static inline type boxed_##suffix(type x) { return copysign_(is_infinite_##suffix(x) ? 1 : 0, x); }                  \
+  static inline int is_infinite_##suffix(type x) {                                                                     \
+    return fabs_(x) == inf_;                                                                                           \
+  }                                                                                                                    \
+  static inline type boxed_##suffix(type x) {                                                                          \
+    return copysign_(is_infinite_##suffix(x) ? 1 : 0, x);                                                              \
+  }                                                                                                                    \
   _Complex type __mul##suffix##c3(type a, type b, type c, type d);                                                     \
   _Complex type __div##suffix##c3(type a, type b, type c, type d);                                                     \
                                                                                                                        \
@@ -69,11 +73,15 @@
     return __builtin_complex(x, y);                                                                                    \
   }
 
-INLINE float fabs_s(float x) { return bits_float(float_bits(x) & ~FLOAT_SIGN); }
+INLINE float fabs_s(float x) {
+  return bits_float(float_bits(x) & ~FLOAT_SIGN);
+}
 INLINE float copysign_s(float x, float y) {
   return bits_float((float_bits(x) & ~FLOAT_SIGN) | (float_bits(y) & FLOAT_SIGN));
 }
-INLINE double fabs_d(double x) { return bits_double(double_magnitude(double_bits(x))); }
+INLINE double fabs_d(double x) {
+  return bits_double(double_magnitude(double_bits(x)));
+}
 INLINE double copysign_d(double x, double y) {
   return bits_double(double_magnitude(double_bits(x)) | (double_bits(y) & DOUBLE_SIGN));
 }

@@ -108,9 +108,13 @@ static double from_magnitude(uint32_t sign, uint64_t magnitude) {
   return trax_round_double(sign, 1023 + 63 - zeros, significand >> 1 | (significand & 1));
 }
 
-double __floatundidf(uint64_t a) { return from_magnitude(0, a); }
+double __floatundidf(uint64_t a) {
+  return from_magnitude(0, a);
+}
 
-double __floatdidf(int64_t a) { return from_magnitude(a < 0, a < 0 ? 0 - (uint64_t)a : (uint64_t)a); }
+double __floatdidf(int64_t a) {
+  return from_magnitude(a < 0, a < 0 ? 0 - (uint64_t)a : (uint64_t)a);
+}
 
 float __floatundisf(uint64_t a) {
   if (high_word(a) == 0)

@@ -36,9 +36,13 @@ struct divided64 trax_divide64(uint64_t n, uint64_t d) {
   return (struct divided64){r.quotient, r.remainder >> shift};
 }
 
-uint64_t __udivdi3(uint64_t n, uint64_t d) { return trax_divide64(n, d).quotient; }
+uint64_t __udivdi3(uint64_t n, uint64_t d) {
+  return trax_divide64(n, d).quotient;
+}
 
-uint64_t __umoddi3(uint64_t n, uint64_t d) { return trax_divide64(n, d).remainder; }
+uint64_t __umoddi3(uint64_t n, uint64_t d) {
+  return trax_divide64(n, d).remainder;
+}
 
 uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *remainder) {
   struct divided64 r = trax_divide64(n, d);
@@ -46,7 +50,9 @@ uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *remainder) {
   return r.quotient;
 }
 
-static inline uint64_t sign_mask(int64_t x) { return (uint64_t)(x >> 63); }
+static inline uint64_t sign_mask(int64_t x) {
+  return (uint64_t)(x >> 63);
+}
 
 static inline struct divided64 divide_signed(int64_t n, int64_t d) {
   uint64_t sn = sign_mask(n), sd = sign_mask(d), sq = sn ^ sd;
@@ -54,9 +60,13 @@ static inline struct divided64 divide_signed(int64_t n, int64_t d) {
   return (struct divided64){(r.quotient ^ sq) - sq, (r.remainder ^ sn) - sn};
 }
 
-int64_t __divdi3(int64_t n, int64_t d) { return (int64_t)divide_signed(n, d).quotient; }
+int64_t __divdi3(int64_t n, int64_t d) {
+  return (int64_t)divide_signed(n, d).quotient;
+}
 
-int64_t __moddi3(int64_t n, int64_t d) { return (int64_t)divide_signed(n, d).remainder; }
+int64_t __moddi3(int64_t n, int64_t d) {
+  return (int64_t)divide_signed(n, d).remainder;
+}
 
 int64_t __divmoddi4(int64_t n, int64_t d, int64_t *remainder) {
   struct divided64 r = divide_signed(n, d);

@@ -1,4 +1,5 @@
-/* 64-bit shifts, product and comparison, from words: written so that none of them can be compiled into a call of itself. */
+/* 64-bit shifts, product and comparison, from words: written so that none of them can be compiled into a call of
+ * itself. */
 #include "builtins.h"
 
 uint64_t __ashldi3(uint64_t a, int n) {
@@ -34,8 +35,14 @@ uint64_t __muldi3(uint64_t a, uint64_t b) {
   return words(high, low_word(a) * low_word(b));
 }
 
-int __cmpdi2(int64_t a, int64_t b) { return a < b ? 0 : a > b ? 2 : 1; }
+int __cmpdi2(int64_t a, int64_t b) {
+  return a < b ? 0 : a > b ? 2 : 1;
+}
 
-int __ucmpdi2(uint64_t a, uint64_t b) { return a < b ? 0 : a > b ? 2 : 1; }
+int __ucmpdi2(uint64_t a, uint64_t b) {
+  return a < b ? 0 : a > b ? 2 : 1;
+}
 
-uint64_t __negdi2(uint64_t a) { return 0 - a; }
+uint64_t __negdi2(uint64_t a) {
+  return 0 - a;
+}

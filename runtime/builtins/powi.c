@@ -1,8 +1,11 @@
-/* Powers with an integer exponent, by squaring; a negative one divides at the end, as the compilers' own libraries do. */
+/* Powers with an integer exponent, by squaring; a negative one divides at the end, as the compilers' own libraries do.
+ */
 #include "builtins.h"
 
 /* |n| also for the least integer. */
-static inline unsigned magnitude(int n) { return n < 0 ? 0 - (unsigned)n : (unsigned)n; }
+static inline unsigned magnitude(int n) {
+  return n < 0 ? 0 - (unsigned)n : (unsigned)n;
+}
 
 float __powisf2(float a, int n) {
   unsigned m = magnitude(n);

@@ -1,5 +1,6 @@
-/* What a program asks of the machine. On the TP each function is one or two instructions; compiled for the host (the native
-   twin, see docs/runtime.md) the same calls work on a per-thread context, so device sources run on both unchanged. */
+/* What a program asks of the machine. On the TP each function is one or two instructions; compiled for the host (the
+   native twin, see docs/runtime.md) the same calls work on a per-thread context, so device sources run on both
+   unchanged. */
 #ifndef TRAX_H
 #define TRAX_H
 
@@ -15,11 +16,21 @@ struct trax_buffer {
 
 #define TRAX_INLINE static inline __attribute__((always_inline, unused))
 
-TRAX_INLINE unsigned trax_thread(void) { return __builtin_trax_rdsr(0); }  /* 0 .. trax_threads() - 1 */
-TRAX_INLINE unsigned trax_tm(void) { return __builtin_trax_rdsr(1); }      /* number of this thread's TM */
-TRAX_INLINE unsigned trax_tp(void) { return __builtin_trax_rdsr(2); }      /* number of this TP within its TM */
-TRAX_INLINE unsigned trax_threads(void) { return __builtin_trax_rdsr(3); } /* threads of the chip */
-TRAX_INLINE unsigned trax_cycles(void) { return __builtin_trax_rdsr(4); }  /* cycle counter modulo 2^32 */
+TRAX_INLINE unsigned trax_thread(void) {
+  return __builtin_trax_rdsr(0);
+} /* 0 .. trax_threads() - 1 */
+TRAX_INLINE unsigned trax_tm(void) {
+  return __builtin_trax_rdsr(1);
+} /* number of this thread's TM */
+TRAX_INLINE unsigned trax_tp(void) {
+  return __builtin_trax_rdsr(2);
+} /* number of this TP within its TM */
+TRAX_INLINE unsigned trax_threads(void) {
+  return __builtin_trax_rdsr(3);
+} /* threads of the chip */
+TRAX_INLINE unsigned trax_cycles(void) {
+  return __builtin_trax_rdsr(4);
+} /* cycle counter modulo 2^32 */
 
 /* The whole cycle counter. The halves are read at different cycles: a carry in between shows in the upper one. */
 TRAX_INLINE unsigned long long trax_cycles64(void) {
@@ -32,21 +43,35 @@ TRAX_INLINE unsigned long long trax_cycles64(void) {
 }
 
 /* 1 / sqrt(x), correctly rounded: +-0 gives +-infinity, a negative number NaN (IEEE 754-2019 rSqrt). */
-TRAX_INLINE float trax_rsqrt(float x) { return __builtin_trax_rsqrt(x); }
+TRAX_INLINE float trax_rsqrt(float x) {
+  return __builtin_trax_rsqrt(x);
+}
 
 /* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. */
-TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) { return __builtin_trax_ainc(p); }
+TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) {
+  return __builtin_trax_ainc(p);
+}
 
 /* Word accesses to global memory that go around the data cache. */
-TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) { __builtin_nontemporal_store(value, p); }
-TRAX_INLINE unsigned trax_load_nt(const unsigned *p) { return __builtin_nontemporal_load(p); }
+TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) {
+  __builtin_nontemporal_store(value, p);
+}
+TRAX_INLINE unsigned trax_load_nt(const unsigned *p) {
+  return __builtin_nontemporal_load(p);
+}
 
 /* Ends this thread with status 0. */
-__attribute__((noreturn)) TRAX_INLINE void trax_halt(void) { __builtin_trax_halt(); }
+__attribute__((noreturn)) TRAX_INLINE void trax_halt(void) {
+  __builtin_trax_halt();
+}
 
 /* Adds to the run's counters of rays and of finished items (pixels). */
-TRAX_INLINE void trax_count_rays(unsigned n) { __builtin_trax_trap(n, 3); }
-TRAX_INLINE void trax_count_items(unsigned n) { __builtin_trax_trap(n, 4); }
+TRAX_INLINE void trax_count_rays(unsigned n) {
+  __builtin_trax_trap(n, 3);
+}
+TRAX_INLINE void trax_count_items(unsigned n) {
+  __builtin_trax_trap(n, 4);
+}
 
 /* Stops the machine with a fault report that shows message (in global memory; NULL for none). */
 __attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
@@ -79,10 +104,18 @@ __attribute__((weak)) _Thread_local struct trax_native trax_native = {0, 0, 0, 1
 }
 #endif
 
-TRAX_INLINE unsigned trax_thread(void) { return trax_native.thread; }
-TRAX_INLINE unsigned trax_tm(void) { return trax_native.tm; }
-TRAX_INLINE unsigned trax_tp(void) { return trax_native.tp; }
-TRAX_INLINE unsigned trax_threads(void) { return trax_native.threads; }
+TRAX_INLINE unsigned trax_thread(void) {
+  return trax_native.thread;
+}
+TRAX_INLINE unsigned trax_tm(void) {
+  return trax_native.tm;
+}
+TRAX_INLINE unsigned trax_tp(void) {
+  return trax_native.tp;
+}
+TRAX_INLINE unsigned trax_threads(void) {
+  return trax_native.threads;
+}
 
 /* Nanoseconds stand in for cycles. */
 TRAX_INLINE unsigned long long trax_cycles64(void) {
@@ -90,22 +123,36 @@ TRAX_INLINE unsigned long long trax_cycles64(void) {
   clock_gettime(CLOCK_MONOTONIC, &now);
   return (unsigned long long)now.tv_sec * 1000000000u + (unsigned long long)now.tv_nsec;
 }
-TRAX_INLINE unsigned trax_cycles(void) { return (unsigned)trax_cycles64(); }
+TRAX_INLINE unsigned trax_cycles(void) {
+  return (unsigned)trax_cycles64();
+}
 
-/* Correctly rounded: no binary32 operand brings the binary64 quotient close enough to a rounding boundary of binary32 to
-   cross it. tests/numerics checks every significand of both exponent parities. */
+/* Correctly rounded: no binary32 operand brings the binary64 quotient close enough to a rounding boundary of binary32
+   to cross it. tests/numerics checks every significand of both exponent parities. */
 TRAX_INLINE float trax_rsqrt(float x) {
   if (!(x >= 0))
     return __builtin_nanf("");
   return (float)(1.0 / sqrt((double)x));
 }
 
-TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) { return __atomic_fetch_add(p, 1u, __ATOMIC_SEQ_CST); }
-TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) { *p = value; }
-TRAX_INLINE unsigned trax_load_nt(const unsigned *p) { return *p; }
-__attribute__((noreturn)) TRAX_INLINE void trax_halt(void) { pthread_exit(NULL); }
-TRAX_INLINE void trax_count_rays(unsigned n) { trax_native.rays += n; }
-TRAX_INLINE void trax_count_items(unsigned n) { trax_native.items += n; }
+TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) {
+  return __atomic_fetch_add(p, 1u, __ATOMIC_SEQ_CST);
+}
+TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) {
+  *p = value;
+}
+TRAX_INLINE unsigned trax_load_nt(const unsigned *p) {
+  return *p;
+}
+__attribute__((noreturn)) TRAX_INLINE void trax_halt(void) {
+  pthread_exit(NULL);
+}
+TRAX_INLINE void trax_count_rays(unsigned n) {
+  trax_native.rays += n;
+}
+TRAX_INLINE void trax_count_items(unsigned n) {
+  trax_native.items += n;
+}
 __attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
   fprintf(stderr, "abort: %s\n", message ? message : "");
   abort();

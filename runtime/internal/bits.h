@@ -6,21 +6,59 @@
 
 #define INLINE static inline __attribute__((always_inline, unused))
 
-INLINE uint32_t float_bits(float x) { return ((union { float f; uint32_t u; }){.f = x}).u; }
-INLINE float bits_float(uint32_t u) { return ((union { uint32_t u; float f; }){.u = u}).f; }
-INLINE uint64_t double_bits(double x) { return ((union { double f; uint64_t u; }){.f = x}).u; }
-INLINE double bits_double(uint64_t u) { return ((union { uint64_t u; double f; }){.u = u}).f; }
+INLINE uint32_t float_bits(float x) {
+  return ((union {
+           float f;
+           uint32_t u;
+         }){.f = x})
+      .u;
+}
+INLINE float bits_float(uint32_t u) {
+  return ((union {
+           uint32_t u;
+           float f;
+         }){.u = u})
+      .f;
+}
+INLINE uint64_t double_bits(double x) {
+  return ((union {
+           double f;
+           uint64_t u;
+         }){.f = x})
+      .u;
+}
+INLINE double bits_double(uint64_t u) {
+  return ((union {
+           uint64_t u;
+           double f;
+         }){.u = u})
+      .f;
+}
 
-INLINE uint32_t high_word(uint64_t x) { return (uint32_t)(x >> 32); }
-INLINE uint32_t low_word(uint64_t x) { return (uint32_t)x; }
-INLINE uint64_t words(uint32_t high, uint32_t low) { return (uint64_t)high << 32 | low; }
-INLINE uint64_t mul_wide(uint32_t a, uint32_t b) { return (uint64_t)a * b; }
-INLINE uint32_t mul_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
-INLINE int32_t mul_high_signed(int32_t a, int32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
+INLINE uint32_t high_word(uint64_t x) {
+  return (uint32_t)(x >> 32);
+}
+INLINE uint32_t low_word(uint64_t x) {
+  return (uint32_t)x;
+}
+INLINE uint64_t words(uint32_t high, uint32_t low) {
+  return (uint64_t)high << 32 | low;
+}
+INLINE uint64_t mul_wide(uint32_t a, uint32_t b) {
+  return (uint64_t)a * b;
+}
+INLINE uint32_t mul_high(uint32_t a, uint32_t b) {
+  return (uint32_t)(((uint64_t)a * b) >> 32);
+}
+INLINE int32_t mul_high_signed(int32_t a, int32_t b) {
+  return (int32_t)(((int64_t)a * b) >> 32);
+}
 
 /* Zeros above the top bit of v, which is not 0. The machine has no such instruction, but converting to float finds the
    exponent. Without the bit below the top one the conversion cannot round up to the next power of two. */
-INLINE int leading_zeros(uint32_t v) { return 158 - (int)(float_bits((float)(v & ~(v >> 1))) >> 23); }
+INLINE int leading_zeros(uint32_t v) {
+  return 158 - (int)(float_bits((float)(v & ~(v >> 1))) >> 23);
+}
 INLINE int leading_zeros64(uint64_t v) {
   return high_word(v) ? leading_zeros(high_word(v)) : 32 + leading_zeros(low_word(v));
 }
@@ -48,12 +86,12 @@ INLINE uint64_t shift_right_sticky64(uint64_t v, unsigned n) {
 #define DOUBLE_INFINITY 0x7FF0000000000000u
 #define DOUBLE_NAN 0x7FF8000000000000u
 
-/* The number significand * 2^(exponent - 127 - 31), rounded to nearest even, with the given sign bit; the significand has its
-   top bit set. Underflow is gradual, overflow gives infinity. */
+/* The number significand * 2^(exponent - 127 - 31), rounded to nearest even, with the given sign bit; the significand
+   has its top bit set. Underflow is gradual, overflow gives infinity. */
 float trax_round_float(uint32_t sign, int exponent, uint32_t significand);
 
-/* The number significand * 2^(exponent - 1023 - 62), likewise; the significand has bit 62 set and bit 63 clear, or the exponent
-   is at most 1 and it is less. */
+/* The number significand * 2^(exponent - 1023 - 62), likewise; the significand has bit 62 set and bit 63 clear, or the
+   exponent is at most 1 and it is less. */
 double trax_round_double(uint32_t sign, int exponent, uint64_t significand);
 
 #endif

@@ -1,21 +1,22 @@
-/* Integer division by reciprocals. There is no divide instruction, and the FPDIV unit is one per TM and busy for eight cycles
-   a quotient; a reciprocal from multiplications alone neither waits for it nor depends on its configured precision. */
+/* Integer division by reciprocals. There is no divide instruction, and the FPDIV unit is one per TM and busy for eight
+   cycles a quotient; a reciprocal from multiplications alone neither waits for it nor depends on its configured
+   precision. */
 #ifndef TRAX_RUNTIME_DIVIDE_H
 #define TRAX_RUNTIME_DIVIDE_H
 
 #include "bits.h"
 
-/* 1/d * (1 - u) with 0 < u < 2^-11, for d >= 1. The subtraction from a constant turns the exponent round and the significand
-   into a line through which y = d*r stays in [1.414, 1.458]; y * (c - y), c the sum of these limits, is then flat to 2^-12. The last
-   factor is 4/c^2 and 2^-20 less, so that no rounding lifts the result above 1/d. */
+/* 1/d * (1 - u) with 0 < u < 2^-11, for d >= 1. The subtraction from a constant turns the exponent round and the
+   significand into a line through which y = d*r stays in [1.414, 1.458]; y * (c - y), c the sum of these limits, is
+   then flat to 2^-12. The last factor is 4/c^2 and 2^-20 less, so that no rounding lifts the result above 1/d. */
 INLINE float reciprocal_seed(uint32_t d) {
   float x = (float)d;
   float r = bits_float(0x7F350500u - float_bits(x));
   return r * (2.871324f - x * r) * 0.4851714f;
 }
 
-/* 2^32/d - 2 < result <= 2^32/d, for d >= 1 (tests/numerics checks every d). Each step of Newton's iteration z += z*(2^32 - d*z)/2^32
-   squares the relative error and stays below. */
+/* 2^32/d - 2 < result <= 2^32/d, for d >= 1 (tests/numerics checks every d). Each step of Newton's iteration z +=
+   z*(2^32 - d*z)/2^32 squares the relative error and stays below. */
 INLINE uint32_t reciprocal(uint32_t d) {
   uint32_t z = (uint32_t)(reciprocal_seed(d) * 0x1p32f);
   z += mul_high(z, 0 - d * z);
@@ -42,8 +43,8 @@ INLINE struct divided divide(uint32_t n, uint32_t d) {
   return (struct divided){q, r};
 }
 
-/* Division of several words, after Moeller and Granlund, "Improved division by invariant integers", IEEE Transactions on
-   Computers 60 (2011). Divisors are normalised: the top bit is set. */
+/* Division of several words, after Moeller and Granlund, "Improved division by invariant integers", IEEE Transactions
+   on Computers 60 (2011). Divisors are normalised: the top bit is set. */
 
 /* floor((2^64 - 1) / d) - 2^32. */
 INLINE uint32_t reciprocal_2by1(uint32_t d) {

@@ -1,4 +1,5 @@
-/* The little that the C library asks of the machine, in a form that also runs on the host: there the tests supply it. */
+/* The little that the C library asks of the machine, in a form that also runs on the host: there the tests supply it.
+ */
 #ifndef TRAX_RUNTIME_MACHINE_H
 #define TRAX_RUNTIME_MACHINE_H
 
@@ -10,18 +11,26 @@
 
 #include <trax.h>
 
-INLINE void machine_put_char(int c) { __builtin_trax_trap((unsigned)c, 1); }
-INLINE void machine_put_string(const char *s) { __builtin_trax_trap((unsigned)s, 5); }
-__attribute__((noreturn)) INLINE void machine_abort(const char *message) { trax_abort(message); }
+INLINE void machine_put_char(int c) {
+  __builtin_trax_trap((unsigned)c, 1);
+}
+INLINE void machine_put_string(const char *s) {
+  __builtin_trax_trap((unsigned)s, 5);
+}
+__attribute__((noreturn)) INLINE void machine_abort(const char *message) {
+  trax_abort(message);
+}
 __attribute__((noreturn)) INLINE void machine_exit(int status) {
   __builtin_trax_trap((unsigned)status, 0);
   __builtin_trax_halt();
 }
 /* The host reads strings from global memory only; this one may be on the stack. */
-INLINE int machine_is_local(const void *p) { return (uintptr_t)p >= 0xFFFFFE00u; }
+INLINE int machine_is_local(const void *p) {
+  return (uintptr_t)p >= 0xFFFFFE00u;
+}
 
-/* A lock that is taken in the order of asking: the atomic increment draws a number, and the owner, who alone writes the number
-   being served, passes on. Words beyond the cache, because no TM's cache hears of another's stores. */
+/* A lock that is taken in the order of asking: the atomic increment draws a number, and the owner, who alone writes the
+   number being served, passes on. Words beyond the cache, because no TM's cache hears of another's stores. */
 struct ticket_lock {
   unsigned next, serving;
 };
@@ -45,10 +54,18 @@ void host_put_string(const char *s);
 __attribute__((noreturn)) void host_abort(const char *message);
 __attribute__((noreturn)) void host_exit(int status);
 
-INLINE void machine_put_char(int c) { host_put_char(c); }
-INLINE void machine_put_string(const char *s) { host_put_string(s); }
-__attribute__((noreturn)) INLINE void machine_abort(const char *message) { host_abort(message); }
-__attribute__((noreturn)) INLINE void machine_exit(int status) { host_exit(status); }
+INLINE void machine_put_char(int c) {
+  host_put_char(c);
+}
+INLINE void machine_put_string(const char *s) {
+  host_put_string(s);
+}
+__attribute__((noreturn)) INLINE void machine_abort(const char *message) {
+  host_abort(message);
+}
+__attribute__((noreturn)) INLINE void machine_exit(int status) {
+  host_exit(status);
+}
 INLINE int machine_is_local(const void *p) {
   (void)p;
   return 0;
@@ -64,7 +81,9 @@ INLINE void lock(struct ticket_lock *l) {
     ;
 }
 
-INLINE void unlock(struct ticket_lock *l) { __atomic_fetch_add(&l->serving, 1, __ATOMIC_SEQ_CST); }
+INLINE void unlock(struct ticket_lock *l) {
+  __atomic_fetch_add(&l->serving, 1, __ATOMIC_SEQ_CST);
+}
 
 #endif
 #endif

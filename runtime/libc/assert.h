@@ -1,4 +1,5 @@
-/* assert: a false one stops the machine with a fault report that shows the text and the place. Includable several times. */
+/* assert: a false one stops the machine with a fault report that shows the text and the place. Includable several
+ * times. */
 #undef assert
 #ifdef NDEBUG
 #define assert(condition) ((void)0)
@@ -7,7 +8,8 @@
 #define __TRAX_ASSERT_LINE(x) __TRAX_ASSERT_TEXT(x)
 /* The message is put together at compile time: nothing is formatted when it fails. */
 #define assert(condition)                                                                                              \
-  ((condition) ? (void)0 : __trax_assert_fail(__FILE__ ":" __TRAX_ASSERT_LINE(__LINE__) ": assertion failed: " #condition))
+  ((condition) ? (void)0                                                                                               \
+               : __trax_assert_fail(__FILE__ ":" __TRAX_ASSERT_LINE(__LINE__) ": assertion failed: " #condition))
 #endif
 
 #ifndef TRAX_ASSERT_H

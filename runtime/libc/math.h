@@ -1,5 +1,5 @@
-/* Mathematical functions: all of binary32 that are listed here, and of binary64 those that are exact. docs/runtime.md has the
-   errors. No function sets errno. */
+/* Mathematical functions: all of binary32 that are listed here, and of binary64 those that are exact. docs/runtime.md
+   has the errors. No function sets errno. */
 #ifndef TRAX_MATH_H
 #define TRAX_MATH_H
 

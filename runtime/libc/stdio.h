@@ -1,6 +1,6 @@
-/* Formatted output of the C library. There is one stream, the host's standard output; stderr goes there too. A call's text is
-   not interleaved with other threads' calls. Each function named like its standard twin with an i in front is the same but
-   for the floating-point conversions, and brings none of their code into the program. */
+/* Formatted output of the C library. There is one stream, the host's standard output; stderr goes there too. A call's
+   text is not interleaved with other threads' calls. Each function named like its standard twin with an i in front is
+   the same but for the floating-point conversions, and brings none of their code into the program. */
 #ifndef TRAX_STDIO_H
 #define TRAX_STDIO_H
 

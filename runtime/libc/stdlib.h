@@ -32,7 +32,8 @@ div_t div(int n, int d);
 ldiv_t ldiv(long n, long d);
 lldiv_t lldiv(long long n, long long d);
 
-/* exit ends the calling thread with a status; the others go on (docs/abi.md, "Traps to the host"). abort stops the machine. */
+/* exit ends the calling thread with a status; the others go on (docs/abi.md, "Traps to the host"). abort stops the
+ * machine. */
 __attribute__((noreturn)) void exit(int status);
 __attribute__((noreturn)) void _Exit(int status);
 __attribute__((noreturn)) void abort(void);
@@ -47,8 +48,7 @@ unsigned long long strtoull(const char *__restrict text, char **__restrict end, 
 
 /* Not stable; in place, without recursion, in about 2 n log2 n comparisons whatever the order (heapsort). */
 void qsort(void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
-void *bsearch(const void *key, const void *base, size_t count, size_t size,
-              int (*compare)(const void *, const void *));
+void *bsearch(const void *key, const void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
 
 /* Memory from the heap behind the program, shared by all threads; aligned to 8 bytes. NULL if there is none left. */
 void *malloc(size_t size);

@@ -1,5 +1,5 @@
-/* Functions that run before main (C++ constructors, __attribute__((constructor))): thread 0 runs them, the others wait, since
-   all threads share the objects. */
+/* Functions that run before main (C++ constructors, __attribute__((constructor))): thread 0 runs them, the others wait,
+   since all threads share the objects. */
 #include "../internal/machine.h"
 
 void __trax_run_constructors(void);

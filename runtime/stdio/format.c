@@ -1,5 +1,5 @@
-/* The formatting engine: flags, width, precision, integers and strings. Frames are small throughout: a program has 512 bytes of
-   stack. */
+/* The formatting engine: flags, width, precision, integers and strings. Frames are small throughout: a program has 512
+   bytes of stack. */
 #include "format.h"
 
 #include "../internal/machine.h"

@@ -37,8 +37,8 @@ void trax_put_prefix(struct sink *out, const struct conversion *how, const char 
 /* Blanks behind what began when out->count was start, for FLAG_LEFT. */
 void trax_put_suffix(struct sink *out, const struct conversion *how, int start);
 
-/* Formats the arguments and returns out->count. Where a double is to be formatted and format_double is NULL, a question mark
-   stands for it: the caller knows that there is none, and the linker then drops the code. */
+/* Formats the arguments and returns out->count. Where a double is to be formatted and format_double is NULL, a question
+   mark stands for it: the caller knows that there is none, and the linker then drops the code. */
 int trax_format(struct sink *out, const char *format, va_list arguments, double_formatter *format_double);
 
 double_formatter trax_format_double;

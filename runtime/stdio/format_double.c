@@ -1,12 +1,14 @@
-/* Doubles in decimal and hexadecimal, exactly: every digit printed is a digit of the number's binary value, rounded once to
-   nearest, ties to even. Integers only; no binary64 arithmetic is needed. */
+/* Doubles in decimal and hexadecimal, exactly: every digit printed is a digit of the number's binary value, rounded
+   once to nearest, ties to even. Integers only; no binary64 arithmetic is needed. */
 #include "format.h"
 
 #include "../internal/divide.h"
+#include "../internal/machine.h"
 
-/* The decimal digits of mantissa * 2^exponent from the first to the last, nine at a time. The integer part is held in base 10^9; the
-   fraction, which takes the same array when the integer part is through, in base 2^32: multiplied by 10^9, it yields nine more
-   digits. The greatest double has 309 digits, 35 limbs; the least has 1074 bits after the point, 34 limbs. */
+/* The decimal digits of mantissa * 2^exponent from the first to the last, nine at a time. The integer part is held in
+   base 10^9; the fraction, which takes the same array when the integer part is through, in base 2^32: multiplied by
+   10^9, it yields nine more digits. The greatest double has 309 digits, 35 limbs; the least has 1074 bits after the
+   point, 34 limbs. */
 #define LIMBS 35
 #define BASE 1000000000u
 
@@ -16,9 +18,13 @@ struct digits {
   unsigned char integer_limbs;  /* not yet read */
   unsigned char fraction_limbs; /* from first_limb on */
   unsigned char first_limb;     /* those below are zero */
-  uint32_t group, divisor;      /* digits of the current group that are not yet read, and the place of the first of them */
+  uint32_t group, divisor; /* digits of the current group that are not yet read, and the place of the first of them */
   uint32_t limb[LIMBS];
 };
+
+/* In global memory, one for all threads: a third of a stack is too much to ask. */
+static struct digits shared_digits;
+static struct ticket_lock digits_lock;
 
 /* x / 10^9 for x < 10^9 * 2^32, through 4 * 10^9, whose top bit is set, and its reciprocal. */
 static inline struct divided divide_by_base(uint64_t x) {
@@ -132,7 +138,8 @@ static int rest_is_zero(const struct digits *d) {
 struct rounded {
   int power;        /* of the first digit, after rounding */
   int count;        /* digits to print, from the first */
-  int incremented;  /* the digit that rounding raises, 9s behind it becoming 0; -1: all were 9, a 1 stands before them; or count */
+  int incremented;  /* the digit that rounding raises, 9s behind it becoming 0; -1: all were 9, a 1 stands before them;
+                       or count */
   int last_nonzero; /* the last digit that is not 0, after rounding; -1 if there is none */
 };
 
@@ -181,7 +188,9 @@ static int rounded_digit(struct digits *d, const struct rounded *r, int i) {
   return '0' + next_digit(d) + (i == r->incremented);
 }
 
-static int exponent_size(int power) { return power <= -100 || power >= 100 ? 5 : 4; }
+static int exponent_size(int power) {
+  return power <= -100 || power >= 100 ? 5 : 4;
+}
 
 static void put_exponent(struct sink *out, int letter, int power, int least_digits) {
   trax_put(out, letter);
@@ -280,10 +289,11 @@ void trax_format_double(struct sink *out, const struct conversion *how, double x
   } else if (how->letter == 'a') {
     format_hexadecimal(out, how, sign, bits);
   } else {
-    struct digits d;
-    d.mantissa = exponent ? fraction | 0x0010000000000000u : fraction;
-    d.exponent = (exponent ? exponent : 1) - 1075;
-    format_decimal(out, how, sign, &d);
+    lock(&digits_lock);
+    shared_digits.mantissa = exponent ? fraction | 0x0010000000000000u : fraction;
+    shared_digits.exponent = (exponent ? exponent : 1) - 1075;
+    format_decimal(out, how, sign, &shared_digits);
+    unlock(&digits_lock);
   }
   trax_put_suffix(out, how, start);
 }

@@ -5,9 +5,13 @@
 
 static struct ticket_lock output_lock;
 
-void trax_lock_output(void) { lock(&output_lock); }
+void trax_lock_output(void) {
+  lock(&output_lock);
+}
 
-void trax_unlock_output(void) { unlock(&output_lock); }
+void trax_unlock_output(void) {
+  unlock(&output_lock);
+}
 
 int trax_print(const char *format, va_list arguments, double_formatter *format_double) {
   struct sink out = {NULL, NULL, 0};

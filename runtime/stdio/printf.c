@@ -1,5 +1,5 @@
-/* printf and its relatives. They alone name the code that formats doubles: a program that uses only those of iprintf.c does not
-   contain it. */
+/* printf and its relatives. They alone name the code that formats doubles: a program that uses only those of iprintf.c
+   does not contain it. */
 #include "format.h"
 
 #include <stdio.h>

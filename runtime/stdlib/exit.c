@@ -4,10 +4,18 @@
 #include <assert.h>
 #include <stdlib.h>
 
-void exit(int status) { machine_exit(status); }
+void exit(int status) {
+  machine_exit(status);
+}
 
-void _Exit(int status) { machine_exit(status); }
+void _Exit(int status) {
+  machine_exit(status);
+}
 
-void abort(void) { machine_abort("abort"); }
+void abort(void) {
+  machine_abort("abort");
+}
 
-void __trax_assert_fail(const char *message) { machine_abort(message); }
+void __trax_assert_fail(const char *message) {
+  machine_abort(message);
+}

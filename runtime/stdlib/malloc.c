@@ -1,5 +1,5 @@
-/* The heap: free blocks in a list ordered by address, first fit, neighbours joined when freed. Beyond the last block lies untouched
-   memory, from which the heap grows. One lock serves all threads. */
+/* The heap: free blocks in a list ordered by address, first fit, neighbours joined when freed. Beyond the last block
+   lies untouched memory, from which the heap grows. One lock serves all threads. */
 #include "../internal/machine.h"
 
 #include <errno.h>
@@ -22,8 +22,12 @@ static struct block *free_list;
 static uintptr_t top; /* first untouched address; 0 before the first call */
 static struct ticket_lock heap_lock;
 
-static inline struct block *header_of(void *memory) { return (struct block *)memory - 1; }
-static inline uintptr_t end_of(struct block *b) { return (uintptr_t)b + b->size; }
+static inline struct block *header_of(void *memory) {
+  return (struct block *)memory - 1;
+}
+static inline uintptr_t end_of(struct block *b) {
+  return (uintptr_t)b + b->size;
+}
 
 /* The block size for a request, or 0 if there is no such size. */
 static size_t block_size(size_t size) {

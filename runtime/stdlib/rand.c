@@ -1,11 +1,14 @@
-/* Pseudo-random numbers: a 32-bit xorshift whose steps have the full period, Marsaglia, "Xorshift RNGs", Journal of Statistical
-   Software 8 (2003). The state is thread-local, and 0, which local memory starts with, stands for the seed 1. */
+/* Pseudo-random numbers: a 32-bit xorshift whose steps have the full period, Marsaglia, "Xorshift RNGs", Journal of
+   Statistical Software 8 (2003). The state is thread-local, and 0, which local memory starts with, stands for the
+   seed 1. */
 #include <stdint.h>
 #include <stdlib.h>
 
 static _Thread_local uint32_t state;
 
-void srand(unsigned seed) { state = seed * 2654435761u; }
+void srand(unsigned seed) {
+  state = seed * 2654435761u;
+}
 
 int rand(void) {
   uint32_t x = state ? state : 2654435761u;

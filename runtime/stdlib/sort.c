@@ -21,7 +21,8 @@ static void swap(char *a, char *b, size_t size) {
 }
 
 /* Moves the element at parent down until none of its children, at twice its number plus 1 and 2, is greater. */
-static void sift_down(char *base, size_t parent, size_t count, size_t size, int (*compare)(const void *, const void *)) {
+static void sift_down(char *base, size_t parent, size_t count, size_t size,
+                      int (*compare)(const void *, const void *)) {
   size_t child;
   while ((child = 2 * parent + 1) < count) {
     if (child + 1 < count && compare(base + child * size, base + (child + 1) * size) < 0)

@@ -81,6 +81,12 @@ unsigned long strtoul(const char *restrict text, char **restrict end, int base) 
   return number.negative && !number.overflow ? 0 - magnitude : magnitude;
 }
 
-long long atoll(const char *text) { return strtoll(text, NULL, 10); }
-long atol(const char *text) { return strtol(text, NULL, 10); }
-int atoi(const char *text) { return (int)strtol(text, NULL, 10); }
+long long atoll(const char *text) {
+  return strtoll(text, NULL, 10);
+}
+long atol(const char *text) {
+  return strtol(text, NULL, 10);
+}
+int atoi(const char *text) {
+  return (int)strtol(text, NULL, 10);
+}

@@ -4,8 +4,12 @@
 
 typedef uint32_t __attribute__((may_alias)) word;
 
-static inline int aligned(const void *p) { return ((uintptr_t)p & 3) == 0; }
-static inline int aligned_alike(const void *p, const void *q) { return (((uintptr_t)p ^ (uintptr_t)q) & 3) == 0; }
+static inline int aligned(const void *p) {
+  return ((uintptr_t)p & 3) == 0;
+}
+static inline int aligned_alike(const void *p, const void *q) {
+  return (((uintptr_t)p ^ (uintptr_t)q) & 3) == 0;
+}
 
 void *memcpy(void *restrict to, const void *restrict from, size_t size) {
   unsigned char *t = to;

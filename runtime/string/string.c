@@ -5,7 +5,9 @@
 typedef uint32_t __attribute__((may_alias)) word;
 
 /* Whether a word holds a zero byte: only there does subtracting 1 from each byte borrow into a bit 7 that was clear. */
-static inline int has_zero_byte(word w) { return ((w - 0x01010101) & ~w & 0x80808080) != 0; }
+static inline int has_zero_byte(word w) {
+  return ((w - 0x01010101) & ~w & 0x80808080) != 0;
+}
 
 size_t strlen(const char *string) {
   const char *p = string;

@@ -22,4 +22,6 @@ void rt_host_abort(const char *message) {
   longjmp(host_abort_target, 1);
 }
 
-void rt_host_exit(int status) { longjmp(host_abort_target, status + 2); }
+void rt_host_exit(int status) {
+  longjmp(host_abort_target, status + 2);
+}

@@ -46,7 +46,8 @@ static inline uint64_t random_integer(uint64_t *state) {
   return kind >> 7 & 1 ? 0 - x : x;
 }
 
-/* A random double: uniform bits, or few significant bits (exact results and halfway cases), or close in exponent to 1. */
+/* A random double: uniform bits, or few significant bits (exact results and halfway cases), or close in exponent to 1.
+ */
 static inline double random_double(uint64_t *state) {
   uint64_t kind = random64(state), bits = random64(state);
   if (kind & 1)
@@ -73,8 +74,8 @@ static inline float random_float(uint64_t *state) {
 }
 
 static const uint64_t special_doubles[] = {
-    0,                  /* zero */
-    1,                  /* least subnormal */
+    0, /* zero */
+    1, /* least subnormal */
     2,
     3,
     0x0008000000000000, /* half the least normal */
@@ -130,13 +131,61 @@ static const uint64_t special_doubles[] = {
     0x7FFFFFFFFFFFFFFF,
 };
 
-static const uint64_t special_integers[] = {
-    0,          1,          2,          3,          5,          7,          9,           10,          15,         16,
-    100,        255,        256,        641,        1000,       65535,      65536,       65537,       0x7FFFFF,   0x800000,
-    0xFFFFFF,   0x1000000,  0x1000001,  0x1000003,  0x3B9ACA00, 0x55555555, 0x7FFFFFFF,  0x80000000,  0x80000001, 0xAAAAAAAA,
-    0xFFFFFF7F, 0xFFFFFF80, 0xFFFFFF81, 0xFFFFFFFE, 0xFFFFFFFF, 0x100000000, 0x100000001, 0x1FFFFFFFF, 0x123456789ABCDEF,
-    0x1FFFFFFFFFFFFF,  0x20000000000001,  0x20000000000003, 0x7FFFFFBFFFFFFFFF, 0x7FFFFFC000000000, 0x7FFFFFFFFFFFFC00,
-    0x7FFFFFFFFFFFFE00, 0x7FFFFFFFFFFFFFFF, 0x8000000000000000, 0x8000000000000001, 0x8000000000000400, 0xFFFFFFFF00000000,
-    0xFFFFFF8000000000, 0xFFFFFFFFFFFFF400, 0xFFFFFFFFFFFFFBFF, 0xFFFFFFFFFFFFFC00, 0xFFFFFFFFFFFFFFFF};
+static const uint64_t special_integers[] = {0,
+                                            1,
+                                            2,
+                                            3,
+                                            5,
+                                            7,
+                                            9,
+                                            10,
+                                            15,
+                                            16,
+                                            100,
+                                            255,
+                                            256,
+                                            641,
+                                            1000,
+                                            65535,
+                                            65536,
+                                            65537,
+                                            0x7FFFFF,
+                                            0x800000,
+                                            0xFFFFFF,
+                                            0x1000000,
+                                            0x1000001,
+                                            0x1000003,
+                                            0x3B9ACA00,
+                                            0x55555555,
+                                            0x7FFFFFFF,
+                                            0x80000000,
+                                            0x80000001,
+                                            0xAAAAAAAA,
+                                            0xFFFFFF7F,
+                                            0xFFFFFF80,
+                                            0xFFFFFF81,
+                                            0xFFFFFFFE,
+                                            0xFFFFFFFF,
+                                            0x100000000,
+                                            0x100000001,
+                                            0x1FFFFFFFF,
+                                            0x123456789ABCDEF,
+                                            0x1FFFFFFFFFFFFF,
+                                            0x20000000000001,
+                                            0x20000000000003,
+                                            0x7FFFFFBFFFFFFFFF,
+                                            0x7FFFFFC000000000,
+                                            0x7FFFFFFFFFFFFC00,
+                                            0x7FFFFFFFFFFFFE00,
+                                            0x7FFFFFFFFFFFFFFF,
+                                            0x8000000000000000,
+                                            0x8000000000000001,
+                                            0x8000000000000400,
+                                            0xFFFFFFFF00000000,
+                                            0xFFFFFF8000000000,
+                                            0xFFFFFFFFFFFFF400,
+                                            0xFFFFFFFFFFFFFBFF,
+                                            0xFFFFFFFFFFFFFC00,
+                                            0xFFFFFFFFFFFFFFFF};
 
 #endif

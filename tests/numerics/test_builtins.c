@@ -235,7 +235,8 @@ static void random_integers(void **unused) {
     check_integers(random_integer(&state), random_integer(&state));
 }
 
-/* Quotients and remainders at their limits: n = q*d + r with r = 0 and r = d - 1, where an estimate one off would show. */
+/* Quotients and remainders at their limits: n = q*d + r with r = 0 and r = d - 1, where an estimate one off would show.
+ */
 static void quotients_at_the_limits(void **unused) {
   (void)unused;
   uint64_t state = 2;
@@ -299,7 +300,8 @@ static void floats(void **unused) {
                                      0x5F800000, 0x7F7FFFFF, 0x7F800000, 0x7F800001, 0x7FC00000};
   for (size_t i = 0; i < 2 * COUNT(special); i++)
     for (size_t j = 0; j < 2 * COUNT(special); j++)
-      check_floats(float_of(special[i / 2] | (uint32_t)(i & 1) << 31), float_of(special[j / 2] | (uint32_t)(j & 1) << 31));
+      check_floats(float_of(special[i / 2] | (uint32_t)(i & 1) << 31),
+                   float_of(special[j / 2] | (uint32_t)(j & 1) << 31));
 }
 
 static void integer_powers(void **unused) {
@@ -320,10 +322,14 @@ static void integer_powers(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(special_integer_pairs), cmocka_unit_test(random_integers),
-      cmocka_unit_test(quotients_at_the_limits), cmocka_unit_test(special_double_pairs),
-      cmocka_unit_test(random_doubles),        cmocka_unit_test(doubles_near_underflow),
-      cmocka_unit_test(floats),                cmocka_unit_test(integer_powers),
+      cmocka_unit_test(special_integer_pairs),
+      cmocka_unit_test(random_integers),
+      cmocka_unit_test(quotients_at_the_limits),
+      cmocka_unit_test(special_double_pairs),
+      cmocka_unit_test(random_doubles),
+      cmocka_unit_test(doubles_near_underflow),
+      cmocka_unit_test(floats),
+      cmocka_unit_test(integer_powers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* The C library's memory, string, number, heap and formatting functions, compiled for the host, against the host's own. */
+/* The C library's memory, string, number, heap and formatting functions, compiled for the host, against the host's own.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -59,13 +60,15 @@ int rt_puts(const char *);
 int rt_fputs(const char *, void *);
 size_t rt_fwrite(const void *, size_t, size_t, void *);
 #define CHARACTER_CLASSES(X)                                                                                           \
-  X(isalnum) X(isalpha) X(isblank) X(iscntrl) X(isdigit) X(isgraph) X(islower) X(isprint) X(ispunct) X(isspace)       \
-      X(isupper) X(isxdigit)
+  X(isalnum)                                                                                                           \
+  X(isalpha) X(isblank) X(iscntrl) X(isdigit) X(isgraph) X(islower) X(isprint) X(ispunct) X(isspace) X(isupper)        \
+      X(isxdigit)
 #define DECLARE(name) int rt_##name(int);
-CHARACTER_CLASSES(DECLARE) DECLARE(tolower) DECLARE(toupper)
+CHARACTER_CLASSES(DECLARE)
+DECLARE(tolower) DECLARE(toupper)
 
-/* Every start within a word, every size up to a few words, each byte around the target untouched. */
-static void memory_functions(void **state) {
+    /* Every start within a word, every size up to a few words, each byte around the target untouched. */
+    static void memory_functions(void **state) {
   (void)state;
   unsigned char source[96], ours[96], theirs[96];
   for (size_t i = 0; i < sizeof source; i++)
@@ -103,7 +106,9 @@ static void memory_functions(void **state) {
       }
 }
 
-static int sign_of(int x) { return (x > 0) - (x < 0); }
+static int sign_of(int x) {
+  return (x > 0) - (x < 0);
+}
 
 /* Strings over an alphabet of two letters, so that everything occurs. */
 static void string_functions(void **unused) {
@@ -176,8 +181,8 @@ static void check_text_to_integer(const char *text, int base) {
     unsigned long long want = (unsigned long long)name(text, &host_end, base);                                         \
     unsigned long long got = (unsigned long long)rt_##name(text, &end, base);                                          \
     if (got != want || end != host_end || rt_errno != errno)                                                           \
-      fail_msg("%s(\"%s\", %d): %llx, %td, errno %d; want %llx, %td, %d", #name, text, base, got, end - text, rt_errno, \
-               want, host_end - text, errno);                                                                          \
+      fail_msg("%s(\"%s\", %d): %llx, %td, errno %d; want %llx, %td, %d", #name, text, base, got, end - text,          \
+               rt_errno, want, host_end - text, errno);                                                                \
   } while (0)
   CHECK_CONVERSION(strtol);
   CHECK_CONVERSION(strtoul);
@@ -187,11 +192,35 @@ static void check_text_to_integer(const char *text, int base) {
 
 static void text_to_integer(void **unused) {
   (void)unused;
-  static const char *const texts[] = {"", " ", "-", "+", "0", "-0", "0x", "0xg", "0x1F", "-0X1f", "08", "017", " \t\n\v\f\r42", "+-1",
-                                      "zz", "ZZ", "123abc", "9223372036854775807", "9223372036854775808",
-                                      "-9223372036854775808", "-9223372036854775809", "18446744073709551615",
-                                      "18446744073709551616", "-18446744073709551615", "-18446744073709551616",
-                                      "99999999999999999999999999", "2147483647", "2147483648", "4294967296"};
+  static const char *const texts[] = {"",
+                                      " ",
+                                      "-",
+                                      "+",
+                                      "0",
+                                      "-0",
+                                      "0x",
+                                      "0xg",
+                                      "0x1F",
+                                      "-0X1f",
+                                      "08",
+                                      "017",
+                                      " \t\n\v\f\r42",
+                                      "+-1",
+                                      "zz",
+                                      "ZZ",
+                                      "123abc",
+                                      "9223372036854775807",
+                                      "9223372036854775808",
+                                      "-9223372036854775808",
+                                      "-9223372036854775809",
+                                      "18446744073709551615",
+                                      "18446744073709551616",
+                                      "-18446744073709551615",
+                                      "-18446744073709551616",
+                                      "99999999999999999999999999",
+                                      "2147483647",
+                                      "2147483648",
+                                      "4294967296"};
   static const int bases[] = {0, 2, 8, 10, 16, 36};
   for (size_t i = 0; i < COUNT(texts); i++)
     for (size_t j = 0; j < COUNT(bases); j++)
@@ -200,7 +229,8 @@ static void text_to_integer(void **unused) {
   for (int i = 0; i < 200000; i++) {
     char text[80];
     int64_t x = (int64_t)random_integer(&state);
-    snprintf(text, sizeof text, (const char *[]){"%lld", "%llx", "0x%llx", "0%llo", "-%llu", "%lld7"}[i % 6], (long long)x);
+    snprintf(text, sizeof text, (const char *[]){"%lld", "%llx", "0x%llx", "0%llo", "-%llu", "%lld7"}[i % 6],
+             (long long)x);
     check_text_to_integer(text, bases[random64(&state) % COUNT(bases)]);
   }
   assert_int_equal(rt_atoi("  -2147483648x"), INT32_MIN);
@@ -340,7 +370,8 @@ static void check_format(const char *want, const char *got, int want_count, int 
 #define CHECK_FORMAT(format, ...)                                                                                      \
   do {                                                                                                                 \
     static char want[SIZE], got[SIZE];                                                                                 \
-    int want_count = snprintf(want, SIZE, format, __VA_ARGS__), got_count = rt_snprintf(got, SIZE, format, __VA_ARGS__); \
+    int want_count = snprintf(want, SIZE, format, __VA_ARGS__),                                                        \
+        got_count = rt_snprintf(got, SIZE, format, __VA_ARGS__);                                                       \
     check_format(want, got, want_count, got_count, format);                                                            \
   } while (0)
 
@@ -407,8 +438,8 @@ static void formatted_doubles(void **unused) {
   }
   for (size_t i = 0; i < 2 * COUNT(special_doubles); i++) {
     double x = double_of(special_doubles[i / 2] | (uint64_t)(i & 1) << 63);
-    CHECK_FORMAT("%f|%e|%g|%a|%.0f|%.0e|%#.0f|%G|%10.3f|%-12.4e|%+08.2f|%.17g|%.1100f|%.800e", x, x, x, x, x, x, x, x, x, x, x,
-                 x, x, x);
+    CHECK_FORMAT("%f|%e|%g|%a|%.0f|%.0e|%#.0f|%G|%10.3f|%-12.4e|%+08.2f|%.17g|%.1100f|%.800e", x, x, x, x, x, x, x, x,
+                 x, x, x, x, x, x);
   }
   for (int power = -330; power <= 310; power++) {
     double x = pow(10, power);
@@ -416,7 +447,8 @@ static void formatted_doubles(void **unused) {
     x = nextafter(x, 0);
     CHECK_FORMAT("%g|%.17g|%.3f|%e|%.16e", x, x, x, x, x);
   }
-  CHECK_FORMAT("%.0f %.0f %.0f %.0f %.1f %.1f %g %g %g", 0.5, 1.5, 2.5, 3.5, 0.25, 0.35, 9.9999995, 999999.5, 0.00009999995);
+  CHECK_FORMAT("%.0f %.0f %.0f %.0f %.1f %.1f %g %g %g", 0.5, 1.5, 2.5, 3.5, 0.25, 0.35, 9.9999995, 999999.5,
+               0.00009999995);
   static char got[SIZE];
   rt_snprintf(got, SIZE, "%#.2g %#.3g %#.2g %#g %#.1g %#.3g", 99.6, 999.6, 100.0, 0.5, 2.0, 1e-5);
   assert_string_equal(got, "1.0e+02 1.00e+03 1.0e+02 0.500000 2. 1.00e-05");
