@@ -17,4 +17,6 @@ foreach i = 0-11 in def R#!add(i, 20) : TraxReg<!add(i, 20), "r"#!add(i, 20), ["
 // One class holds integers and floats: the TP has one register file (paper, section 3.1). Temporaries first, then
 // arguments from the last one, then saved registers: the order in which the allocator takes them.
 def GPR : RegisterClass<"Trax", [i32, f32], 32,
-    (add (sequence "R%u", 12, 19), (sequence "R%u", 11, 4), (sequence "R%u", 20, 31), R3, R1, R0, R2)>;
+    (add (sequence "R%u", 12, 19), (sequence "R%u", 11, 4), (sequence "R%u", 20, 31), R3, R1, R0, R2)> {
+  let DiagnosticString = "operand must be a register";
+}
