@@ -26,6 +26,9 @@ same "$source/box.obj" $view --size 64x36 --stats a.json
 cp x.png box.png
 grep -q '"rays": [1-9]' a.json || fail "no rays counted"
 grep -q '"items": 2304' a.json || fail "not every pixel counted"
+# The program fits in the instruction cache: what is fetched is once 4 kB at most for each of the 8 caches.
+fetched=$(sed -n 's/.*"instruction_read_bytes": \([0-9]*\).*/\1/p' a.json | head -n 1)
+[ "${fetched:-0}" -gt 0 ] && [ "$fetched" -le 32768 ] || fail "$fetched bytes of instructions fetched"
 for chip in 1x32 2x64; do # the same picture on any chip
   same "$source/box.obj" $view --size 64x36 --config $chip
   "$bin/trax-compare" -q x.png box.png || fail "$chip renders another picture"
