@@ -136,6 +136,7 @@ class InstCMov<bits<6> op, bits<6> func, string mnemonic, code semantics, string
   bits<5> rd; bits<5> ra; bits<5> rb;
   let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-11} = rb; let Inst{10-6} = 0; let Inst{5-0} = func;
   let Constraints = "$rd = $old";
+  let isCommutable = true; // the other conditional move, with rd's old value and ra exchanged
   let ReadsRD = true;
 }
 class InstI<bits<6> op, string mnemonic, code semantics, string manual>

@@ -46,9 +46,8 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
   case Trax::PseudoCALL:
   case Trax::PseudoTAIL:
     lowerOperand(MI->getOperand(0), Callee);
-    Inst = MCInstBuilder(Trax::JAL)
-               .addReg(MI->getOpcode() == Trax::PseudoCALL ? Trax::R1 : Trax::R0)
-               .addOperand(Callee);
+    Inst =
+        MCInstBuilder(Trax::JAL).addReg(MI->getOpcode() == Trax::PseudoCALL ? Trax::R1 : Trax::R0).addOperand(Callee);
     break;
   case Trax::PseudoTAILIndirect:
     Inst = MCInstBuilder(Trax::JALR).addReg(Trax::R0).addReg(MI->getOperand(0).getReg()).addImm(0);
@@ -102,4 +101,6 @@ bool TraxAsmPrinter::PrintAsmMemoryOperand(const MachineInstr *MI, unsigned OpNo
   return false;
 }
 
-void LLVMInitializeTraxAsmPrinter() { RegisterAsmPrinter<TraxAsmPrinter> X(getTheTraxTarget()); }
+void LLVMInitializeTraxAsmPrinter() {
+  RegisterAsmPrinter<TraxAsmPrinter> X(getTheTraxTarget());
+}

@@ -1,7 +1,7 @@
 //===- TraxBuiltins.h - The machine's own operations, as calls -----------===//
 //
-// The prebuilt LLVM cannot be given intrinsics of a new target. Clang's builtins for this machine therefore reach the code
-// generator as calls of functions that are recognised by name and become single instructions.
+// The prebuilt LLVM cannot be given intrinsics of a new target. Clang's builtins for this machine therefore reach the
+// code generator as calls of functions that are recognised by name and become single instructions.
 //
 //===----------------------------------------------------------------------===//
 #ifndef TRAX_TRAXBUILTINS_H
@@ -20,8 +20,8 @@ namespace TraxBuiltin {
 
 enum ID { Rsqrt, Rdsr, Trap, Halt, Ainc, Lwnt };
 
-/// The builtin that a function of this name stands for: __builtin_trax_x, or __trax_x as clang calls the library function
-/// behind the builtin __builtin___trax_x.
+/// The builtin that a function of this name stands for: __builtin_trax_x, or __trax_x as clang calls the library
+/// function behind the builtin __builtin___trax_x.
 std::optional<ID> find(StringRef Name);
 
 } // namespace TraxBuiltin

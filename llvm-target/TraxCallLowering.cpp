@@ -50,9 +50,8 @@ SDValue TraxTargetLowering::LowerFormalArguments(SDValue Chain, CallingConv::ID 
     // A copy of an aggregate belongs to this function, which may write it.
     int FI = MFI.CreateFixedObject(Size, VA.getLocMemOffset(), /*IsImmutable=*/!IsByVal);
     SDValue Address = DAG.getFrameIndex(FI, MVT::i32);
-    InVals.push_back(IsByVal ? Address
-                             : DAG.getLoad(VA.getLocVT(), DL, Chain, Address,
-                                           MachinePointerInfo::getFixedStack(MF, FI)));
+    InVals.push_back(
+        IsByVal ? Address : DAG.getLoad(VA.getLocVT(), DL, Chain, Address, MachinePointerInfo::getFixedStack(MF, FI)));
   }
   if (IsVarArg)
     MF.getInfo<TraxMachineFunctionInfo>()->setVarArgsFrameIndex(
@@ -137,9 +136,9 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
     Align Alignment = std::max(Align(4), Out.Flags.getNonZeroByValAlign());
     int FI = MFI.CreateStackObject(std::max(4u, Size), Alignment, /*isSpillSlot=*/false);
     SDValue Copy = DAG.getFrameIndex(FI, MVT::i32);
-    Chain = DAG.getMemcpy(Chain, DL, Copy, Value, DAG.getConstant(Size, DL, MVT::i32),
-                          Out.Flags.getNonZeroByValAlign(), /*isVol=*/false, /*AlwaysInline=*/true, /*CI=*/nullptr,
-                          std::nullopt, MachinePointerInfo::getFixedStack(MF, FI), MachinePointerInfo());
+    Chain = DAG.getMemcpy(Chain, DL, Copy, Value, DAG.getConstant(Size, DL, MVT::i32), Out.Flags.getNonZeroByValAlign(),
+                          /*isVol=*/false, /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt,
+                          MachinePointerInfo::getFixedStack(MF, FI), MachinePointerInfo());
     Value = Copy;
     Out.Flags = ISD::ArgFlagsTy();
     CopiesToFrame = true;
@@ -167,15 +166,13 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
     }
     if (!StackPointer)
       StackPointer = DAG.getCopyFromReg(Chain, DL, Trax::R2, MVT::i32);
-    SDValue Address = DAG.getNode(ISD::ADD, DL, MVT::i32, StackPointer,
-                                  DAG.getConstant(VA.getLocMemOffset(), DL, MVT::i32));
+    SDValue Address =
+        DAG.getNode(ISD::ADD, DL, MVT::i32, StackPointer, DAG.getConstant(VA.getLocMemOffset(), DL, MVT::i32));
     MachinePointerInfo Where = MachinePointerInfo::getStack(MF, VA.getLocMemOffset());
     if (Out.Flags.isByVal())
-      Stores.push_back(DAG.getMemcpy(Chain, DL, Address, Value,
-                                     DAG.getConstant(Out.Flags.getByValSize(), DL, MVT::i32),
+      Stores.push_back(DAG.getMemcpy(Chain, DL, Address, Value, DAG.getConstant(Out.Flags.getByValSize(), DL, MVT::i32),
                                      std::min(Align(4), Out.Flags.getNonZeroByValAlign()), /*isVol=*/false,
-                                     /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt, Where,
-                                     MachinePointerInfo()));
+                                     /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt, Where, MachinePointerInfo()));
     else
       Stores.push_back(DAG.getStore(Chain, DL, Value, Address, Where));
   }
@@ -256,8 +253,8 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
   };
   auto AccessWord = [&](MachineMemOperand::Flags Flags) {
     const Value *Pointer = CLI.CB ? CLI.CB->getArgOperand(0) : nullptr;
-    return DAG.getMachineFunction().getMachineMemOperand(
-        Pointer ? MachinePointerInfo(Pointer) : MachinePointerInfo(), Flags, 4, Align(4));
+    return DAG.getMachineFunction().getMachineMemOperand(Pointer ? MachinePointerInfo(Pointer) : MachinePointerInfo(),
+                                                         Flags, 4, Align(4));
   };
 
   SDValue Chain = CLI.Chain;
@@ -270,8 +267,7 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
   case TraxBuiltin::Rdsr: {
     if (!Has({MVT::i32}, {MVT::i32}))
       return SDValue();
-    SDValue Number =
-        DAG.getTargetConstant(Constant(0, TRAX_SR_COUNT, "special register").value_or(0), DL, MVT::i32);
+    SDValue Number = DAG.getTargetConstant(Constant(0, TRAX_SR_COUNT, "special register").value_or(0), DL, MVT::i32);
     if (Number->getAsZExtVal() <= TRAX_SR_THREADS) {
       InVals.push_back(DAG.getNode(TraxISD::RDSR_CONST, DL, MVT::i32, Number));
       break;
@@ -299,9 +295,9 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
       return SDValue();
     bool IsIncrement = *Builtin == TraxBuiltin::Ainc;
     auto Flags = MachineMemOperand::MOVolatile | MachineMemOperand::MOLoad;
-    SDValue Load = DAG.getMemIntrinsicNode(IsIncrement ? TraxISD::AINC : TraxISD::LWNT, DL, WordAndChain,
-                                           {Chain, CLI.OutVals[0]}, MVT::i32,
-                                           AccessWord(IsIncrement ? Flags | MachineMemOperand::MOStore : Flags));
+    SDValue Load =
+        DAG.getMemIntrinsicNode(IsIncrement ? TraxISD::AINC : TraxISD::LWNT, DL, WordAndChain, {Chain, CLI.OutVals[0]},
+                                MVT::i32, AccessWord(IsIncrement ? Flags | MachineMemOperand::MOStore : Flags));
     InVals.push_back(Load);
     Chain = Load.getValue(1);
     break;

@@ -108,10 +108,14 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
           .addImm(-(int64_t(1) << Shift))
           .setMIFlag(MachineInstr::FrameSetup);
     } else {
-      BuildMI(MBB, MBBI, DL, TII.get(Trax::SRLI), Trax::R2).addReg(Trax::R2).addImm(Shift).setMIFlag(
-          MachineInstr::FrameSetup);
-      BuildMI(MBB, MBBI, DL, TII.get(Trax::SLLI), Trax::R2).addReg(Trax::R2).addImm(Shift).setMIFlag(
-          MachineInstr::FrameSetup);
+      BuildMI(MBB, MBBI, DL, TII.get(Trax::SRLI), Trax::R2)
+          .addReg(Trax::R2)
+          .addImm(Shift)
+          .setMIFlag(MachineInstr::FrameSetup);
+      BuildMI(MBB, MBBI, DL, TII.get(Trax::SLLI), Trax::R2)
+          .addReg(Trax::R2)
+          .addImm(Shift)
+          .setMIFlag(MachineInstr::FrameSetup);
     }
     if (hasBP(MF))
       adjustReg(MBB, MBBI, DL, BasePointer, Trax::R2, 0, MachineInstr::FrameSetup);
@@ -174,10 +178,26 @@ StackOffset TraxFrameLowering::getFrameIndexReference(const MachineFunction &MF,
   return StackOffset::getFixed(FromSP);
 }
 
+bool TraxFrameLowering::spillCalleeSavedRegisters(MachineBasicBlock &MBB, MachineBasicBlock::iterator MI,
+                                                  ArrayRef<CalleeSavedInfo> CSI, const TargetRegisterInfo *TRI) const {
+  const TargetInstrInfo &TII = *MBB.getParent()->getSubtarget().getInstrInfo();
+  for (const CalleeSavedInfo &Saved : CSI) {
+    MCRegister Reg = Saved.getReg();
+    // ra is still wanted where the function reads its return address.
+    bool IsKill = !MBB.isLiveIn(Reg);
+    TII.storeRegToStackSlot(MBB, MI, Reg, IsKill, Saved.getFrameIdx(), TRI->getMinimalPhysRegClass(Reg), TRI,
+                            Register());
+    std::prev(MI)->setFlag(MachineInstr::FrameSetup);
+  }
+  return true;
+}
+
 void TraxFrameLowering::determineCalleeSaves(MachineFunction &MF, BitVector &SavedRegs, RegScavenger *RS) const {
   TargetFrameLowering::determineCalleeSaves(MF, SavedRegs, RS);
-  if (hasFP(MF))
+  if (hasFP(MF)) { // both, so that a chain of frames can be followed
+    SavedRegs.set(Trax::R1);
     SavedRegs.set(Trax::R3);
+  }
   if (hasBP(MF))
     SavedRegs.set(BasePointer);
 }

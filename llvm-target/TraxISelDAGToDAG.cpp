@@ -49,7 +49,8 @@ FunctionPass *llvm::createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel Opt
   return new TraxDAGToDAGISelLegacy(TM, OptLevel);
 }
 
-/// A constant in a register: none, one or two instructions. Floats too, whose usual values have zeros in the lower half.
+/// A constant in a register: none, one or two instructions. Floats too, whose usual values have zeros in the lower
+/// half.
 SDValue TraxDAGToDAGISel::selectConstant(uint32_t Bits, const SDLoc &DL, EVT VT) {
   int32_t Value = Bits;
   SDValue Zero = CurDAG->getRegister(Trax::R0, MVT::i32);
@@ -143,13 +144,23 @@ bool TraxDAGToDAGISel::selectAddrRegImm(SDValue Addr, SDValue &Base, SDValue &Of
     Offset = CurDAG->getTargetConstant(Lower, DL, MVT::i32);
     return true;
   }
+  // An element of a global array: the lower half of the array's address needs no addition of its own.
+  if (Addr.getOpcode() == ISD::ADD && Addr.hasOneUse())
+    for (unsigned I : {0, 1}) {
+      SDValue Array = Addr.getOperand(I);
+      if (Array.getOpcode() != TraxISD::ADD_LO || !Array.hasOneUse())
+        continue;
+      Base = SDValue(CurDAG->getMachineNode(Trax::ADD, DL, MVT::i32, Array.getOperand(0), Addr.getOperand(1 - I)), 0);
+      Offset = Array.getOperand(1);
+      return true;
+    }
   Base = Addr;
   Offset = CurDAG->getTargetConstant(0, DL, MVT::i32);
   return true;
 }
 
-/// Shifts look at five bits: a mask that keeps those changes nothing, nor does the subtraction from a multiple of 32, which
-/// is a negation.
+/// Shifts look at five bits: a mask that keeps those changes nothing, nor does the subtraction from a multiple of 32,
+/// which is a negation.
 bool TraxDAGToDAGISel::selectShiftAmount(SDValue Amount, SDValue &Result) {
   Result = Amount;
   if (Result.getOpcode() == ISD::AND)
@@ -158,8 +169,7 @@ bool TraxDAGToDAGISel::selectShiftAmount(SDValue Amount, SDValue &Result) {
   if (Result.getOpcode() == ISD::SUB)
     if (auto *C = dyn_cast<ConstantSDNode>(Result.getOperand(0)); C && C->getZExtValue() % 32 == 0) {
       SDValue Zero = CurDAG->getRegister(Trax::R0, MVT::i32);
-      Result = SDValue(
-          CurDAG->getMachineNode(Trax::SUB, SDLoc(Amount), MVT::i32, Zero, Result.getOperand(1)), 0);
+      Result = SDValue(CurDAG->getMachineNode(Trax::SUB, SDLoc(Amount), MVT::i32, Zero, Result.getOperand(1)), 0);
     }
   return true;
 }

@@ -57,9 +57,10 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
 
   // Floats. What is missing is expanded to integer operations, or a function of the library.
   setOperationAction({ISD::FMINNUM, ISD::FMAXNUM}, MVT::f32, Legal);
-  setOperationAction({ISD::FMINIMUM, ISD::FMAXIMUM, ISD::FCOPYSIGN, ISD::FMA, ISD::FMAD, ISD::FREM, ISD::FSQRT,
-                      ISD::FSIN, ISD::FCOS, ISD::FSINCOS, ISD::FTAN, ISD::FPOW, ISD::FPOWI, ISD::FEXP, ISD::FEXP2,
-                      ISD::FEXP10, ISD::FLOG, ISD::FLOG2, ISD::FLOG10, ISD::FLDEXP, ISD::FFREXP, ISD::IS_FPCLASS},
+  setOperationAction({ISD::FMINIMUM, ISD::FMAXIMUM, ISD::FCOPYSIGN, ISD::FMA,       ISD::FMAD, ISD::FREM,
+                      ISD::FSQRT,    ISD::FSIN,     ISD::FCOS,      ISD::FSINCOS,   ISD::FTAN, ISD::FPOW,
+                      ISD::FPOWI,    ISD::FEXP,     ISD::FEXP2,     ISD::FEXP10,    ISD::FLOG, ISD::FLOG2,
+                      ISD::FLOG10,   ISD::FLDEXP,   ISD::FFREXP,    ISD::IS_FPCLASS},
                      MVT::f32, Expand);
   setOperationAction({ISD::FFLOOR, ISD::FCEIL, ISD::FTRUNC, ISD::FRINT, ISD::FNEARBYINT, ISD::FROUND, ISD::FROUNDEVEN,
                       ISD::LROUND, ISD::LLROUND, ISD::LRINT, ISD::LLRINT},
@@ -215,8 +216,8 @@ bool llvm::isLocalMemory(const MemSDNode *N) {
   return isa_and_nonnull<AllocaInst>(V);
 }
 
-/// (symbol + constant) becomes a symbol with an offset where nothing else needs the symbol: it saves the addition. Other
-/// uses share the symbol's address and put the constant into their own immediate.
+/// (symbol + constant) becomes a symbol with an offset where nothing else needs the symbol: it saves the addition.
+/// Other uses share the symbol's address and put the constant into their own immediate.
 SDValue TraxTargetLowering::performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const {
   auto *Constant = dyn_cast<ConstantSDNode>(N->getOperand(1));
   SDValue Address = N->getOperand(0);
@@ -255,8 +256,8 @@ SDValue TraxTargetLowering::lowerFPToIntSat(SDValue Op, SelectionDAG &) const {
 
 //--- square roots -------------------------------------------------------------
 
-/// Called where flags allow an approximation. The machine's instruction needs no refinement: 1/sqrt(x) is one instruction,
-/// sqrt(x) is x * rsqrt(x).
+/// Called where flags allow an approximation. The machine's instruction needs no refinement: 1/sqrt(x) is one
+/// instruction, sqrt(x) is x * rsqrt(x).
 SDValue TraxTargetLowering::getSqrtEstimate(SDValue Operand, SelectionDAG &DAG, int Enabled, int &RefinementSteps,
                                             bool &UseOneConstNR, bool Reciprocal) const {
   if (Operand.getValueType() != MVT::f32 || Enabled == ReciprocalEstimate::Disabled)
@@ -271,12 +272,14 @@ SDValue TraxTargetLowering::getSqrtEstimate(SDValue Operand, SelectionDAG &DAG, 
 /// Where x * rsqrt(x) is 0 * infinity: +0 and -0. An integer test, off the shared adder.
 SDValue TraxTargetLowering::getSqrtInputTest(SDValue Operand, SelectionDAG &DAG, const DenormalMode &) const {
   SDLoc DL(Operand);
-  SDValue Bits = DAG.getNode(ISD::SHL, DL, MVT::i32, DAG.getBitcast(MVT::i32, Operand),
-                             DAG.getConstant(1, DL, MVT::i32));
+  SDValue Bits =
+      DAG.getNode(ISD::SHL, DL, MVT::i32, DAG.getBitcast(MVT::i32, Operand), DAG.getConstant(1, DL, MVT::i32));
   return DAG.getSetCC(DL, MVT::i32, Bits, DAG.getConstant(0, DL, MVT::i32), ISD::SETEQ);
 }
 
-SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, SelectionDAG &) const { return Operand; }
+SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, SelectionDAG &) const {
+  return Operand;
+}
 
 //--- costs --------------------------------------------------------------------
 
@@ -338,8 +341,8 @@ SDValue TraxTargetLowering::lowerReturnAddr(SDValue Op, SelectionDAG &DAG) const
 
 //--- atomics ------------------------------------------------------------------
 
-/// Caches of different TMs are not coherent, so an atomic load must go to memory, unless it is of local memory, which has no
-/// cache. Bytes and halves are taken from their word.
+/// Caches of different TMs are not coherent, so an atomic load must go to memory, unless it is of local memory, which
+/// has no cache. Bytes and halves are taken from their word.
 SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const {
   auto *Load = cast<AtomicSDNode>(Op);
   if (isLocalMemory(Load))

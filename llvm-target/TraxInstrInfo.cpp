@@ -82,6 +82,17 @@ std::optional<DestSourcePair> TraxInstrInfo::isCopyInstrImpl(const MachineInstr 
   return std::nullopt;
 }
 
+/// "a if c, else b" is "b if not c, else a".
+MachineInstr *TraxInstrInfo::commuteInstructionImpl(MachineInstr &MI, bool NewMI, unsigned OpIdx1,
+                                                    unsigned OpIdx2) const {
+  unsigned Opcode = MI.getOpcode();
+  if (Opcode != Trax::CMOVNZ && Opcode != Trax::CMOVZ)
+    return TargetInstrInfo::commuteInstructionImpl(MI, NewMI, OpIdx1, OpIdx2);
+  MachineInstr &Result = NewMI ? *MI.getParent()->getParent()->CloneMachineInstr(&MI) : MI;
+  Result.setDesc(get(Opcode == Trax::CMOVNZ ? Trax::CMOVZ : Trax::CMOVNZ));
+  return TargetInstrInfo::commuteInstructionImpl(Result, /*NewMI=*/false, OpIdx1, OpIdx2);
+}
+
 unsigned TraxInstrInfo::getInstSizeInBytes(const MachineInstr &MI) const {
   if (MI.isInlineAsm()) {
     const MachineFunction *MF = MI.getParent()->getParent();

@@ -24,13 +24,13 @@ public:
                            int FrameIndex, const TargetRegisterClass *RC, const TargetRegisterInfo *TRI,
                            Register VReg) const override;
   void loadRegFromStackSlot(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, Register Dest, int FrameIndex,
-                            const TargetRegisterClass *RC, const TargetRegisterInfo *TRI,
-                            Register VReg) const override;
+                            const TargetRegisterClass *RC, const TargetRegisterInfo *TRI, Register VReg) const override;
   Register isLoadFromStackSlot(const MachineInstr &MI, int &FrameIndex) const override;
   Register isStoreToStackSlot(const MachineInstr &MI, int &FrameIndex) const override;
 
   bool isAsCheapAsAMove(const MachineInstr &MI) const override;
   std::optional<DestSourcePair> isCopyInstrImpl(const MachineInstr &MI) const override;
+  MachineInstr *commuteInstructionImpl(MachineInstr &MI, bool NewMI, unsigned OpIdx1, unsigned OpIdx2) const override;
   unsigned getInstSizeInBytes(const MachineInstr &MI) const override;
 
   bool getMemOperandsWithOffsetWidth(const MachineInstr &MI, SmallVectorImpl<const MachineOperand *> &BaseOps,

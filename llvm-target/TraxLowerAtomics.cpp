@@ -1,8 +1,8 @@
 //===- TraxLowerAtomics.cpp - Atomic operations that the machine lacks ---===//
 //
-// The machine loads, stores and increments atomically. Every other read-modify-write becomes a call of the runtime's function of
-// libatomic's name, which takes a lock. Runs behind AtomicExpand, which has reduced operations without such a function to
-// compare-and-exchange, and has made calls of operations wider than a word.
+// The machine loads, stores and increments atomically. Every other read-modify-write becomes a call of the runtime's
+// function of libatomic's name, which takes a lock. Runs behind AtomicExpand, which has reduced operations without such
+// a function to compare-and-exchange, and has made calls of operations wider than a word.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
@@ -135,4 +135,6 @@ char TraxLowerAtomics::ID = 0;
 
 INITIALIZE_PASS(TraxLowerAtomics, DEBUG_TYPE, "TRaX atomic operations to calls", false, false)
 
-FunctionPass *llvm::createTraxLowerAtomicsPass() { return new TraxLowerAtomics(); }
+FunctionPass *llvm::createTraxLowerAtomicsPass() {
+  return new TraxLowerAtomics();
+}

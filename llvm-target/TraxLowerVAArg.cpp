@@ -1,7 +1,7 @@
 //===- TraxLowerVAArg.cpp - va_arg as loads ------------------------------===//
 //
-// A va_list is a pointer to the next unnamed argument; each takes whole words (docs/abi.md). Instruction selection cannot
-// expand a va_arg of an aggregate, so all are written out here.
+// A va_list is a pointer to the next unnamed argument; each takes whole words (docs/abi.md). Instruction selection
+// cannot expand a va_arg of an aggregate, so all are written out here.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
@@ -61,4 +61,6 @@ char TraxLowerVAArg::ID = 0;
 
 INITIALIZE_PASS(TraxLowerVAArg, DEBUG_TYPE, "TRaX va_arg lowering", false, false)
 
-FunctionPass *llvm::createTraxLowerVAArgPass() { return new TraxLowerVAArg(); }
+FunctionPass *llvm::createTraxLowerVAArgPass() {
+  return new TraxLowerVAArg();
+}

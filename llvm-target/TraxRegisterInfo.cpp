@@ -17,13 +17,17 @@ using namespace llvm;
 
 TraxRegisterInfo::TraxRegisterInfo() : TraxGenRegisterInfo(Trax::R1) {}
 
-const MCPhysReg *TraxRegisterInfo::getCalleeSavedRegs(const MachineFunction *) const { return CSR_SaveList; }
+const MCPhysReg *TraxRegisterInfo::getCalleeSavedRegs(const MachineFunction *) const {
+  return CSR_SaveList;
+}
 
 const uint32_t *TraxRegisterInfo::getCallPreservedMask(const MachineFunction &, CallingConv::ID) const {
   return CSR_RegMask;
 }
 
-const uint32_t *TraxRegisterInfo::getNoPreservedMask() const { return CSR_None_RegMask; }
+const uint32_t *TraxRegisterInfo::getNoPreservedMask() const {
+  return CSR_None_RegMask;
+}
 
 BitVector TraxRegisterInfo::getReservedRegs(const MachineFunction &MF) const {
   const TraxFrameLowering &TFL = *MF.getSubtarget<TraxSubtarget>().getFrameLowering();

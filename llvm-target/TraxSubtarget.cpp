@@ -12,7 +12,9 @@ using namespace llvm;
 #define GET_SUBTARGETINFO_CTOR
 #include "TraxGenSubtargetInfo.inc"
 
-static std::string cpuOrDefault(const std::string &CPU) { return CPU.empty() ? "generic" : CPU; }
+static std::string cpuOrDefault(const std::string &CPU) {
+  return CPU.empty() ? "generic" : CPU;
+}
 
 TraxSubtarget::TraxSubtarget(const Triple &TT, const std::string &CPU, const std::string &FS,
                              const TraxTargetMachine &TM)

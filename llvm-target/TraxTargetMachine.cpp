@@ -48,7 +48,8 @@ MachineFunctionInfo *TraxTargetMachine::createMachineFunctionInfo(BumpPtrAllocat
 }
 
 void TraxTargetMachine::registerPassBuilderCallbacks(PassBuilder &PB) {
-  PB.registerPipelineStartEPCallback([](ModulePassManager &MPM, OptimizationLevel) { MPM.addPass(TraxBuiltinsPass()); });
+  PB.registerPipelineStartEPCallback(
+      [](ModulePassManager &MPM, OptimizationLevel) { MPM.addPass(TraxBuiltinsPass()); });
 }
 
 namespace {
@@ -76,4 +77,6 @@ public:
 
 } // namespace
 
-TargetPassConfig *TraxTargetMachine::createPassConfig(PassManagerBase &PM) { return new TraxPassConfig(*this, PM); }
+TargetPassConfig *TraxTargetMachine::createPassConfig(PassManagerBase &PM) {
+  return new TraxPassConfig(*this, PM);
+}

@@ -14,8 +14,8 @@ bool TraxTTIImpl::isLoweredToCall(const Function *F) const {
   return BaseT::isLoweredToCall(F);
 }
 
-// A taken branch costs one cycle and the instruction cache holds 1,024 instructions, shared by all: unrolling pays where it
-// turns a small array's indices into constants, not to save the branch.
+// A taken branch costs one cycle and the instruction cache holds 1,024 instructions, shared by all: unrolling pays
+// where it turns a small array's indices into constants, not to save the branch.
 void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::UnrollingPreferences &UP,
                                           OptimizationRemarkEmitter *ORE) {
   BaseT::getUnrollingPreferences(L, SE, UP, ORE);

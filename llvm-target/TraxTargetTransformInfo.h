@@ -38,9 +38,7 @@ public:
 
   // There are no vectors: nothing to vectorize for.
   unsigned getNumberOfRegisters(unsigned ClassID) const { return ClassID == 1 ? 0 : 27; }
-  TypeSize getRegisterBitWidth(TTI::RegisterKind K) const {
-    return TypeSize::getFixed(K == TTI::RGK_Scalar ? 32 : 0);
-  }
+  TypeSize getRegisterBitWidth(TTI::RegisterKind K) const { return TypeSize::getFixed(K == TTI::RGK_Scalar ? 32 : 0); }
   unsigned getMaxInterleaveFactor(ElementCount) const { return 1; }
 };
 

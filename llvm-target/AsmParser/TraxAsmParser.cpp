@@ -143,7 +143,9 @@ class TraxAsmParser : public MCTargetAsmParser {
   bool ParseInstruction(ParseInstructionInfo &Info, StringRef Name, SMLoc NameLoc, OperandVector &Operands) override;
   bool MatchAndEmitInstruction(SMLoc IDLoc, unsigned &Opcode, OperandVector &Operands, MCStreamer &Out,
                                uint64_t &ErrorInfo, bool MatchingInlineAsm) override;
-  ParseStatus parseDirective(AsmToken) override { return ParseStatus::NoMatch; }
+  ParseStatus parseDirective(AsmToken) override {
+    return ParseStatus::NoMatch;
+  }
 
   bool parseOperand(OperandVector &Operands, StringRef Mnemonic);
   bool parseMemoryBase(OperandVector &Operands);
@@ -152,7 +154,9 @@ class TraxAsmParser : public MCTargetAsmParser {
   ParseStatus parseSpecialRegister(OperandVector &Operands) {
     return parseNamed(Operands, TraxII::findSpecialRegister);
   }
-  ParseStatus parseTrapCode(OperandVector &Operands) { return parseNamed(Operands, TraxII::findTrap); }
+  ParseStatus parseTrapCode(OperandVector &Operands) {
+    return parseNamed(Operands, TraxII::findTrap);
+  }
 
   void emit(MCInst Inst, SMLoc Loc, MCStreamer &Out);
   void emitLoadImmediate(const MCInst &Inst, SMLoc Loc, MCStreamer &Out);
@@ -166,8 +170,7 @@ public:
 #undef GET_OPERAND_DIAGNOSTIC_TYPES
   };
 
-  TraxAsmParser(const MCSubtargetInfo &STI, MCAsmParser &Parser, const MCInstrInfo &MII,
-                const MCTargetOptions &Options)
+  TraxAsmParser(const MCSubtargetInfo &STI, MCAsmParser &Parser, const MCInstrInfo &MII, const MCTargetOptions &Options)
       : MCTargetAsmParser(Options, STI, MII), Parser(Parser) {
     Parser.addAliasForDirective(".half", ".2byte");
     Parser.addAliasForDirective(".word", ".4byte");
@@ -365,4 +368,6 @@ bool TraxAsmParser::MatchAndEmitInstruction(SMLoc IDLoc, unsigned &, OperandVect
   return Error(IDLoc, "invalid instruction");
 }
 
-void LLVMInitializeTraxAsmParser() { RegisterMCAsmParser<TraxAsmParser> X(getTheTraxTarget()); }
+void LLVMInitializeTraxAsmParser() {
+  RegisterMCAsmParser<TraxAsmParser> X(getTheTraxTarget());
+}

@@ -23,7 +23,15 @@ static std::optional<unsigned> numberOf(ArrayRef<StringLiteral> Names, StringRef
   return It - Names.begin();
 }
 
-StringRef TraxII::getSpecialRegisterName(unsigned Number) { return nameOf(SpecialRegisters, Number); }
-StringRef TraxII::getTrapName(unsigned Code) { return nameOf(Traps, Code); }
-std::optional<unsigned> TraxII::findSpecialRegister(StringRef Name) { return numberOf(SpecialRegisters, Name); }
-std::optional<unsigned> TraxII::findTrap(StringRef Name) { return numberOf(Traps, Name); }
+StringRef TraxII::getSpecialRegisterName(unsigned Number) {
+  return nameOf(SpecialRegisters, Number);
+}
+StringRef TraxII::getTrapName(unsigned Code) {
+  return nameOf(Traps, Code);
+}
+std::optional<unsigned> TraxII::findSpecialRegister(StringRef Name) {
+  return numberOf(SpecialRegisters, Name);
+}
+std::optional<unsigned> TraxII::findTrap(StringRef Name) {
+  return numberOf(Traps, Name);
+}

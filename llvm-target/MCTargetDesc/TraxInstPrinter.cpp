@@ -29,7 +29,9 @@ void TraxInstPrinter::printInst(const MCInst *MI, uint64_t Address, StringRef An
   printAnnotation(O, Annot);
 }
 
-void TraxInstPrinter::printRegName(raw_ostream &O, MCRegister Reg) const { O << getRegisterName(Reg); }
+void TraxInstPrinter::printRegName(raw_ostream &O, MCRegister Reg) const {
+  O << getRegisterName(Reg);
+}
 
 void TraxInstPrinter::printOperand(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &, raw_ostream &O) {
   const MCOperand &MO = MI->getOperand(OpNo);

@@ -18,8 +18,7 @@ public:
   void printRegName(raw_ostream &O, MCRegister Reg) const override;
 
   void printOperand(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
-  void printPCRelOperand(const MCInst *MI, uint64_t Address, unsigned OpNo, const MCSubtargetInfo &STI,
-                         raw_ostream &O);
+  void printPCRelOperand(const MCInst *MI, uint64_t Address, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
   void printSpecialRegister(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
   void printTrapCode(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
 

@@ -76,6 +76,8 @@ public:
 
 } // namespace
 
-MCCodeEmitter *llvm::createTraxMCCodeEmitter(const MCInstrInfo &, MCContext &Ctx) { return new TraxMCCodeEmitter(Ctx); }
+MCCodeEmitter *llvm::createTraxMCCodeEmitter(const MCInstrInfo &, MCContext &Ctx) {
+  return new TraxMCCodeEmitter(Ctx);
+}
 
 #include "TraxGenMCCodeEmitter.inc"

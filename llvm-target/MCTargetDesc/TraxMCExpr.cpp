@@ -64,4 +64,6 @@ bool TraxMCExpr::evaluateAsRelocatableImpl(MCValue &Res, const MCAssembler *Asm,
   return Res.getSymB() == nullptr || Fixup != nullptr;
 }
 
-void TraxMCExpr::visitUsedExpr(MCStreamer &Streamer) const { Streamer.visitUsedExpr(*Expr); }
+void TraxMCExpr::visitUsedExpr(MCStreamer &Streamer) const {
+  Streamer.visitUsedExpr(*Expr);
+}

@@ -73,10 +73,14 @@ public:
 
 } // namespace
 
-static MCInstrAnalysis *createTraxMCInstrAnalysis(const MCInstrInfo *Info) { return new TraxMCInstrAnalysis(Info); }
+static MCInstrAnalysis *createTraxMCInstrAnalysis(const MCInstrInfo *Info) {
+  return new TraxMCInstrAnalysis(Info);
+}
 
 /// Directives need no target streamer of our own, but AsmPrinter and parser expect one to exist.
-static MCTargetStreamer *createNullTargetStreamer(MCStreamer &S) { return new MCTargetStreamer(S); }
+static MCTargetStreamer *createNullTargetStreamer(MCStreamer &S) {
+  return new MCTargetStreamer(S);
+}
 
 void LLVMInitializeTraxTargetMC() {
   Target &T = getTheTraxTarget();

@@ -11,7 +11,9 @@ Target &llvm::getTheTraxTarget() {
   return TheTraxTarget;
 }
 
-bool llvm::isTraxTriple(const Triple &TT) { return TT.getArchName() == "trax"; }
+bool llvm::isTraxTriple(const Triple &TT) {
+  return TT.getArchName() == "trax";
+}
 
 void LLVMInitializeTraxTargetInfo() {
   RegisterTarget<Triple::UnknownArch> X(getTheTraxTarget(), "trax", "TRaX ray-tracing accelerator", "Trax");

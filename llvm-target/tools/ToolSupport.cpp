@@ -28,7 +28,9 @@ void trax::fail(const Twine &Message) {
   exit(1);
 }
 
-void trax::fail(Error E, StringRef File) { fail("'" + File + "': " + toString(std::move(E))); }
+void trax::fail(Error E, StringRef File) {
+  fail("'" + File + "': " + toString(std::move(E)));
+}
 
 void trax::writeOutput(StringRef File, StringRef Bytes) {
   Error E = writeToOutput(File, [&](raw_ostream &OS) {

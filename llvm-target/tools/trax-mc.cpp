@@ -91,12 +91,11 @@ static std::unique_ptr<MCStreamer> createStreamer(const Target &T, Machine &M, r
     if (!ShowEncoding)
       Emitter.reset();
     return std::unique_ptr<MCStreamer>(T.createAsmStreamer(*M.Ctx, std::make_unique<formatted_raw_ostream>(OS),
-                                                           M.createPrinter(T), std::move(Emitter),
-                                                           std::move(Backend)));
+                                                           M.createPrinter(T), std::move(Emitter), std::move(Backend)));
   }
   std::unique_ptr<MCObjectWriter> Writer = Backend->createObjectWriter(OS);
-  return std::unique_ptr<MCStreamer>(T.createMCObjectStreamer(
-      M.TT, *M.Ctx, std::move(Backend), std::move(Writer), std::move(Emitter), *M.STI));
+  return std::unique_ptr<MCStreamer>(
+      T.createMCObjectStreamer(M.TT, *M.Ctx, std::move(Backend), std::move(Writer), std::move(Emitter), *M.STI));
 }
 
 /// False if the source has errors, which have been reported.
@@ -138,8 +137,7 @@ static bool disassemble(const Target &T, Machine &M, raw_pwrite_stream &OS) {
   }
   for (uint64_t Index = 0, Size; Good && Index < Bytes.size(); Index += Size) {
     MCInst Inst;
-    if (Decoder->getInstruction(Inst, Size, ArrayRef(Bytes).slice(Index), Index, nulls()) ==
-        MCDisassembler::Success) {
+    if (Decoder->getInstruction(Inst, Size, ArrayRef(Bytes).slice(Index), Index, nulls()) == MCDisassembler::Success) {
       Streamer->emitInstruction(Inst, *M.STI);
       continue;
     }

@@ -102,7 +102,8 @@ Error Listing::printSymbols(raw_ostream &OS) const {
     Expected<section_iterator> Section = Symbol.getSection();
     if (!Name || !Value || !Section)
       return joinErrors(joinErrors(Name.takeError(), Value.takeError()), Section.takeError());
-    StringRef SectionName = Symbol.getFlags() && (*Symbol.getFlags() & SymbolRef::SF_Undefined) ? "*undefined*" : "*absolute*";
+    StringRef SectionName =
+        Symbol.getFlags() && (*Symbol.getFlags() & SymbolRef::SF_Undefined) ? "*undefined*" : "*absolute*";
     if (*Section != File.section_end()) {
       Expected<StringRef> Found = (*Section)->getName();
       if (!Found)
@@ -124,8 +125,8 @@ Expected<Listing::SymbolMap> Listing::symbolsOf(const SectionRef &Section) const
     Expected<uint64_t> Address = Symbol.getAddress();
     if (!Where || !Name || !Address)
       return joinErrors(joinErrors(Where.takeError(), Name.takeError()), Address.takeError());
-    if (*Where != File.section_end() && **Where == Section && !Name->empty() && Symbol.getELFType() != ELF::STT_SECTION &&
-        Symbol.getELFType() != ELF::STT_FILE)
+    if (*Where != File.section_end() && **Where == Section && !Name->empty() &&
+        Symbol.getELFType() != ELF::STT_SECTION && Symbol.getELFType() != ELF::STT_FILE)
       Symbols.emplace(*Address, Name->str());
   }
   return Symbols;

@@ -1,0 +1,141 @@
+; Loads, stores and the increment are the machine's; other operations are calls of the library.
+; RUN: %trax_llc -O2 %s -o - | FileCheck %s
+
+; CHECK-LABEL: increment:
+; CHECK: ainc r4, 0(r4)
+; CHECK: ret
+define i32 @increment(ptr %p) {
+  %r = atomicrmw add ptr %p, i32 1 seq_cst
+  ret i32 %r
+}
+; CHECK-LABEL: increment_at:
+; CHECK: ainc r4, 8(r4)
+; CHECK: ret
+define i32 @increment_at(ptr %p) {
+  %q = getelementptr i8, ptr %p, i32 8
+  %r = atomicrmw sub ptr %q, i32 -1 monotonic
+  ret i32 %r
+}
+; CHECK-LABEL: increment_local:
+; CHECK: sw r0, -4(r2)
+; CHECK: lw r4, -4(r2)
+; CHECK: addi r12, r4, 1
+; CHECK: sw r12, -4(r2)
+; CHECK: ret
+define i32 @increment_local() {
+  %p = alloca i32
+  store volatile i32 0, ptr %p
+  %r = atomicrmw add ptr %p, i32 1 monotonic
+  ret i32 %r
+}
+; CHECK-LABEL: load:
+; CHECK: lwnt r4, 0(r4)
+; CHECK: ret
+define i32 @load(ptr %p) {
+  %r = load atomic i32, ptr %p acquire, align 4
+  ret i32 %r
+}
+; CHECK-LABEL: load_byte:
+; CHECK: andi r12, r4, -4
+; CHECK: andi r13, r4, 3
+; CHECK: lwnt r12, 0(r12)
+; CHECK: slli r13, r13, 3
+; CHECK: srl r12, r12, r13
+; CHECK: andi r4, r12, 255
+; CHECK: ret
+define zeroext i8 @load_byte(ptr %p) {
+  %r = load atomic i8, ptr %p monotonic, align 1
+  ret i8 %r
+}
+; CHECK-LABEL: store:
+; CHECK: sw r5, 0(r4)
+; CHECK: ret
+define void @store(ptr %p, i32 %x) {
+  store atomic i32 %x, ptr %p seq_cst, align 4
+  fence seq_cst
+  ret void
+}
+; CHECK-LABEL: add_two:
+; CHECK: addi r2, r2, -4
+; CHECK: sw r1, 0(r2)
+; CHECK: li r5, 2
+; CHECK: li r6, 5
+; CHECK: call __atomic_fetch_add_4
+; CHECK: lw r1, 0(r2)
+; CHECK: addi r2, r2, 4
+; CHECK: ret
+define i32 @add_two(ptr %p) {
+  %r = atomicrmw add ptr %p, i32 2 seq_cst
+  ret i32 %r
+}
+; CHECK-LABEL: exchange_byte:
+; CHECK: addi r2, r2, -4
+; CHECK: sw r1, 0(r2)
+; CHECK: andi r5, r5, 255
+; CHECK: li r6, 2
+; CHECK: call __atomic_exchange_1
+; CHECK: lw r1, 0(r2)
+; CHECK: addi r2, r2, 4
+; CHECK: ret
+define zeroext i8 @exchange_byte(ptr %p, i8 %x) {
+  %r = atomicrmw xchg ptr %p, i8 %x acquire
+  ret i8 %r
+}
+; CHECK-LABEL: compare_exchange:
+; CHECK: addi r2, r2, -8
+; CHECK: sw r1, 4(r2)
+; CHECK: sw r5, 0(r2)
+; CHECK: mv r5, r2
+; CHECK: li r7, 4
+; CHECK: li r8, 0
+; CHECK: call __atomic_compare_exchange_4
+; CHECK: lw r1, 4(r2)
+; CHECK: addi r2, r2, 8
+; CHECK: ret
+define i1 @compare_exchange(ptr %p, i32 %old, i32 %new) {
+  %r = cmpxchg ptr %p, i32 %old, i32 %new acq_rel monotonic
+  %s = extractvalue { i32, i1 } %r, 1
+  ret i1 %s
+}
+; CHECK-LABEL: load_wide:
+; CHECK: addi r2, r2, -4
+; CHECK: sw r1, 0(r2)
+; CHECK: li r5, 5
+; CHECK: call __atomic_load_8
+; CHECK: lw r1, 0(r2)
+; CHECK: addi r2, r2, 4
+; CHECK: ret
+define i64 @load_wide(ptr %p) {
+  %r = load atomic i64, ptr %p seq_cst, align 8
+  ret i64 %r
+}
+; CHECK-LABEL: maximum:
+; CHECK: addi r2, r2, -16
+; CHECK: sw r1, 12(r2)
+; CHECK: sw r20, 8(r2)
+; CHECK: sw r21, 4(r2)
+; CHECK: mv r20, r4
+; CHECK: mv r21, r5
+; CHECK: lw r12, 0(r20)
+; CHECK: .LBB{{[0-9_]+}}:
+; CHECK: slt r13, r21, r12
+; CHECK: mv r6, r21
+; CHECK: mv r5, r2
+; CHECK: mv r4, r20
+; CHECK: li r7, 0
+; CHECK: li r8, 0
+; CHECK: sw r12, 0(r2)
+; CHECK: cmovnz r6, r12, r13
+; CHECK: call __atomic_compare_exchange_4
+; CHECK: lw r12, 0(r2)
+; CHECK: beqz r4, .LBB{{[0-9_]+}}
+; CHECK: lw r21, 4(r2)
+; CHECK: lw r20, 8(r2)
+; CHECK: lw r1, 12(r2)
+; CHECK: mv r4, r12
+; CHECK: addi r2, r2, 16
+; CHECK: ret
+define i32 @maximum(ptr %p, i32 %x) {
+  %r = atomicrmw max ptr %p, i32 %x monotonic
+  ret i32 %r
+}

@@ -1,0 +1,100 @@
+; 64-bit integers are two registers, the low word first.
+; RUN: %trax_llc -O2 %s -o - | FileCheck %s
+
+; CHECK-LABEL: add:
+; CHECK: add r12, r4, r6
+; CHECK: add r13, r5, r7
+; CHECK: sltu r14, r12, r4
+; CHECK: mv r4, r12
+; CHECK: add r5, r13, r14
+; CHECK: ret
+define i64 @add(i64 %a, i64 %b) {
+  %r = add i64 %a, %b
+  ret i64 %r
+}
+; CHECK-LABEL: sub:
+; CHECK: sltu r12, r4, r6
+; CHECK: sub r13, r5, r7
+; CHECK: sub r4, r4, r6
+; CHECK: sub r5, r13, r12
+; CHECK: ret
+define i64 @sub(i64 %a, i64 %b) {
+  %r = sub i64 %a, %b
+  ret i64 %r
+}
+; CHECK-LABEL: mul:
+; CHECK: mul r12, r4, r7
+; CHECK: mulhu r13, r4, r6
+; CHECK: mul r4, r4, r6
+; CHECK: add r12, r13, r12
+; CHECK: mul r13, r5, r6
+; CHECK: add r5, r12, r13
+; CHECK: ret
+define i64 @mul(i64 %a, i64 %b) {
+  %r = mul i64 %a, %b
+  ret i64 %r
+}
+; CHECK-LABEL: square:
+; CHECK: mul r12, r4, r4
+; CHECK: mulh r5, r4, r4
+; CHECK: mv r4, r12
+; CHECK: ret
+define i64 @square(i32 %a) {
+  %w = sext i32 %a to i64
+  %r = mul i64 %w, %w
+  ret i64 %r
+}
+; CHECK-LABEL: shift:
+; CHECK: slli r12, r5, 28
+; CHECK: srli r13, r4, 4
+; CHECK: srli r5, r5, 4
+; CHECK: or r4, r13, r12
+; CHECK: ret
+define i64 @shift(i64 %a) {
+  %r = lshr i64 %a, 4
+  ret i64 %r
+}
+; CHECK-LABEL: divide:
+; CHECK: addi r2, r2, -4
+; CHECK: sw r1, 0(r2)
+; CHECK: call __divdi3
+; CHECK: lw r1, 0(r2)
+; CHECK: addi r2, r2, 4
+; CHECK: ret
+define i64 @divide(i64 %a, i64 %b) {
+  %r = sdiv i64 %a, %b
+  ret i64 %r
+}
+; CHECK-LABEL: less:
+; CHECK: sltu r13, r4, r6
+; CHECK: xor r12, r5, r7
+; CHECK: slt r4, r5, r7
+; CHECK: cmovz r4, r13, r12
+; CHECK: ret
+define i32 @less(i64 %a, i64 %b) {
+  %c = icmp slt i64 %a, %b
+  %r = zext i1 %c to i32
+  ret i32 %r
+}
+; CHECK-LABEL: soft:
+; CHECK: addi r2, r2, -4
+; CHECK: sw r1, 0(r2)
+; CHECK: call __muldf3
+; CHECK: lw r1, 0(r2)
+; CHECK: addi r2, r2, 4
+; CHECK: ret
+define double @soft(double %a, double %b) {
+  %r = fmul double %a, %b
+  ret double %r
+}
+; CHECK-LABEL: narrow:
+; CHECK: addi r2, r2, -4
+; CHECK: sw r1, 0(r2)
+; CHECK: call __truncdfsf2
+; CHECK: lw r1, 0(r2)
+; CHECK: addi r2, r2, 4
+; CHECK: ret
+define float @narrow(double %a) {
+  %r = fptrunc double %a to float
+  ret float %r
+}
