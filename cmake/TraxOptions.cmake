@@ -22,5 +22,7 @@ add_library(trax_flags INTERFACE)
 target_compile_options(trax_flags INTERFACE -Wall -Wextra -ffp-contract=off $<$<BOOL:${TRAX_WERROR}>:-Werror>)
 if(TRAX_SANITIZE)
   target_compile_options(trax_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  # GCC takes a check that it inserted itself for a null pointer in clang's headers.
+  target_compile_options(trax_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-nonnull>)
   target_link_options(trax_flags INTERFACE -fsanitize=address,undefined)
 endif()
