@@ -1,0 +1,36 @@
+// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000"
+// errno and the random sequence belong to the thread. (Expected output by hand.)
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <trax.h>
+
+static const char *const texts[] = {"12", "99999999999", "-99999999999", "7"};
+static volatile int sequence[32];
+static unsigned wrong, arrived;
+
+/* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
+static unsigned now(const volatile unsigned *p) {
+  return __atomic_load_n(p, __ATOMIC_ACQUIRE);
+}
+
+int main(void) {
+  unsigned thread = trax_thread();
+  long value = strtol(texts[thread % 4], NULL, 10);
+  int range = thread % 4 == 1 || thread % 4 == 2;
+  static const long values[] = {12, 2147483647, -2147483647 - 1, 7};
+  srand(thread / 2 + 5);
+  for (int i = 0; i < 3; i++)
+    sequence[thread] = rand();
+  trax_atomic_inc(&arrived);
+  while (now(&arrived) < 32)
+    ;
+  /* All have set theirs by now. */
+  if (errno != (range ? ERANGE : 0) || value != values[thread % 4])
+    trax_atomic_inc(&wrong);
+  if ((sequence[thread] == sequence[thread ^ 1]) + (sequence[thread] != sequence[thread ^ 2]) != 2)
+    trax_atomic_inc(&wrong);
+  if (trax_atomic_inc(&arrived) == 63)
+    printf("%u\n", wrong);
+  return 0;
+}

@@ -1,0 +1,35 @@
+// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000" --status 4
+// A thread that exits ends alone: the others go on, and the run ends with the last. Its status counts before those of
+// later threads. (Expected output by hand.)
+#include <stdio.h>
+#include <stdlib.h>
+#include <trax.h>
+
+static unsigned gone;
+
+/* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
+static unsigned now(const volatile unsigned *p) {
+  return __atomic_load_n(p, __ATOMIC_ACQUIRE);
+}
+
+__attribute__((noinline)) static void deep(int n) {
+  if (n == 0) {
+    trax_atomic_inc(&gone);
+    exit(4);
+  }
+  deep(n - 1);
+  puts("not reached");
+}
+
+int main(void) {
+  unsigned thread = trax_thread();
+  if (thread == 0)
+    return 0;
+  if (thread == 1)
+    deep(4);
+  while (now(&gone) == 0)
+    ;
+  if (thread == 31)
+    puts("still here");
+  return (int)thread;
+}
