@@ -7,8 +7,7 @@
 enum { WORDS = 10 };
 static uint32_t number[WORDS], scratch[WORDS];
 
-__attribute__((noinline)) static uint32_t multiply(uint32_t *n, uint32_t by,
-                                                   uint32_t carry) {
+__attribute__((noinline)) static uint32_t multiply(uint32_t *n, uint32_t by, uint32_t carry) {
   for (int i = 0; i < WORDS; i++) {
     uint64_t t = (uint64_t)n[i] * by + carry;
     n[i] = (uint32_t)t;
@@ -51,8 +50,7 @@ __attribute__((noinline)) static void decimal(const uint32_t *n) {
   puts(p);
 }
 
-__attribute__((noinline)) static void
-pi(int digits) { /* Rabinowitz and Wagon's spigot */
+__attribute__((noinline)) static void pi(int digits) { /* Rabinowitz and Wagon's spigot */
   static uint16_t rest[80];
   int length = digits * 10 / 3 + 1, held = 0, nines = 0;
   for (int i = 0; i < length; i++)

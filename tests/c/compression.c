@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t --levels -O0,-O1,-O3,-Os
-// Compression there and back: copies from a window, run lengths, a Huffman
-// code; the tables in global memory.
+// Compression there and back: copies from a window, run lengths, a Huffman code; the tables in global memory.
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -91,15 +90,13 @@ int main(void) {
   uint32_t x = 99;
   for (int i = 0; i < SIZE; i++) {
     x = x * 69069 + 1;
-    plain[i] = (uint8_t)(x >> 29 == 0 ? (x >> 20) % 10 + 'a'
-                                      : words[i % (sizeof words - 1)]);
+    plain[i] = (uint8_t)(x >> 29 == 0 ? (x >> 20) % 10 + 'a' : words[i % (sizeof words - 1)]);
   }
   int size = compress(), length = expand(size);
   uint32_t hash = 0;
   for (int i = 0; i < size; i++)
     hash = hash * 31 + packed[i];
-  printf("%d %08x %d %d\n", size, (unsigned)hash, length,
-         memcmp(plain, again, SIZE));
+  printf("%d %08x %d %d\n", size, (unsigned)hash, length, memcmp(plain, again, SIZE));
   printf("%d\n", huffman());
   return 0;
 }

@@ -1,16 +1,12 @@
 // RUN: %run_c %s %t
-// binary64 in software where it is delicate: ties, subnormals, overflow,
-// cancellation, NaN, infinities, signed zeros.
+// binary64 in software where it is delicate: ties, subnormals, overflow, cancellation, NaN, infinities, signed zeros.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static volatile double values[] = {0x1p-1074, 0x1.fffffffffffffp-1023,
-                                   0x1p-1022, 0x1.8p-1022,
-                                   1.0,       0x1.0000000000001p0,
-                                   0x1p53,    0x1.fffffffffffffp1023,
-                                   -0.0,      INFINITY,
-                                   -INFINITY, NAN};
+static volatile double values[] = {
+    0x1p-1074, 0x1.fffffffffffffp-1023, 0x1p-1022, 0x1.8p-1022, 1.0,       0x1.0000000000001p0,
+    0x1p53,    0x1.fffffffffffffp1023,  -0.0,      INFINITY,    -INFINITY, NAN};
 enum { COUNT = sizeof values / sizeof values[0] };
 
 __attribute__((noinline)) static void show(double x) {
@@ -24,8 +20,7 @@ __attribute__((noinline)) static void pair(double a, double b) {
   show(a - b);
   show(a * b);
   show(a / b);
-  printf("%d%d%d%d%d\n", a < b, a <= b, a == b, isunordered(a, b),
-         islessgreater(a, b));
+  printf("%d%d%d%d%d\n", a < b, a <= b, a == b, isunordered(a, b), islessgreater(a, b));
 }
 
 __attribute__((noinline)) static void ties(void) {
@@ -48,8 +43,7 @@ __attribute__((noinline)) static void ties(void) {
   puts("");
 }
 
-__attribute__((noinline)) static void
-series(void) { /* long chains, in which one wrong rounding would show */
+__attribute__((noinline)) static void series(void) { /* long chains, in which one wrong rounding would show */
   double e = 1, term = 1, root = 2, chaos = 0.3;
   for (int i = 1; i < 20; i++)
     e += term /= i;

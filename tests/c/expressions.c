@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t
-// A parser of expressions by precedence climbing, its recursion within 512
-// bytes of stack, and the postfix code it emits.
+// A parser of expressions by precedence climbing, its recursion within 512 bytes of stack, and the postfix code it
+// emits.
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t --levels -O0,-O2,-Os
-// Fixed point: products and quotients by 64 bits, sine and cosine by shifts
-// (CORDIC), saturation, half floats.
+// Fixed point: products and quotients by 64 bits, sine and cosine by shifts (CORDIC), saturation, half floats.
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,12 +16,9 @@ __attribute__((noinline)) static int16_t saturate(int32_t x) {
   return (int16_t)(x > 32767 ? 32767 : x < -32768 ? -32768 : x);
 }
 
-static const int32_t angles[16] = {51472, 30386, 16055, 8150, 4091, 2047,
-                                   1024,  512,   256,   128,  64,   32,
-                                   16,    8,     4,     2};
+static const int32_t angles[16] = {51472, 30386, 16055, 8150, 4091, 2047, 1024, 512, 256, 128, 64, 32, 16, 8, 4, 2};
 
-__attribute__((noinline)) static void rotate(fixed angle, fixed *cosine,
-                                             fixed *sine) {
+__attribute__((noinline)) static void rotate(fixed angle, fixed *cosine, fixed *sine) {
   int32_t x = 39797, y = 0;
   for (int i = 0; i < 16; i++) {
     int32_t dx = x >> i, dy = y >> i;
@@ -35,8 +31,7 @@ __attribute__((noinline)) static void rotate(fixed angle, fixed *cosine,
   *sine = y;
 }
 
-__attribute__((noinline)) static uint16_t
-to_half(float f) { /* round to nearest even */
+__attribute__((noinline)) static uint16_t to_half(float f) { /* round to nearest even */
   uint32_t u;
   memcpy(&u, &f, 4);
   uint32_t sign = u >> 16 & 0x8000, a = u & 0x7FFFFFFF;
@@ -53,22 +48,18 @@ to_half(float f) { /* round to nearest even */
     a = 0;
   } else
     m += a - (112u << 23) - m;
-  uint32_t h = m >> shift, rest = m & ((1u << shift) - 1),
-           tie = 1u << (shift - 1);
+  uint32_t h = m >> shift, rest = m & ((1u << shift) - 1), tie = 1u << (shift - 1);
   h += rest > tie || (rest == tie && h & 1);
   return (uint16_t)(sign | h);
 }
 
 int main(void) {
-  static volatile float floats[] = {
-      0,     1,       -2.5f,       65504, 65520,
-      1e-7f, 6.1e-5f, 0.33333334f, 1e30f, 5.9604645e-8f};
+  static volatile float floats[] = {0, 1, -2.5f, 65504, 65520, 1e-7f, 6.1e-5f, 0.33333334f, 1e30f, 5.9604645e-8f};
   for (fixed a = -90000; a <= 90000; a += 45000) {
     fixed c, s;
     rotate(a, &c, &s);
     printf("%d %d %d ", c, s, multiply(c, c) + multiply(s, s));
-    printf("%d %d %d\n", divide(a + 1, 3 << 16), divide(1 << 16, a + 7),
-           saturate(a));
+    printf("%d %d %d\n", divide(a + 1, 3 << 16), divide(1 << 16, a + 7), saturate(a));
   }
   for (unsigned i = 0; i < sizeof floats / sizeof floats[0]; i++)
     printf("%04x ", to_half(floats[i]));

@@ -1,18 +1,13 @@
 // RUN: %run_c %s %t
-// binary32 rounding: ties to even, sticky bits, gradual underflow, overflow,
-// wide integers to floats and back.
+// binary32 rounding: ties to even, sticky bits, gradual underflow, overflow, wide integers to floats and back.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static volatile float one = 1, least = 0x1p-149f, normal = 0x1p-126f,
-                      most = 0x1.fffffep127f, half_ulp = 0x1p-24f;
-static volatile long long integers[] = {16777217,           16777219,
-                                        33554433,           0x7FFFFF4000000000,
-                                        0x7FFFFFC000000000, 0x7FFFFFFFFFFFFFFF,
-                                        -16777217,          -0x7FFFFFBFFFFFFFFF,
-                                        0x4000004000000000, 0x4000004000000001,
-                                        0x400000C000000000};
+static volatile float one = 1, least = 0x1p-149f, normal = 0x1p-126f, most = 0x1.fffffep127f, half_ulp = 0x1p-24f;
+static volatile long long integers[] = {16777217,           16777219,           33554433,          0x7FFFFF4000000000,
+                                        0x7FFFFFC000000000, 0x7FFFFFFFFFFFFFFF, -16777217,         -0x7FFFFFBFFFFFFFFF,
+                                        0x4000004000000000, 0x4000004000000001, 0x400000C000000000};
 
 __attribute__((noinline)) static void show(float x) {
   unsigned u;

@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t
-// A fast Fourier transform of 64 points in binary32, there and back, to the
-// bit.
+// A fast Fourier transform of 64 points in binary32, there and back, to the bit.
 #include <stdio.h>
 #include <string.h>
 
@@ -16,8 +15,7 @@ __attribute__((noinline)) static unsigned bits(float x) {
 /* By the angle's sum from one accurate step: every library has these, only not
  * to the same bit. */
 __attribute__((noinline)) static void twiddles(void) {
-  const float c = 0x1.fd88dap-1f,
-              s = 0x1.917a6cp-4f; /* cos and sin of 2 pi / 64 */
+  const float c = 0x1.fd88dap-1f, s = 0x1.917a6cp-4f; /* cos and sin of 2 pi / 64 */
   float x = 1, y = 0;
   for (int i = 0; i < N / 2; i++) {
     cosine[i] = x;
@@ -50,8 +48,7 @@ __attribute__((noinline)) static void transform(float direction) {
       for (int k = 0; k < half; k++) {
         int a = start + k, b = a + half, w = k * (N / 2 / half);
         float s = sine[w] * direction;
-        float x = re[b] * cosine[w] - im[b] * s,
-              y = re[b] * s + im[b] * cosine[w];
+        float x = re[b] * cosine[w] - im[b] * s, y = re[b] * s + im[b] * cosine[w];
         re[b] = re[a] - x, im[b] = im[a] - y;
         re[a] += x, im[a] += y;
       }
@@ -74,7 +71,6 @@ int main(void) {
     printf("%08x %08x\n", bits(re[i * 5]), bits(im[i * 5]));
   printf("%08x %08x\n", hash(re), hash(im));
   transform(-1);
-  printf("%08x %08x %d\n", hash(re), hash(im),
-         re[5] / N - first < 1e-4f && re[5] / N - first > -1e-4f);
+  printf("%08x %08x %d\n", hash(re), hash(im), re[5] / N - first < 1e-4f && re[5] / N - first > -1e-4f);
   return 0;
 }

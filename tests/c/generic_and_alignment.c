@@ -1,11 +1,10 @@
 // RUN: %run_c %s %t
-// C11: _Generic, _Static_assert, _Alignas and _Alignof, anonymous members;
-// typeof and statement expressions.
+// C11: _Generic, _Static_assert, _Alignas and _Alignof, anonymous members; typeof and statement expressions.
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
-#define NAME(x)                                                                \
+#define NAME(x)                                                                                                        \
   _Generic((x),                                                                                                        \
       char: "char",                                                                                                    \
       signed char: "signed char",                                                                                      \
@@ -22,9 +21,7 @@
       int (*)(int): "function",                                                                                        \
       default: "other")
 
-_Static_assert(sizeof(char) == 1 && sizeof(short) == 2 && sizeof(int) == 4 &&
-                   sizeof(long long) == 8,
-               "sizes");
+_Static_assert(sizeof(char) == 1 && sizeof(short) == 2 && sizeof(int) == 4 && sizeof(long long) == 8, "sizes");
 _Static_assert(sizeof(float) == 4 && sizeof(double) == 8, "floats");
 _Static_assert((char)-1 < 0, "char is signed");
 _Static_assert(-7 / 2 == -3 && -7 % 2 == -1 && -8 >> 1 == -4, "truncation");
@@ -37,17 +34,18 @@ static struct {
   _Alignas(32) short s;
 } padded[2] = {{1, 2}, {3, 4}};
 
-static int identity(int x) { return x; }
+static int identity(int x) {
+  return x;
+}
 
-__attribute__((noinline)) static int aligned(const volatile void *p,
-                                             unsigned to) {
+__attribute__((noinline)) static int aligned(const volatile void *p, unsigned to) {
   return (uintptr_t)p % to == 0;
 }
 
-#define MAXIMUM(a, b)                                                          \
-  ({                                                                           \
-    __typeof__(a) x_ = (a), y_ = (b);                                          \
-    x_ > y_ ? x_ : y_;                                                         \
+#define MAXIMUM(a, b)                                                                                                  \
+  ({                                                                                                                   \
+    __typeof__(a) x_ = (a), y_ = (b);                                                                                  \
+    x_ > y_ ? x_ : y_;                                                                                                 \
   })
 
 __attribute__((noinline)) static void names(void) {
@@ -55,17 +53,14 @@ __attribute__((noinline)) static void names(void) {
   short s = 1;
   unsigned char u = 1;
   printf("%s, %s, %s, %s\n", NAME(c), NAME(s), NAME(u), NAME('c'));
-  printf("%s, %s, %s, %s\n", NAME(c + c), NAME(s * 1u), NAME(s * 1ll),
-         NAME(u ? 1.0f : s));
-  printf("%s, %s, %s, %s\n", NAME(1.0f * 2), NAME(1.0f * 2.0), NAME(&c),
-         NAME((const char *)"x"));
+  printf("%s, %s, %s, %s\n", NAME(c + c), NAME(s * 1u), NAME(s * 1ll), NAME(u ? 1.0f : s));
+  printf("%s, %s, %s, %s\n", NAME(1.0f * 2), NAME(1.0f * 2.0), NAME(&c), NAME((const char *)"x"));
   printf("%s, %s, %s\n", NAME(identity), NAME(&quad), NAME(1ull << 3));
 }
 
 int main(void) {
   names();
-  printf("%d%d%d%d\n", aligned(line, 64), aligned(&quad, 16),
-         aligned(&padded[1].s, 32), aligned(padded, 32));
+  printf("%d%d%d%d\n", aligned(line, 64), aligned(&quad, 16), aligned(&padded[1].s, 32), aligned(padded, 32));
   printf("%d %d %d\n", (int)sizeof padded, (int)_Alignof(int),
          (int)(offsetof(
              struct {
@@ -73,7 +68,6 @@ int main(void) {
                short s;
              },
              s)));
-  printf("%d %d %d %d\n", quad + odd, padded[1].s, MAXIMUM(3, -4),
-         MAXIMUM(identity(2), 7));
+  printf("%d %d %d %d\n", quad + odd, padded[1].s, MAXIMUM(3, -4), MAXIMUM(identity(2), 7));
   return 0;
 }

@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t --levels -O0,-O2,-Os
-// Graphs and tables: shortest paths with a binary heap, union and find, a
-// knapsack, a common subsequence, strong components.
+// Graphs and tables: shortest paths with a binary heap, union and find, a knapsack, a common subsequence, strong
+// components.
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,8 +11,7 @@ static struct edge {
   uint16_t length;
 } edges[EDGES];
 static int16_t distance[NODES], heap[EDGES + 1][2];
-static int8_t parent[NODES], low[NODES], number[NODES], stacked[NODES],
-    stack[NODES];
+static int8_t parent[NODES], low[NODES], number[NODES], stacked[NODES], stack[NODES];
 static int count, visited, components, top;
 
 static void push(int d, int node) {
@@ -110,9 +109,7 @@ __attribute__((noinline)) static int common(const char *a, const char *b) {
   for (int i = 1; i <= n; i++)
     for (int j = 1; j <= m; j++) {
       uint8_t up = table[i - 1][j], left = table[i][j - 1];
-      table[i][j] = a[i - 1] == b[j - 1] ? (uint8_t)(table[i - 1][j - 1] + 1)
-                    : up > left          ? up
-                                         : left;
+      table[i][j] = a[i - 1] == b[j - 1] ? (uint8_t)(table[i - 1][j - 1] + 1) : up > left ? up : left;
     }
   return table[n][m];
 }
@@ -121,9 +118,7 @@ int main(void) {
   unsigned x = 5;
   for (int i = 0; i < EDGES; i++) {
     x = x * 1664525 + 1013904223;
-    edges[i] =
-        (struct edge){(uint8_t)((x >> 8) % NODES), (uint8_t)((x >> 16) % NODES),
-                      (uint16_t)((x >> 24) % 90 + 1)};
+    edges[i] = (struct edge){(uint8_t)((x >> 8) % NODES), (uint8_t)((x >> 16) % NODES), (uint16_t)((x >> 24) % 90 + 1)};
   }
   shortest(3);
   for (int i = 0; i < NODES; i++)

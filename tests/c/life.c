@@ -6,18 +6,18 @@
 enum { ROWS = 16 };
 static uint64_t board[2][ROWS + 2];
 
-static uint64_t rotate(uint64_t x, int n) { return x << n | x >> (64 - n); }
+static uint64_t rotate(uint64_t x, int n) {
+  return x << n | x >> (64 - n);
+}
 
-__attribute__((noinline)) static void generation(const uint64_t *from,
-                                                 uint64_t *to) {
+__attribute__((noinline)) static void generation(const uint64_t *from, uint64_t *to) {
   for (int row = 1; row <= ROWS; row++) {
     uint64_t ones = 0, twos = 0, fours = 0;
     for (int d = -1; d <= 1; d++)
       for (int shift = 63; shift <= 65; shift++) {
         if (d == 0 && shift == 64)
           continue;
-        uint64_t x =
-            shift == 64 ? from[row + d] : rotate(from[row + d], shift % 64);
+        uint64_t x = shift == 64 ? from[row + d] : rotate(from[row + d], shift % 64);
         uint64_t carry = ones & x;
         ones ^= x;
         fours |= twos & carry;
@@ -29,7 +29,9 @@ __attribute__((noinline)) static void generation(const uint64_t *from,
   to[ROWS + 1] = to[1];
 }
 
-static void set(int x, int y) { board[0][y + 1] |= 1ull << x; }
+static void set(int x, int y) {
+  board[0][y + 1] |= 1ull << x;
+}
 
 int main(void) {
   static const char *const acorn[] = {".o.....", "...o...", "oo..ooo"};

@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t
-// Designated initialisers, compound literals, flexible array members, strings
-// with escapes, and what they leave zero.
+// Designated initialisers, compound literals, flexible array members, strings with escapes, and what they leave zero.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,13 +14,10 @@ struct packet {
 };
 
 enum { RED = 2, GREEN, BLUE = -5, ALPHA, COUNT = 8 };
-static const char *const colours[COUNT] = {[RED] = "red",
-                                           [GREEN] = "green",
-                                           [BLUE + 10] = "blue",
-                                           [ALPHA + 10] = "alpha"};
+static const char *const colours[COUNT] = {
+    [RED] = "red", [GREEN] = "green", [BLUE + 10] = "blue", [ALPHA + 10] = "alpha"};
 static int matrix[3][4] = {[1] = {[2] = 7, 8}, [0][1] = 5, [2][0] = 1};
-static const struct node *list =
-    &(struct node){1, &(struct node){2, &(struct node){3, NULL}}};
+static const struct node *list = &(struct node){1, &(struct node){2, &(struct node){3, NULL}}};
 static unsigned char pixel[][3] = {{1, 2, 3}, {4}, [3] = {5, 6, 7}};
 static const char escapes[] = "\x41\102\t\\\"\?\0after";
 static const unsigned short wide[] = u"z\u00e9\u4e2d";
@@ -37,8 +33,7 @@ __attribute__((noinline)) static int total(struct node n) {
 }
 
 __attribute__((noinline)) static void literals(int x) {
-  printf("%d %d\n", sum((int[]){x, x + 1, x + 2}, 3),
-         sum((int[5]){[1] = x, [4] = 9}, 5));
+  printf("%d %d\n", sum((int[]){x, x + 1, x + 2}, 3), sum((int[5]){[1] = x, [4] = 9}, 5));
   int *p = (int[]){x, 4};
   for (int i = 0; i < 3; i++) {
     int *q = &(int){i}; /* one object, initialised anew in each round */
@@ -63,8 +58,7 @@ int main(void) {
   for (int i = 0; i < 12; i++)
     printf("%d", matrix[i / 4][i % 4]);
   printf(" %d %d %d\n", (int)sizeof pixel, pixel[1][1], pixel[3][2]);
-  printf("%s %d %s %x %x %d\n", escapes, (int)sizeof escapes, escapes + 8,
-         wide[1], wide[2], (int)sizeof wide);
+  printf("%s %d %s %x %x %d\n", escapes, (int)sizeof escapes, escapes + 8, wide[1], wide[2], (int)sizeof wide);
   literals(3);
   struct packet *p = make(7);
   printf("%d %d %d %d\n", p->kind, p->length, p->payload[6], (int)sizeof *p);

@@ -1,12 +1,11 @@
 // RUN: %run_c %s %t
-// Control flow: nested loops, continue, break out of two, goto into and out of
-// blocks, loops without end, Duff's device.
+// Control flow: nested loops, continue, break out of two, goto into and out of blocks, loops without end, Duff's
+// device.
 #include <stdio.h>
 
 static unsigned char from[23], to[23];
 
-__attribute__((noinline)) static void copy(unsigned char *d,
-                                           const unsigned char *s, int n) {
+__attribute__((noinline)) static void copy(unsigned char *d, const unsigned char *s, int n) {
   int rounds = (n + 7) / 8;
   switch (n % 8) {
   case 0:
@@ -104,8 +103,7 @@ __attribute__((noinline)) static int descending(void) {
   unsigned hash = 0;
   for (unsigned char i = 255; i != 250; i++, i -= 2)
     hash = hash * 3 + i;
-  for (signed char c = -128; c < 127;
-       c = (signed char)(c + 17 > 127 ? 127 : c + 17))
+  for (signed char c = -128; c < 127; c = (signed char)(c + 17 > 127 ? 127 : c + 17))
     hash = hash * 3 + (unsigned)c;
   for (unsigned long long l = 1ull << 40; l; l >>= 9)
     hash ^= (unsigned)(l >> 4);

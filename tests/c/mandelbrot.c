@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t --levels -O0,-O1,-O3,-Oz
-// The Mandelbrot set in characters: in binary32, and in fixed point with 64-bit
-// products.
+// The Mandelbrot set in characters: in binary32, and in fixed point with 64-bit products.
 #include <stdint.h>
 #include <stdio.h>
 
@@ -36,8 +35,7 @@ int main(void) {
     for (int i = 0; i < 32; i++) {
       int n = floating(-2 + (float)i * 0.09375f, -1.125f + (float)j * 0.28125f);
       putchar(" .:-=+*#%@"[n / 3 > 9 ? 9 : n / 3]);
-      differing +=
-          n != fixed((-64 + i * 3) * (1 << 19), (-36 + j * 9) * (1 << 19));
+      differing += n != fixed((-64 + i * 3) * (1 << 19), (-36 + j * 9) * (1 << 19));
     }
     putchar('\n');
   }

@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t
-// Bodies under gravity in binary32, to the bit; sqrtf and division are
-// correctly rounded, so the orbits agree with any machine's.
+// Bodies under gravity in binary32, to the bit; sqrtf and division are correctly rounded, so the orbits agree with any
+// machine's.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

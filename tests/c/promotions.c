@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t
-// Integer promotions, the usual arithmetic conversions, order of evaluation
-// where C fixes it, and _Bool.
+// Integer promotions, the usual arithmetic conversions, order of evaluation where C fixes it, and _Bool.
 #include <stdio.h>
 
 static volatile signed char sc = -1;
@@ -13,10 +12,8 @@ static volatile long long sl = -1;
 static volatile unsigned long long ul = 1;
 
 __attribute__((noinline)) static void comparisons(void) {
-  printf("%d %d %d %d %d\n", si < (int)ui, (unsigned)si < ui, sc<uc, us> ss,
-         sl < (long long)ui);
-  printf("%d %d %d\n", (unsigned long long)sl > ul, (unsigned char)~uc == 55,
-         ~uc == 55);
+  printf("%d %d %d %d %d\n", si < (int)ui, (unsigned)si < ui, sc<uc, us> ss, sl < (long long)ui);
+  printf("%d %d %d\n", (unsigned long long)sl > ul, (unsigned char)~uc == 55, ~uc == 55);
 }
 
 __attribute__((noinline)) static void sums(void) {
@@ -55,8 +52,7 @@ __attribute__((noinline)) static void booleans(void) {
   volatile double tiny = 1e-300;
   volatile unsigned high = 0x100;
   int *volatile where = &calls;
-  _Bool a = half, b = zero, c = high, d = tiny, e = (_Bool)where,
-        f = (_Bool)0.1;
+  _Bool a = half, b = zero, c = high, d = tiny, e = (_Bool)where, f = (_Bool)0.1;
   printf("%d%d%d%d%d%d\n", a, b, c, d, e, f);
   a += 5;
   b |= a;

@@ -2,13 +2,11 @@
 // Queens on a board: by bits with recursion, and with an explicit stack.
 #include <stdio.h>
 
-__attribute__((noinline)) static int place(unsigned free, unsigned left,
-                                           unsigned right, unsigned all) {
+__attribute__((noinline)) static int place(unsigned free, unsigned left, unsigned right, unsigned all) {
   int found = free == 0;
   for (unsigned open = free & ~(left | right); open; open &= open - 1) {
     unsigned bit = open & -open;
-    found +=
-        place(free ^ bit, (left | bit) << 1 & all, (right | bit) >> 1, all);
+    found += place(free ^ bit, (left | bit) << 1 & all, (right | bit) >> 1, all);
   }
   return found;
 }

@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t --levels -O0,-O2,-Oz
-// Generators: PCG, xorshift, Mersenne Twister, a linear congruence modulo a
-// prime, floats from bits, a shuffle.
+// Generators: PCG, xorshift, Mersenne Twister, a linear congruence modulo a prime, floats from bits, a shuffle.
 #include <stdint.h>
 #include <stdio.h>
 
@@ -31,8 +30,7 @@ static int used = 624;
 __attribute__((noinline)) static uint32_t mersenne(void) {
   if (used == 624) {
     for (int i = 0; i < 624; i++) {
-      uint32_t y =
-          (twister[i] & 0x80000000) | (twister[(i + 1) % 624] & 0x7FFFFFFF);
+      uint32_t y = (twister[i] & 0x80000000) | (twister[(i + 1) % 624] & 0x7FFFFFFF);
       twister[i] = twister[(i + 397) % 624] ^ y >> 1 ^ (y & 1 ? 0x9908B0DF : 0);
     }
     used = 0;
@@ -50,8 +48,7 @@ __attribute__((noinline)) static float uniform(void) {
 
 int main(void) {
   for (int i = 0; i < 5; i++)
-    printf("%08x %016llx %u\n", (unsigned)pcg(), (unsigned long long)xorshift(),
-           (unsigned)standard());
+    printf("%08x %016llx %u\n", (unsigned)pcg(), (unsigned long long)xorshift(), (unsigned)standard());
   twister[0] = 5489;
   for (uint32_t i = 1; i < 624; i++)
     twister[i] = 1812433253 * (twister[i - 1] ^ twister[i - 1] >> 30) + i;

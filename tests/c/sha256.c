@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t
-// SHA-256 (FIPS 180-4): rotations, additions modulo 2^32, a schedule in a ring;
-// its published digests.
+// SHA-256 (FIPS 180-4): rotations, additions modulo 2^32, a schedule in a ring; its published digests.
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,15 +7,15 @@
 static uint32_t round_constants[64];
 static uint32_t state[8], schedule[16];
 
-static uint32_t rotate(uint32_t x, int n) { return x >> n | x << (32 - n); }
+static uint32_t rotate(uint32_t x, int n) {
+  return x >> n | x << (32 - n);
+}
 
 /* The first 32 bits of the fraction of the root of a prime, by bisection on
  * integers. */
-__attribute__((noinline)) static uint32_t fraction_of_root(uint32_t prime,
-                                                           int degree) {
+__attribute__((noinline)) static uint32_t fraction_of_root(uint32_t prime, int degree) {
   uint32_t whole = 1;
-  while ((degree == 2 ? (whole + 1) * (whole + 1)
-                      : (whole + 1) * (whole + 1) * (whole + 1)) <= prime)
+  while ((degree == 2 ? (whole + 1) * (whole + 1) : (whole + 1) * (whole + 1) * (whole + 1)) <= prime)
     whole++;
   uint32_t fraction = 0;
   for (uint32_t bit = 0x80000000u; bit; bit >>= 1) {
@@ -31,12 +30,9 @@ __attribute__((noinline)) static uint32_t fraction_of_root(uint32_t prime,
     high += middle >> 32;
     middle &= 0xFFFFFFFFu;
     if (degree == 3) { /* (high, middle, rest) * (whole, x) */
-      uint64_t a = (uint64_t)rest * x, b = middle * x, c = high * x,
-               d = (uint64_t)rest * whole, e = middle * whole;
-      uint64_t t =
-          (a >> 32) + (b & 0xFFFFFFFFu) + (d & 0xFFFFFFFFu); /* 2^-64 */
-      t = (t >> 32) + (b >> 32) + (d >> 32) + (c & 0xFFFFFFFFu) +
-          (e & 0xFFFFFFFFu); /* 2^-32 */
+      uint64_t a = (uint64_t)rest * x, b = middle * x, c = high * x, d = (uint64_t)rest * whole, e = middle * whole;
+      uint64_t t = (a >> 32) + (b & 0xFFFFFFFFu) + (d & 0xFFFFFFFFu);                /* 2^-64 */
+      t = (t >> 32) + (b >> 32) + (d >> 32) + (c & 0xFFFFFFFFu) + (e & 0xFFFFFFFFu); /* 2^-32 */
       high = (t >> 32) + (c >> 32) + (e >> 32) + high * whole;
     }
     if (high < prime)
@@ -67,13 +63,11 @@ __attribute__((noinline)) static void compress(void) {
     uint32_t *w = &schedule[i & 15];
     if (i >= 16) {
       uint32_t x = schedule[(i + 1) & 15], y = schedule[(i + 14) & 15];
-      *w += (rotate(x, 7) ^ rotate(x, 18) ^ x >> 3) + schedule[(i + 9) & 15] +
-            (rotate(y, 17) ^ rotate(y, 19) ^ y >> 10);
+      *w +=
+          (rotate(x, 7) ^ rotate(x, 18) ^ x >> 3) + schedule[(i + 9) & 15] + (rotate(y, 17) ^ rotate(y, 19) ^ y >> 10);
     }
-    uint32_t t = h + (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) +
-                 ((e & f) ^ (~e & g)) + round_constants[i] + *w;
-    uint32_t u = (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) +
-                 ((a & b) ^ (a & c) ^ (b & c));
+    uint32_t t = h + (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) + ((e & f) ^ (~e & g)) + round_constants[i] + *w;
+    uint32_t u = (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
     h = g, g = f, f = e, e = d + t, d = c, c = b, b = a, a = t + u;
   }
   state[0] += a, state[1] += b, state[2] += c, state[3] += d;
@@ -88,9 +82,7 @@ __attribute__((noinline)) static void digest(const char *text) {
     memset(schedule, 0, sizeof schedule);
     for (size_t i = 0; i < 64; i++) {
       size_t at = block * 64 + i;
-      uint32_t byte = at < length    ? (unsigned char)text[at]
-                      : at == length ? 0x80
-                                     : 0;
+      uint32_t byte = at < length ? (unsigned char)text[at] : at == length ? 0x80 : 0;
       schedule[i / 4] |= byte << (24 - i % 4 * 8);
     }
     if (block == blocks - 1)
@@ -105,8 +97,7 @@ __attribute__((noinline)) static void digest(const char *text) {
 
 int main(void) {
   initialise();
-  printf("%08x %08x %08x\n", (unsigned)state[7], (unsigned)round_constants[0],
-         (unsigned)round_constants[63]);
+  printf("%08x %08x %08x\n", (unsigned)state[7], (unsigned)round_constants[0], (unsigned)round_constants[63]);
   digest("");
   digest("abc");
   digest("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq");

@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t
-// Sorting written out: heap, shell, merge on a list, quick with an explicit
-// stack, radix on floats.
+// Sorting written out: heap, shell, merge on a list, quick with an explicit stack, radix on floats.
 #include <stdio.h>
 #include <string.h>
 
@@ -90,8 +89,7 @@ __attribute__((noinline)) static void quick_sort(void) {
         stack[top++] = (unsigned char)low, stack[top++] = (unsigned char)j;
         low = j + 1;
       } else {
-        stack[top++] = (unsigned char)(j + 1),
-        stack[top++] = (unsigned char)high;
+        stack[top++] = (unsigned char)(j + 1), stack[top++] = (unsigned char)high;
         high = j;
       }
     }
@@ -108,8 +106,7 @@ static struct item *merge(struct item *a, struct item *b) {
   last->next = a ? a : b;
   return head.next;
 }
-__attribute__((noinline)) static struct item *merge_sort(struct item *list,
-                                                         int n) {
+__attribute__((noinline)) static struct item *merge_sort(struct item *list, int n) {
   if (n == 1) {
     list->next = NULL;
     return list;
@@ -157,8 +154,7 @@ int main(void) {
   check("quick");
   int bad = 0;
   for (struct item *i = merge_sort(items, N); i->next; i = i->next)
-    bad += i->key > i->next->key ||
-           (i->key == i->next->key && i->order > i->next->order);
+    bad += i->key > i->next->key || (i->key == i->next->key && i->order > i->next->order);
   radix_sort();
   for (int i = 1; i < N; i++)
     bad += floats[i - 1] > floats[i];

@@ -1,13 +1,14 @@
 // RUN: %run_c %s %t --levels -O0,-O2,-Os
-// String functions at their edges: nothing, one byte, bytes above 127, every
-// alignment, sizes that stop them, overlaps.
+// String functions at their edges: nothing, one byte, bytes above 127, every alignment, sizes that stop them, overlaps.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static char buffer[80], other[80];
 
-static int sign(int x) { return (x > 0) - (x < 0); }
+static int sign(int x) {
+  return (x > 0) - (x < 0);
+}
 
 __attribute__((noinline)) static void lengths(void) {
   unsigned hash = 0;
@@ -17,19 +18,15 @@ __attribute__((noinline)) static void lengths(void) {
       buffer[at + n] = 0;
       hash = hash * 7 + (unsigned)strlen(buffer + at);
       hash = hash * 7 + (unsigned)strnlen(buffer + at, 6);
-      hash = hash * 7 + (memchr(buffer + at, 0, n) == NULL) +
-             2 * (memchr(buffer + at, 0, n + 1) == buffer + at + n);
+      hash = hash * 7 + (memchr(buffer + at, 0, n) == NULL) + 2 * (memchr(buffer + at, 0, n + 1) == buffer + at + n);
       strcpy(other + 3, buffer + at);
-      hash = hash * 7 + (unsigned)(strcmp(other + 3, buffer + at) == 0 &&
-                                   other[3 + n] == 0);
+      hash = hash * 7 + (unsigned)(strcmp(other + 3, buffer + at) == 0 && other[3 + n] == 0);
     }
   printf("%u\n", hash);
 }
 
-__attribute__((noinline)) static void comparisons(const char *a,
-                                                  const char *b) {
-  printf("%d %d %d %d\n", sign(strcmp(a, b)), sign(strncmp(a, b, 2)),
-         sign(strncmp(a, b, 0)), sign(memcmp(a, b, 1)));
+__attribute__((noinline)) static void comparisons(const char *a, const char *b) {
+  printf("%d %d %d %d\n", sign(strcmp(a, b)), sign(strncmp(a, b, 2)), sign(strncmp(a, b, 0)), sign(memcmp(a, b, 1)));
 }
 
 __attribute__((noinline)) static void bounded(void) {
@@ -48,11 +45,10 @@ __attribute__((noinline)) static void bounded(void) {
 __attribute__((noinline)) static void searches(void) {
   strcpy(buffer, "a\x80"
                  "bcbcbd\xff");
-  printf("%d %d %d\n", (int)(strchr(buffer, '\x80') - buffer),
-         (int)(strrchr(buffer, 'b') - buffer),
+  printf("%d %d %d\n", (int)(strchr(buffer, '\x80') - buffer), (int)(strrchr(buffer, 'b') - buffer),
          (int)(strchr(buffer, 0) - buffer));
-  printf("%d %d %d\n", (int)(strstr(buffer, "bcbd") - buffer),
-         strstr(buffer, "bcbe") == NULL, strstr(buffer, "") == buffer);
+  printf("%d %d %d\n", (int)(strstr(buffer, "bcbd") - buffer), strstr(buffer, "bcbe") == NULL,
+         strstr(buffer, "") == buffer);
   printf("%d %d %d\n",
          (int)strspn(buffer, "\x80"
                              "ab"),
@@ -62,15 +58,12 @@ __attribute__((noinline)) static void searches(void) {
                                "d") -
                buffer),
          strpbrk(buffer, "xyz") == NULL);
-  printf("%d %d\n", (int)((char *)memchr(buffer, 0x1FF, 20) - buffer),
-         strrchr("", 'a') == NULL);
+  printf("%d %d\n", (int)((char *)memchr(buffer, 0x1FF, 20) - buffer), strrchr("", 'a') == NULL);
 }
 
-__attribute__((noinline)) static void tokens(char *text,
-                                             const char *separators) {
+__attribute__((noinline)) static void tokens(char *text, const char *separators) {
   char *rest;
-  for (char *t = strtok_r(text, separators, &rest); t;
-       t = strtok_r(NULL, separators, &rest))
+  for (char *t = strtok_r(text, separators, &rest); t; t = strtok_r(NULL, separators, &rest))
     printf("[%s]", t);
   puts("");
 }

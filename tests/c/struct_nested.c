@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t
-// Structures in structures and arrays: copies, by value, with bit-fields,
-// unions, floats and function pointers inside.
+// Structures in structures and arrays: copies, by value, with bit-fields, unions, floats and function pointers inside.
 #include <stdio.h>
 
 struct vec {
@@ -35,9 +34,7 @@ struct single {
 };
 
 __attribute__((noinline)) static struct vec at(struct ray r, float t) {
-  return (struct vec){r.origin.x + t * r.direction.x,
-                      r.origin.y + t * r.direction.y,
-                      r.origin.z + t * r.direction.z};
+  return (struct vec){r.origin.x + t * r.direction.x, r.origin.y + t * r.direction.y, r.origin.z + t * r.direction.z};
 }
 __attribute__((noinline)) static struct ray flip(struct ray r) {
   struct vec t = r.origin;
@@ -80,8 +77,7 @@ __attribute__((noinline)) static void rays(void) {
 }
 __attribute__((noinline)) static void fields(void) {
   struct packed p = bump(shapes[1].head), q = bump(bump(shapes[0].head));
-  printf("%u %d %d %u %d %d\n", p.kind, p.weight, p.tag, q.kind, q.weight,
-         q.tag);
+  printf("%u %d %d %u %d %d\n", p.kind, p.weight, p.tag, q.kind, q.weight, q.tag);
 }
 __attribute__((noinline)) static void arrays(void) {
   shapes[2] = shapes[0];

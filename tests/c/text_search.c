@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t --levels -O0,-O2,-Oz
-// Searching text: Knuth-Morris-Pratt, Boyer-Moore-Horspool, wildcards, the
-// distance of two words.
+// Searching text: Knuth-Morris-Pratt, Boyer-Moore-Horspool, wildcards, the distance of two words.
 #include <stdio.h>
 #include <string.h>
 
@@ -23,8 +22,7 @@ __attribute__((noinline)) static int kmp(const char *text, const char *part) {
   return found;
 }
 
-__attribute__((noinline)) static int horspool(const char *text,
-                                              const char *part) {
+__attribute__((noinline)) static int horspool(const char *text, const char *part) {
   int n = (int)strlen(text), m = (int)strlen(part);
   memset(table, m, sizeof table);
   for (int i = 0; i < m - 1; i++)
@@ -35,8 +33,7 @@ __attribute__((noinline)) static int horspool(const char *text,
   return -1;
 }
 
-__attribute__((noinline)) static int matches(const char *text,
-                                             const char *pattern) {
+__attribute__((noinline)) static int matches(const char *text, const char *pattern) {
   const char *star = NULL, *retry = NULL;
   while (*text)
     if (*pattern == '*')
@@ -71,13 +68,10 @@ __attribute__((noinline)) static int distance(const char *a, const char *b) {
 
 int main(void) {
   static const char text[] = "abracadabra abracadabracadabra \xe9t\xe9";
-  printf("%d %d %d\n", kmp(text, "abra"), kmp(text, "abracadabra"),
-         kmp("aaaaaaa", "aaa"));
-  printf("%d %d %d\n", horspool(text, "cadabrac"), horspool(text, "t\xe9"),
-         horspool(text, "abraz"));
-  printf("%d%d%d%d\n", matches("sphere.obj", "s*e.o?j"), matches("abc", "a*d"),
-         matches("aXbXc", "*X*c"), matches("", "**"));
-  printf("%d %d %d\n", distance("kitten", "sitting"), distance("", "abc"),
-         distance("shadow", "window"));
+  printf("%d %d %d\n", kmp(text, "abra"), kmp(text, "abracadabra"), kmp("aaaaaaa", "aaa"));
+  printf("%d %d %d\n", horspool(text, "cadabrac"), horspool(text, "t\xe9"), horspool(text, "abraz"));
+  printf("%d%d%d%d\n", matches("sphere.obj", "s*e.o?j"), matches("abc", "a*d"), matches("aXbXc", "*X*c"),
+         matches("", "**"));
+  printf("%d %d %d\n", distance("kitten", "sitting"), distance("", "abc"), distance("shadow", "window"));
   return 0;
 }
