@@ -15,12 +15,10 @@ void __trax_run_constructors(void) {
   if (trax_thread() == 0) {
     for (void (*const *constructor)(void) = __init_array_start; constructor != __init_array_end; constructor++)
       (*constructor)();
-    __asm__ volatile("" ::: "memory");
-    trax_store_nt(&done, 1);
+    store_shared(&done, 1);
   } else {
-    while (!trax_load_nt(&done))
+    while (!load_shared(&done))
       ;
-    __asm__ volatile("" ::: "memory");
   }
 }
 

@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+/* Inlining would put every conversion's variables into one frame. */
+#define SEPARATE __attribute__((noinline))
+
 void trax_put(struct sink *out, int c) {
   out->count++;
   if (!out->at)
@@ -34,7 +37,7 @@ void trax_put_suffix(struct sink *out, const struct conversion *how, int start) 
     trax_put_repeated(out, ' ', how->width - (out->count - start));
 }
 
-static void format_string(struct sink *out, struct conversion *how, const char *s) {
+SEPARATE static void format_string(struct sink *out, struct conversion *how, const char *s) {
   if (!s)
     s = "(null)";
   int length = (int)(how->precision < 0 ? strlen(s) : strnlen(s, (size_t)how->precision));
@@ -62,7 +65,8 @@ static char *write_digits(char *end, unsigned long long x, const struct conversi
 }
 
 /* how->letter is u, o or x. */
-static void format_integer(struct sink *out, struct conversion *how, const char *prefix, unsigned long long x) {
+SEPARATE static void format_integer(struct sink *out, struct conversion *how, const char *prefix,
+                                    unsigned long long x) {
   char digits[22]; /* 64 bits in octal */
   char *p = write_digits(digits + sizeof digits, x, how);
   int count = (int)(digits + sizeof digits - p);
@@ -83,24 +87,21 @@ static void format_integer(struct sink *out, struct conversion *how, const char 
   trax_put_suffix(out, how, start);
 }
 
-/* Length modifiers as sizes. */
-enum length { LENGTH_CHAR, LENGTH_SHORT, LENGTH_INT, LENGTH_LONG, LENGTH_LONG_LONG };
-
-static const char *parse_length(const char *f, enum length *length) {
-  *length = LENGTH_INT;
+static const char *parse_length(const char *f, struct conversion *how) {
+  how->length = LENGTH_INT;
   switch (*f) {
   case 'h':
-    *length = f[1] == 'h' ? LENGTH_CHAR : LENGTH_SHORT;
+    how->length = f[1] == 'h' ? LENGTH_CHAR : LENGTH_SHORT;
     return f + 1 + (f[1] == 'h');
   case 'l':
-    *length = f[1] == 'l' ? LENGTH_LONG_LONG : LENGTH_LONG;
+    how->length = f[1] == 'l' ? LENGTH_LONG_LONG : LENGTH_LONG;
     return f + 1 + (f[1] == 'l');
   case 'j':
-    *length = LENGTH_LONG_LONG;
+    how->length = LENGTH_LONG_LONG;
     return f + 1;
   case 'z':
   case 't':
-    *length = LENGTH_LONG;
+    how->length = LENGTH_LONG;
     return f + 1;
   case 'L':
     return f + 1; /* long double is double */
@@ -128,86 +129,117 @@ static const char *parse_number(const char *f, int *value) {
   return f;
 }
 
-int trax_format(struct sink *out, const char *format, va_list arguments, double_formatter *format_double) {
+/* A va_list that functions can advance for their caller, whatever kind of type it is. */
+struct arguments {
+  va_list list;
+};
+
+/* What stands between % and the letter, and the letter; returns where it is. */
+SEPARATE static const char *parse_conversion(const char *f, struct conversion *how, struct arguments *arguments) {
+  f = parse_flags(f, how);
+  if (*f == '*') {
+    how->width = va_arg(arguments->list, int);
+    if (how->width < 0) {
+      how->flags |= FLAG_LEFT;
+      how->width = -how->width;
+    }
+    f++;
+  } else {
+    f = parse_number(f, &how->width);
+  }
+  how->precision = -1;
+  if (*f == '.') {
+    if (f[1] == '*') {
+      how->precision = va_arg(arguments->list, int); /* negative: as if there were none */
+      f += 2;
+    } else {
+      f = parse_number(f + 1, &how->precision);
+    }
+  }
+  f = parse_length(f, how);
+  how->is_upper = (unsigned)(*f - 'A') < 26;
+  how->letter = (char)(*f | (how->is_upper ? 32 : 0));
+  return f;
+}
+
+SEPARATE static void format_signed(struct sink *out, struct conversion *how, struct arguments *arguments) {
+  long long value;
+  if (how->length == LENGTH_LONG_LONG)
+    value = va_arg(arguments->list, long long);
+  else if (how->length == LENGTH_LONG)
+    value = va_arg(arguments->list, long);
+  else
+    value = va_arg(arguments->list, int);
+  if (how->length == LENGTH_SHORT)
+    value = (short)value;
+  else if (how->length == LENGTH_CHAR)
+    value = (signed char)value;
+  const char *prefix = value < 0 ? "-" : how->flags & FLAG_PLUS ? "+" : how->flags & FLAG_SPACE ? " " : "";
+  how->letter = 'u';
+  format_integer(out, how, prefix, value < 0 ? 0 - (unsigned long long)value : (unsigned long long)value);
+}
+
+SEPARATE static void format_unsigned(struct sink *out, struct conversion *how, struct arguments *arguments) {
+  unsigned long long value;
+  if (how->length == LENGTH_LONG_LONG)
+    value = va_arg(arguments->list, unsigned long long);
+  else if (how->length == LENGTH_LONG)
+    value = va_arg(arguments->list, unsigned long);
+  else
+    value = va_arg(arguments->list, unsigned);
+  if (how->length == LENGTH_SHORT)
+    value = (unsigned short)value;
+  else if (how->length == LENGTH_CHAR)
+    value = (unsigned char)value;
+  const char *prefix = "";
+  if (how->letter == 'x' && how->flags & FLAG_ALT && value)
+    prefix = how->is_upper ? "0X" : "0x";
+  format_integer(out, how, prefix, value);
+}
+
+SEPARATE static void format_character(struct sink *out, struct conversion *how, char c) {
+  int start = out->count;
+  how->flags &= (unsigned char)~FLAG_ZERO;
+  trax_put_prefix(out, how, "", 1);
+  trax_put(out, c);
+  trax_put_suffix(out, how, start);
+}
+
+int trax_format(struct sink *out, const char *format, va_list list, double_formatter *format_double) {
   struct conversion how;
+  struct arguments arguments;
+  va_copy(arguments.list, list);
   for (const char *f = format; *f; f++) {
     if (*f != '%') {
       trax_put(out, *f);
       continue;
     }
-    f = parse_flags(f + 1, &how);
-    if (*f == '*') {
-      how.width = va_arg(arguments, int);
-      if (how.width < 0) {
-        how.flags |= FLAG_LEFT;
-        how.width = -how.width;
-      }
-      f++;
-    } else {
-      f = parse_number(f, &how.width);
-    }
-    how.precision = -1;
-    if (*f == '.') {
-      if (f[1] == '*') {
-        how.precision = va_arg(arguments, int); /* negative: as if there were none */
-        f += 2;
-      } else {
-        f = parse_number(f + 1, &how.precision);
-      }
-    }
-    enum length length;
-    f = parse_length(f, &length);
-    how.is_upper = (unsigned)(*f - 'A') < 26;
-    how.letter = (char)(*f | (how.is_upper ? 32 : 0));
-    const char *prefix = "";
-    unsigned long long x;
+    f = parse_conversion(f + 1, &how, &arguments);
     switch (how.letter) {
     case 'd':
-    case 'i': {
-      long long value = length == LENGTH_LONG_LONG ? va_arg(arguments, long long)
-                        : length == LENGTH_LONG    ? va_arg(arguments, long)
-                                                   : va_arg(arguments, int);
-      value = length == LENGTH_SHORT ? (short)value : length == LENGTH_CHAR ? (signed char)value : value;
-      prefix = value < 0 ? "-" : how.flags & FLAG_PLUS ? "+" : how.flags & FLAG_SPACE ? " " : "";
-      x = value < 0 ? 0 - (unsigned long long)value : (unsigned long long)value;
-      how.letter = 'u';
-      format_integer(out, &how, prefix, x);
+    case 'i':
+      format_signed(out, &how, &arguments);
       break;
-    }
     case 'u':
     case 'o':
     case 'x':
-      x = length == LENGTH_LONG_LONG ? va_arg(arguments, unsigned long long)
-          : length == LENGTH_LONG    ? va_arg(arguments, unsigned long)
-                                     : va_arg(arguments, unsigned);
-      x = length == LENGTH_SHORT ? (unsigned short)x : length == LENGTH_CHAR ? (unsigned char)x : x;
-      if (how.letter == 'x' && how.flags & FLAG_ALT && x)
-        prefix = how.is_upper ? "0X" : "0x";
-      format_integer(out, &how, prefix, x);
+      format_unsigned(out, &how, &arguments);
       break;
     case 'p':
-      x = (unsigned long)va_arg(arguments, void *);
       how.letter = 'x';
-      format_integer(out, &how, "0x", x);
+      format_integer(out, &how, "0x", (unsigned long)va_arg(arguments.list, void *));
       break;
-    case 'c': {
-      char c = (char)va_arg(arguments, int);
-      how.precision = -1;
-      int start = out->count;
-      how.flags &= (unsigned char)~FLAG_ZERO;
-      trax_put_prefix(out, &how, "", 1);
-      trax_put(out, c);
-      trax_put_suffix(out, &how, start);
+    case 'c':
+      format_character(out, &how, (char)va_arg(arguments.list, int));
       break;
-    }
     case 's':
-      format_string(out, &how, va_arg(arguments, const char *));
+      format_string(out, &how, va_arg(arguments.list, const char *));
       break;
     case 'a':
     case 'e':
     case 'f':
     case 'g': {
-      double value = va_arg(arguments, double);
+      double value = va_arg(arguments.list, double);
       if (format_double)
         format_double(out, &how, value);
       else
@@ -218,11 +250,13 @@ int trax_format(struct sink *out, const char *format, va_list arguments, double_
       trax_put(out, '%');
       break;
     case 0:
-      return out->count;
+      f--; /* the format ends within a conversion */
+      break;
     default: /* not a conversion: visible in the output rather than silently gone */
       trax_put(out, '%');
       trax_put(out, *f);
     }
   }
+  va_end(arguments.list);
   return out->count;
 }

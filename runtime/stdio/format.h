@@ -19,12 +19,15 @@ enum {
   FLAG_ZERO = 16, /* 0 */
 };
 
+enum length { LENGTH_CHAR, LENGTH_SHORT, LENGTH_INT, LENGTH_LONG, LENGTH_LONG_LONG };
+
 struct conversion {
   unsigned char flags;
-  char letter;   /* in lower case */
-  char is_upper; /* the letter was in upper case */
-  int width;     /* 0 if none */
-  int precision; /* -1 if none */
+  char letter;          /* in lower case */
+  char is_upper;        /* the letter was in upper case */
+  unsigned char length; /* enum length */
+  int width;            /* 0 if none */
+  int precision;        /* -1 if none */
 };
 
 /* Formats one double; the conversion is one of a, e, f and g. */

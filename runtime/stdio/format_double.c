@@ -5,6 +5,9 @@
 #include "../internal/divide.h"
 #include "../internal/machine.h"
 
+/* Inlining would put everything's variables into one frame. */
+#define SEPARATE __attribute__((noinline))
+
 /* The decimal digits of mantissa * 2^exponent from the first to the last, nine at a time. The integer part is held in
    base 10^9; the fraction, which takes the same array when the integer part is through, in base 2^32: multiplied by
    10^9, it yields nine more digits. The greatest double has 309 digits, 35 limbs; the least has 1074 bits after the
@@ -12,7 +15,17 @@
 #define LIMBS 35
 #define BASE 1000000000u
 
+/* A number rounded to a digit: what to change in its digits. */
+struct rounded {
+  int power;        /* of the first digit, after rounding */
+  int count;        /* digits to print, from the first */
+  int incremented;  /* the digit that rounding raises, 9s behind it becoming 0; -1: all were 9, a 1 stands before them;
+                       or count */
+  int last_nonzero; /* the last digit that is not 0, after rounding; -1 if there is none */
+};
+
 struct digits {
+  struct rounded rounded;
   uint64_t mantissa;
   int exponent;
   unsigned char integer_limbs;  /* not yet read */
@@ -33,7 +46,7 @@ static inline struct divided divide_by_base(uint64_t x) {
   return (struct divided){r.quotient, r.remainder >> 2};
 }
 
-static void start_integer(struct digits *d) {
+SEPARATE static void start_integer(struct digits *d) {
   int shift = d->exponent;
   d->integer_limbs = 0;
   if (shift <= -64)
@@ -60,14 +73,17 @@ static void start_integer(struct digits *d) {
   d->integer_limbs = (unsigned char)n;
 }
 
-static void start_fraction(struct digits *d) {
+/* Leaves a fraction that is shorter than the mantissa without its integer bits: they fall off the top. */
+SEPARATE static void start_fraction(struct digits *d) {
   int bits = -d->exponent; /* after the point */
   int limbs = bits > 0 ? (bits + 31) / 32 : 0;
-  int up = 32 * limbs - bits; /* the mantissa stands this much above the lowest limb's end */
-  uint64_t m = d->mantissa;
-  for (int i = 0; i < limbs; i++) {
-    d->limb[i] = i == 0 ? low_word(m << up) : low_word(m >> (32 * i - up > 63 ? 63 : 32 * i - up));
-  }
+  unsigned up = (unsigned)(32 * limbs - bits) & 31; /* the mantissa stands this much above the lowest limb's end */
+  uint32_t low = low_word(d->mantissa), high = high_word(d->mantissa);
+  for (int i = 3; i < limbs; i++)
+    d->limb[i] = 0;
+  d->limb[0] = low << up;
+  d->limb[1] = high << up | low >> 1 >> (31 - up);
+  d->limb[2] = high >> 1 >> (31 - up);
   d->first_limb = 0;
   d->fraction_limbs = (unsigned char)limbs;
 }
@@ -91,7 +107,7 @@ static uint32_t next_group(struct digits *d) {
 }
 
 /* Sets d to the first digit that is not 0 and returns its power of ten. The number is not 0. */
-static int first_digit(struct digits *d) {
+SEPARATE static int first_digit(struct digits *d) {
   start_integer(d);
   int power = 9 * d->integer_limbs + 8;
   if (d->integer_limbs == 0) {
@@ -107,7 +123,7 @@ static int first_digit(struct digits *d) {
   return power;
 }
 
-static int next_digit(struct digits *d) {
+SEPARATE static int next_digit(struct digits *d) {
   if (d->divisor == 0) {
     d->group = next_group(d);
     d->divisor = BASE / 10;
@@ -134,53 +150,46 @@ static int rest_is_zero(const struct digits *d) {
   return 1;
 }
 
-/* A number rounded to a digit: what to change in its digits. */
-struct rounded {
-  int power;        /* of the first digit, after rounding */
-  int count;        /* digits to print, from the first */
-  int incremented;  /* the digit that rounding raises, 9s behind it becoming 0; -1: all were 9, a 1 stands before them;
-                       or count */
-  int last_nonzero; /* the last digit that is not 0, after rounding; -1 if there is none */
-};
-
 /* Rounds the number to count digits, or, if count is negative, to places digits behind the point. */
-static struct rounded round_digits(struct digits *d, int count, int places) {
-  struct rounded r = {.power = 0, .count = count < 0 ? places + 1 : count, .last_nonzero = -1};
-  r.incremented = r.count;
-  if (d->mantissa == 0)
-    return r;
-  r.power = first_digit(d);
-  if (count < 0)
-    r.count = r.power + 1 + places;
-  int is_far_below = r.count < 0; /* the last place: rounds to 0 */
-  r.incremented = r.count = is_far_below ? 0 : r.count;
-  if (is_far_below)
-    return r;
-  int last_not_nine = -1, digit = 0;
-  for (int i = 0; i < r.count; i++) {
+SEPARATE static void round_digits(struct digits *d, int count, int places) {
+  struct rounded *r = &d->rounded;
+  int power = 0, to_read = count < 0 ? places + 1 : count;
+  r->last_nonzero = -1;
+  if (d->mantissa) {
+    power = first_digit(d);
+    if (count < 0)
+      to_read = power + 1 + places;
+  }
+  r->power = power;
+  r->count = r->incremented = to_read < 0 ? 0 : to_read;
+  if (d->mantissa == 0 || to_read < 0) /* far below the last place: 0 */
+    return;
+  int last_nonzero = -1, last_not_nine = -1, digit = 0;
+  for (int i = 0; i < to_read; i++) {
     digit = next_digit(d);
     if (digit != 9)
       last_not_nine = i;
     if (digit)
-      r.last_nonzero = i;
-    if (i > r.last_nonzero && i > last_not_nine + 20 && rest_is_zero(d))
+      last_nonzero = i;
+    else if (i > last_nonzero + 20 && rest_is_zero(d))
       break; /* only zeros follow; a precision of thousands need not read them */
   }
   int next = next_digit(d);
   if (next > 5 || (next == 5 && (digit & 1 || !rest_is_zero(d)))) {
-    r.incremented = r.last_nonzero = last_not_nine;
+    r->incremented = last_nonzero = last_not_nine;
     if (last_not_nine < 0) {
-      r.power++;
-      r.last_nonzero = 0;
+      r->power++;
+      last_nonzero = 0;
       if (count < 0)
-        r.count++;
+        r->count++;
     }
   }
-  return r;
+  r->last_nonzero = last_nonzero;
 }
 
 /* The rounded number's digit number i; asked for each i from 0 in turn. */
-static int rounded_digit(struct digits *d, const struct rounded *r, int i) {
+static int rounded_digit(struct digits *d, int i) {
+  const struct rounded *r = &d->rounded;
   if (r->incremented < 0)
     return '0' + (i == 0);
   if (i > r->last_nonzero)
@@ -192,7 +201,7 @@ static int exponent_size(int power) {
   return power <= -100 || power >= 100 ? 5 : 4;
 }
 
-static void put_exponent(struct sink *out, int letter, int power, int least_digits) {
+SEPARATE static void put_exponent(struct sink *out, int letter, int power, int least_digits) {
   trax_put(out, letter);
   trax_put(out, power < 0 ? '-' : '+');
   unsigned x = (unsigned)(power < 0 ? -power : power);
@@ -202,42 +211,44 @@ static void put_exponent(struct sink *out, int letter, int power, int least_digi
       trax_put(out, '0' + (int)(x / place % 10));
 }
 
-static void format_decimal(struct sink *out, const struct conversion *how, const char *sign, struct digits *d) {
+SEPARATE static void format_decimal(struct sink *out, const struct conversion *how, const char *sign,
+                                    struct digits *d) {
+  const struct rounded *r = &d->rounded;
   int precision = how->precision < 0 ? 6 : how->precision;
   int fixed = how->letter == 'f';
-  struct rounded r;
   if (how->letter == 'g') {
     if (precision == 0)
       precision = 1;
-    r = round_digits(d, precision, 0);
-    fixed = r.power >= -4 && r.power < precision;
-    int significant = how->flags & FLAG_ALT ? precision : r.last_nonzero + 1;
-    precision = significant - 1 - (fixed ? r.power : 0);
+    round_digits(d, precision, 0);
+    fixed = r->power >= -4 && r->power < precision;
+    int significant = how->flags & FLAG_ALT ? precision : r->last_nonzero + 1;
+    precision = significant - 1 - (fixed ? r->power : 0);
     if (precision < 0)
       precision = 0;
   } else {
-    r = round_digits(d, fixed ? -1 : precision + 1, precision);
+    round_digits(d, fixed ? -1 : precision + 1, precision);
   }
-  int integers = fixed && r.power > 0 ? r.power + 1 : 1; /* digits before the point */
+  int integers = fixed && r->power > 0 ? r->power + 1 : 1; /* digits before the point */
   int point = precision > 0 || how->flags & FLAG_ALT;
-  trax_put_prefix(out, how, sign, integers + point + precision + (fixed ? 0 : exponent_size(r.power)));
+  trax_put_prefix(out, how, sign, integers + point + precision + (fixed ? 0 : exponent_size(r->power)));
   if (d->mantissa)
     first_digit(d); /* again from the first digit, to print them */
-  int digit = 0;
-  int place = fixed && r.last_nonzero >= 0 ? integers - 1 - r.power : 0; /* zeros before the first digit */
-  for (int i = 0; i < integers + precision; i++) {
+  /* Before the first digit, zeros. */
+  int digit = fixed && r->last_nonzero >= 0 ? r->power + 1 - integers : 0;
+  for (int i = 0; i < integers + precision; i++, digit++) {
     if (i == integers)
       trax_put(out, '.');
-    trax_put(out, i < place ? '0' : rounded_digit(d, &r, digit++));
+    trax_put(out, digit < 0 ? '0' : rounded_digit(d, digit));
   }
   if (point && precision == 0)
     trax_put(out, '.');
   if (!fixed)
-    put_exponent(out, how->is_upper ? 'E' : 'e', r.power, 2);
+    put_exponent(out, how->is_upper ? 'E' : 'e', r->power, 2);
 }
 
 /* 0xh.hhhp+d; a subnormal's first digit is 0. */
-static void format_hexadecimal(struct sink *out, const struct conversion *how, const char *sign, uint64_t bits) {
+SEPARATE static void format_hexadecimal(struct sink *out, const struct conversion *how, const char *sign,
+                                        uint64_t bits) {
   static const char lower[] = "0123456789abcdef", upper[] = "0123456789ABCDEF";
   int power = (int)(high_word(bits) >> 20 & 0x7FF);
   uint64_t m = bits & 0x000FFFFFFFFFFFFFu;

@@ -1,0 +1,40 @@
+// RUN: %run_c %s %t
+// asm with register and immediate operands, clobbers and memory; register variables. (Expected output by hand.)
+#include <stdio.h>
+
+static int cells[4];
+
+__attribute__((noinline)) static unsigned high_product(unsigned a, unsigned b) {
+  unsigned r;
+  __asm__("mulhu %0, %1, %2" : "=r"(r) : "r"(a), "r"(b));
+  return r;
+}
+__attribute__((noinline)) static int add_constant(int a) {
+  int r;
+  __asm__("addi %0, %1, %2" : "=r"(r) : "r"(a), "I"(-123));
+  return r;
+}
+__attribute__((noinline)) static int increment(int x) {
+  __asm__ volatile("addi %0, %0, 1" : "+r"(x));
+  return x;
+}
+__attribute__((noinline)) static void store(int *p, int value) {
+  __asm__ volatile("sw %1, 0(%0)" : : "r"(p), "r"(value) : "memory");
+}
+__attribute__((noinline)) static float reciprocal_root(float x) {
+  float r;
+  __asm__("frsqrt %0, %1" : "=r"(r) : "r"(x));
+  return r;
+}
+__attribute__((noinline)) static int clobbers(int a, int b) {
+  int kept = a * b;
+  __asm__ volatile("addi r20, r0, 0\n\taddi r21, r0, 0\n\taddi r12, r0, 0" : : : "r20", "r21", "r12");
+  return kept + a + b;
+}
+
+int main(void) {
+  printf("%x %d %d\n", high_product(0xFFFFFFFF, 0x80000000), add_constant(1000), increment(41));
+  store(&cells[2], 77);
+  printf("%d %g %d\n", cells[2], (double)reciprocal_root(16.0f), clobbers(6, 7));
+  return 0;
+}
