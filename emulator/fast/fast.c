@@ -1,0 +1,62 @@
+#include "fast/fast.h"
+
+#include "fast/head.h"
+
+static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm,
+                             trax_error *error) {
+  ftm->fast = fast;
+  ftm->tm = tm;
+  ftm->tp = calloc(tm->tps, sizeof *ftm->tp);
+  if (!ftm->tp)
+    return trax_fail(error, "out of memory");
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    ftm->icache[i].group = trax_group_mask(i, tm->config->icache.tps_per_cache) & trax_group_mask(0, tm->tps);
+  for (unsigned i = 0; i < tm->tps; i++) {
+    ftm->icache_of[i] = (uint8_t)(i / tm->config->icache.tps_per_cache);
+    ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
+    ftm->tp[i].resume_pc = tm->tp[i].pc;
+    trax_fast_advance(ftm, i, UINT64_MAX); /* as if something had been issued in the cycle before 0 */
+    trax_fast_ask_fetch(ftm, i);
+  }
+  return TRAX_OK;
+}
+
+trax_status trax_fast_create(struct trax_chip *chip, trax_error *error) {
+  struct trax_machine *machine = chip->machine;
+  struct trax_fast *fast = chip->fast = calloc(1, sizeof *fast);
+  if (!fast)
+    return trax_fail(error, "out of memory");
+  fast->chip = chip;
+  fast->burst = machine->trace ? 1 : TRAX_BURST;
+  fast->written = calloc(machine->space.size >> TRAX_FAST_PAGE_SHIFT, 1);
+  fast->tm = calloc(chip->tms, sizeof *fast->tm);
+  if (!fast->written || !fast->tm)
+    return trax_fail(error, "out of memory");
+  if (trax_fast_program_create(&fast->program, &chip->text, &machine->config, error))
+    return TRAX_ERROR;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (create_tm(&fast->tm[i], fast, &chip->tm[i], error))
+      return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+void trax_fast_destroy(struct trax_fast *fast) {
+  if (!fast)
+    return;
+  for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++)
+    free(fast->tm[i].tp);
+  free(fast->tm);
+  free(fast->written);
+  trax_fast_program_destroy(&fast->program);
+  free(fast);
+}
+
+void trax_fast_settle(struct trax_fast *fast) {
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    struct trax_fast_tm *ftm = &fast->tm[i];
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      for (unsigned bit = 0; bit < 64; bit++)
+        for (uint64_t tps = ftm->tally[cause].planes[bit]; tps; tps &= tps - 1)
+          ftm->tm->tp_stats[trax_first(tps)].cycles[cause] += (uint64_t)1 << bit;
+  }
+}

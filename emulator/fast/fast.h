@@ -1,0 +1,170 @@
+/* The fast engine: the same machine as emulator/core, to the cycle, the count and the byte (docs/timing.md).
+
+   It differs in two ways. Function runs ahead of time: a TP executes a burst of instructions at once, up to the first
+   whose effect or value depends on time, and timing then consumes them one by one (burst.c, head.c). Timing works on masks
+   of a TM's TPs: who asks for what is a bit that is set when an instruction becomes its TP's next one, the head, and
+   stays until it is granted (tm.c, issue.c).
+
+   Everything rare is the reference's: arrivals, misses, requests, faults, traps, and the execution of instructions that
+   must not run ahead, in the reference's own structures. A TM touches nothing of another one but through pages.c and the
+   memory controller. */
+#ifndef TRAX_FAST_FAST_H
+#define TRAX_FAST_FAST_H
+
+#include "core/chip.h"
+
+/* What a head asks for after its operands; the classes are the index of trax_fast_tm.want. */
+typedef enum trax_fast_class {
+  TRAX_CLASS_OWN, /* nothing: the TP's own units */
+  TRAX_CLASS_FP_ADD,
+  TRAX_CLASS_FP_MUL,
+  TRAX_CLASS_INT_MUL,
+  TRAX_CLASS_SPECIAL,
+  TRAX_CLASS_BANK,       /* a data-cache bank; as a predecoded class, a load */
+  TRAX_CLASS_LOCAL_LOAD, /* follows BANK: a load becomes one by its address */
+  TRAX_CLASS_LOCAL_STORE,
+  TRAX_CLASS_QUEUE,    /* the memory queue without a bank */
+  TRAX_CLASS_DEFERRED, /* not executed yet; class known when its operands are usable */
+  TRAX_CLASS_COUNT
+} trax_fast_class;
+
+/* An instruction, for both function and timing. */
+struct trax_fast_inst {
+  uint8_t op; /* trax_op; TRAX_OP_ILLEGAL where a burst must stop: then only `decoded` knows */
+  uint8_t rd, ra, rb;
+  int32_t imm;
+  uint8_t wait_ra, wait_rb, wait_rd;
+  uint8_t class; /* trax_fast_class */
+  uint8_t bank;  /* of the instruction cache */
+  uint8_t cause;
+  uint16_t latency;
+  uint32_t pc;
+  uint32_t line; /* of the instruction cache */
+  const struct trax_decoded *decoded;
+};
+
+struct trax_fast_section {
+  uint32_t begin, bytes;
+  struct trax_fast_inst *inst; /* [bytes / 4 + 1]; the last is outside */
+};
+
+struct trax_fast_program {
+  struct trax_fast_section *sections; /* [count], in one array of instructions */
+  size_t count;
+  struct trax_fast_inst *inst;
+  const struct trax_fast_inst *outside;
+};
+
+enum { TRAX_BURST = 64 }; /* most instructions of a burst */
+
+struct trax_fast_step {
+  uint32_t inst;    /* index in trax_fast_program.inst */
+  uint32_t address; /* of a memory access, else 0 */
+};
+
+struct trax_fast_undo {
+  uint32_t offset, word; /* what a word of local memory was */
+};
+
+struct trax_fast_tp {
+  const struct trax_fast_inst *head;
+  uint32_t address; /* of the head's access, if it has been executed */
+  uint32_t next;    /* steps[next] follows the head */
+  uint32_t count;   /* of steps */
+  uint32_t resume_pc;
+  const struct trax_fast_inst *resume; /* where the next burst begins: at resume_pc */
+  uint64_t atomics;                    /* registers that an atomic increment under way will write */
+
+  struct trax_fast_step steps[TRAX_BURST];
+  /* How to get back to the burst's beginning (pages.c). */
+  const struct trax_fast_inst *begin;
+  uint32_t undo_count;
+  uint32_t reg[TRAX_NUM_REGISTERS + 1];
+  struct trax_fast_undo undo[TRAX_BURST];
+};
+
+/* A counter per TP, bit-sliced: planes[k] holds bit k of all of them, so that a cycle is charged to a mask of TPs at once. */
+struct trax_fast_tally {
+  uint64_t planes[64];
+};
+
+static inline void trax_fast_count(struct trax_fast_tally *tally, uint64_t tps) {
+  for (uint64_t *plane = tally->planes; tps; plane++) {
+    const uint64_t carry = *plane & tps;
+    *plane ^= tps;
+    tps = carry;
+  }
+}
+
+struct trax_fast_icache {
+  uint64_t group;      /* TPs */
+  uint64_t banks;      /* mask: banks that are asked for */
+  uint64_t asking[64]; /* [bank] */
+};
+
+struct trax_fast_tm {
+  struct trax_tm *tm;
+  struct trax_fast *fast;
+  struct trax_fast_tp *tp; /* [tps] */
+
+  /* Masks of TPs. `ready` have an instruction and usable operands and lack a unit, a bank or a place. */
+  uint64_t want[TRAX_CLASS_COUNT]; /* by the head's class, fetched or not */
+  uint64_t data_bank[TRAX_MAX_TPS_PER_TM + 1]; /* by the bank that the head asks for; the last is nobody's */
+  uint64_t ready;
+  uint64_t deferred; /* the head executes at issue, as the reference would */
+  uint64_t clear;    /* the head's operands will be usable in the first cycle in which it can be fetched */
+  uint64_t resident; /* the head's line is in its instruction cache; may lack TPs */
+  uint64_t outside;  /* the head cannot be fetched */
+
+  struct trax_fast_icache icache[TRAX_MAX_TPS_PER_TM];
+  uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
+  struct trax_fast_tally tally[TRAX_CAUSE_COUNT];
+};
+
+struct trax_fast {
+  struct trax_chip *chip;
+  struct trax_fast_program program;
+  struct trax_fast_tm *tm; /* [tms] */
+  unsigned burst;          /* most instructions of a burst; 1 if issues are traced, so that results are there */
+  uint8_t *written;        /* [page]: someone may have written it during the run */
+};
+
+trax_status trax_fast_create(struct trax_chip *chip, trax_error *error);
+void trax_fast_destroy(struct trax_fast *fast);
+/* Arrivals and the five steps of a TM; sets its next_cycle. */
+void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
+/* Adds the tallies to the TPs' charges. */
+void trax_fast_settle(struct trax_fast *fast);
+
+/* --- program.c --- */
+trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,
+                                     const struct trax_config *config, trax_error *error);
+void trax_fast_program_destroy(struct trax_fast_program *program);
+
+static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_fast_program *program, uint32_t pc) {
+  for (size_t i = 0; i < program->count && pc % 4 == 0; i++)
+    if (pc - program->sections[i].begin < program->sections[i].bytes)
+      return program->sections[i].inst + (pc - program->sections[i].begin) / 4;
+  return program->outside;
+}
+
+/* --- burst.c --- */
+/* Executes up to `limit` instructions from resume on, as steps 0...; returns how many. */
+unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned tp, unsigned limit);
+
+/* --- head.c --- */
+/* All steps are used up: the next burst. If nothing can run ahead, the head is deferred. */
+void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
+/* The reference's view of the head: inst, pc, address. */
+void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
+
+/* --- issue.c --- */
+void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t);
+
+/* --- pages.c --- */
+#define TRAX_FAST_PAGE_SHIFT 12
+/* Someone is about to write the page of a global address: whoever ran ahead comes back, and from now on loads from the
+   page do not run ahead. */
+void trax_fast_page_written(struct trax_fast *fast, uint32_t address);
+
+#endif

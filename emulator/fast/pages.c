@@ -1,0 +1,41 @@
+/* Values that ran ahead are right as long as nobody writes where they came from. So before a page is written for the
+   first time, every TP goes back to what it has issued and is deferred: its head will execute at issue, and from then on
+   loads from the page end bursts. Each page costs this once. */
+#include "fast/fast.h"
+
+#include <assert.h>
+#include <string.h>
+
+/* The TP has issued the first steps of its burst; the head and what follows are undone. Going through the issued ones
+   again gives the same, since no page they loaded from has been written yet. */
+static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  struct trax_tp *tp = &ftm->tm->tp[number];
+  if (ftm->deferred & bit)
+    return;
+  while (ftp->undo_count) {
+    const struct trax_fast_undo *undo = &ftp->undo[--ftp->undo_count];
+    memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
+  }
+  memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
+  const unsigned issued = ftp->next - 1;
+  ftp->resume = ftp->begin;
+  ftp->resume_pc = ftp->begin->pc;
+  const unsigned again = trax_fast_burst(fast, ftm, number, issued);
+  assert(again == issued && ftp->resume == ftp->head);
+  (void)again;
+  trax_fast_show(ftm, number);
+  ftp->next = ftp->count = 0;
+  ftm->deferred |= bit; /* its class and what it asks for stay */
+}
+
+void trax_fast_page_written(struct trax_fast *fast, uint32_t address) {
+  uint8_t *written = &fast->written[address >> TRAX_FAST_PAGE_SHIFT];
+  if (*written)
+    return;
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
+      come_back(fast, &fast->tm[i], tp);
+  *written = true;
+}

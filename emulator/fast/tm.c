@@ -1,0 +1,246 @@
+/* The five steps of a TM's cycle on masks of its TPs (docs/timing.md, "A cycle"). */
+#include "fast/head.h"
+
+static inline unsigned count_bits(uint64_t mask) {
+  return (unsigned)__builtin_popcountll(mask);
+}
+
+/* --- arrivals and alarms --- */
+
+/* Returns those who wake with their instruction; the others ask for one. */
+static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  const uint64_t awake = tm->awake;
+  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t) {
+    uint32_t pending = 0;
+    for (uint32_t i = 0; i < tm->icaches; i++)
+      pending += tm->icache[i].pending_count;
+    trax_tm_arrive(tm, t);
+    for (uint32_t i = 0; i < tm->icaches; i++)
+      pending -= tm->icache[i].pending_count;
+    if (pending)
+      ftm->resident = 0; /* an instruction line came, and perhaps in the place of another */
+  }
+  if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
+    trax_tm_wake_sleepers(tm, t);
+  const uint64_t woken = tm->awake & ~awake;
+  for (uint64_t rest = woken & ~tm->holding; rest; rest &= rest - 1)
+    trax_fast_ask_fetch(ftm, trax_first(rest));
+  return woken & tm->holding;
+}
+
+/* --- step 1 --- */
+
+static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
+  for (; ftm->outside; ftm->outside &= ftm->outside - 1) {
+    const unsigned number = trax_first(ftm->outside);
+    const uint32_t pc = ftm->tm->tp[number].pc;
+    trax_tm_fault(ftm->tm, number, t, pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE, pc);
+  }
+}
+
+static uint64_t grant_fetches(struct trax_fast_tm *ftm) {
+  struct trax_tm *tm = ftm->tm;
+  const uint32_t ports = tm->config->icache.ports_per_bank;
+  uint64_t winners = 0;
+  for (uint32_t i = 0; i < tm->icaches; i++) {
+    struct trax_fast_icache *icache = &ftm->icache[i];
+    trax_arbiter *turn = tm->icache[i].bank;
+    uint64_t left = 0;
+    for (uint64_t banks = icache->banks; banks; banks &= banks - 1) {
+      const unsigned bank = trax_first(banks);
+      const uint64_t asking = icache->asking[bank];
+      const uint64_t served = trax_arbiter_grant(&turn[bank], asking, ports);
+      winners |= served;
+      icache->asking[bank] = asking & ~served;
+      left |= (uint64_t)(asking != served) << bank;
+    }
+    icache->banks = left;
+  }
+  return winners;
+}
+
+/* Returns those who hold their instructions now. */
+static uint64_t fetch(struct trax_fast_tm *ftm, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  if (ftm->outside)
+    fault_outside(ftm, t);
+  const uint64_t askers = tm->awake & ~tm->holding;
+  if (!askers)
+    return 0;
+  const uint64_t winners = grant_fetches(ftm);
+  trax_fast_count(&ftm->tally[TRAX_CAUSE_ICACHE_BANK], askers & ~winners);
+
+  const uint64_t hits = winners & ftm->resident;
+  tm->stats->icache_hits += count_bits(hits);
+  tm->holding |= hits;
+  for (uint64_t rest = winners & ~hits; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
+    trax_fast_show(ftm, number);
+    trax_icache_look_up(&tm->icache[ftm->icache_of[number]], tm, number, t);
+    if (tm->awake & ~tm->holding & rest & -rest)
+      trax_fast_ask_fetch(ftm, number); /* refused by the memory queue */
+  }
+  return winners & tm->holding;
+}
+
+/* --- step 2 --- */
+
+/* Notes what a deferred head asks for, now that its operands are known. False if it faults. */
+static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  struct trax_tp *tp = &tm->tp[number];
+  const struct trax_decoded *inst = tp->inst;
+  const uint64_t bit = (uint64_t)1 << number;
+  trax_fast_class class = (trax_fast_class)ftm->tp[number].head->class;
+  ftm->want[TRAX_CLASS_DEFERRED] &= ~bit;
+  if (inst->ask == TRAX_ASK_ILLEGAL) {
+    trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
+    return false;
+  }
+  if (inst->ask == TRAX_ASK_END)
+    class = TRAX_CLASS_QUEUE;
+  if (inst->ask == TRAX_ASK_MEMORY) {
+    tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
+    const trax_fault_kind kind = trax_tp_check_access(tp, &tm->machine->space, tp->address);
+    if (kind) {
+      trax_tm_fault(tm, number, t, kind, tp->address);
+      return false;
+    }
+    if (tp->address >= TRAX_LOCAL_BASE)
+      class = inst->is_store ? TRAX_CLASS_LOCAL_STORE : TRAX_CLASS_LOCAL_LOAD;
+    else if (inst->is_nontemporal || inst->is_atomic)
+      class = TRAX_CLASS_QUEUE;
+    else {
+      class = TRAX_CLASS_BANK;
+      ftm->data_bank[trax_fast_data_bank(ftm, tp->address)] |= bit;
+    }
+  }
+  ftm->want[class] |= bit;
+  return true;
+}
+
+static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  trax_fast_show(ftm, number);
+  const struct trax_tp *tp = &tm->tp[number];
+  if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL)
+    return true;
+  uint64_t until = 0;
+  const trax_cause cause = trax_tp_wait(tp, t, &until);
+  if (until == TRAX_NEVER) {
+    trax_tm_sleep(tm, number, t, cause);
+    tm->awaiting |= (uint64_t)1 << number;
+  } else {
+    trax_tm_sleep_until(tm, number, t, t, until, cause);
+  }
+  return false;
+}
+
+/* fetched: those who hold their instructions since this cycle; woken: those whose operands may be usable now. */
+static void check_operands(struct trax_fast_tm *ftm, uint64_t fetched, uint64_t woken, uint64_t t) {
+  uint64_t passed = fetched & ftm->clear & ~woken;
+  for (uint64_t rest = (fetched | woken) & ~passed; rest; rest &= rest - 1)
+    if (operands_usable(ftm, trax_first(rest), t))
+      passed |= rest & -rest;
+  for (uint64_t rest = passed & ftm->want[TRAX_CLASS_DEFERRED]; rest; rest &= rest - 1)
+    if (!classify(ftm, trax_first(rest), t))
+      passed &= ~(rest & -rest);
+  ftm->ready |= passed;
+}
+
+/* --- steps 3 and 4 --- */
+
+/* Charges those who were refused and returns the others. */
+static inline uint64_t refuse(struct trax_fast_tm *ftm, uint64_t askers, uint64_t winners, trax_cause cause) {
+  trax_fast_count(&ftm->tally[cause], askers & ~winners);
+  return winners;
+}
+
+static inline uint64_t grant_groups(struct trax_shared_unit *unit, uint64_t askers) {
+  uint64_t winners = 0;
+  for (uint32_t group = 0; group < unit->groups; group++)
+    winners |= trax_arbiter_grant(&unit->turn[group], askers & trax_group_mask(group, unit->group_size), 1);
+  return winners;
+}
+
+static uint64_t grant_units(struct trax_fast_tm *ftm, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  const uint64_t ready = ftm->ready, *want = ftm->want;
+  uint64_t granted = ready & (want[TRAX_CLASS_OWN] | want[TRAX_CLASS_LOCAL_LOAD] | want[TRAX_CLASS_LOCAL_STORE]);
+  tm->stats->local_loads += count_bits(ready & want[TRAX_CLASS_LOCAL_LOAD]);
+  tm->stats->local_stores += count_bits(ready & want[TRAX_CLASS_LOCAL_STORE]);
+  uint64_t askers;
+  if ((askers = ready & want[TRAX_CLASS_FP_ADD]))
+    granted |= refuse(ftm, askers, grant_groups(&tm->fp_add, askers), TRAX_CAUSE_FP_ADD);
+  if ((askers = ready & want[TRAX_CLASS_FP_MUL]))
+    granted |= refuse(ftm, askers, grant_groups(&tm->fp_mul, askers), TRAX_CAUSE_FP_MUL);
+  if ((askers = ready & want[TRAX_CLASS_INT_MUL]))
+    granted |= refuse(ftm, askers, grant_groups(&tm->int_mul, askers), TRAX_CAUSE_INT_MUL);
+  if ((askers = ready & want[TRAX_CLASS_SPECIAL]))
+    granted |= refuse(ftm, askers, trax_special_unit_grant(&tm->special, askers, t), TRAX_CAUSE_SPECIAL);
+  return granted;
+}
+
+static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
+  struct trax_dcache *dcache = &ftm->tm->dcache;
+  uint64_t winners = 0;
+  for (uint32_t bank = 0; bank < dcache->banks; bank++)
+    winners |= trax_arbiter_grant(&dcache->bank[bank], ftm->data_bank[bank] & askers, 1);
+  return refuse(ftm, askers, winners, TRAX_CAUSE_DCACHE_BANK);
+}
+
+static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  const struct trax_fast_tp *ftp = &ftm->tp[number];
+  if (!trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, ftp->address)))
+    return false;
+  tm->stats->dcache_hits++;
+  trax_tp_set_usable(&tm->tp[number], ftp->head->rd, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
+  return true;
+}
+
+static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  const uint64_t at_or_after = ~(uint64_t)0 << tm->queue_turn;
+  const uint64_t round[2] = {askers & at_or_after, askers & ~at_or_after};
+  uint64_t granted = 0;
+  for (unsigned half = 0; half < 2; half++)
+    for (uint64_t rest = round[half]; rest; rest &= rest - 1) {
+      const unsigned number = trax_first(rest);
+      bool served = !(ftm->deferred & rest & -rest) && load_hits(ftm, number, t);
+      if (!served) {
+        trax_fast_show(ftm, number);
+        served = trax_tm_serve(tm, number, t);
+      }
+      if (served)
+        granted |= rest & -rest;
+      else
+        trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
+    }
+  return granted;
+}
+
+void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
+  struct trax_fast_tm *ftm = &fast->tm[tm_number];
+  struct trax_tm *tm = ftm->tm;
+  const uint64_t woken = wake(ftm, t);
+  const uint64_t fetched = fetch(ftm, t);
+  check_operands(ftm, fetched, woken, t);
+  uint64_t granted = grant_units(ftm, t);
+  uint64_t queue_askers = ftm->ready & ftm->want[TRAX_CLASS_QUEUE];
+  const uint64_t bank_askers = ftm->ready & ftm->want[TRAX_CLASS_BANK];
+  if (bank_askers)
+    queue_askers |= grant_banks(ftm, bank_askers);
+  if (queue_askers) {
+    const uint64_t served = grant_queue(ftm, queue_askers, t);
+    granted |= served;
+    for (uint32_t bank = 0; bank < tm->dcache.banks; bank++)
+      ftm->data_bank[bank] &= ~served;
+  }
+  for (unsigned class = 0; class < TRAX_CLASS_COUNT; class++)
+    ftm->want[class] &= ~granted;
+  ftm->ready &= ~granted;
+  trax_fast_issue(ftm, granted, t);
+  tm->next_cycle = trax_tm_next_cycle(tm, t);
+}
