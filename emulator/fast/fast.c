@@ -2,6 +2,12 @@
 
 #include "fast/head.h"
 
+static void create_unit(struct trax_fast_unit *unit, const struct trax_shared_unit *reference) {
+  unit->groups = reference->groups;
+  for (uint32_t i = 0; i < unit->groups; i++)
+    unit->group[i] = trax_group_mask(i, reference->group_size);
+}
+
 static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm,
                              trax_error *error) {
   ftm->fast = fast;
@@ -10,9 +16,14 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   if (!ftm->tp)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < tm->icaches; i++)
-    ftm->icache[i].group = trax_group_mask(i, tm->config->icache.tps_per_cache) & trax_group_mask(0, tm->tps);
+    ftm->icache[i].tags = &tm->icache[i].tags;
+  create_unit(&ftm->fp_add, &tm->fp_add);
+  create_unit(&ftm->fp_mul, &tm->fp_mul);
+  create_unit(&ftm->int_mul, &tm->int_mul);
   for (unsigned i = 0; i < tm->tps; i++) {
     ftm->icache_of[i] = (uint8_t)(i / tm->config->icache.tps_per_cache);
+    ftm->tp[i].tp = &tm->tp[i];
+    ftm->tp[i].icache = &ftm->icache[ftm->icache_of[i]];
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
     trax_fast_advance(ftm, i, UINT64_MAX); /* as if something had been issued in the cycle before 0 */
@@ -54,6 +65,8 @@ void trax_fast_destroy(struct trax_fast *fast) {
 void trax_fast_settle(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
+    for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
+      ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftm->tp[tp].issued;
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       for (unsigned bit = 0; bit < 64; bit++)
         for (uint64_t tps = ftm->tally[cause].planes[bit]; tps; tps &= tps - 1)

@@ -68,6 +68,9 @@ struct trax_fast_undo {
 
 struct trax_fast_tp {
   const struct trax_fast_inst *head;
+  struct trax_tp *tp; /* the reference's */
+  struct trax_fast_icache *icache;
+  uint64_t issued;
   uint32_t address; /* of the head's access, if it has been executed */
   uint32_t next;    /* steps[next] follows the head */
   uint32_t count;   /* of steps */
@@ -96,10 +99,32 @@ static inline void trax_fast_count(struct trax_fast_tally *tally, uint64_t tps) 
   }
 }
 
+/* An arbiter of masks: `last` is the bit of the latest winner, which says what the reference's pointer says. Takes the
+   first of the askers behind it, or else the first of all; 0 of 0. */
+static inline uint64_t trax_fast_first_after(uint64_t last, uint64_t askers) {
+  const uint64_t behind = askers & ~((last << 1) - 1);
+  const uint64_t among = behind ? behind : askers;
+  return among & -among;
+}
+
+/* Most banks are asked by one TP, who is served: then nothing is left to be done in the cycle of the fetch, and `asking`
+   becomes the latest winner. */
+struct trax_fast_bank {
+  uint64_t asking; /* if nobody asks: the latest winner */
+  uint64_t last;   /* if somebody asks: the latest winner */
+};
+
 struct trax_fast_icache {
-  uint64_t group;      /* TPs */
-  uint64_t banks;      /* mask: banks that are asked for */
-  uint64_t asking[64]; /* [bank] */
+  uint64_t banks;     /* those that are asked */
+  uint64_t conflicts; /* those that more than one TP asks */
+  struct trax_fast_bank bank[64];
+  const struct trax_cache_tags *tags;
+};
+
+/* Shared units of one kind. */
+struct trax_fast_unit {
+  uint32_t groups;
+  uint64_t group[64], last[64];
 };
 
 struct trax_fast_tm {
@@ -109,7 +134,6 @@ struct trax_fast_tm {
 
   /* Masks of TPs. `ready` have an instruction and usable operands and lack a unit, a bank or a place. */
   uint64_t want[TRAX_CLASS_COUNT]; /* by the head's class, fetched or not */
-  uint64_t data_bank[TRAX_MAX_TPS_PER_TM + 1]; /* by the bank that the head asks for; the last is nobody's */
   uint64_t ready;
   uint64_t deferred; /* the head executes at issue, as the reference would */
   uint64_t clear;    /* the head's operands will be usable in the first cycle in which it can be fetched */
@@ -118,6 +142,8 @@ struct trax_fast_tm {
 
   struct trax_fast_icache icache[TRAX_MAX_TPS_PER_TM];
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
+  struct trax_fast_unit fp_add, fp_mul, int_mul;
+  uint64_t data_bank_last[TRAX_MAX_TPS_PER_TM]; /* latest winners */
   struct trax_fast_tally tally[TRAX_CAUSE_COUNT];
 };
 

@@ -20,7 +20,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     memcpy(ftp->reg, tp->reg, sizeof ftp->reg);
     ftp->count = trax_fast_burst(ftm->fast, ftm, number, ftm->fast->burst);
   }
-  trax_fast_set(&ftm->deferred, number, !ftp->count);
+  ftm->deferred = (ftm->deferred & ~bit) | (ftp->count ? 0 : bit);
   if (ftp->count)
     return;
   ftp->head = ftp->resume;
@@ -28,6 +28,17 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   tp->inst = ftp->head->decoded;
   tp->pc = ftp->resume_pc;
   ftm->want[TRAX_CLASS_DEFERRED] |= bit;
+}
+
+uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  if (ftp->next == ftp->count)
+    trax_fast_refill(ftm, number);
+  if (!(ftm->deferred & bit))
+    trax_fast_take_step(ftm, ftp, ftm->fast->program.inst, bit);
+  trax_fast_look_ahead(ftm, ftp, number, t);
+  return ftm->deferred & bit ? ftp->tp->pc : ftp->head->pc;
 }
 
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {

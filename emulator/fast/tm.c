@@ -39,25 +39,30 @@ static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
   }
 }
 
-static uint64_t grant_fetches(struct trax_fast_tm *ftm) {
-  struct trax_tm *tm = ftm->tm;
-  const uint32_t ports = tm->config->icache.ports_per_bank;
-  uint64_t winners = 0;
-  for (uint32_t i = 0; i < tm->icaches; i++) {
+/* Returns the losers. */
+static uint64_t lose_fetches(struct trax_fast_tm *ftm) {
+  const uint32_t ports = ftm->tm->config->icache.ports_per_bank;
+  uint64_t losers = 0;
+  for (uint32_t i = 0; i < ftm->tm->icaches; i++) {
     struct trax_fast_icache *icache = &ftm->icache[i];
-    trax_arbiter *turn = tm->icache[i].bank;
-    uint64_t left = 0;
-    for (uint64_t banks = icache->banks; banks; banks &= banks - 1) {
-      const unsigned bank = trax_first(banks);
-      const uint64_t asking = icache->asking[bank];
-      const uint64_t served = trax_arbiter_grant(&turn[bank], asking, ports);
-      winners |= served;
-      icache->asking[bank] = asking & ~served;
-      left |= (uint64_t)(asking != served) << bank;
+    uint64_t asked = 0, conflicts = 0;
+    for (uint64_t rest = icache->conflicts; rest; rest &= rest - 1) {
+      struct trax_fast_bank *bank = &icache->bank[trax_first(rest)];
+      uint64_t asking = bank->asking, last = bank->last;
+      for (uint32_t port = 0; port < ports && asking; port++) {
+        last = trax_fast_first_after(last, asking);
+        asking ^= last;
+      }
+      losers |= asking;
+      bank->last = last;
+      bank->asking = asking ? asking : last;
+      asked |= asking ? rest & -rest : 0;
+      conflicts |= asking & (asking - 1) ? rest & -rest : 0;
     }
-    icache->banks = left;
+    icache->banks = asked;
+    icache->conflicts = conflicts;
   }
-  return winners;
+  return losers;
 }
 
 /* Returns those who hold their instructions now. */
@@ -68,8 +73,9 @@ static uint64_t fetch(struct trax_fast_tm *ftm, uint64_t t) {
   const uint64_t askers = tm->awake & ~tm->holding;
   if (!askers)
     return 0;
-  const uint64_t winners = grant_fetches(ftm);
-  trax_fast_count(&ftm->tally[TRAX_CAUSE_ICACHE_BANK], askers & ~winners);
+  const uint64_t losers = lose_fetches(ftm);
+  const uint64_t winners = askers & ~losers;
+  trax_fast_count(&ftm->tally[TRAX_CAUSE_ICACHE_BANK], losers);
 
   const uint64_t hits = winners & ftm->resident;
   tm->stats->icache_hits += count_bits(hits);
@@ -113,7 +119,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
       class = TRAX_CLASS_QUEUE;
     else {
       class = TRAX_CLASS_BANK;
-      ftm->data_bank[trax_fast_data_bank(ftm, tp->address)] |= bit;
+      ftm->tp[number].address = tp->address;
     }
   }
   ftm->want[class] |= bit;
@@ -157,10 +163,13 @@ static inline uint64_t refuse(struct trax_fast_tm *ftm, uint64_t askers, uint64_
   return winners;
 }
 
-static inline uint64_t grant_groups(struct trax_shared_unit *unit, uint64_t askers) {
+static inline uint64_t grant_unit(struct trax_fast_unit *unit, uint64_t askers) {
   uint64_t winners = 0;
-  for (uint32_t group = 0; group < unit->groups; group++)
-    winners |= trax_arbiter_grant(&unit->turn[group], askers & trax_group_mask(group, unit->group_size), 1);
+  for (uint32_t i = 0; i < unit->groups; i++) {
+    const uint64_t winner = trax_fast_first_after(unit->last[i], askers & unit->group[i]);
+    unit->last[i] = winner ? winner : unit->last[i];
+    winners |= winner;
+  }
   return winners;
 }
 
@@ -172,21 +181,32 @@ static uint64_t grant_units(struct trax_fast_tm *ftm, uint64_t t) {
   tm->stats->local_stores += count_bits(ready & want[TRAX_CLASS_LOCAL_STORE]);
   uint64_t askers;
   if ((askers = ready & want[TRAX_CLASS_FP_ADD]))
-    granted |= refuse(ftm, askers, grant_groups(&tm->fp_add, askers), TRAX_CAUSE_FP_ADD);
+    granted |= refuse(ftm, askers, grant_unit(&ftm->fp_add, askers), TRAX_CAUSE_FP_ADD);
   if ((askers = ready & want[TRAX_CLASS_FP_MUL]))
-    granted |= refuse(ftm, askers, grant_groups(&tm->fp_mul, askers), TRAX_CAUSE_FP_MUL);
+    granted |= refuse(ftm, askers, grant_unit(&ftm->fp_mul, askers), TRAX_CAUSE_FP_MUL);
   if ((askers = ready & want[TRAX_CLASS_INT_MUL]))
-    granted |= refuse(ftm, askers, grant_groups(&tm->int_mul, askers), TRAX_CAUSE_INT_MUL);
+    granted |= refuse(ftm, askers, grant_unit(&ftm->int_mul, askers), TRAX_CAUSE_INT_MUL);
   if ((askers = ready & want[TRAX_CLASS_SPECIAL]))
     granted |= refuse(ftm, askers, trax_special_unit_grant(&tm->special, askers, t), TRAX_CAUSE_SPECIAL);
   return granted;
 }
 
 static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
-  struct trax_dcache *dcache = &ftm->tm->dcache;
-  uint64_t winners = 0;
-  for (uint32_t bank = 0; bank < dcache->banks; bank++)
-    winners |= trax_arbiter_grant(&dcache->bank[bank], ftm->data_bank[bank] & askers, 1);
+  const uint32_t banks = ftm->tm->dcache.banks;
+  const bool power_of_two = (banks & (banks - 1)) == 0;
+  uint64_t asking[TRAX_MAX_TPS_PER_TM]; /* set where asked says so */
+  uint64_t asked = 0, winners = 0;
+  for (uint64_t rest = askers; rest; rest &= rest - 1) {
+    const uint32_t word = ftm->tp[trax_first(rest)].address / 4;
+    const uint32_t bank = power_of_two ? word & (banks - 1) : word % banks;
+    asking[bank] = (asked >> bank & 1 ? asking[bank] : 0) | (rest & -rest);
+    asked |= (uint64_t)1 << bank;
+  }
+  for (; asked; asked &= asked - 1) {
+    const unsigned bank = trax_first(asked);
+    ftm->data_bank_last[bank] = trax_fast_first_after(ftm->data_bank_last[bank], asking[bank]);
+    winners |= ftm->data_bank_last[bank];
+  }
   return refuse(ftm, askers, winners, TRAX_CAUSE_DCACHE_BANK);
 }
 
@@ -232,12 +252,8 @@ void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
   const uint64_t bank_askers = ftm->ready & ftm->want[TRAX_CLASS_BANK];
   if (bank_askers)
     queue_askers |= grant_banks(ftm, bank_askers);
-  if (queue_askers) {
-    const uint64_t served = grant_queue(ftm, queue_askers, t);
-    granted |= served;
-    for (uint32_t bank = 0; bank < tm->dcache.banks; bank++)
-      ftm->data_bank[bank] &= ~served;
-  }
+  if (queue_askers)
+    granted |= grant_queue(ftm, queue_askers, t);
   for (unsigned class = 0; class < TRAX_CLASS_COUNT; class++)
     ftm->want[class] &= ~granted;
   ftm->ready &= ~granted;
