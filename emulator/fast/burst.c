@@ -30,11 +30,10 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
   struct trax_fast_tp *const ftp = &ftm->tp[number];
   struct trax_tp *const tp = &ftm->tm->tp[number];
   uint32_t *const reg = tp->reg;
-  const struct trax_fast_inst *const first = fast->program.inst;
   const struct trax_fast_inst *inst = ftp->resume;
   const struct trax_space *const space = &fast->chip->machine->space;
   const struct trax_config *const config = ftm->tm->config;
-  uint32_t address = 0, word;
+  uint32_t address, word;
   uint32_t pc = ftp->resume_pc;
   unsigned count = 0;
   ftp->undo_count = 0;
@@ -50,12 +49,16 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
   (__extension__({                                                                                                     \
     address = (ADDRESS);                                                                                               \
     word = 0;                                                                                                          \
-    if (address >= TRAX_LOCAL_BASE && !(address & (BYTES - 1)))                                                        \
+    if (address >= TRAX_LOCAL_BASE && !(address & (BYTES - 1))) {                                                      \
       memcpy(&word, tp->local + (address - TRAX_LOCAL_BASE), BYTES);                                                   \
-    else if (may_load_ahead(fast, space, address, BYTES))                                                              \
+      step->class = TRAX_CLASS_LOCAL_LOAD;                                                                             \
+    } else if (may_load_ahead(fast, space, address, BYTES)) {                                                          \
       memcpy(&word, space->bytes + address, BYTES);                                                                    \
-    else                                                                                                               \
+      step->rd = TRAX_NO_REGISTER;                                                                                     \
+    } else {                                                                                                           \
       goto stop;                                                                                                       \
+    }                                                                                                                  \
+    step->address = address;                                                                                           \
     word;                                                                                                              \
   }))
 #define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
@@ -68,6 +71,7 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
     memcpy(&undo->word, tp->local + undo->offset, sizeof undo->word);                                                  \
     word = (VALUE);                                                                                                    \
     memcpy(tp->local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                     \
+    step->address = address;                                                                                           \
   } while (0)
 #define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
 #define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
@@ -83,7 +87,8 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
 #define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), config->special.precision_bits)
   while (count < limit) {
     uint32_t next_pc = pc + 4;
-    address = 0;
+    struct trax_fast_step *const step = &ftp->steps[count];
+    *step = (struct trax_fast_step){.inst = inst, .class = inst->class, .rd = inst->rd};
     switch ((trax_op)inst->op) {
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
   case TRAX_OP_##NAME:                                                                                                 \
@@ -95,7 +100,7 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
     case TRAX_OP_COUNT:
       goto stop;
     }
-    ftp->steps[count++] = (struct trax_fast_step){(uint32_t)(inst - first), address};
+    count++;
     if (next_pc == pc + 4)
       inst++;
     else

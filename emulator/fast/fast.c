@@ -26,6 +26,7 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
     ftm->tp[i].icache = &ftm->icache[ftm->icache_of[i]];
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
+    ftm->tp[i].step = ftm->tp[i].last = &ftm->tp[i].only;
     trax_fast_advance(ftm, i, UINT64_MAX); /* as if something had been issued in the cycle before 0 */
     trax_fast_ask_fetch(ftm, i);
   }

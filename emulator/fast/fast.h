@@ -58,8 +58,10 @@ struct trax_fast_program {
 enum { TRAX_BURST = 64 }; /* most instructions of a burst */
 
 struct trax_fast_step {
-  uint32_t inst;    /* index in trax_fast_program.inst */
+  const struct trax_fast_inst *inst;
   uint32_t address; /* of a memory access, else 0 */
+  uint8_t class;    /* trax_fast_class */
+  uint8_t rd;       /* whose latency is noted at issue: not that of a load from global memory */
 };
 
 struct trax_fast_undo {
@@ -67,13 +69,12 @@ struct trax_fast_undo {
 };
 
 struct trax_fast_tp {
-  const struct trax_fast_inst *head;
-  struct trax_tp *tp; /* the reference's */
+  const struct trax_fast_step *step; /* the head: one of steps, or `only` if it is deferred */
+  const struct trax_fast_step *last; /* after it comes the next burst */
+  struct trax_tp *tp;                /* the reference's */
   struct trax_fast_icache *icache;
   uint64_t issued;
-  uint32_t address; /* of the head's access, if it has been executed */
-  uint32_t next;    /* steps[next] follows the head */
-  uint32_t count;   /* of steps */
+  struct trax_fast_step only;
   uint32_t resume_pc;
   const struct trax_fast_inst *resume; /* where the next burst begins: at resume_pc */
   uint64_t atomics;                    /* registers that an atomic increment under way will write */

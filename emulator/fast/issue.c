@@ -18,12 +18,12 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
   else if (tp->address >= TRAX_LOCAL_BASE)
     trax_tp_set_usable(tp, inst->rd, t + ftm->tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
-  ftp->resume = tp->pc == pc + 4 ? ftp->head + 1 : trax_fast_inst_at(&ftm->fast->program, tp->pc);
+  ftp->resume = tp->pc == pc + 4 ? ftp->step->inst + 1 : trax_fast_inst_at(&ftm->fast->program, tp->pc);
   ftp->resume_pc = tp->pc;
   return true;
 }
 
-/* A deferred head, or any if issues are traced. Returns whether the next one is elsewhere than behind it. */
+/* A deferred head, or the last of a burst. Returns whether the next one is elsewhere than behind it. */
 static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tm *tm = ftm->tm;
@@ -33,8 +33,7 @@ static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
   const uint32_t pc = ftp->tp->pc;
   if (!(ftm->deferred & bit)) {
     tm->stats->instructions[inst->op]++;
-    if (inst->ask != TRAX_ASK_MEMORY || ftp->address >= TRAX_LOCAL_BASE)
-      trax_tp_set_usable(ftp->tp, inst->rd, t + ftp->head->latency, ftp->head->cause);
+    trax_tp_set_usable(ftp->tp, ftp->step->rd, t + ftp->step->inst->latency, ftp->step->inst->cause);
   } else if (!execute(ftm, number, t))
     return false;
   ftp->issued++;
@@ -53,38 +52,40 @@ static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
   struct trax_tm *const tm = ftm->tm;
   struct trax_fast_tp *const tps = ftm->tp;
-  const struct trax_fast_inst *const inst = ftm->fast->program.inst;
   uint64_t *const instructions = tm->stats->instructions;
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
-  const bool traced = tm->machine->trace;
-  uint64_t jumping = 0, done = 0;
+  uint64_t jumping = 0, quick = 0, clear = 0, resident = 0;
+  uint64_t slow_jumping = 0;
   for (uint64_t rest = granted; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     const uint64_t bit = rest & -rest;
     struct trax_fast_tp *const ftp = &tps[number];
-    /* deferred may change under way: a store calls back who has run ahead */
-    if (traced || (ftm->deferred & bit) || ftp->next == ftp->count) {
-      jumping |= issue_slowly(ftm, number, t) ? bit : 0;
+    const struct trax_fast_step *const step = ftp->step;
+    if (__builtin_expect(step == ftp->last, false)) {
+      slow_jumping |= issue_slowly(ftm, number, t) ? bit : 0;
       continue;
     }
-    const struct trax_fast_inst *const head = ftp->head;
-    const uint32_t pc = head->pc;
-    instructions[head->op]++;
+    const struct trax_fast_inst *const inst = step->inst, *const next = step[1].inst;
+    struct trax_tp *const tp = ftp->tp;
+    instructions[inst->op]++;
+    trax_tp_set_usable(tp, step->rd, t + inst->latency, inst->cause);
     ftp->issued++;
-    /* The data cache has seen to its loads' results; usable[TRAX_NO_REGISTER] means nothing. */
-    const bool cached = ftp->address - 1 < TRAX_LOCAL_BASE - 1;
-    const unsigned rd = cached ? TRAX_NO_REGISTER : head->rd;
-    trax_tp_set_usable(ftp->tp, rd, t + head->latency, head->cause);
-    done |= bit;
-    trax_fast_take_step(ftm, ftp, inst, bit);
-    trax_fast_look_ahead(ftm, ftp, number, t);
-    const bool jumps = ftp->head->pc != pc + 4;
-    tm->stats->taken_branches += jumps;
-    jumping |= (uint64_t)jumps << number;
-    if (!jumps || !bubble)
-      trax_fast_ask_bank(ftp->icache, ftp->head, bit); /* what has been executed can be fetched */
+    ftp->step = step + 1;
+    ftm->want[step[1].class] |= bit;
+    quick |= bit;
+    clear |= bit & -(uint64_t)trax_fast_is_clear(tp->usable, next, t);
+    resident |= bit & -(uint64_t)trax_fast_is_resident(ftp->icache->tags, next);
+    const uint64_t jump = bit & -(uint64_t)(next != inst + 1);
+    jumping |= jump;
+    if (!bubble || !jump)
+      trax_fast_ask_bank(ftp->icache, next, bit); /* what has been executed can be fetched */
   }
-  tm->holding &= ~done;
+  ftm->clear = (ftm->clear & ~quick) | clear;
+  ftm->resident = (ftm->resident & ~quick) | resident;
+  tm->holding &= ~quick;
+  if (jumping)
+    tm->stats->taken_branches += (unsigned)__builtin_popcountll(jumping);
+  jumping |= slow_jumping;
   if (bubble)
     for (; jumping; jumping &= jumping - 1)
       trax_tm_sleep_until(tm, trax_first(jumping), t, t + 1, t + 1 + bubble, TRAX_CAUSE_BRANCH);

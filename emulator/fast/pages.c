@@ -19,14 +19,15 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
   }
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
-  const unsigned issued = ftp->next - 1;
+  const unsigned issued = (unsigned)(ftp->step - ftp->steps);
   ftp->resume = ftp->begin;
   ftp->resume_pc = ftp->begin->pc;
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);
-  assert(again == issued && ftp->resume == ftp->head);
+  assert(again == issued && ftp->resume == ftp->step->inst);
   (void)again;
   trax_fast_show(ftm, number);
-  ftp->next = ftp->count = 0;
+  ftp->only = *ftp->step;
+  ftp->step = ftp->last = &ftp->only;
   ftm->deferred |= bit; /* its class and what it asks for stay */
 }
 

@@ -98,7 +98,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
   const uint64_t bit = (uint64_t)1 << number;
-  trax_fast_class class = (trax_fast_class)ftm->tp[number].head->class;
+  trax_fast_class class = (trax_fast_class)ftm->tp[number].step->inst->class;
   ftm->want[TRAX_CLASS_DEFERRED] &= ~bit;
   if (inst->ask == TRAX_ASK_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
@@ -119,7 +119,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
       class = TRAX_CLASS_QUEUE;
     else {
       class = TRAX_CLASS_BANK;
-      ftm->tp[number].address = tp->address;
+      ftm->tp[number].only.address = tp->address;
     }
   }
   ftm->want[class] |= bit;
@@ -197,7 +197,7 @@ static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
   uint64_t asking[TRAX_MAX_TPS_PER_TM]; /* set where asked says so */
   uint64_t asked = 0, winners = 0;
   for (uint64_t rest = askers; rest; rest &= rest - 1) {
-    const uint32_t word = ftm->tp[trax_first(rest)].address / 4;
+    const uint32_t word = ftm->tp[trax_first(rest)].step->address / 4;
     const uint32_t bank = power_of_two ? word & (banks - 1) : word % banks;
     asking[bank] = (asked >> bank & 1 ? asking[bank] : 0) | (rest & -rest);
     asked |= (uint64_t)1 << bank;
@@ -212,11 +212,11 @@ static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
 
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const struct trax_fast_tp *ftp = &ftm->tp[number];
-  if (!trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, ftp->address)))
+  const struct trax_fast_step *step = ftm->tp[number].step;
+  if (!trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, step->address)))
     return false;
   tm->stats->dcache_hits++;
-  trax_tp_set_usable(&tm->tp[number], ftp->head->rd, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
+  trax_tp_set_usable(&tm->tp[number], step->inst->rd, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
   return true;
 }
 
