@@ -22,12 +22,11 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   create_unit(&ftm->int_mul, &tm->int_mul);
   for (unsigned i = 0; i < tm->tps; i++) {
     ftm->icache_of[i] = (uint8_t)(i / tm->config->icache.tps_per_cache);
-    ftm->tp[i].tp = &tm->tp[i];
-    ftm->tp[i].icache = &ftm->icache[ftm->icache_of[i]];
+    ftm->slot[i].icache = &ftm->icache[ftm->icache_of[i]];
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
-    ftm->tp[i].step = ftm->tp[i].last = &ftm->tp[i].only;
-    trax_fast_advance(ftm, i, UINT64_MAX); /* as if something had been issued in the cycle before 0 */
+    ftm->slot[i].step = ftm->slot[i].last = &ftm->tp[i].only;
+    trax_fast_advance(ftm, i);
     trax_fast_ask_fetch(ftm, i);
   }
   return TRAX_OK;
@@ -66,8 +65,6 @@ void trax_fast_destroy(struct trax_fast *fast) {
 void trax_fast_settle(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
-    for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
-      ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftm->tp[tp].issued;
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       for (unsigned bit = 0; bit < 64; bit++)
         for (uint64_t tps = ftm->tally[cause].planes[bit]; tps; tps &= tps - 1)

@@ -33,13 +33,12 @@ struct trax_fast_inst {
   uint8_t op; /* trax_op; TRAX_OP_ILLEGAL where a burst must stop: then only `decoded` knows */
   uint8_t rd, ra, rb;
   int32_t imm;
-  uint8_t wait_ra, wait_rb, wait_rd;
-  uint8_t class; /* trax_fast_class */
-  uint8_t bank;  /* of the instruction cache */
+  uint32_t waits; /* mask of registers that must be usable */
+  uint8_t class;  /* trax_fast_class */
+  uint8_t bank;   /* of the instruction cache */
   uint8_t cause;
-  uint16_t latency;
+  uint16_t latency; /* unless memory decides */
   uint32_t pc;
-  uint32_t line; /* of the instruction cache */
   const struct trax_decoded *decoded;
 };
 
@@ -68,12 +67,17 @@ struct trax_fast_undo {
   uint32_t offset, word; /* what a word of local memory was */
 };
 
-struct trax_fast_tp {
-  const struct trax_fast_step *step; /* the head: one of steps, or `only` if it is deferred */
+/* What most issues need of a TP, apart so that a TM's fit into few of the host's cache lines. */
+struct trax_fast_slot {
+  const struct trax_fast_step *step; /* the head: one of trax_fast_tp.steps, or its `only` if it is deferred */
   const struct trax_fast_step *last; /* after it comes the next burst */
-  struct trax_tp *tp;                /* the reference's */
   struct trax_fast_icache *icache;
-  uint64_t issued;
+  /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
+     it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
+  uint32_t busy;
+};
+
+struct trax_fast_tp {
   struct trax_fast_step only;
   uint32_t resume_pc;
   const struct trax_fast_inst *resume; /* where the next burst begins: at resume_pc */
@@ -100,6 +104,20 @@ static inline void trax_fast_count(struct trax_fast_tally *tally, uint64_t tps) 
   }
 }
 
+/* The same where many TPs are counted in every cycle: the low bits without a branch. */
+static inline void trax_fast_count_many(struct trax_fast_tally *tally, uint64_t tps) {
+  for (unsigned i = 0; i < 6; i++) {
+    const uint64_t carry = tally->planes[i] & tps;
+    tally->planes[i] ^= tps;
+    tps = carry;
+  }
+  for (uint64_t *plane = tally->planes + 6; tps; plane++) {
+    const uint64_t carry = *plane & tps;
+    *plane ^= tps;
+    tps = carry;
+  }
+}
+
 /* An arbiter of masks: `last` is the bit of the latest winner, which says what the reference's pointer says. Takes the
    first of the askers behind it, or else the first of all; 0 of 0. */
 static inline uint64_t trax_fast_first_after(uint64_t last, uint64_t askers) {
@@ -118,8 +136,8 @@ struct trax_fast_bank {
 struct trax_fast_icache {
   uint64_t banks;     /* those that are asked */
   uint64_t conflicts; /* those that more than one TP asks */
-  struct trax_fast_bank bank[64];
   const struct trax_cache_tags *tags;
+  struct trax_fast_bank bank[64];
 };
 
 /* Shared units of one kind. */
@@ -132,6 +150,7 @@ struct trax_fast_tm {
   struct trax_tm *tm;
   struct trax_fast *fast;
   struct trax_fast_tp *tp; /* [tps] */
+  struct trax_fast_slot slot[TRAX_MAX_TPS_PER_TM];
 
   /* Masks of TPs. `ready` have an instruction and usable operands and lack a unit, a bank or a place. */
   uint64_t want[TRAX_CLASS_COUNT]; /* by the head's class, fetched or not */
@@ -162,6 +181,11 @@ void trax_fast_destroy(struct trax_fast *fast);
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
 /* Adds the tallies to the TPs' charges. */
 void trax_fast_settle(struct trax_fast *fast);
+
+/* In trax_fast_slot.busy. */
+static inline uint32_t trax_fast_register_bit(unsigned rd) {
+  return (uint32_t)((uint64_t)1 << rd); /* 0 of TRAX_NO_REGISTER */
+}
 
 /* --- program.c --- */
 trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,

@@ -12,7 +12,8 @@ static void drop_arrived(struct trax_fast_tp *ftp, const struct trax_tp *tp) {
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
-  struct trax_tp *tp = ftp->tp;
+  struct trax_fast_slot *slot = &ftm->slot[number];
+  struct trax_tp *tp = &ftm->tm->tp[number];
   drop_arrived(ftp, tp);
   unsigned count = 0;
   if (!ftp->atomics) { /* else it might read or overtake what the increment will write */
@@ -22,37 +23,37 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   }
   if (count) {
     ftm->deferred &= ~bit;
-    ftp->step = ftp->steps;
-    ftp->last = ftp->steps + count - 1;
+    slot->step = ftp->steps;
+    slot->last = ftp->steps + count - 1;
   } else {
     ftm->deferred |= bit;
     ftp->only = (struct trax_fast_step){.inst = ftp->resume, .class = TRAX_CLASS_DEFERRED};
-    ftp->step = ftp->last = &ftp->only;
+    slot->step = slot->last = &ftp->only;
     tp->inst = ftp->resume->decoded;
     tp->pc = ftp->resume_pc;
   }
 }
 
-uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
-  struct trax_fast_tp *ftp = &ftm->tp[number];
-  if (ftp->step == ftp->last)
+  struct trax_fast_slot *slot = &ftm->slot[number];
+  if (slot->step == slot->last)
     trax_fast_refill(ftm, number);
   else
-    ftp->step++;
-  const struct trax_fast_inst *head = ftp->step->inst;
-  ftm->want[ftp->step->class] |= bit;
-  ftm->clear = (ftm->clear & ~bit) | (trax_fast_is_clear(ftp->tp->usable, head, t) ? bit : 0);
-  ftm->resident = (ftm->resident & ~bit) | (trax_fast_is_resident(ftp->icache->tags, head) ? bit : 0);
-  return ftm->deferred & bit ? ftp->tp->pc : head->pc;
+    slot->step++;
+  const struct trax_fast_inst *head = slot->step->inst;
+  ftm->want[slot->step->class] |= bit;
+  ftm->clear = (ftm->clear & ~bit) | (head->waits & slot->busy ? 0 : bit);
+  ftm->resident = (ftm->resident & ~bit) | (trax_fast_is_resident(slot->icache->tags, head) ? bit : 0);
+  return ftm->deferred & bit ? ftm->tm->tp[number].pc : head->pc;
 }
 
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_tp *ftp = &ftm->tp[number];
-  struct trax_tp *tp = ftp->tp;
+  const struct trax_fast_step *step = ftm->slot[number].step;
+  struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred >> number & 1)
     return; /* set when it became the head, and its address since */
-  tp->inst = ftp->step->inst->decoded;
-  tp->pc = ftp->step->inst->pc;
-  tp->address = ftp->step->address;
+  tp->inst = step->inst->decoded;
+  tp->pc = step->inst->pc;
+  tp->address = step->address;
 }

@@ -18,25 +18,20 @@ static inline void trax_fast_ask_bank(struct trax_fast_icache *icache, const str
 }
 
 static inline void trax_fast_ask_fetch(struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_tp *ftp = &ftm->tp[number];
-  if (ftp->step->inst->decoded->ask == TRAX_ASK_OUTSIDE)
+  const struct trax_fast_slot *slot = &ftm->slot[number];
+  if (slot->step->inst->decoded->ask == TRAX_ASK_OUTSIDE)
     ftm->outside |= (uint64_t)1 << number;
   else
-    trax_fast_ask_bank(ftp->icache, ftp->step->inst, (uint64_t)1 << number);
-}
-
-/* Whether the head's operands will be usable in the cycle after t. */
-static inline bool trax_fast_is_clear(const uint64_t *usable, const struct trax_fast_inst *head, uint64_t t) {
-  return (usable[head->wait_ra] <= t + 1) & (usable[head->wait_rb] <= t + 1) & (usable[head->wait_rd] <= t + 1);
+    trax_fast_ask_bank(slot->icache, slot->step->inst, (uint64_t)1 << number);
 }
 
 /* Whether the head's line is in its cache. */
 static inline bool trax_fast_is_resident(const struct trax_cache_tags *tags, const struct trax_fast_inst *head) {
-  return tags->ways == 1 ? tags->lines[head->line & tags->set_mask] == (uint64_t)head->line + 1
-                         : trax_cache_tags_have(tags, head->line);
+  const uint32_t line = trax_line_of(tags, head->pc);
+  return tags->ways == 1 ? tags->lines[line & tags->set_mask] == (uint64_t)line + 1 : trax_cache_tags_have(tags, line);
 }
 
-/* The TP's next instruction becomes its head, executed already if it may be, as of cycle t; returns its pc. */
-uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp, uint64_t t);
+/* The TP's next instruction becomes its head, executed already if it may be; returns its pc. */
+uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp);
 
 #endif

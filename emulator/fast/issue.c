@@ -18,31 +18,41 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
   else if (tp->address >= TRAX_LOCAL_BASE)
     trax_tp_set_usable(tp, inst->rd, t + ftm->tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
-  ftp->resume = tp->pc == pc + 4 ? ftp->step->inst + 1 : trax_fast_inst_at(&ftm->fast->program, tp->pc);
+  ftm->slot[number].busy |= trax_fast_register_bit(inst->rd);
+  ftp->resume = tp->pc == pc + 4 ? ftm->slot[number].step->inst + 1 : trax_fast_inst_at(&ftm->fast->program, tp->pc);
   ftp->resume_pc = tp->pc;
   return true;
+}
+
+static inline void note_result(struct trax_fast_tm *ftm, unsigned number, const struct trax_fast_step *step,
+                               uint64_t t) {
+  const struct trax_fast_inst *inst = step->inst;
+  ftm->tm->stats->instructions[inst->op]++;
+  if (inst->latency > 1) {
+    trax_tp_set_usable(&ftm->tm->tp[number], step->rd, t + inst->latency, inst->cause);
+    ftm->slot[number].busy |= trax_fast_register_bit(step->rd);
+  }
 }
 
 /* A deferred head, or the last of a burst. Returns whether the next one is elsewhere than behind it. */
 static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tm *tm = ftm->tm;
-  struct trax_fast_tp *ftp = &ftm->tp[number];
+  const struct trax_tp *tp = &tm->tp[number];
   trax_fast_show(ftm, number);
-  const struct trax_decoded *inst = ftp->tp->inst;
-  const uint32_t pc = ftp->tp->pc;
-  if (!(ftm->deferred & bit)) {
-    tm->stats->instructions[inst->op]++;
-    trax_tp_set_usable(ftp->tp, ftp->step->rd, t + ftp->step->inst->latency, ftp->step->inst->cause);
-  } else if (!execute(ftm, number, t))
+  const struct trax_decoded *inst = tp->inst;
+  const uint32_t pc = tp->pc;
+  if (!(ftm->deferred & bit))
+    note_result(ftm, number, ftm->slot[number].step, t);
+  else if (!execute(ftm, number, t))
     return false;
-  ftp->issued++;
+  trax_fast_count(&ftm->tally[TRAX_CAUSE_ISSUED], bit);
   tm->holding &= ~bit;
   if (tm->machine->trace)
     trax_tm_trace(tm, number, pc, inst, t);
   if (tm->ended & bit)
     return false;
-  const bool jumps = trax_fast_advance(ftm, number, t) != pc + 4;
+  const bool jumps = trax_fast_advance(ftm, number) != pc + 4;
   tm->stats->taken_branches += jumps;
   if (!jumps || !tm->config->tp.branch_bubble_cycles)
     trax_fast_ask_fetch(ftm, number);
@@ -51,38 +61,33 @@ static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
   struct trax_tm *const tm = ftm->tm;
-  struct trax_fast_tp *const tps = ftm->tp;
-  uint64_t *const instructions = tm->stats->instructions;
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
-  uint64_t jumping = 0, quick = 0, clear = 0, resident = 0;
-  uint64_t slow_jumping = 0;
+  uint64_t quick = 0, jumping = 0, slow_jumping = 0, clear = 0, resident = 0;
   for (uint64_t rest = granted; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     const uint64_t bit = rest & -rest;
-    struct trax_fast_tp *const ftp = &tps[number];
-    const struct trax_fast_step *const step = ftp->step;
-    if (__builtin_expect(step == ftp->last, false)) {
+    struct trax_fast_slot *const slot = &ftm->slot[number];
+    const struct trax_fast_step *const step = slot->step;
+    if (__builtin_expect(step == slot->last, false)) {
       slow_jumping |= issue_slowly(ftm, number, t) ? bit : 0;
       continue;
     }
-    const struct trax_fast_inst *const inst = step->inst, *const next = step[1].inst;
-    struct trax_tp *const tp = ftp->tp;
-    instructions[inst->op]++;
-    trax_tp_set_usable(tp, step->rd, t + inst->latency, inst->cause);
-    ftp->issued++;
-    ftp->step = step + 1;
+    note_result(ftm, number, step, t);
+    const struct trax_fast_inst *const next = step[1].inst;
+    slot->step = step + 1;
     ftm->want[step[1].class] |= bit;
     quick |= bit;
-    clear |= bit & -(uint64_t)trax_fast_is_clear(tp->usable, next, t);
-    resident |= bit & -(uint64_t)trax_fast_is_resident(ftp->icache->tags, next);
-    const uint64_t jump = bit & -(uint64_t)(next != inst + 1);
+    clear |= bit & -(uint64_t)((next->waits & slot->busy) == 0);
+    resident |= bit & -(uint64_t)trax_fast_is_resident(slot->icache->tags, next);
+    const uint64_t jump = bit & -(uint64_t)(next != step->inst + 1);
     jumping |= jump;
     if (!bubble || !jump)
-      trax_fast_ask_bank(ftp->icache, next, bit); /* what has been executed can be fetched */
+      trax_fast_ask_bank(slot->icache, next, bit); /* what has been executed can be fetched */
   }
   ftm->clear = (ftm->clear & ~quick) | clear;
   ftm->resident = (ftm->resident & ~quick) | resident;
   tm->holding &= ~quick;
+  trax_fast_count_many(&ftm->tally[TRAX_CAUSE_ISSUED], quick);
   if (jumping)
     tm->stats->taken_branches += (unsigned)__builtin_popcountll(jumping);
   jumping |= slow_jumping;

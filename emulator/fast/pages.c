@@ -11,6 +11,7 @@
 static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
+  struct trax_fast_slot *slot = &ftm->slot[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred & bit)
     return;
@@ -19,15 +20,15 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
   }
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
-  const unsigned issued = (unsigned)(ftp->step - ftp->steps);
+  const unsigned issued = (unsigned)(slot->step - ftp->steps);
   ftp->resume = ftp->begin;
   ftp->resume_pc = ftp->begin->pc;
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);
-  assert(again == issued && ftp->resume == ftp->step->inst);
+  assert(again == issued && ftp->resume == slot->step->inst);
   (void)again;
   trax_fast_show(ftm, number);
-  ftp->only = *ftp->step;
-  ftp->step = ftp->last = &ftp->only;
+  ftp->only = *slot->step;
+  slot->step = slot->last = &ftp->only;
   ftm->deferred |= bit; /* its class and what it asks for stay */
 }
 

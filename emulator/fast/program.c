@@ -31,6 +31,8 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
+_Static_assert(sizeof(struct trax_fast_inst) == 32, "two to a line of the host's cache");
+
 static struct trax_fast_inst predecode(const struct trax_decoded *decoded, uint32_t pc,
                                        const struct trax_config *config) {
   const bool memory = decoded->ask == TRAX_ASK_MEMORY;
@@ -40,15 +42,12 @@ static struct trax_fast_inst predecode(const struct trax_decoded *decoded, uint3
       .ra = decoded->ra,
       .rb = decoded->rb,
       .imm = decoded->imm,
-      .wait_ra = decoded->wait_ra,
-      .wait_rb = decoded->wait_rb,
-      .wait_rd = decoded->wait_rd,
+      .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
       .class = (uint8_t)class_of(decoded),
       .bank = decoded->bank,
       .cause = memory ? TRAX_CAUSE_DATA_LOCAL : decoded->cause,
       .latency = memory ? (uint16_t)config->tp.local_latency_cycles : decoded->latency,
       .pc = pc,
-      .line = pc / config->icache.line_bytes,
       .decoded = decoded,
   };
 }

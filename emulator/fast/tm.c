@@ -98,7 +98,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
   const uint64_t bit = (uint64_t)1 << number;
-  trax_fast_class class = (trax_fast_class)ftm->tp[number].step->inst->class;
+  trax_fast_class class = (trax_fast_class)ftm->slot[number].step->inst->class;
   ftm->want[TRAX_CLASS_DEFERRED] &= ~bit;
   if (inst->ask == TRAX_ASK_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
@@ -130,8 +130,10 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   struct trax_tm *tm = ftm->tm;
   trax_fast_show(ftm, number);
   const struct trax_tp *tp = &tm->tp[number];
-  if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL)
+  if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL) {
+    ftm->slot[number].busy &= ~ftm->slot[number].step->inst->waits;
     return true;
+  }
   uint64_t until = 0;
   const trax_cause cause = trax_tp_wait(tp, t, &until);
   if (until == TRAX_NEVER) {
@@ -197,7 +199,7 @@ static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
   uint64_t asking[TRAX_MAX_TPS_PER_TM]; /* set where asked says so */
   uint64_t asked = 0, winners = 0;
   for (uint64_t rest = askers; rest; rest &= rest - 1) {
-    const uint32_t word = ftm->tp[trax_first(rest)].step->address / 4;
+    const uint32_t word = ftm->slot[trax_first(rest)].step->address / 4;
     const uint32_t bank = power_of_two ? word & (banks - 1) : word % banks;
     asking[bank] = (asked >> bank & 1 ? asking[bank] : 0) | (rest & -rest);
     asked |= (uint64_t)1 << bank;
@@ -212,11 +214,15 @@ static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
 
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const struct trax_fast_step *step = ftm->tp[number].step;
+  const struct trax_fast_step *step = ftm->slot[number].step;
   if (!trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, step->address)))
     return false;
   tm->stats->dcache_hits++;
-  trax_tp_set_usable(&tm->tp[number], step->inst->rd, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
+  const uint32_t latency = tm->config->dcache.hit_latency_cycles;
+  if (latency > 1) {
+    trax_tp_set_usable(&tm->tp[number], step->inst->rd, t + latency, TRAX_CAUSE_DATA_HIT);
+    ftm->slot[number].busy |= trax_fast_register_bit(step->inst->rd);
+  }
   return true;
 }
 
@@ -232,6 +238,7 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
       if (!served) {
         trax_fast_show(ftm, number);
         served = trax_tm_serve(tm, number, t);
+        ftm->slot[number].busy |= trax_fast_register_bit(tm->tp[number].inst->rd);
       }
       if (served)
         granted |= rest & -rest;
