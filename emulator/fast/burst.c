@@ -1,5 +1,5 @@
 /* Function, ahead of time. A burst ends before an instruction whose effect others can see or whose value depends on time:
-   atomic increments, stores to global memory, loads from pages that are written during the run, loads and stores past the
+   atomic increments, stores to global memory, loads from blocks that are written during the run, loads and stores past the
    cache, reads of the cycle counter, traps, ends of threads, and everything that faults. */
 #include "fast/fast.h"
 #include "trax/semantics.h"
@@ -9,7 +9,7 @@
 static bool may_load_ahead(const struct trax_fast *fast, const struct trax_space *space, uint32_t address,
                            uint32_t bytes) {
   return address - TRAX_NULL_END < space->size - TRAX_NULL_END && !(address & (bytes - 1)) &&
-         !fast->written[address >> TRAX_FAST_PAGE_SHIFT];
+         fast->blocks.state[address >> TRAX_BLOCK_SHIFT] != TRAX_BLOCK_WRITTEN;
 }
 
 static uint32_t special_register(const struct trax_tm *tm, unsigned tp, uint32_t number) {
@@ -54,6 +54,7 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
       step->class = TRAX_CLASS_LOCAL_LOAD;                                                                             \
     } else if (may_load_ahead(fast, space, address, BYTES)) {                                                          \
       memcpy(&word, space->bytes + address, BYTES);                                                                    \
+      fast->blocks.state[address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_LOADED;                                             \
       step->rd = TRAX_NO_REGISTER;                                                                                     \
     } else {                                                                                                           \
       goto stop;                                                                                                       \

@@ -39,11 +39,11 @@ trax_status trax_fast_create(struct trax_chip *chip, trax_error *error) {
     return trax_fail(error, "out of memory");
   fast->chip = chip;
   fast->burst = machine->trace ? 1 : TRAX_BURST;
-  fast->written = calloc(machine->space.size >> TRAX_FAST_PAGE_SHIFT, 1);
   fast->tm = calloc(chip->tms, sizeof *fast->tm);
-  if (!fast->written || !fast->tm)
+  if (!fast->tm)
     return trax_fail(error, "out of memory");
-  if (trax_fast_program_create(&fast->program, &chip->text, &machine->config, error))
+  if (trax_fast_blocks_create(&fast->blocks, machine->space.size, error) ||
+      trax_fast_program_create(&fast->program, &chip->text, &machine->config, error))
     return TRAX_ERROR;
   for (uint32_t i = 0; i < chip->tms; i++)
     if (create_tm(&fast->tm[i], fast, &chip->tm[i], error))
@@ -57,7 +57,7 @@ void trax_fast_destroy(struct trax_fast *fast) {
   for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++)
     free(fast->tm[i].tp);
   free(fast->tm);
-  free(fast->written);
+  trax_fast_blocks_destroy(&fast->blocks);
   trax_fast_program_destroy(&fast->program);
   free(fast);
 }

@@ -6,7 +6,7 @@
    stays until it is granted (tm.c, issue.c).
 
    Everything rare is the reference's: arrivals, misses, requests, faults, traps, and the execution of instructions that
-   must not run ahead, in the reference's own structures. A TM touches nothing of another one but through pages.c and the
+   must not run ahead, in the reference's own structures. A TM touches nothing of another one but through blocks.c and the
    memory controller. */
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
@@ -84,7 +84,7 @@ struct trax_fast_tp {
   uint64_t atomics;                    /* registers that an atomic increment under way will write */
 
   struct trax_fast_step steps[TRAX_BURST];
-  /* How to get back to the burst's beginning (pages.c). */
+  /* How to get back to the burst's beginning (blocks.c). */
   const struct trax_fast_inst *begin;
   uint32_t undo_count;
   uint32_t reg[TRAX_NUM_REGISTERS + 1];
@@ -167,12 +167,20 @@ struct trax_fast_tm {
   struct trax_fast_tally tally[TRAX_CAUSE_COUNT];
 };
 
+/* What has happened to each small block of global memory during the run (blocks.c). */
+enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN = 2 };
+
+struct trax_fast_blocks {
+  uint8_t *state; /* [block]: LOADED by someone who ran ahead, or then or at once WRITTEN */
+  size_t bytes;
+};
+
 struct trax_fast {
   struct trax_chip *chip;
   struct trax_fast_program program;
   struct trax_fast_tm *tm; /* [tms] */
   unsigned burst;          /* most instructions of a burst; 1 if issues are traced, so that results are there */
-  uint8_t *written;        /* [page]: someone may have written it during the run */
+  struct trax_fast_blocks blocks;
 };
 
 trax_status trax_fast_create(struct trax_chip *chip, trax_error *error);
@@ -212,10 +220,10 @@ void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
 /* --- issue.c --- */
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t);
 
-/* --- pages.c --- */
-#define TRAX_FAST_PAGE_SHIFT 12
-/* Someone is about to write the page of a global address: whoever ran ahead comes back, and from now on loads from the
-   page do not run ahead. */
-void trax_fast_page_written(struct trax_fast *fast, uint32_t address);
+/* --- blocks.c --- */
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error);
+void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
+/* A store or atomic increment is about to write to a global address. */
+void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
 
 #endif

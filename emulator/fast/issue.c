@@ -8,7 +8,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const struct trax_decoded *inst = tp->inst;
   const uint32_t pc = tp->pc;
   if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE)
-    trax_fast_page_written(ftm->fast, tp->address);
+    trax_fast_block_written(ftm->fast, tp->address);
   if (inst->is_atomic)
     ftp->atomics |= (uint64_t)1 << inst->rd;
   if (!trax_tp_execute(ftm->tm, number, t))
