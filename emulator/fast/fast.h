@@ -137,6 +137,7 @@ struct trax_fast_icache {
   uint64_t banks;     /* those that are asked */
   uint64_t conflicts; /* those that more than one TP asks */
   const struct trax_cache_tags *tags;
+  const uint64_t *lines; /* of tags */
   struct trax_fast_bank bank[64];
 };
 

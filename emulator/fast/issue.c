@@ -13,7 +13,6 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     ftp->atomics |= (uint64_t)1 << inst->rd;
   if (!trax_tp_execute(ftm->tm, number, t))
     return false;
-  ftm->tm->stats->instructions[inst->op]++;
   if (inst->ask != TRAX_ASK_MEMORY)
     trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
   else if (tp->address >= TRAX_LOCAL_BASE)
@@ -27,7 +26,6 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 static inline void note_result(struct trax_fast_tm *ftm, unsigned number, const struct trax_fast_step *step,
                                uint64_t t) {
   const struct trax_fast_inst *inst = step->inst;
-  ftm->tm->stats->instructions[inst->op]++;
   if (inst->latency > 1) {
     trax_tp_set_usable(&ftm->tm->tp[number], step->rd, t + inst->latency, inst->cause);
     ftm->slot[number].busy |= trax_fast_register_bit(step->rd);
@@ -46,6 +44,7 @@ static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
     note_result(ftm, number, ftm->slot[number].step, t);
   else if (!execute(ftm, number, t))
     return false;
+  tm->stats->instructions[inst->op]++;
   trax_fast_count(&ftm->tally[TRAX_CAUSE_ISSUED], bit);
   tm->holding &= ~bit;
   if (tm->machine->trace)
@@ -61,6 +60,8 @@ static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
   struct trax_tm *const tm = ftm->tm;
+  const struct trax_cache_tags tags = *ftm->icache[0].tags; /* but for `lines`, all are alike */
+  uint64_t *const instructions = tm->stats->instructions;
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
   uint64_t quick = 0, jumping = 0, slow_jumping = 0, clear = 0, resident = 0;
   for (uint64_t rest = granted; rest; rest &= rest - 1) {
@@ -72,13 +73,17 @@ void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
       slow_jumping |= issue_slowly(ftm, number, t) ? bit : 0;
       continue;
     }
+    instructions[step->inst->op]++;
     note_result(ftm, number, step, t);
     const struct trax_fast_inst *const next = step[1].inst;
     slot->step = step + 1;
     ftm->want[step[1].class] |= bit;
     quick |= bit;
     clear |= bit & -(uint64_t)((next->waits & slot->busy) == 0);
-    resident |= bit & -(uint64_t)trax_fast_is_resident(slot->icache->tags, next);
+    const uint32_t line = next->pc >> tags.line_shift;
+    const bool found = tags.ways == 1 ? slot->icache->lines[line & tags.set_mask] == (uint64_t)line + 1
+                                      : trax_cache_tags_have(slot->icache->tags, line);
+    resident |= bit & -(uint64_t)found;
     const uint64_t jump = bit & -(uint64_t)(next != step->inst + 1);
     jumping |= jump;
     if (!bubble || !jump)
