@@ -15,10 +15,8 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   ftm->tp = calloc(tm->tps, sizeof *ftm->tp);
   if (!ftm->tp)
     return trax_fail(error, "out of memory");
-  for (uint32_t i = 0; i < tm->icaches; i++) {
+  for (uint32_t i = 0; i < tm->icaches; i++)
     ftm->icache[i].tags = &tm->icache[i].tags;
-    ftm->icache[i].lines = tm->icache[i].tags.lines;
-  }
   create_unit(&ftm->fp_add, &tm->fp_add);
   create_unit(&ftm->fp_mul, &tm->fp_mul);
   create_unit(&ftm->int_mul, &tm->int_mul);

@@ -37,6 +37,7 @@ struct trax_fast_inst {
   uint8_t class;  /* trax_fast_class */
   uint8_t bank;   /* of the instruction cache */
   uint8_t cause;
+  bool starts_line; /* of the instruction cache */
   uint16_t latency; /* unless memory decides */
   uint32_t pc;
   const struct trax_decoded *decoded;
@@ -137,7 +138,6 @@ struct trax_fast_icache {
   uint64_t banks;     /* those that are asked */
   uint64_t conflicts; /* those that more than one TP asks */
   const struct trax_cache_tags *tags;
-  const uint64_t *lines; /* of tags */
   struct trax_fast_bank bank[64];
 };
 
@@ -158,7 +158,7 @@ struct trax_fast_tm {
   uint64_t ready;
   uint64_t deferred; /* the head executes at issue, as the reference would */
   uint64_t clear;    /* the head's operands will be usable in the first cycle in which it can be fetched */
-  uint64_t resident; /* the head's line is in its instruction cache; may lack TPs */
+  uint64_t same_line; /* the head's line is where the TP fetched last, and no line has come since */
   uint64_t outside;  /* the head cannot be fetched */
 
   struct trax_fast_icache icache[TRAX_MAX_TPS_PER_TM];

@@ -44,7 +44,7 @@ uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   const struct trax_fast_inst *head = slot->step->inst;
   ftm->want[slot->step->class] |= bit;
   ftm->clear = (ftm->clear & ~bit) | (head->waits & slot->busy ? 0 : bit);
-  ftm->resident = (ftm->resident & ~bit) | (trax_fast_is_resident(slot->icache->tags, head) ? bit : 0);
+  ftm->same_line &= ~bit;
   return ftm->deferred & bit ? ftm->tm->tp[number].pc : head->pc;
 }
 

@@ -10,11 +10,14 @@ static inline void trax_fast_ask_bank(struct trax_fast_icache *icache, const str
                                       uint64_t bit) {
   struct trax_fast_bank *bank = &icache->bank[head->bank];
   const uint64_t bank_bit = (uint64_t)1 << head->bank;
-  const uint64_t kept = (icache->banks & bank_bit) ? ~(uint64_t)0 : 0; /* somebody asks already */
-  bank->last = (bank->last & kept) | (bank->asking & ~kept);
-  bank->asking = (bank->asking & kept) | bit;
-  icache->conflicts |= bank_bit & kept;
-  icache->banks |= bank_bit;
+  if (icache->banks & bank_bit) {
+    bank->asking |= bit;
+    icache->conflicts |= bank_bit;
+  } else {
+    bank->last = bank->asking;
+    bank->asking = bit;
+    icache->banks |= bank_bit;
+  }
 }
 
 static inline void trax_fast_ask_fetch(struct trax_fast_tm *ftm, unsigned number) {

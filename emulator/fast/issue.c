@@ -60,10 +60,9 @@ static bool issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
   struct trax_tm *const tm = ftm->tm;
-  const struct trax_cache_tags tags = *ftm->icache[0].tags; /* but for `lines`, all are alike */
   uint64_t *const instructions = tm->stats->instructions;
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
-  uint64_t quick = 0, jumping = 0, slow_jumping = 0, clear = 0, resident = 0;
+  uint64_t quick = 0, jumping = 0, slow_jumping = 0, clear = 0, moved = 0;
   for (uint64_t rest = granted; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     const uint64_t bit = rest & -rest;
@@ -80,17 +79,14 @@ void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
     ftm->want[step[1].class] |= bit;
     quick |= bit;
     clear |= bit & -(uint64_t)((next->waits & slot->busy) == 0);
-    const uint32_t line = next->pc >> tags.line_shift;
-    const bool found = tags.ways == 1 ? slot->icache->lines[line & tags.set_mask] == (uint64_t)line + 1
-                                      : trax_cache_tags_have(slot->icache->tags, line);
-    resident |= bit & -(uint64_t)found;
     const uint64_t jump = bit & -(uint64_t)(next != step->inst + 1);
     jumping |= jump;
+    moved |= bit & -(uint64_t)next->starts_line;
     if (!bubble || !jump)
       trax_fast_ask_bank(slot->icache, next, bit); /* what has been executed can be fetched */
   }
   ftm->clear = (ftm->clear & ~quick) | clear;
-  ftm->resident = (ftm->resident & ~quick) | resident;
+  ftm->same_line &= ~(moved | jumping);
   tm->holding &= ~quick;
   trax_fast_count_many(&ftm->tally[TRAX_CAUSE_ISSUED], quick);
   if (jumping)

@@ -47,6 +47,7 @@ static struct trax_fast_inst predecode(const struct trax_decoded *decoded, uint3
       .bank = decoded->bank,
       .cause = memory ? TRAX_CAUSE_DATA_LOCAL : decoded->cause,
       .latency = memory ? (uint16_t)config->tp.local_latency_cycles : decoded->latency,
+      .starts_line = pc % config->icache.line_bytes == 0,
       .pc = pc,
       .decoded = decoded,
   };

@@ -19,7 +19,7 @@ static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
     for (uint32_t i = 0; i < tm->icaches; i++)
       pending -= tm->icache[i].pending_count;
     if (pending)
-      ftm->resident = 0; /* an instruction line came, and perhaps in the place of another */
+      ftm->same_line = 0; /* an instruction line came, and perhaps in the place of another */
   }
   if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
     trax_tm_wake_sleepers(tm, t);
@@ -77,17 +77,23 @@ static uint64_t fetch(struct trax_fast_tm *ftm, uint64_t t) {
   const uint64_t winners = askers & ~losers;
   trax_fast_count(&ftm->tally[TRAX_CAUSE_ICACHE_BANK], losers);
 
-  const uint64_t hits = winners & ftm->resident;
-  tm->stats->icache_hits += count_bits(hits);
-  tm->holding |= hits;
-  for (uint64_t rest = winners & ~hits; rest; rest &= rest - 1) {
+  uint64_t hits = winners;
+  for (uint64_t rest = winners & ~ftm->same_line; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
+    const struct trax_fast_slot *slot = &ftm->slot[number];
+    if (trax_fast_is_resident(slot->icache->tags, slot->step->inst)) {
+      ftm->same_line |= rest & -rest;
+      continue;
+    }
+    hits ^= rest & -rest;
     trax_fast_show(ftm, number);
     trax_icache_look_up(&tm->icache[ftm->icache_of[number]], tm, number, t);
-    if (tm->awake & ~tm->holding & rest & -rest)
+    if (tm->awake & rest & -rest)
       trax_fast_ask_fetch(ftm, number); /* refused by the memory queue */
   }
-  return winners & tm->holding;
+  tm->stats->icache_hits += count_bits(hits);
+  tm->holding |= hits;
+  return hits;
 }
 
 /* --- step 2 --- */
