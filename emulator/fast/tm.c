@@ -202,18 +202,18 @@ static uint64_t grant_units(struct trax_fast_tm *ftm, uint64_t t) {
 static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
   const uint32_t banks = ftm->tm->dcache.banks;
   const bool power_of_two = (banks & (banks - 1)) == 0;
-  uint64_t asking[TRAX_MAX_TPS_PER_TM]; /* set where asked says so */
-  uint64_t asked = 0, winners = 0;
+  uint64_t asking[TRAX_MAX_TPS_PER_TM];
+  for (uint32_t bank = 0; bank < banks; bank++)
+    asking[bank] = 0;
   for (uint64_t rest = askers; rest; rest &= rest - 1) {
     const uint32_t word = ftm->slot[trax_first(rest)].step->address / 4;
-    const uint32_t bank = power_of_two ? word & (banks - 1) : word % banks;
-    asking[bank] = (asked >> bank & 1 ? asking[bank] : 0) | (rest & -rest);
-    asked |= (uint64_t)1 << bank;
+    asking[power_of_two ? word & (banks - 1) : word % banks] |= rest & -rest;
   }
-  for (; asked; asked &= asked - 1) {
-    const unsigned bank = trax_first(asked);
-    ftm->data_bank_last[bank] = trax_fast_first_after(ftm->data_bank_last[bank], asking[bank]);
-    winners |= ftm->data_bank_last[bank];
+  uint64_t winners = 0;
+  for (uint32_t bank = 0; bank < banks; bank++) {
+    const uint64_t winner = trax_fast_first_after(ftm->data_bank_last[bank], asking[bank]);
+    ftm->data_bank_last[bank] = winner ? winner : ftm->data_bank_last[bank];
+    winners |= winner;
   }
   return refuse(ftm, askers, winners, TRAX_CAUSE_DCACHE_BANK);
 }
@@ -232,25 +232,26 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   return true;
 }
 
-static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t t) {
+static bool serve(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const uint64_t at_or_after = ~(uint64_t)0 << tm->queue_turn;
-  const uint64_t round[2] = {askers & at_or_after, askers & ~at_or_after};
+  if (!(ftm->deferred >> number & 1) && load_hits(ftm, number, t))
+    return true;
+  trax_fast_show(ftm, number);
+  if (!trax_tm_serve(tm, number, t)) {
+    trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
+    return false;
+  }
+  ftm->slot[number].busy |= trax_fast_register_bit(tm->tp[number].inst->rd);
+  return true;
+}
+
+static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t t) {
+  const unsigned turn = ftm->tm->queue_turn;
   uint64_t granted = 0;
-  for (unsigned half = 0; half < 2; half++)
-    for (uint64_t rest = round[half]; rest; rest &= rest - 1) {
-      const unsigned number = trax_first(rest);
-      bool served = !(ftm->deferred & rest & -rest) && load_hits(ftm, number, t);
-      if (!served) {
-        trax_fast_show(ftm, number);
-        served = trax_tm_serve(tm, number, t);
-        ftm->slot[number].busy |= trax_fast_register_bit(tm->tp[number].inst->rd);
-      }
-      if (served)
-        granted |= rest & -rest;
-      else
-        trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
-    }
+  for (uint64_t rest = askers >> turn | askers << (-turn & 63); rest; rest &= rest - 1) { /* bit 0 is the turn's */
+    const unsigned number = (trax_first(rest) + turn) & 63;
+    granted |= (uint64_t)serve(ftm, number, t) << number;
+  }
   return granted;
 }
 
