@@ -3,7 +3,7 @@
    It differs in two ways. Function runs ahead of time: a TP executes a burst of instructions at once, up to the first
    whose effect or value depends on time, and timing then consumes them one by one (burst.c, head.c). Timing works on masks
    of a TM's TPs: who asks for what is a bit that is set when an instruction becomes its TP's next one, the head, and
-   stays until it is granted (tm.c, issue.c).
+   stays until it is granted (cycle.c, issue.c).
 
    Everything rare is the reference's: arrivals, misses, requests, faults, traps, and the execution of instructions that
    must not run ahead, in the reference's own structures. A TM touches nothing of another one but through blocks.c and the
