@@ -165,9 +165,8 @@ static bool row(const char *preset, const struct bench_case *bench, char **argum
   const struct result *reference = &best[TRAX_ENGINE_REFERENCE], *fast = &best[TRAX_ENGINE_FAST];
   const bool same = reference->cycles == fast->cycles && reference->instructions == fast->instructions;
   printf("%-6s %-10s %14llu %10.1f %8.1f %7.2f%s\n", preset, bench->name, (unsigned long long)fast->instructions,
-         1e-6 * (double)reference->instructions / reference->seconds,
-         1e-6 * (double)fast->instructions / fast->seconds, reference->seconds / fast->seconds,
-         same ? "" : "  DIFFERENT");
+         1e-6 * (double)reference->instructions / reference->seconds, 1e-6 * (double)fast->instructions / fast->seconds,
+         reference->seconds / fast->seconds, same ? "" : "  DIFFERENT");
   fflush(stdout);
   return same;
 }

@@ -62,7 +62,8 @@ static void set_alarm(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t unti
   tm->wheel_occupied |= (uint64_t)1 << alarm % TRAX_WHEEL;
 }
 
-void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause) {
+void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until,
+                         trax_cause cause) {
   trax_tm_sleep(tm, tp, since, cause);
   set_alarm(tm, tp, t, until);
 }

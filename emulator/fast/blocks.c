@@ -1,8 +1,8 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
-/* Values that ran ahead are right as long as nobody writes where they came from. So before a block that anyone has loaded
-   ahead is written for the first time, every TP goes back to what it has issued and is deferred: its head will execute at
-   issue, and from then on loads from the block end bursts. A block costs this once at most; what is only written, like a
-   picture, never. Blocks are small because what is written often lies beside what is only read. */
+/* Values that ran ahead are right as long as nobody writes where they came from. So before a block that anyone has
+   loaded ahead is written for the first time, every TP goes back to what it has issued and is deferred: its head will
+   execute at issue, and from then on loads from the block end bursts. A block costs this once at most; what is only
+   written, like a picture, never. Blocks are small because what is written often lies beside what is only read. */
 #include "fast/fast.h"
 
 #include <assert.h>
@@ -11,8 +11,7 @@
 
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error) {
   blocks->bytes = memory_bytes >> TRAX_BLOCK_SHIFT; /* the host provides what is touched */
-  void *state =
-      mmap(NULL, blocks->bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void *state = mmap(NULL, blocks->bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (state == MAP_FAILED)
     return trax_fail(error, "cannot reserve %zu bytes of host memory", blocks->bytes);
   blocks->state = state;

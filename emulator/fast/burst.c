@@ -1,6 +1,6 @@
-/* Function, ahead of time. A burst ends before an instruction whose effect others can see or whose value depends on time:
-   atomic increments, stores to global memory, loads from blocks that are written during the run, loads and stores past the
-   cache, reads of the cycle counter, traps, ends of threads, and everything that faults. */
+/* Function, ahead of time. A burst ends before an instruction whose effect others can see or whose value depends on
+   time: atomic increments, stores to global memory, loads from blocks that are written during the run, loads and stores
+   past the cache, reads of the cycle counter, traps, ends of threads, and everything that faults. */
 #include "fast/fast.h"
 #include "trax/semantics.h"
 
@@ -80,7 +80,12 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
 #define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
 #define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
 #define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
-#define ATOMIC_INC(ADDRESS) (__extension__({ (void)(ADDRESS); goto stop; 0u; }))
+#define ATOMIC_INC(ADDRESS)                                                                                            \
+  (__extension__({                                                                                                     \
+    (void)(ADDRESS);                                                                                                   \
+    goto stop;                                                                                                         \
+    0u;                                                                                                                \
+  }))
 #define SPECIAL_REGISTER(NUMBER) special_register(ftm->tm, number, NUMBER)
 #define TRAP(VALUE, CODE) goto stop
 #define HALT() goto stop

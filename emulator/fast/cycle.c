@@ -268,7 +268,7 @@ void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
     queue_askers |= grant_banks(ftm, bank_askers);
   if (queue_askers)
     granted |= grant_queue(ftm, queue_askers, t);
-  for (unsigned class = 0; class < TRAX_CLASS_COUNT; class++)
+  for (unsigned class = 0; class < TRAX_CLASS_COUNT; class ++)
     ftm->want[class] &= ~granted;
   ftm->ready &= ~granted;
   trax_fast_issue(ftm, granted, t);

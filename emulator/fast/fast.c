@@ -8,8 +8,7 @@ static void create_unit(struct trax_fast_unit *unit, const struct trax_shared_un
     unit->group[i] = trax_group_mask(i, reference->group_size);
 }
 
-static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm,
-                             trax_error *error) {
+static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm, trax_error *error) {
   ftm->fast = fast;
   ftm->tm = tm;
   ftm->tp = calloc(tm->tps, sizeof *ftm->tp);

@@ -1,13 +1,13 @@
 /* The fast engine: the same machine as emulator/core, to the cycle, the count and the byte (docs/timing.md).
 
    It differs in two ways. Function runs ahead of time: a TP executes a burst of instructions at once, up to the first
-   whose effect or value depends on time, and timing then consumes them one by one (burst.c, head.c). Timing works on masks
-   of a TM's TPs: who asks for what is a bit that is set when an instruction becomes its TP's next one, the head, and
-   stays until it is granted (cycle.c, issue.c).
+   whose effect or value depends on time, and timing then consumes them one by one (burst.c, head.c). Timing works on
+   masks of a TM's TPs: who asks for what is a bit that is set when an instruction becomes its TP's next one, the head,
+   and stays until it is granted (cycle.c, issue.c).
 
    Everything rare is the reference's: arrivals, misses, requests, faults, traps, and the execution of instructions that
-   must not run ahead, in the reference's own structures. A TM touches nothing of another one but through blocks.c and the
-   memory controller. */
+   must not run ahead, in the reference's own structures. A TM touches nothing of another one but through blocks.c and
+   the memory controller. */
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
 
@@ -92,7 +92,8 @@ struct trax_fast_tp {
   struct trax_fast_undo undo[TRAX_BURST];
 };
 
-/* A counter per TP, bit-sliced: planes[k] holds bit k of all of them, so that a cycle is charged to a mask of TPs at once. */
+/* A counter per TP, bit-sliced: planes[k] holds bit k of all of them, so that a cycle is charged to a mask of TPs at
+ * once. */
 struct trax_fast_tally {
   uint64_t planes[64];
 };
@@ -127,8 +128,8 @@ static inline uint64_t trax_fast_first_after(uint64_t last, uint64_t askers) {
   return among & -among;
 }
 
-/* Most banks are asked by one TP, who is served: then nothing is left to be done in the cycle of the fetch, and `asking`
-   becomes the latest winner. */
+/* Most banks are asked by one TP, who is served: then nothing is left to be done in the cycle of the fetch, and
+   `asking` becomes the latest winner. */
 struct trax_fast_bank {
   uint64_t asking; /* if nobody asks: the latest winner */
   uint64_t last;   /* if somebody asks: the latest winner */
@@ -156,10 +157,10 @@ struct trax_fast_tm {
   /* Masks of TPs. `ready` have an instruction and usable operands and lack a unit, a bank or a place. */
   uint64_t want[TRAX_CLASS_COUNT]; /* by the head's class, fetched or not */
   uint64_t ready;
-  uint64_t deferred; /* the head executes at issue, as the reference would */
-  uint64_t clear;    /* the head's operands will be usable in the first cycle in which it can be fetched */
+  uint64_t deferred;  /* the head executes at issue, as the reference would */
+  uint64_t clear;     /* the head's operands will be usable in the first cycle in which it can be fetched */
   uint64_t same_line; /* the head's line is where the TP fetched last, and no line has come since */
-  uint64_t outside;  /* the head cannot be fetched */
+  uint64_t outside;   /* the head cannot be fetched */
 
   struct trax_fast_icache icache[TRAX_MAX_TPS_PER_TM];
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];

@@ -94,7 +94,9 @@ static uint32_t any_racing_operation(unsigned left) {
   case 2:
     return any(0, 1) ? I(LHU, rd, base, offset + 2) : I(LB, rd, base, offset + 3);
   case 3:
-    return any(0, 3) ? S(SW, ra, 0, -4 - offset % 512) : any(0, 1) ? S(SW, ra, base, offset) : S(SB, ra, base, offset + 1);
+    return any(0, 3)   ? S(SW, ra, 0, -4 - offset % 512)
+           : any(0, 1) ? S(SW, ra, base, offset)
+                       : S(SB, ra, base, offset + 1);
   case 4:
     return any(0, 2) ? I(LW, rd, 0, -4 - offset % 512) : S(SB, ra, 0, -4 - offset % 512);
   case 5:
@@ -142,8 +144,8 @@ void any_words(uint32_t *words, size_t count) {
   for (size_t i = 0; i < count; i++) {
     words[i] = any(0, 0x7FFFFFFF) << 1 | any(0, 1);
     if (any(0, 3)) /* mostly legal: a random operation with random fields */
-      words[i] = trax_encode((trax_inst){(trax_op)any(1, TRAX_OP_COUNT - 1), any(0, 31), any(0, 31), any(0, 31),
-                                         (int32_t)any(0, 63) * 4});
+      words[i] = trax_encode(
+          (trax_inst){(trax_op)any(1, TRAX_OP_COUNT - 1), any(0, 31), any(0, 31), any(0, 31), (int32_t)any(0, 63) * 4});
   }
 }
 
