@@ -1,6 +1,8 @@
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "core/chip.h"
 
+#include "fast/fast.h"
+
 #include <string.h>
 #include <time.h>
 
@@ -8,7 +10,8 @@
 #define POLL_INTERVAL 4096
 #define PROGRESS_SECONDS 0.1
 
-trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, FILE *output, trax_error *error) {
+trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
+                             trax_error *error) {
   memset(chip, 0, sizeof *chip);
   chip->machine = machine;
   chip->tms = machine->config.chip.tms;
@@ -20,16 +23,24 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   if (!chip->tm)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->tms; i++)
-    if (trax_tm_create(&chip->tm[i], i, machine, &chip->text, output, error))
+    if (trax_tm_create(&chip->tm[i], i, machine, &chip->text, options->output, error))
       return TRAX_ERROR;
-  return TRAX_OK;
+  return options->engine == TRAX_ENGINE_FAST ? trax_fast_create(chip, error) : TRAX_OK;
 }
 
 void trax_chip_destroy(struct trax_chip *chip) {
+  trax_fast_destroy(chip->fast);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
   trax_text_destroy(&chip->text);
+}
+
+void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
+  if (chip->fast)
+    trax_fast_settle(chip->fast);
+  for (uint32_t i = 0; i < chip->tms; i++)
+    trax_tm_settle(&chip->tm[i], cycles);
 }
 
 static double host_seconds(void) {
@@ -87,7 +98,10 @@ trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options 
     bool faulted = false;
     for (uint32_t i = 0; i < chip->tms; i++)
       if (chip->tm[i].next_cycle <= t) {
-        trax_tm_cycle(&chip->tm[i], t);
+        if (chip->fast)
+          trax_fast_cycle(chip->fast, i, t);
+        else
+          trax_tm_cycle(&chip->tm[i], t);
         faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
       }
     trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, t);

@@ -11,11 +11,15 @@ struct trax_chip {
   struct trax_tm *tm; /* [tms] */
   uint32_t tms;
   struct trax_memory memory;
-  uint32_t running; /* threads that have not ended */
+  struct trax_fast *fast; /* NULL: the reference engine runs */
+  uint32_t running;       /* threads that have not ended */
 };
 
-trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, FILE *output, trax_error *error);
+trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
+                             trax_error *error);
 void trax_chip_destroy(struct trax_chip *chip);
+/* Completes the charges of a run of `cycles` cycles. */
+void trax_chip_settle(struct trax_chip *chip, uint64_t cycles);
 
 /* Runs from cycle 0 to the end, a fault, an interrupt or the watchdog; *cycles receives the length. */
 trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options *options, uint64_t *cycles);

@@ -16,7 +16,7 @@ void trax_icache_destroy(struct trax_icache *icache) {
 }
 
 /* The TP's bank has let it look up its line. */
-static void look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t) {
+void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << tp;
   const uint32_t line = trax_line_of(&icache->tags, tm->tp[tp].pc);
   if (trax_cache_tags_have(&icache->tags, line)) {
@@ -64,7 +64,7 @@ void trax_icache_fetch(struct trax_icache *icache, struct trax_tm *tm, uint64_t 
   for (uint64_t losers = askers & ~winners; losers; losers &= losers - 1)
     trax_tm_charge(tm, trax_first(losers), TRAX_CAUSE_ICACHE_BANK);
   for (; winners; winners &= winners - 1)
-    look_up(icache, tm, trax_first(winners), t);
+    trax_icache_look_up(icache, tm, trax_first(winners), t);
 }
 
 void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t) {

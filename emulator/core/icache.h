@@ -27,6 +27,9 @@ void trax_icache_destroy(struct trax_icache *icache);
    it; the others are charged. */
 void trax_icache_fetch(struct trax_icache *icache, struct trax_tm *tm, uint64_t askers, uint64_t t);
 
+/* The TP's bank has let it look up the line of its pc: it holds its instruction, sleeps, or was refused. */
+void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t);
+
 /* A line arrives in cycle t: all who wait for it hold their instructions. */
 void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t);
 

@@ -140,10 +140,10 @@ static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *ter
 /* Sums up, and checks the rule of accounting: every thread is charged every cycle once. */
 static trax_status collect(struct trax_machine *machine, struct trax_chip *chip, trax_error *error) {
   const uint32_t tps = machine->config.chip.tps_per_tm;
+  trax_chip_settle(chip, machine->stats.cycles);
   for (uint32_t i = 0; i < chip->tms; i++) {
     struct trax_tm *tm = &chip->tm[i];
     struct trax_tm_stats *stats = tm->stats;
-    trax_tm_settle(tm, machine->stats.cycles);
     stats->queue_peak = tm->queue.peak;
     count_by_operation(stats);
     count_adder_operations(stats, &machine->config);
@@ -197,7 +197,7 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
   clock_gettime(CLOCK_MONOTONIC, &begin);
   struct trax_chip chip;
   machine->chip = &chip;
-  machine->status = trax_chip_create(&chip, machine, options->output, error);
+  machine->status = trax_chip_create(&chip, machine, options, error);
   if (machine->status == TRAX_OK) {
     machine->status = trax_chip_run(&chip, options, &machine->stats.cycles);
     clock_gettime(CLOCK_MONOTONIC, &end);

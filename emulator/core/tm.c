@@ -62,7 +62,8 @@ static void set_alarm(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t unti
   tm->wheel_occupied |= (uint64_t)1 << alarm % TRAX_WHEEL;
 }
 
-static void sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause) {
+void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until,
+                         trax_cause cause) {
   trax_tm_sleep(tm, tp, since, cause);
   set_alarm(tm, tp, t, until);
 }
@@ -106,7 +107,7 @@ void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t
   }
 }
 
-static void arrive(struct trax_tm *tm, uint64_t t) {
+void trax_tm_arrive(struct trax_tm *tm, uint64_t t) {
   struct trax_queue *queue = &tm->queue;
   while (queue->started && trax_queue_oldest(queue)->completion <= t) {
     const struct trax_request request = *trax_queue_oldest(queue);
@@ -131,7 +132,7 @@ static void arrive(struct trax_tm *tm, uint64_t t) {
   }
 }
 
-static void wake(struct trax_tm *tm, uint64_t t) {
+void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t) {
   const unsigned slot = t % TRAX_WHEEL;
   uint64_t wakers = tm->wheel[slot];
   tm->wheel[slot] = 0;
@@ -196,7 +197,7 @@ static struct asks check_operands(struct trax_tm *tm, uint64_t t) {
         trax_tm_sleep(tm, number, t, cause);
         tm->awaiting |= rest & -rest;
       } else
-        sleep_until(tm, number, t, t, until, cause);
+        trax_tm_sleep_until(tm, number, t, t, until, cause);
     } else if (tp->inst->ask == TRAX_ASK_MEMORY)
       check_memory_operand(tm, number, t, &asks);
     else if (tp->inst->ask == TRAX_ASK_ILLEGAL)
@@ -319,6 +320,17 @@ static bool count_store(struct trax_tm *tm, const struct trax_tp *tp) {
   return true;
 }
 
+bool trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const struct trax_tp *tp = &tm->tp[number];
+  if (tp->inst->ask == TRAX_ASK_END)
+    return write_last_run(tm, number);
+  if (tp->inst->is_store)
+    return store_past_cache(tm, number) && count_store(tm, tp);
+  if (tp->inst->is_nontemporal || tp->inst->is_atomic)
+    return read_past_cache(tm, number);
+  return trax_dcache_load(&tm->dcache, tm, number, t);
+}
+
 /* Step 4. askers: global memory accesses that have their banks, and ends of threads. */
 static uint64_t grant_queue(struct trax_tm *tm, uint64_t askers, uint64_t t) {
   const uint64_t at_or_after = ~(uint64_t)0 << tm->queue_turn;
@@ -327,17 +339,7 @@ static uint64_t grant_queue(struct trax_tm *tm, uint64_t askers, uint64_t t) {
   for (unsigned half = 0; half < 2; half++)
     for (uint64_t rest = round[half]; rest; rest &= rest - 1) {
       const unsigned number = trax_first(rest);
-      const struct trax_tp *tp = &tm->tp[number];
-      bool served;
-      if (tp->inst->ask == TRAX_ASK_END)
-        served = write_last_run(tm, number);
-      else if (tp->inst->is_store)
-        served = store_past_cache(tm, number) && count_store(tm, tp);
-      else if (tp->inst->is_nontemporal || tp->inst->is_atomic)
-        served = read_past_cache(tm, number);
-      else
-        served = trax_dcache_load(&tm->dcache, tm, number, t);
-      if (served)
+      if (trax_tm_serve(tm, number, t))
         granted |= rest & -rest;
       else
         trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
@@ -357,7 +359,7 @@ static void access_local(struct trax_tm *tm, uint64_t local, uint64_t t) {
   }
 }
 
-static void trace(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst, uint64_t t) {
+void trax_tm_trace(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst, uint64_t t) {
   const struct trax_tp *tp = &tm->tp[number];
   struct trax_issue issue = {.cycle = t,
                              .tm = tm->number,
@@ -386,14 +388,14 @@ static void issue(struct trax_tm *tm, uint64_t granted, uint64_t t) {
     if (tp->pc != pc + 4) {
       tm->stats->taken_branches++;
       if (tm->config->tp.branch_bubble_cycles)
-        sleep_until(tm, number, t, t + 1, t + 1 + tm->config->tp.branch_bubble_cycles, TRAX_CAUSE_BRANCH);
+        trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + tm->config->tp.branch_bubble_cycles, TRAX_CAUSE_BRANCH);
     }
     if (tm->machine->trace)
-      trace(tm, number, pc, inst, t);
+      trax_tm_trace(tm, number, pc, inst, t);
   }
 }
 
-static uint64_t next_cycle(const struct trax_tm *tm, uint64_t t) {
+uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
   if (tm->awake)
     return t + 1;
   uint64_t next = TRAX_NEVER;
@@ -408,8 +410,8 @@ static uint64_t next_cycle(const struct trax_tm *tm, uint64_t t) {
 }
 
 void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
-  arrive(tm, t);
-  wake(tm, t);
+  trax_tm_arrive(tm, t);
+  trax_tm_wake_sleepers(tm, t);
   fetch(tm, t);
   struct asks asks = check_operands(tm, t);
   uint64_t granted = grant_units(tm, asks.by_ask, t);
@@ -423,7 +425,7 @@ void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
   if (queue_askers)
     granted |= grant_queue(tm, queue_askers, t);
   issue(tm, granted, t);
-  tm->next_cycle = next_cycle(tm, t);
+  tm->next_cycle = trax_tm_next_cycle(tm, t);
 }
 
 void trax_tm_settle(struct trax_tm *tm, uint64_t cycles) {

@@ -77,6 +77,16 @@ void trax_tm_fault(struct trax_tm *tm, unsigned tp, uint64_t t, trax_fault_kind 
 /* What TP `tp` loads into register rd is there in cycle t. */
 void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t);
 
+/* The parts of a cycle that both engines use (emulator/fast has its own of the others). */
+void trax_tm_arrive(struct trax_tm *tm, uint64_t t);
+void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t);
+/* In cycle t: TP `tp` sleeps from `since` on and wakes in `until`. */
+void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause);
+/* The TP's turn in step 4; its inst and address are set. False if it needs a place and gets none. */
+bool trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
+void trax_tm_trace(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst, uint64_t t);
+uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t);
+
 /* Requests to memory, with their accounting; the queue must have a place. */
 void trax_tm_request(struct trax_tm *tm, struct trax_request request);
 

@@ -82,7 +82,8 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
   trax_run_options run_options = {.output = stdout,
                                   .max_cycles = options->max_cycles,
                                   .total_items = options->total_items,
-                                  .interrupt = &interrupted};
+                                  .interrupt = &interrupted,
+                                  .engine = options->engine};
   if (!options->quiet && isatty(STDERR_FILENO)) {
     run_options.progress = trax_progress_show;
     run_options.progress_context = &line;

@@ -18,6 +18,7 @@ enum option_id {
   OPTION_REPORT,
   OPTION_MAX_CYCLES,
   OPTION_PROGRESS_TOTAL,
+  OPTION_ENGINE,
   OPTION_QUIET,
   OPTION_PRINT_CONFIG,
   OPTION_HELP_CONFIG,
@@ -40,6 +41,7 @@ static const struct {
     [OPTION_REPORT] = {"report", "FILE", "statistics as text; - is standard output"},
     [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
+    [OPTION_ENGINE] = {"engine", "reference|fast", "the emulator's engine; both give the same; default reference"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -142,6 +144,16 @@ static trax_status set_once(enum option_id id, const char **member, const char *
   return TRAX_OK;
 }
 
+static trax_status set_engine(struct trax_options *options, const char *value, trax_error *error) {
+  if (strcmp(value, "reference") == 0)
+    options->engine = TRAX_ENGINE_REFERENCE;
+  else if (strcmp(value, "fast") == 0)
+    options->engine = TRAX_ENGINE_FAST;
+  else
+    return trax_fail(error, "--engine: \"%s\" is neither reference nor fast", value);
+  return TRAX_OK;
+}
+
 static trax_status apply(struct trax_options *options, enum option_id id, const char *value, trax_error *error) {
   switch (id) {
   case OPTION_CONFIG:
@@ -161,6 +173,8 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->max_cycles, error);
   case OPTION_PROGRESS_TOTAL:
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->total_items, error);
+  case OPTION_ENGINE:
+    return set_engine(options, value, error);
   case OPTION_QUIET:
     options->quiet = true;
     break;

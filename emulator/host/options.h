@@ -22,6 +22,7 @@ struct trax_options {
   struct trax_assignment *assignments;           /* in the order of the command line */
   size_t assignment_count;
   uint64_t max_cycles, total_items; /* 0: not given */
+  trax_engine engine;
   bool quiet;
   bool print_config;
   enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;

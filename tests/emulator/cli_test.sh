@@ -141,6 +141,7 @@ refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: FILE is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
+refuse '--engine: "slow" is neither reference nor fast' --engine slow hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
 refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
 refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf
@@ -185,7 +186,7 @@ for option in help help-config help-stats version; do
   [ -s out ] || fail "--$option prints nothing"
 done
 run 0 --help
-for option in config set bind scene alloc dump stats report max-cycles progress-total quiet print-config; do
+for option in config set bind scene alloc dump stats report max-cycles progress-total engine quiet print-config; do
   prints "--$option"
 done
 

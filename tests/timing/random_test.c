@@ -4,151 +4,11 @@
    the end must not depend on the configuration. The trace of issues must respect every unit's capacity and every
    latency, and a second, naive implementation of docs/timing.md (naive.h) must agree on every issue cycle and every
    charge. */
-#include "bench.h"
+#include "generate.h"
 #include "naive.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-enum {
-  BASE = 20,    /* register: the thread's words at DATA + 256 * thread */
-  LOOP = 21,    /* register: turns left */
-  SHARED = 22,  /* register: words nobody writes */
-  COUNTER = 23, /* register: the thread's atomic counter */
-  BODY = 120,   /* instructions of the loop */
-  MAX_THREADS = 128
-};
-#define SHARED_WORDS (DATA + 0xC000)
-#define COUNTERS (DATA + 0xE000)
-
-static uint64_t random_state;
-
-static uint32_t any(uint32_t least, uint32_t most) { /* xorshift64* */
-  random_state ^= random_state >> 12;
-  random_state ^= random_state << 25;
-  random_state ^= random_state >> 27;
-  return least + (uint32_t)((random_state * 0x2545F4914F6CDD1Du) >> 33) % (most - least + 1);
-}
-
-static uint32_t any_power(uint32_t least, uint32_t most) {
-  uint32_t value = least;
-  while (value < most && any(0, 2))
-    value *= 2;
-  return value;
-}
-
-/* --- programs --- */
-
-static uint32_t any_operation(unsigned left) {
-  static const trax_op plain[] = {TRAX_OP_ADD,   TRAX_OP_SUB, TRAX_OP_XOR,   TRAX_OP_SLL,  TRAX_OP_SLT,  TRAX_OP_CMOVNZ,
-                                  TRAX_OP_CMOVZ, TRAX_OP_MUL, TRAX_OP_MULHU, TRAX_OP_FADD, TRAX_OP_FSUB, TRAX_OP_FMUL,
-                                  TRAX_OP_FMIN,  TRAX_OP_FLE, TRAX_OP_FDIV,  TRAX_OP_FADD, TRAX_OP_FMUL};
-  static const trax_op single[] = {TRAX_OP_FRSQRT, TRAX_OP_FCVT_W_S, TRAX_OP_FCVT_S_W};
-  static const trax_op loads[] = {TRAX_OP_LB, TRAX_OP_LBU, TRAX_OP_LH, TRAX_OP_LHU, TRAX_OP_LW};
-  static const trax_op stores[] = {TRAX_OP_SB, TRAX_OP_SH, TRAX_OP_SW};
-  const unsigned rd = any(0, 15), ra = any(0, 15), rb = any(0, 15);
-  const int32_t own = (int32_t)any(0, 31) * 4;
-  switch (any(0, 13)) {
-  case 0:
-    return I(ADDI, rd, ra, (int32_t)any(0, 65535) - 32768);
-  case 1:
-    return U(LUI, rd, (int32_t)any(0, 65535));
-  case 2:
-    return trax_encode((trax_inst){single[any(0, 2)], rd, ra, 0, 0});
-  case 3:
-    return trax_encode((trax_inst){loads[any(0, 4)], rd, BASE, 0, own});
-  case 4:
-    return I(LW, rd, SHARED, (int32_t)any(0, 2047) * 4);
-  case 5:
-    return I(LW, rd, SHARED, (int32_t)any(0, 15) * 4);
-  case 6:
-    return trax_encode((trax_inst){stores[any(0, 2)], 0, BASE, rb, own});
-  case 7:
-    return any(0, 1) ? S(SWNT, rb, BASE, own) : I(LWNT, rd, BASE, own);
-  case 8:
-    return any(0, 1) ? S(SW, rb, 0, -4 - own) : I(LW, rd, 0, -4 - own);
-  case 9:
-    return any(0, 7) ? NOP : I(AINC, rd, COUNTER, 0);
-  case 10:
-    return B(BLT, ra, rb, 4 * (int32_t)any(1, left < 12 ? left : 12)); /* forward, within the body */
-  default:
-    return R(ADD, rd, ra, rb) ^ R(ADD, 0, 0, 0) ^
-           trax_encode((trax_inst){plain[any(0, sizeof plain / sizeof *plain - 1)], 0, 0, 0, 0});
-  }
-}
-
-static size_t any_program(uint32_t *words) {
-  size_t n = 0;
-  words[n++] = U(RDSR, BASE, TRAX_SR_THREAD);
-  words[n++] = I(SLLI, COUNTER, BASE, 2);
-  words[n++] = I(SLLI, BASE, BASE, 8);
-  words[n++] = U(LUI, 1, 1);
-  words[n++] = R(ADD, BASE, BASE, 1);
-  words[n++] = R(ADD, COUNTER, COUNTER, 1);
-  words[n++] = U(LUI, 2, 1);
-  words[n++] = I(ORI, SHARED, 2, 0x6000);
-  words[n++] = I(ADDI, SHARED, SHARED, 0x6000);
-  words[n++] = I(ADDI, COUNTER, COUNTER, 0x7000);
-  words[n++] = I(ADDI, COUNTER, COUNTER, 0x7000);
-  words[n++] = U(RDSR, 3, TRAX_SR_THREAD);
-  words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, 4));
-  const size_t begin = n;
-  for (unsigned i = 0; i < BODY; i++)
-    words[n++] = any_operation(BODY - i);
-  words[n++] = I(ADDI, LOOP, LOOP, -1);
-  words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
-  n++;
-  for (unsigned reg = 1; reg < 16; reg++)
-    words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
-  words[n++] = HALT;
-  return n;
-}
-
-/* --- configurations --- */
-
-static struct trax_config any_config(uint32_t tms, uint32_t tps) {
-  struct trax_config config = TRAX_CONFIG_DEFAULT;
-  config.chip.tms = tms;
-  config.chip.tps_per_tm = tps;
-  config.chip.clock_mhz = any(1, 3) * 250;
-  config.tp.int_latency_cycles = any(0, 3) ? 1 : any(1, 5);
-  config.tp.local_latency_cycles = any(1, 3);
-  config.tp.branch_bubble_cycles = any(0, 1) ? 0 : any(0, 100);
-  config.icache.line_bytes = any_power(16, 256);
-  config.icache.bytes = any_power(config.icache.line_bytes < 64 ? 64 : config.icache.line_bytes, 4096);
-  config.icache.ways = any_power(1, config.icache.bytes / config.icache.line_bytes);
-  config.icache.banks = any(1, 20);
-  config.icache.ports_per_bank = any(1, 3);
-  config.icache.tps_per_cache = any(1, 32);
-  config.fpu.tps_per_cluster = any(1, 20);
-  config.fpu.add_latency_cycles = any(1, 5);
-  config.fpu.mul_latency_cycles = any(1, 80);
-  config.fpu.compare_units = any(0, 1);
-  config.fpu.compare_latency_cycles = any(1, 3);
-  config.int_mul.tps_per_unit = any(1, 20);
-  config.int_mul.latency_cycles = any(1, 4);
-  config.special.units_per_tm = any(1, 3);
-  config.special.latency_cycles = any(1, 20);
-  config.special.pipelined = any(0, 1);
-  config.dcache.line_bytes = any_power(4, 256);
-  config.dcache.bytes = any_power(config.dcache.line_bytes < 64 ? 64 : config.dcache.line_bytes, 16384);
-  config.dcache.ways = any_power(1, config.dcache.bytes / config.dcache.line_bytes);
-  if (config.dcache.ways > 64)
-    config.dcache.ways = 64;
-  if (config.icache.ways > 64)
-    config.icache.ways = 64;
-  config.dcache.tps_per_bank = any(1, 16);
-  config.dcache.hit_latency_cycles = any(1, 4);
-  config.dcache.mshrs = any(1, 40);
-  config.memory.bandwidth_gbps = any(1, 20000) / 1000.0;
-  config.memory.latency_cycles = any(0, 200);
-  config.memory.queue_depth = any(1, 60);
-  config.memory.size_mib = 1;
-  config.memory.min_transfer_bytes = any_power(1, 64);
-  config.memory.atomic_bytes = any(1, 64);
-  config.memory.write_combining = any(0, 1);
-  return config;
-}
 
 /* --- what must hold --- */
 
@@ -362,12 +222,7 @@ static void random_words(void **state) {
   for (unsigned round = 0; round < 3000; round++) {
     random_state = 0xD1B54A32D192ED03u * (round + 1);
     uint32_t program[32];
-    for (unsigned i = 0; i < 32; i++) {
-      program[i] = any(0, 0x7FFFFFFF) << 1 | any(0, 1);
-      if (any(0, 3)) /* mostly legal: a random operation with random fields */
-        program[i] = trax_encode((trax_inst){(trax_op)any(1, TRAX_OP_COUNT - 1), any(0, 31), any(0, 31), any(0, 31),
-                                             (int32_t)any(0, 63) * 4});
-    }
+    any_words(program, 32);
     const struct trax_config config = any_config(any(1, 2), any(1, 4));
     struct bench bench = bench_begin(&config, program, 32);
     bench_run(&bench, 20000);

@@ -74,6 +74,12 @@ typedef struct trax_progress {
   double host_seconds;
 } trax_progress;
 
+/* Both give the same: every cycle, every count, every byte. */
+typedef enum trax_engine {
+  TRAX_ENGINE_REFERENCE = 0, /* written to be read: emulator/core */
+  TRAX_ENGINE_FAST           /* emulator/fast */
+} trax_engine;
+
 typedef struct trax_run_options {
   FILE *output;                                                 /* guest output; NULL discards it */
   uint64_t max_cycles;                                          /* 0: no limit */
@@ -81,6 +87,7 @@ typedef struct trax_run_options {
   void (*progress)(void *context, const trax_progress *status); /* about ten times a second; may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
+  trax_engine engine;
 } trax_run_options;
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);

@@ -1,0 +1,59 @@
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
+/* Values that ran ahead are right as long as nobody writes where they came from. So before a block that anyone has
+   loaded ahead is written for the first time, every TP goes back to what it has issued and is deferred: its head will
+   execute at issue, and from then on loads from the block end bursts. A block costs this once at most; what is only
+   written, like a picture, never. Blocks are small because what is written often lies beside what is only read. */
+#include "fast/fast.h"
+
+#include <assert.h>
+#include <string.h>
+#include <sys/mman.h>
+
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error) {
+  blocks->bytes = memory_bytes >> TRAX_BLOCK_SHIFT; /* the host provides what is touched */
+  void *state = mmap(NULL, blocks->bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (state == MAP_FAILED)
+    return trax_fail(error, "cannot reserve %zu bytes of host memory", blocks->bytes);
+  blocks->state = state;
+  return TRAX_OK;
+}
+
+void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
+  if (blocks->state)
+    munmap(blocks->state, blocks->bytes);
+}
+
+/* The TP has issued the first steps of its burst; the head and what follows are undone. Going through the issued ones
+   again gives the same, since no block they loaded from has been written yet. */
+static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  struct trax_fast_slot *slot = &ftm->slot[number];
+  struct trax_tp *tp = &ftm->tm->tp[number];
+  if (ftm->deferred & bit)
+    return;
+  while (ftp->undo_count) {
+    const struct trax_fast_undo *undo = &ftp->undo[--ftp->undo_count];
+    memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
+  }
+  memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
+  const unsigned issued = (unsigned)(slot->step - ftp->steps);
+  ftp->resume = ftp->begin;
+  ftp->resume_pc = ftp->begin->pc;
+  const unsigned again = trax_fast_burst(fast, ftm, number, issued);
+  assert(again == issued && ftp->resume == slot->step->inst);
+  (void)again;
+  trax_fast_show(ftm, number);
+  ftp->only = *slot->step;
+  slot->step = slot->last = &ftp->only;
+  ftm->deferred |= bit; /* its class and what it asks for stay */
+}
+
+void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {
+  uint8_t *state = &fast->blocks.state[address >> TRAX_BLOCK_SHIFT];
+  if (*state == TRAX_BLOCK_LOADED)
+    for (uint32_t i = 0; i < fast->chip->tms; i++)
+      for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
+        come_back(fast, &fast->tm[i], tp);
+  *state = TRAX_BLOCK_WRITTEN;
+}

@@ -1,0 +1,31 @@
+/* Random programs and configurations. */
+#ifndef TRAX_TIMING_GENERATE_H
+#define TRAX_TIMING_GENERATE_H
+
+#include "bench.h"
+
+enum {
+  BASE = 20,    /* register: the thread's words at DATA + 256 * thread */
+  LOOP = 21,    /* register: turns left */
+  SHARED = 22,  /* register: words nobody writes */
+  COUNTER = 23, /* register: the thread's atomic counter */
+  BODY = 120,   /* instructions of the loop */
+  MAX_THREADS = 128
+};
+#define SHARED_WORDS (DATA + 0xC000)
+#define COUNTERS (DATA + 0xE000)
+
+extern uint64_t random_state;
+uint32_t any(uint32_t least, uint32_t most);
+
+/* A thread touches only its own words, and others' only through atomic increments of its own counter. At most BODY + 64
+   instructions. */
+size_t any_program(uint32_t *words);
+/* Threads race: for shared words, with the cycle counter and traps in between. At most BODY + 64 instructions. */
+size_t any_racing_program(uint32_t *words);
+/* Random words, most of them legal. */
+void any_words(uint32_t *words, size_t count);
+
+struct trax_config any_config(uint32_t tms, uint32_t tps);
+
+#endif
