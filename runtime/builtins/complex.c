@@ -48,7 +48,7 @@
   }                                                                                                                    \
                                                                                                                        \
   _Complex type __div##suffix##c3(type a, type b, type c, type d) {                                                    \
-    type greater = fabs_(c) > fabs_(d) ? fabs_(c) : fabs_(d);                                                          \
+    type greater = fabs_(c) > fabs_(d) || d != d ? fabs_(c) : fabs_(d); /* of a NaN and a number, that */              \
     int scale = scale_of(greater);                                                                                     \
     type sc = scaled(c, -scale), sd = scaled(d, -scale);                                                               \
     type denominator = sc * sc + sd * sd;                                                                              \

@@ -80,6 +80,10 @@ float rt___floatdisf(int64_t);
 float rt___floatundisf(uint64_t);
 float rt___powisf2(float, int);
 double rt___powidf2(double, int);
+float _Complex rt___mulsc3(float, float, float, float);
+float _Complex rt___divsc3(float, float, float, float);
+double _Complex rt___muldc3(double, double, double, double);
+double _Complex rt___divdc3(double, double, double, double);
 /* The host compiler's library. */
 double __powidf2(double, int);
 float __powisf2(float, int);
@@ -320,6 +324,61 @@ static void integer_powers(void **unused) {
   }
 }
 
+/* What annex G of the C standard asks of a product or quotient: 0 finite, 1 infinite, 2 NaN. */
+static int complex_class(double re, double im) {
+  return isinf(re) || isinf(im) ? 1 : re != re || im != im ? 2 : 0;
+}
+
+/* Products are the textbook's; quotients are within a few units of the true value, unless parts cancel. */
+static void check_complex(double a, double b, double c, double d) {
+  double _Complex x = __builtin_complex(a, b), y = __builtin_complex(c, d);
+  double _Complex product = rt___muldc3(a, b, c, d), want = x * y;
+  int kind = complex_class(__real__ want, __imag__ want);
+  if (complex_class(__real__ product, __imag__ product) != kind ||
+      (kind == 0 && (__real__ product != __real__ want || __imag__ product != __imag__ want)))
+    fail_msg("(%a, %a) * (%a, %a) = %a, %a; want %a, %a", a, b, c, d, __real__ product, __imag__ product, __real__ want,
+             __imag__ want);
+  long double _Complex exact = (long double _Complex)x / (long double _Complex)y;
+  double _Complex quotient = rt___divdc3(a, b, c, d);
+  kind = complex_class((double)__real__ exact, (double)__imag__ exact);
+  double error = (double)(fabsl(__real__ quotient - __real__ exact) + fabsl(__imag__ quotient - __imag__ exact));
+  double size = (double)(fabsl(__real__ exact) + fabsl(__imag__ exact));
+  if (complex_class(__real__ quotient, __imag__ quotient) != kind || (kind == 0 && error > size * 0x1p-50 + 0x1p-1070))
+    fail_msg("(%a, %a) / (%a, %a) = %a, %a; want %a, %a", a, b, c, d, __real__ quotient, __imag__ quotient,
+             (double)__real__ exact, (double)__imag__ exact);
+}
+
+static void check_complex_float(float a, float b, float c, float d) {
+  double _Complex product = (double _Complex)__builtin_complex(a, b) * (double _Complex)__builtin_complex(c, d);
+  double _Complex exact = (double _Complex)__builtin_complex(a, b) / (double _Complex)__builtin_complex(c, d);
+  float _Complex got = rt___mulsc3(a, b, c, d), quotient = rt___divsc3(a, b, c, d);
+  double size = fabs((double)a) + fabs((double)b), other = fabs((double)c) + fabs((double)d);
+  if (fabs(__real__ got - __real__ product) + fabs(__imag__ got - __imag__ product) > size * other * 0x1p-22 + 0x1p-140)
+    fail_msg("(%a, %a) * (%a, %a) = %a, %a", a, b, c, d, __real__ got, __imag__ got);
+  if (fabs(__real__ quotient - __real__ exact) + fabs(__imag__ quotient - __imag__ exact) >
+      size / other * 0x1p-20 + 0x1p-140)
+    fail_msg("(%a, %a) / (%a, %a) = %a, %a", a, b, c, d, __real__ quotient, __imag__ quotient);
+}
+
+static void complex_numbers(void **unused) {
+  (void)unused;
+  static const double special[] = {0.0, -0.0, 1.0, -2.5, 1e300, -1e-300, INFINITY, -INFINITY, NAN};
+  for (size_t i = 0; i < COUNT(special) * COUNT(special) * COUNT(special) * COUNT(special); i++) {
+    size_t n = COUNT(special);
+    check_complex(special[i % n], special[i / n % n], special[i / n / n % n], special[i / n / n / n]);
+  }
+  uint64_t state = 7;
+  for (int i = 0; i < 300000; i++) {
+    double v[4];
+    for (int j = 0; j < 4; j++)
+      v[j] = ldexp((double)(int64_t)random64(&state), (int)(random64(&state) % 300) - 200);
+    check_complex(v[0], v[1], v[2], v[3]);
+    for (int j = 0; j < 4; j++)
+      v[j] = (float)ldexp((double)(int64_t)random64(&state), (int)(random64(&state) % 40) - 80);
+    check_complex_float((float)v[0], (float)v[1], (float)v[2], (float)v[3]);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(special_integer_pairs),
@@ -330,6 +389,7 @@ int main(void) {
       cmocka_unit_test(doubles_near_underflow),
       cmocka_unit_test(floats),
       cmocka_unit_test(integer_powers),
+      cmocka_unit_test(complex_numbers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,11 +61,12 @@ int rt_fputs(const char *, void *);
 size_t rt_fwrite(const void *, size_t, size_t, void *);
 #define CHARACTER_CLASSES(X)                                                                                           \
   X(isalnum)                                                                                                           \
-  X(isalpha) X(isblank) X(iscntrl) X(isdigit) X(isgraph) X(islower) X(isprint) X(ispunct) X(isspace) X(isupper)        \
-      X(isxdigit)
+  X(isalpha)                                                                                                           \
+  X(isblank) X(iscntrl) X(isdigit) X(isgraph) X(islower) X(isprint) X(ispunct) X(isspace) X(isupper) X(isxdigit)
 #define DECLARE(name) int rt_##name(int);
 CHARACTER_CLASSES(DECLARE)
-DECLARE(tolower) DECLARE(toupper)
+DECLARE(tolower)
+DECLARE(toupper)
 
     /* Every start within a word, every size up to a few words, each byte around the target untouched. */
     static void memory_functions(void **state) {
