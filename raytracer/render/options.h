@@ -4,7 +4,8 @@
 
 #include "render.h"
 
-enum engine { ENGINE_EMULATOR, ENGINE_NATIVE, ENGINE_EMBREE };
+/* The first two simulate the machine, to the same cycle. */
+enum engine { ENGINE_EMULATOR, ENGINE_FAST, ENGINE_NATIVE, ENGINE_EMBREE };
 
 struct setting {
   const char *key;
