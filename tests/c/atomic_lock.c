@@ -1,5 +1,6 @@
 // RUN: %run_c %s %t --simflags "--config 1x32"
-// A spinlock from atomic_flag, and one from exchange and store: what they protect is never torn. (Expected output by hand.)
+// A spinlock from atomic_flag, and one from exchange and store: what they protect is never torn. (Expected output by
+// hand.)
 #include <stdatomic.h>
 #include <stdio.h>
 #include <trax.h>

@@ -1,5 +1,6 @@
 // RUN: %run_c %s %t --simflags "--config 1x32"
-// C11 atomics across threads: what becomes the atomic increment, and what the library does under a lock. (Expected output by hand.)
+// C11 atomics across threads: what becomes the atomic increment, and what the library does under a lock. (Expected
+// output by hand.)
 #include <stdatomic.h>
 #include <stdio.h>
 #include <trax.h>
@@ -26,7 +27,8 @@ int main(void) {
     ;
   if (trax_atomic_inc(&arrived) != 31)
     return 0;
-  printf("%u %d %d %llx\n", atomic_load(&increments), atomic_load(&sum), atomic_load(&greatest), (unsigned long long)wide);
+  printf("%u %d %d %llx\n", atomic_load(&increments), atomic_load(&sum), atomic_load(&greatest),
+         (unsigned long long)wide);
   printf("%d %d %d %d %x\n", bytes[0], bytes[1], bytes[2], bytes[3], half);
   return 0;
 }

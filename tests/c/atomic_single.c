@@ -4,7 +4,9 @@
 #include <stdio.h>
 
 static unsigned long long hash;
-static void mix(unsigned long long x) { hash = hash * 31 + x; }
+static void mix(unsigned long long x) {
+  hash = hash * 31 + x;
+}
 
 /* In pieces: one function with all of this, not optimised, would not fit the stack. */
 #define TEST(type, name)                                                                                               \

@@ -9,7 +9,9 @@ __attribute__((noinline)) static float _Complex iterate(float _Complex c, int n)
   return z;
 }
 
-__attribute__((noinline)) static void show(double x) { printf("%.5f ", x); }
+__attribute__((noinline)) static void show(double x) {
+  printf("%.5f ", x);
+}
 
 __attribute__((noinline)) static void singles(float re, float im) {
   float _Complex c = __builtin_complex(re, im), z = iterate(c, 20), q = c / (z + 2.0f);

@@ -6,9 +6,15 @@
 static volatile int order, early, late;
 static unsigned arrived, ready;
 
-__attribute__((constructor(102))) static void second(void) { late = ++order; }
-__attribute__((constructor(101))) static void first(void) { early = ++order; }
-__attribute__((constructor)) static void third(void) { order *= 10; }
+__attribute__((constructor(102))) static void second(void) {
+  late = ++order;
+}
+__attribute__((constructor(101))) static void first(void) {
+  early = ++order;
+}
+__attribute__((constructor)) static void third(void) {
+  order *= 10;
+}
 
 int main(void) {
   if (order == 20)

@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static volatile double values[] = {0.0, -0.0, 1.0, -1.5, 3.0, 0.1, 1e-308, 5e-324, 1e308, 9007199254740993.0, 1.0000000000000002};
+static volatile double values[] = {
+    0.0, -0.0, 1.0, -1.5, 3.0, 0.1, 1e-308, 5e-324, 1e308, 9007199254740993.0, 1.0000000000000002};
 enum { COUNT = sizeof values / sizeof values[0] };
 
 __attribute__((noinline)) static unsigned long long bits(double x) {
@@ -15,7 +16,7 @@ __attribute__((noinline)) static unsigned long long bits(double x) {
 __attribute__((noinline)) static void pair(double a, double b) {
   printf("%llx %llx ", bits(a + b), bits(a - b));
   printf("%llx %llx ", bits(a * b), bits(a / b));
-  printf("%d%d%d%d%d%d\n", a < b, a <= b, a > b, a >= b, a == b, a != b);
+  printf("%d%d%d%d%d%d\n", a<b, a <= b, a> b, a >= b, a == b, a != b);
 }
 
 int main(void) {

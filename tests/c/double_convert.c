@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static volatile double doubles[] = {0.0, 0.99, -0.99, 1.5, -2.5, 1e9, 4294967295.0, -2147483648.0, 1e15, 1.17549435e-38, 1e-45};
+static volatile double doubles[] = {0.0,           0.99, -0.99,          1.5,  -2.5, 1e9, 4294967295.0,
+                                    -2147483648.0, 1e15, 1.17549435e-38, 1e-45};
 static volatile int ints[] = {0, 1, -1, 123456789, 2147483647, -2147483647 - 1};
 
 __attribute__((noinline)) static unsigned long long bits(double x) {

@@ -1,9 +1,12 @@
 // RUN: %run_c %s %t --simflags "--config 1x32" --status 5
-// The exit status is that of the lowest thread whose status is not 0, whether by return or by exit. (Expected output by hand.)
+// The exit status is that of the lowest thread whose status is not 0, whether by return or by exit. (Expected output by
+// hand.)
 #include <stdlib.h>
 #include <trax.h>
 
-__attribute__((noinline)) static void leave(int status) { exit(status); }
+__attribute__((noinline)) static void leave(int status) {
+  exit(status);
+}
 
 int main(void) {
   unsigned thread = trax_thread();

@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static volatile float values[] = {0.0f, -0.0f, 1.0f, -1.5f, 3.0f, 0.1f, 1e-38f, 1e-45f, 3e38f, 16777216.0f, 1.00000012f};
+static volatile float values[] = {0.0f,   -0.0f,  1.0f,  -1.5f,       3.0f,       0.1f,
+                                  1e-38f, 1e-45f, 3e38f, 16777216.0f, 1.00000012f};
 enum { COUNT = sizeof values / sizeof values[0] };
 
 static unsigned bits(float x) {

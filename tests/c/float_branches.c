@@ -11,7 +11,9 @@ __attribute__((noinline)) static int steps(float x) {
   return n;
 }
 
-__attribute__((noinline)) static float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
+__attribute__((noinline)) static float clamp(float x, float low, float high) {
+  return x < low ? low : x > high ? high : x;
+}
 
 __attribute__((noinline)) static int classify(float x) {
   if (x == 0)

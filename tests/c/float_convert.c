@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static volatile float floats[] = {0.0f, 0.9f, -0.9f, 1.5f, -2.5f, 255.7f, 32767.0f, 1e6f, 16777217.0f, 2147483520.0f, -2147483648.0f};
+static volatile float floats[] = {0.0f,     0.9f, -0.9f,       1.5f,          -2.5f,         255.7f,
+                                  32767.0f, 1e6f, 16777217.0f, 2147483520.0f, -2147483648.0f};
 static volatile int ints[] = {0, 1, -1, 16777217, 16777219, -33554433, 2147483647, -2147483647 - 1};
 
 static unsigned bits(float x) {

@@ -6,7 +6,7 @@
 static volatile float values[] = {0.0f, -0.0f, 1.0f, -2.5f, 1e-40f, INFINITY, -INFINITY, NAN};
 
 __attribute__((noinline)) static void pair(float a, float b) {
-  printf("%d%d%d%d%d%d ", a < b, a <= b, a > b, a >= b, a == b, a != b);
+  printf("%d%d%d%d%d%d ", a<b, a <= b, a> b, a >= b, a == b, a != b);
   printf("%d%d%d%d ", isless(a, b), islessgreater(a, b), isunordered(a, b), !(a < b));
   if (a != b || a != 0) /* which zero the lesser is, C leaves open */
     printf("%g %g", (double)fminf(a, b), (double)fmaxf(a, b));

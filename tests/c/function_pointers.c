@@ -4,9 +4,15 @@
 
 typedef int operation(int, int);
 
-static int add(int a, int b) { return a + b; }
-static int subtract(int a, int b) { return a - b; }
-static int multiply(int a, int b) { return a * b; }
+static int add(int a, int b) {
+  return a + b;
+}
+static int subtract(int a, int b) {
+  return a - b;
+}
+static int multiply(int a, int b) {
+  return a * b;
+}
 
 static operation *const table[] = {add, subtract, multiply};
 
@@ -16,14 +22,18 @@ __attribute__((noinline)) static int fold(operation *f, const int *v, int n, int
   return start;
 }
 
-__attribute__((noinline)) static operation *choose(int which) { return table[which % 3]; }
+__attribute__((noinline)) static operation *choose(int which) {
+  return table[which % 3];
+}
 
 struct object {
   int state;
   void (*method)(struct object *, int);
 };
 
-static void increase(struct object *o, int by) { o->state += by; }
+static void increase(struct object *o, int by) {
+  o->state += by;
+}
 static void square(struct object *o, int unused) {
   (void)unused;
   o->state *= o->state;

@@ -2,8 +2,19 @@
 // 64-bit division of every shape: word by word, by word, by two words.
 #include <stdio.h>
 
-static volatile long long values[] = {1,        -1,        3,  10, -1000, 0x7FFFFFFF, 0x80000000ll, 0xFFFFFFFFll, 0x100000000ll, 0x100000001ll,
-                                      0xFEDCBA987654ll, 0x7FFFFFFFFFFFFFFFll, -0x7FFFFFFFFFFFFFFFll};
+static volatile long long values[] = {1,
+                                      -1,
+                                      3,
+                                      10,
+                                      -1000,
+                                      0x7FFFFFFF,
+                                      0x80000000ll,
+                                      0xFFFFFFFFll,
+                                      0x100000000ll,
+                                      0x100000001ll,
+                                      0xFEDCBA987654ll,
+                                      0x7FFFFFFFFFFFFFFFll,
+                                      -0x7FFFFFFFFFFFFFFFll};
 enum { COUNT = sizeof values / sizeof values[0] };
 
 __attribute__((noinline)) static void divide(long long a, long long b) {

@@ -4,9 +4,15 @@
 
 static volatile unsigned long long values[] = {1, 0x8000000000000000ull, 0x123456789ABCDEF0ull, 0xFFFFFFFF00000000ull};
 
-__attribute__((noinline)) static unsigned long long left(unsigned long long x, int n) { return x << n; }
-__attribute__((noinline)) static unsigned long long right(unsigned long long x, int n) { return x >> n; }
-__attribute__((noinline)) static long long arithmetic(long long x, int n) { return x >> n; }
+__attribute__((noinline)) static unsigned long long left(unsigned long long x, int n) {
+  return x << n;
+}
+__attribute__((noinline)) static unsigned long long right(unsigned long long x, int n) {
+  return x >> n;
+}
+__attribute__((noinline)) static long long arithmetic(long long x, int n) {
+  return x >> n;
+}
 
 int main(void) {
   for (int i = 0; i < 4; i++) {

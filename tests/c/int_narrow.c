@@ -7,11 +7,21 @@ static volatile int values[] = {0, 1, -1, 127, 128, 255, 256, 32767, 32768, 6553
 static signed char bytes[4];
 static unsigned short halves[4];
 
-__attribute__((noinline)) static signed char to_schar(int x) { return (signed char)x; }
-__attribute__((noinline)) static unsigned char to_uchar(int x) { return (unsigned char)x; }
-__attribute__((noinline)) static short to_short(int x) { return (short)x; }
-__attribute__((noinline)) static unsigned short to_ushort(int x) { return (unsigned short)x; }
-__attribute__((noinline)) static bool to_bool(int x) { return x; }
+__attribute__((noinline)) static signed char to_schar(int x) {
+  return (signed char)x;
+}
+__attribute__((noinline)) static unsigned char to_uchar(int x) {
+  return (unsigned char)x;
+}
+__attribute__((noinline)) static short to_short(int x) {
+  return (short)x;
+}
+__attribute__((noinline)) static unsigned short to_ushort(int x) {
+  return (unsigned short)x;
+}
+__attribute__((noinline)) static bool to_bool(int x) {
+  return x;
+}
 __attribute__((noinline)) static int sum(signed char a, unsigned char b, short c, unsigned short d) {
   return a + b * 3 + c * 5 + d * 7;
 }

@@ -4,7 +4,9 @@
 
 static volatile unsigned values[] = {0, 1, 0x80000000, 0xFFFFFFFF, 0x12345678, 0xF0F0F0F0};
 
-__attribute__((noinline)) static unsigned rotate_left(unsigned x, unsigned n) { return x << (n & 31) | x >> (-n & 31); }
+__attribute__((noinline)) static unsigned rotate_left(unsigned x, unsigned n) {
+  return x << (n & 31) | x >> (-n & 31);
+}
 
 int main(void) {
   for (int i = 0; i < 6; i++) {

@@ -6,16 +6,19 @@ struct three {
   int a, b, c;
 };
 
-__attribute__((noinline)) static int words(int a, int b, int c, int d, int e, int f, int g, int h, int i, int j, int k) {
+__attribute__((noinline)) static int words(int a, int b, int c, int d, int e, int f, int g, int h, int i, int j,
+                                           int k) {
   return a + 2 * b + 3 * c + 4 * d + 5 * e + 6 * f + 7 * g + 8 * h + 9 * i + 10 * j + 11 * k;
 }
-__attribute__((noinline)) static long long split(int a, int b, int c, int d, int e, int f, int g, long long l, double x) {
+__attribute__((noinline)) static long long split(int a, int b, int c, int d, int e, int f, int g, long long l,
+                                                 double x) {
   return a + b + c + d + e + f + g + l + (long long)(x * 4);
 }
 __attribute__((noinline)) static int structures(int a, struct three s, struct three t, struct three u, float f) {
   return a + s.a + 10 * s.b + 100 * s.c + t.a + 10 * t.b + 100 * t.c + 1000 * u.a + 10000 * u.b + 100000 * u.c + (int)f;
 }
-__attribute__((noinline)) static float floats(float a, float b, int c, float d, double e, float f, float g, float h, float i) {
+__attribute__((noinline)) static float floats(float a, float b, int c, float d, double e, float f, float g, float h,
+                                              float i) {
   return a + b * 2 + (float)c + d * 3 + (float)e + f + g + h + i * 100;
 }
 

@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t
-// The mathematical functions on the machine. Exact ones to the bit; the others to the digits that any good library agrees in.
-// tests/numerics measures their errors.
+// The mathematical functions on the machine. Exact ones to the bit; the others to the digits that any good library
+// agrees in. tests/numerics measures their errors.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +13,9 @@ __attribute__((noinline)) static unsigned bits(float x) {
   return x != x ? 0x7FC00000 : u;
 }
 
-__attribute__((noinline)) static void show(const char *name, float x) { printf("%s %.5g\n", name, (double)x); }
+__attribute__((noinline)) static void show(const char *name, float x) {
+  printf("%s %.5g\n", name, (double)x);
+}
 
 __attribute__((noinline)) static void exact(float x) {
   printf("%08x %08x %08x %08x\n", bits(sqrtf(x)), bits(floorf(x)), bits(ceilf(x)), bits(truncf(x)));

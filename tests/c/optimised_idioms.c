@@ -24,9 +24,15 @@ __attribute__((noinline)) static int length(const char *s) {
     n++;
   return n;
 }
-__attribute__((noinline)) static unsigned gcd(unsigned a, unsigned b) { return b ? gcd(b, a % b) : a; }
-__attribute__((noinline)) static int saturate(int x) { return x > 255 ? 255 : x < 0 ? 0 : x; }
-__attribute__((noinline)) static int sign(int x) { return (x > 0) - (x < 0); }
+__attribute__((noinline)) static unsigned gcd(unsigned a, unsigned b) {
+  return b ? gcd(b, a % b) : a;
+}
+__attribute__((noinline)) static int saturate(int x) {
+  return x > 255 ? 255 : x < 0 ? 0 : x;
+}
+__attribute__((noinline)) static int sign(int x) {
+  return (x > 0) - (x < 0);
+}
 __attribute__((noinline)) static int collatz(unsigned n) {
   int steps = 0;
   for (; n != 1; steps++)

@@ -9,7 +9,8 @@ int main(void) {
   printf("[%.3d] [%8.3d] [%-8.3d] [%08.3d] [%.0d] [%#x] [%#o] [%#X]\n", 7, 7, 7, 7, 0, 255, 8, 255);
   printf("[%*d] [%-*d] [%.*d]\n", 6, 1, 6, 2, 3, 4);
   printf("[%hhd] [%hd] [%hhu] [%hu]\n", 300, 70000, 300, 70000);
-  printf("[%lld] [%llu] [%llx] [%llo]\n", -9223372036854775807ll - 1, 18446744073709551615ull, 0x123456789ABCDEFull, 0777777777777ull);
+  printf("[%lld] [%llu] [%llx] [%llo]\n", -9223372036854775807ll - 1, 18446744073709551615ull, 0x123456789ABCDEFull,
+         0777777777777ull);
   printf("[%jd] [%zu] [%" PRIu64 "] [%" PRId32 "]\n", (intmax_t)-5, sizeof(int), UINT64_C(12345678901), INT32_C(-7));
   printf("[%s] [%10s] [%-10s] [%.2s] [%5.1s]\n", "text", "right", "left", "cut", "one");
   int count = printf("count\n");

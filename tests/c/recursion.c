@@ -2,7 +2,9 @@
 // Recursion within 512 bytes of stack, direct and mutual.
 #include <stdio.h>
 
-__attribute__((noinline)) static int fibonacci(int n) { return n < 2 ? n : fibonacci(n - 1) + fibonacci(n - 2); }
+__attribute__((noinline)) static int fibonacci(int n) {
+  return n < 2 ? n : fibonacci(n - 1) + fibonacci(n - 2);
+}
 
 __attribute__((noinline)) static int ackermann(int m, int n) {
   if (m == 0)
@@ -11,8 +13,12 @@ __attribute__((noinline)) static int ackermann(int m, int n) {
 }
 
 static int is_odd(int n);
-__attribute__((noinline)) static int is_even(int n) { return n == 0 ? 1 : is_odd(n - 1); }
-__attribute__((noinline)) static int is_odd(int n) { return n == 0 ? 0 : is_even(n - 1); }
+__attribute__((noinline)) static int is_even(int n) {
+  return n == 0 ? 1 : is_odd(n - 1);
+}
+__attribute__((noinline)) static int is_odd(int n) {
+  return n == 0 ? 0 : is_even(n - 1);
+}
 
 static int moves;
 __attribute__((noinline)) static void hanoi(int n, int from, int to) {

@@ -24,7 +24,9 @@ __attribute__((noinline)) static struct vec3 add(struct vec3 a, struct vec3 b) {
 __attribute__((noinline)) static struct vec3 cross(struct vec3 a, struct vec3 b) {
   return (struct vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-__attribute__((noinline)) static struct pair swap(struct pair p) { return (struct pair){p.b, (char)p.a}; }
+__attribute__((noinline)) static struct pair swap(struct pair p) {
+  return (struct pair){p.b, (char)p.a};
+}
 __attribute__((noinline)) static struct quad rotate(struct quad q, int by) {
   struct quad r;
   for (int i = 0; i < 4; i++)

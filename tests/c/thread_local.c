@@ -1,5 +1,6 @@
 // RUN: %run_c %s %t --simflags "--config 1x32"
-// Thread-local objects: each of 32 threads counts in its own; the sum is what all of them did. (Expected output by hand.)
+// Thread-local objects: each of 32 threads counts in its own; the sum is what all of them did. (Expected output by
+// hand.)
 #include <stdio.h>
 #include <trax.h>
 

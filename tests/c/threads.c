@@ -1,5 +1,6 @@
 // RUN: %run_c %s %t --simflags "--config 1x32"
-// What a thread knows of itself, items handed out by the atomic increment, and output that is not torn. (Expected output by hand.)
+// What a thread knows of itself, items handed out by the atomic increment, and output that is not torn. (Expected
+// output by hand.)
 #include <stdio.h>
 #include <trax.h>
 

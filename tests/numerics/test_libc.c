@@ -68,8 +68,8 @@ CHARACTER_CLASSES(DECLARE)
 DECLARE(tolower)
 DECLARE(toupper)
 
-    /* Every start within a word, every size up to a few words, each byte around the target untouched. */
-    static void memory_functions(void **state) {
+/* Every start within a word, every size up to a few words, each byte around the target untouched. */
+static void memory_functions(void **state) {
   (void)state;
   unsigned char source[96], ours[96], theirs[96];
   for (size_t i = 0; i < sizeof source; i++)
