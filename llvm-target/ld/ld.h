@@ -1,4 +1,4 @@
-/* The linker's data structures and passes. One ld_context holds a whole link; main.c runs the passes in order:
+/* The linker's data structures and passes. One ld_context holds a whole link; link.c runs the passes in order:
 
      options   command line                              -> context.options
      input     objects and archives, symbol resolution   -> context.objects, context.symbols
@@ -16,6 +16,7 @@
 
 #include <elf.h>
 #include <libelf.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -51,7 +52,7 @@ typedef struct ld_output ld_output;
        : (void)0,                                                                                                      \
    (void)((vector)->items[(vector)->count++] = (item)))
 
-void *ld_alloc(ld_context *ctx, size_t size); /* zeroed, aligned to 16; the process ends if memory is exhausted */
+void *ld_alloc(ld_context *ctx, size_t size); /* zeroed, aligned to 16; the link ends if memory is exhausted */
 void *ld_alloc_array(ld_context *ctx, size_t count, size_t size);
 char *ld_format(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void *ld_grow(ld_context *ctx, void *items, size_t count, size_t *capacity, size_t size);
@@ -294,8 +295,12 @@ void ld_print_memory_usage(const ld_context *ctx, FILE *out);
 
 /* --- the whole --- */
 
+/* Runs a link as the program does; argv[0] is ignored. The exit status. Keeps no state and can be called again. */
+int ld_main(int argc, char **argv);
+
 struct ld_context {
   ld_options options;
+  jmp_buf out_of_memory; /* where the link ends then */
   struct ld_chunk *chunks; /* memory */
   unsigned error_count, warning_count;
 

@@ -26,7 +26,7 @@ void *ld_alloc(ld_context *ctx, size_t size) {
     struct ld_chunk *fresh = rounded < size ? NULL : calloc(1, sizeof *fresh + chunk_size);
     if (!fresh) {
       fprintf(stderr, "trax-ld: error: out of memory (%zu bytes wanted)\n", size);
-      exit(1);
+      longjmp(ctx->out_of_memory, 1);
     }
     fresh->size = chunk_size;
     if (chunk && chunk_size != CHUNK_SIZE) { /* a chunk for itself goes behind the one that is being filled */

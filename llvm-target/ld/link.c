@@ -1,0 +1,50 @@
+/* The whole linker as a function: relocatable objects and archives in, an executable for the TP out. */
+#include "ld.h"
+
+#include <stdlib.h>
+
+static bool link_program(ld_context *ctx) {
+  if (!ld_load_inputs(ctx) || !ld_finish_symbols(ctx))
+    return false;
+  ld_split_merge_sections(ctx);
+  ld_mark_live(ctx);
+  if (!ld_check_undefined(ctx) || !ld_layout(ctx) || !ld_build_image(ctx) || !ld_relocate(ctx))
+    return false;
+  if (ctx->options.fatal_warnings && ctx->warning_count) {
+    ld_error(ctx, "%u warning%s, treated as errors", ctx->warning_count, ctx->warning_count == 1 ? "" : "s");
+    return false;
+  }
+  return (!ctx->options.map_path || ld_write_map(ctx)) && ld_write_image(ctx);
+}
+
+static bool run(ld_context *ctx, int argc, char **argv) {
+  bool ok = ld_parse_options(ctx, argc - 1, argv + 1);
+  if (ok && ctx->options.help)
+    ld_print_help(stdout);
+  if (ok && ctx->options.version)
+    puts("trax-ld " TRAX_VERSION);
+  if (ok && !ctx->options.help && !ctx->options.version_only && ctx->options.inputs.count) {
+    ok = link_program(ctx);
+    if (ok && ctx->options.print_memory_usage)
+      ld_print_memory_usage(ctx, stdout);
+  }
+  if (fflush(stdout) != 0 || ferror(stdout)) {
+    ld_error(ctx, "cannot write to standard output");
+    ok = false;
+  }
+  ld_report_suppressed(ctx);
+  return ok;
+}
+
+int ld_main(int argc, char **argv) {
+  ld_context *ctx = calloc(1, sizeof *ctx);
+  if (!ctx)
+    return 1;
+  elf_version(EV_CURRENT);
+  volatile bool ok = false;
+  if (setjmp(ctx->out_of_memory) == 0)
+    ok = run(ctx, argc, argv);
+  ld_free_all(ctx);
+  free(ctx);
+  return ok ? 0 : 1;
+}
