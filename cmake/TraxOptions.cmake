@@ -14,12 +14,19 @@ set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 
 option(TRAX_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(TRAX_FUZZ "libFuzzer's programs of llvm-target/fuzz: needs clang, implies TRAX_SANITIZE" OFF)
 option(TRAX_WERROR "Warnings are errors" ON)
 
 # What every target of ours links: warnings for our own code only, never for LLVM's headers. Host arithmetic must be
 # IEEE 754: no contraction, no fast-math.
 add_library(trax_flags INTERFACE)
 target_compile_options(trax_flags INTERFACE -Wall -Wextra -ffp-contract=off $<$<BOOL:${TRAX_WERROR}>:-Werror>)
+if(TRAX_FUZZ)
+  if(NOT CMAKE_C_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "TRAX_FUZZ needs clang (cmake --preset fuzz) and Debian's libclang-rt-19-dev")
+  endif()
+  set(TRAX_SANITIZE ON)
+endif()
 if(TRAX_SANITIZE)
   target_compile_options(trax_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   # GCC takes a check that it inserted itself for a null pointer in clang's headers.

@@ -104,7 +104,7 @@ static bool next_member(reader *reader, member *member) {
       member->name = ld_format(ctx, "%.*s", (int)length, (const char *)member->bytes);
       member->bytes += length;
       member->size -= (size_t)length;
-      if (memcmp(member->name, "__.SYMDEF", 9) == 0)
+      if (ld_starts_with(member->name, "__.SYMDEF"))
         member->name = NULL;
       return true;
     }

@@ -115,6 +115,7 @@ typedef struct ld_options {
   LD_VECTOR(ld_defsym) defsyms;
   uint32_t text_start;
   unsigned error_limit; /* 0: none */
+  unsigned response_files; /* read so far */
   bool gc_sections, print_gc_sections, print_memory_usage;
   bool strip_all, strip_debug;
   bool fatal_warnings, no_warnings, trace;

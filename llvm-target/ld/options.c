@@ -310,6 +310,7 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
 
 typedef LD_VECTOR(const char *) argument_list;
 #define MAX_RESPONSE_DEPTH 32
+#define MAX_RESPONSE_FILES 1000 /* two mentions in each of 32 nested files would be 2^32 */
 
 static void expand(ld_context *ctx, argument_list *arguments, const char *argument, unsigned depth);
 
@@ -357,9 +358,15 @@ static void expand(ld_context *ctx, argument_list *arguments, const char *argume
   const char *path = argument + 1;
   const uint8_t *bytes;
   size_t size;
-  if (depth > MAX_RESPONSE_DEPTH)
+  unsigned *files = &ctx->options.response_files;
+  if (*files > MAX_RESPONSE_FILES) /* an error that was reported */
+    return;
+  if (depth > MAX_RESPONSE_DEPTH) {
     ld_error(ctx, "%s: response files are nested more than %d deep", path, MAX_RESPONSE_DEPTH);
-  else if (ld_read_file(ctx, path, &bytes, &size)) {
+    *files = MAX_RESPONSE_FILES + 1;
+  } else if (++*files > MAX_RESPONSE_FILES) {
+    ld_error(ctx, "%s: more than %d response files", path, MAX_RESPONSE_FILES);
+  } else if (ld_read_file(ctx, path, &bytes, &size)) {
     if (memchr(bytes, '\0', size))
       ld_error(ctx, "%s: is not text (a response file)", path);
     else

@@ -10,7 +10,10 @@
 
 /* --- memory: chunks that are freed together --- */
 
-#define CHUNK_SIZE ((size_t)256 << 10)
+/* 0 gives every allocation its own chunk of its own size, so that AddressSanitizer sees where each one ends. */
+#ifndef LD_CHUNK_SIZE
+#define LD_CHUNK_SIZE ((size_t)256 << 10)
+#endif
 
 struct ld_chunk {
   struct ld_chunk *next;
@@ -19,17 +22,17 @@ struct ld_chunk {
 };
 
 void *ld_alloc(ld_context *ctx, size_t size) {
-  size_t rounded = (size + 15) & ~(size_t)15;
+  size_t rounded = LD_CHUNK_SIZE ? (size + 15) & ~(size_t)15 : size;
   struct ld_chunk *chunk = ctx->chunks;
   if (!chunk || chunk->size - chunk->used < rounded) {
-    size_t chunk_size = rounded > CHUNK_SIZE / 4 ? rounded : CHUNK_SIZE;
+    size_t chunk_size = rounded > LD_CHUNK_SIZE / 4 ? rounded : LD_CHUNK_SIZE;
     struct ld_chunk *fresh = rounded < size ? NULL : calloc(1, sizeof *fresh + chunk_size);
     if (!fresh) {
       fprintf(stderr, "trax-ld: error: out of memory (%zu bytes wanted)\n", size);
       longjmp(ctx->out_of_memory, 1);
     }
     fresh->size = chunk_size;
-    if (chunk && chunk_size != CHUNK_SIZE) { /* a chunk for itself goes behind the one that is being filled */
+    if (chunk && chunk_size != LD_CHUNK_SIZE) { /* a chunk for itself goes behind the one that is being filled */
       fresh->next = chunk->next;
       chunk->next = fresh;
     } else {
