@@ -127,8 +127,8 @@ static void mutate_options(fuzz_case *fuzz_case, const char *const *words, fuzz_
   }
   size_t length = 0;
   for (size_t i = 0; i < count && length < FUZZ_MAX_OPTIONS; i++)
-    length += (size_t)snprintf(fuzz_case->options + length, FUZZ_MAX_OPTIONS + 1 - length, "%s%s", i ? " " : "",
-                               parts[i]);
+    length +=
+        (size_t)snprintf(fuzz_case->options + length, FUZZ_MAX_OPTIONS + 1 - length, "%s%s", i ? " " : "", parts[i]);
 }
 
 /* One member is mutated where it lies, its size kept, or the archive as plain bytes. */
@@ -170,8 +170,8 @@ static void mutate_file(fuzz_file *file, size_t capacity, fuzz_random *random) {
 /* An archive of one member, so that archives arise from objects. */
 static void wrap_in_archive(fuzz_file *file) {
   char head[SARMAG + sizeof(struct ar_hdr) + 1];
-  size_t length = (size_t)snprintf(head, sizeof head, ARMAG "%-16s%-12d%-6d%-6d%-8o%-10zu" ARFMAG, "m.o/", 0, 0, 0, 0644u,
-                                   file->size);
+  size_t length = (size_t)snprintf(head, sizeof head, ARMAG "%-16s%-12d%-6d%-6d%-8o%-10zu" ARFMAG, "m.o/", 0, 0, 0,
+                                   0644u, file->size);
   uint8_t *bytes = malloc(length + file->size + 1);
   if (!bytes)
     abort();

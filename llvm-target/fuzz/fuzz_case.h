@@ -41,8 +41,8 @@ const fuzz_file *fuzz_case_find(const fuzz_case *fuzz_case, const char *name); /
 /* Cuts options into words at spaces, in place; how many there are, at most limit. */
 size_t fuzz_case_words(char *options, char **words, size_t limit);
 
-/* What a program's own custom mutator is made of. words: options that may be added, NULL-terminated; "%" in one stands for
-   the name of a file. */
+/* What a program's own custom mutator is made of. words: options that may be added, NULL-terminated; "%" in one stands
+   for the name of a file. */
 size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *const *words);
 /* Files of both cases in one. */
 size_t fuzz_case_cross(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
@@ -59,8 +59,8 @@ uint32_t fuzz_below(fuzz_random *random, uint32_t limit);
 /* libFuzzer's own mutation of plain bytes; in a replay, nothing. */
 size_t LLVMFuzzerMutate(uint8_t *bytes, size_t size, size_t capacity);
 
-/* Changes one thing in an ELF32 little-endian file: a field of a header, a symbol or a relocation, the order or the number
-   of those, or the bytes of one section. A file that is none is mutated as plain bytes. Returns the new size. */
+/* Changes one thing in an ELF32 little-endian file: a field of a header, a symbol or a relocation, the order or the
+   number of those, or the bytes of one section. A file that is none is mutated as plain bytes. Returns the new size. */
 size_t fuzz_mutate_elf(uint8_t *bytes, size_t size, size_t capacity, fuzz_random *random);
 
 /* --- in each fuzzer --- */

@@ -22,24 +22,30 @@ typedef struct field {
   uint8_t offset, width;
 } field;
 
-#define FIELD(type, member) {offsetof(type, member), sizeof(((type *)0)->member)}
+#define FIELD(type, member)                                                                                            \
+  { offsetof(type, member), sizeof(((type *)0)->member) }
 
 static const field header_fields[] = {
-    FIELD(Elf32_Ehdr, e_type),  FIELD(Elf32_Ehdr, e_entry),     FIELD(Elf32_Ehdr, e_phoff), FIELD(Elf32_Ehdr, e_shoff),
-    FIELD(Elf32_Ehdr, e_flags), FIELD(Elf32_Ehdr, e_phentsize), FIELD(Elf32_Ehdr, e_phnum), FIELD(Elf32_Ehdr, e_shentsize),
-    FIELD(Elf32_Ehdr, e_shnum), FIELD(Elf32_Ehdr, e_shstrndx),  FIELD(Elf32_Ehdr, e_machine)};
+    FIELD(Elf32_Ehdr, e_type),     FIELD(Elf32_Ehdr, e_entry),     FIELD(Elf32_Ehdr, e_phoff),
+    FIELD(Elf32_Ehdr, e_shoff),    FIELD(Elf32_Ehdr, e_flags),     FIELD(Elf32_Ehdr, e_phentsize),
+    FIELD(Elf32_Ehdr, e_phnum),    FIELD(Elf32_Ehdr, e_shentsize), FIELD(Elf32_Ehdr, e_shnum),
+    FIELD(Elf32_Ehdr, e_shstrndx), FIELD(Elf32_Ehdr, e_machine)};
 static const field section_fields[] = {
-    FIELD(Elf32_Shdr, sh_name), FIELD(Elf32_Shdr, sh_type),      FIELD(Elf32_Shdr, sh_flags), FIELD(Elf32_Shdr, sh_addr),
-    FIELD(Elf32_Shdr, sh_size), FIELD(Elf32_Shdr, sh_offset),    FIELD(Elf32_Shdr, sh_link),  FIELD(Elf32_Shdr, sh_info),
-    FIELD(Elf32_Shdr, sh_size), FIELD(Elf32_Shdr, sh_addralign), FIELD(Elf32_Shdr, sh_entsize)};
+    FIELD(Elf32_Shdr, sh_name),      FIELD(Elf32_Shdr, sh_type),   FIELD(Elf32_Shdr, sh_flags),
+    FIELD(Elf32_Shdr, sh_addr),      FIELD(Elf32_Shdr, sh_size),   FIELD(Elf32_Shdr, sh_offset),
+    FIELD(Elf32_Shdr, sh_link),      FIELD(Elf32_Shdr, sh_info),   FIELD(Elf32_Shdr, sh_size),
+    FIELD(Elf32_Shdr, sh_addralign), FIELD(Elf32_Shdr, sh_entsize)};
 static const field segment_fields[] = {
-    FIELD(Elf32_Phdr, p_type),   FIELD(Elf32_Phdr, p_offset), FIELD(Elf32_Phdr, p_vaddr), FIELD(Elf32_Phdr, p_filesz),
+    FIELD(Elf32_Phdr, p_type),  FIELD(Elf32_Phdr, p_offset), FIELD(Elf32_Phdr, p_vaddr), FIELD(Elf32_Phdr, p_filesz),
     FIELD(Elf32_Phdr, p_memsz), FIELD(Elf32_Phdr, p_flags),  FIELD(Elf32_Phdr, p_align)};
-static const field symbol_fields[] = {FIELD(Elf32_Sym, st_name), FIELD(Elf32_Sym, st_value), FIELD(Elf32_Sym, st_size),
-                                      FIELD(Elf32_Sym, st_info), FIELD(Elf32_Sym, st_other), FIELD(Elf32_Sym, st_shndx)};
-static const field relocation_fields[] = {
-    FIELD(Elf32_Rela, r_offset), {offsetof(Elf32_Rela, r_info), 1}, {offsetof(Elf32_Rela, r_info) + 1, 1},
-    FIELD(Elf32_Rela, r_info),   FIELD(Elf32_Rela, r_addend)};
+static const field symbol_fields[] = {FIELD(Elf32_Sym, st_name),  FIELD(Elf32_Sym, st_value),
+                                      FIELD(Elf32_Sym, st_size),  FIELD(Elf32_Sym, st_info),
+                                      FIELD(Elf32_Sym, st_other), FIELD(Elf32_Sym, st_shndx)};
+static const field relocation_fields[] = {FIELD(Elf32_Rela, r_offset),
+                                          {offsetof(Elf32_Rela, r_info), 1},
+                                          {offsetof(Elf32_Rela, r_info) + 1, 1},
+                                          FIELD(Elf32_Rela, r_info),
+                                          FIELD(Elf32_Rela, r_addend)};
 static const field word_fields[] = {{0, 4}};
 #define CHOOSE(file, table) (table)[fuzz_below((file)->random, sizeof(table) / sizeof *(table))]
 
@@ -73,11 +79,43 @@ static bool has_contents(const elf_file *file, Elf32_Shdr *section) {
 
 /* A value that is often at the edge of something in this file. */
 static uint32_t telling_value(elf_file *file, uint32_t old) {
-  static const uint32_t values[] = {0,      1,      2,          3,           4,           8,           12,         16,
-                                    0x3F,   0x40,   0xFF,       0x1000,      0x7FFF,      0x8000,      0xFF00,     0xFFF1,
-                                    0xFFF2, 0xFFFF, 0x10000,    0x00FFFFFF,  0x7FFFFFFF,  0x80000000u, 0xFFFFFE00u, 0xFFFFFFFFu,
-                                    0x800,  0x900,  0x70000000, 0x6FFF4C03u, SHT_GROUP,   SHT_RELA,    SHT_REL,    SHT_NOBITS,
-                                    SHT_SYMTAB, SHT_STRTAB, SHT_SYMTAB_SHNDX, SHT_INIT_ARRAY, SHT_NOTE};
+  static const uint32_t values[] = {0,
+                                    1,
+                                    2,
+                                    3,
+                                    4,
+                                    8,
+                                    12,
+                                    16,
+                                    0x3F,
+                                    0x40,
+                                    0xFF,
+                                    0x1000,
+                                    0x7FFF,
+                                    0x8000,
+                                    0xFF00,
+                                    0xFFF1,
+                                    0xFFF2,
+                                    0xFFFF,
+                                    0x10000,
+                                    0x00FFFFFF,
+                                    0x7FFFFFFF,
+                                    0x80000000u,
+                                    0xFFFFFE00u,
+                                    0xFFFFFFFFu,
+                                    0x800,
+                                    0x900,
+                                    0x70000000,
+                                    0x6FFF4C03u,
+                                    SHT_GROUP,
+                                    SHT_RELA,
+                                    SHT_REL,
+                                    SHT_NOBITS,
+                                    SHT_SYMTAB,
+                                    SHT_STRTAB,
+                                    SHT_SYMTAB_SHNDX,
+                                    SHT_INIT_ARRAY,
+                                    SHT_NOTE};
   uint32_t count = section_count(file);
   switch (fuzz_below(file->random, 8)) {
   case 0:

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int trax_ld_main(int argc, char **argv); /* main of main.c */
 bool __wrap_ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size_t *size);
 bool __wrap_ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode);
 int __wrap_access(const char *path, int mode);
@@ -55,7 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   int argc = 1 + (int)fuzz_case_words(options, words + 1, FUZZ_MAX_OPTIONS / 2 + 1);
   current = &fuzz_case;
   images = 0;
-  int status = trax_ld_main(argc, words);
+  int status = ld_main(argc, words);
   current = NULL;
   if (status != 0 && (status != 1 || images != 0)) {
     fprintf(stderr, "status %d with %u images\n", status, images);
