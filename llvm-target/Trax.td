@@ -26,6 +26,10 @@ def TraxAsmWriter : AsmWriter {
   let PassSubtarget = 1;
 }
 
+// Code for programs linked with -mstack=global (docs/abi.md, "Program start").
+def FeatureGlobalStack
+    : SubtargetFeature<"global-stack", "HasGlobalStack", "true", "The stack is in global memory">;
+
 def : ProcessorModel<"generic", TraxModel, []>;
 def : ProcessorModel<"trax", TraxModel, []>;
 

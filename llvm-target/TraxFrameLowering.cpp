@@ -73,7 +73,7 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
   bool NeedsCFI = MF.needsFrameMoves();
 
   uint64_t StackSize = MFI.getStackSize();
-  if (StackSize > TRAX_LOCAL_SIZE) {
+  if (StackSize > TRAX_LOCAL_SIZE && !MF.getSubtarget<TraxSubtarget>().hasGlobalStack()) {
     DiagnosticInfoStackSize Diag(MF.getFunction(), StackSize, TRAX_LOCAL_SIZE, DS_Warning);
     MF.getFunction().getContext().diagnose(Diag);
   }

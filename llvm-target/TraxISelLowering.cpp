@@ -203,17 +203,20 @@ bool TraxTargetLowering::isLegalAddressingMode(const DataLayout &, const AddrMod
   return AM.Scale == 0 || (AM.Scale == 1 && !AM.HasBaseReg);
 }
 
-bool llvm::isLocalMemory(const MemSDNode *N) {
+bool llvm::isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG) {
+  const bool StackIsLocal = !DAG.getSubtarget<TraxSubtarget>().hasGlobalStack();
   SDValue Base = N->getBasePtr();
   while (Base.getOpcode() == ISD::ADD || Base.getOpcode() == ISD::OR)
     Base = Base.getOperand(0);
-  if (isa<FrameIndexSDNode>(Base) || Base.getOpcode() == TraxISD::ABS_ADDR)
+  if (isa<FrameIndexSDNode>(Base))
+    return StackIsLocal;
+  if (Base.getOpcode() == TraxISD::ABS_ADDR)
     return true;
   const Value *V = N->getMemOperand()->getValue();
   V = V ? V->stripInBoundsConstantOffsets() : nullptr;
   if (const auto *GV = dyn_cast_or_null<GlobalVariable>(V))
     return GV->isThreadLocal();
-  return isa_and_nonnull<AllocaInst>(V);
+  return StackIsLocal && isa_and_nonnull<AllocaInst>(V);
 }
 
 /// (symbol + constant) becomes a symbol with an offset where nothing else needs the symbol: it saves the addition.
@@ -345,7 +348,7 @@ SDValue TraxTargetLowering::lowerReturnAddr(SDValue Op, SelectionDAG &DAG) const
 /// has no cache. Bytes and halves are taken from their word.
 SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const {
   auto *Load = cast<AtomicSDNode>(Op);
-  if (isLocalMemory(Load))
+  if (isLocalMemory(Load, DAG))
     return Op;
   SDLoc DL(Op);
   EVT MemVT = Load->getMemoryVT();
@@ -378,7 +381,7 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
 SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
   auto *N = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);
-  if (isLocalMemory(N)) { // of this thread alone, and out of the memory controller's reach
+  if (isLocalMemory(N, DAG)) { // of this thread alone, and out of the memory controller's reach
     SDValue Old = DAG.getLoad(MVT::i32, DL, N->getChain(), N->getBasePtr(), MachinePointerInfo(), Align(4),
                               MachineMemOperand::MOVolatile);
     SDValue New = DAG.getNode(ISD::ADD, DL, MVT::i32, Old, DAG.getConstant(1, DL, MVT::i32));

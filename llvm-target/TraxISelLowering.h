@@ -110,8 +110,9 @@ private:
   SDValue performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const;
 };
 
-/// Whether this memory access is known to be of local memory (the stack, thread-local objects).
-bool isLocalMemory(const MemSDNode *N);
+/// Whether this memory access is known to be of local memory (thread-local objects; the stack, unless it is in global
+/// memory).
+bool isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG);
 
 } // namespace llvm
 

@@ -307,10 +307,10 @@ def : PatStore<store, SW, f32>;
 
 // Past the cache, unless the address is known to be in local memory, which lies beside it.
 def nt_load : PatFrag<(ops node:$p), (load node:$p), [{
-  return cast<LoadSDNode>(N)->isNonTemporal() && !isLocalMemory(cast<LoadSDNode>(N));
+  return cast<LoadSDNode>(N)->isNonTemporal() && !isLocalMemory(cast<LoadSDNode>(N), *CurDAG);
 }]>;
 def nt_store : PatFrag<(ops node:$v, node:$p), (store node:$v, node:$p), [{
-  return cast<StoreSDNode>(N)->isNonTemporal() && !isLocalMemory(cast<StoreSDNode>(N));
+  return cast<StoreSDNode>(N)->isNonTemporal() && !isLocalMemory(cast<StoreSDNode>(N), *CurDAG);
 }]>;
 let AddedComplexity = 10 in {
 def : PatLoad<nt_load, LWNT>;

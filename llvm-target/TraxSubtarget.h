@@ -21,6 +21,7 @@ class TraxSubtarget : public TraxGenSubtargetInfo {
   TraxInstrInfo InstrInfo;
   TraxTargetLowering TLInfo;
   SelectionDAGTargetInfo TSInfo;
+  bool HasGlobalStack = false;
 
 public:
   TraxSubtarget(const Triple &TT, const std::string &CPU, const std::string &FS, const TraxTargetMachine &TM);
@@ -33,6 +34,9 @@ public:
   const TraxRegisterInfo *getRegisterInfo() const override { return &InstrInfo.getRegisterInfo(); }
   const TraxTargetLowering *getTargetLowering() const override { return &TLInfo; }
   const SelectionDAGTargetInfo *getSelectionDAGInfo() const override { return &TSInfo; }
+
+  /// Whether automatic objects are in global memory, where other threads can reach them.
+  bool hasGlobalStack() const { return HasGlobalStack; }
 
   bool enableMachineScheduler() const override { return true; }
 };

@@ -71,6 +71,15 @@ trax_status trax_space_map(struct trax_space *space, uint32_t address, uint32_t 
   return TRAX_OK;
 }
 
+void trax_space_guard(struct trax_space *space, uint32_t address, uint32_t bytes) {
+  memset(space->restrictions + address / TRAX_GRANULE, TRAX_RESTRICT_WRITE | TRAX_STACK_END, bytes / TRAX_GRANULE);
+}
+
+trax_fault_kind trax_space_why_not_written(const struct trax_space *space, uint32_t address) {
+  return space->restrictions[address / TRAX_GRANULE] & TRAX_STACK_END ? TRAX_FAULT_STACK_OVERFLOW
+                                                                      : TRAX_FAULT_READ_ONLY;
+}
+
 trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address, uint32_t bytes) {
   if (address < TRAX_NULL_END)
     return TRAX_FAULT_NULL_PAGE;

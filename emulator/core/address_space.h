@@ -27,7 +27,7 @@ struct trax_space {
   size_t mapped_bytes, restriction_bytes;
 };
 
-enum { TRAX_RESTRICT_WRITE = 1, TRAX_MAPPED = 2 };
+enum { TRAX_RESTRICT_WRITE = 1, TRAX_MAPPED = 2, TRAX_STACK_END = 4 };
 
 trax_status trax_space_create(struct trax_space *space, uint64_t size, trax_error *error);
 void trax_space_destroy(struct trax_space *space);
@@ -37,8 +37,15 @@ void trax_space_destroy(struct trax_space *space);
 trax_status trax_space_map(struct trax_space *space, uint32_t address, uint32_t bytes, unsigned permissions,
                            uint8_t **host, trax_error *error);
 
+/* Makes [address, address + bytes), which belongs to no segment, the end of a stack: writes to it are an overflow. Both
+   are multiples of 64 and the range lies in global memory. */
+void trax_space_guard(struct trax_space *space, uint32_t address, uint32_t bytes);
+
 /* The kind of fault of a global access that is out of bounds or misaligned. */
 trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address, uint32_t bytes);
+
+/* The kind of fault of a write to an address of global memory that takes none. */
+trax_fault_kind trax_space_why_not_written(const struct trax_space *space, uint32_t address);
 
 /* TRAX_FAULT_NONE if an access of 1, 2 or 4 bytes to global memory is allowed. */
 static inline trax_fault_kind trax_space_check(const struct trax_space *space, uint32_t address, uint32_t bytes,
@@ -47,7 +54,7 @@ static inline trax_fault_kind trax_space_check(const struct trax_space *space, u
   if (address - TRAX_NULL_END >= space->size - TRAX_NULL_END || (address & (bytes - 1)))
     return trax_space_why(space, address, bytes);
   if (write && (space->restrictions[address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE))
-    return TRAX_FAULT_READ_ONLY;
+    return trax_space_why_not_written(space, address);
   return TRAX_FAULT_NONE;
 }
 

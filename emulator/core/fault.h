@@ -11,7 +11,7 @@
 #define TRAX_FAULTS(X)                                                                                                 \
   X(NONE, "no fault")                                                                                                  \
   X(NULL_PAGE, "access to the null page")                                                                              \
-  X(STACK_OVERFLOW, "stack overflow: access below local memory")                                                       \
+  X(STACK_OVERFLOW, "stack overflow")                                                                                  \
   X(UNMAPPED, "access to an address that is neither global nor local memory")                                          \
   X(MISALIGNED, "misaligned access")                                                                                   \
   X(READ_ONLY, "write to read-only memory")                                                                            \

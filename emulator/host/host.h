@@ -14,7 +14,9 @@ struct trax_host {
   trax_image *image;
   struct trax_bound_buffer *buffers;
   size_t buffer_count;
-  uint64_t free_address; /* behind the image and the buffers, a multiple of 64; up to the end of memory */
+  uint64_t free_address; /* behind the image and the buffers, a multiple of 64; up to memory_end */
+  uint64_t memory_end;   /* of what image, buffers and heap have: the end of memory, or of the lowest stack */
+  uint32_t stack_bytes;  /* of each thread's stack in global memory, from the end of memory down; 0: they are local */
 };
 
 /* The machine's host side; NULL before a program is loaded. */

@@ -51,13 +51,35 @@ static const struct trax_symbol *host_object(const struct trax_machine *machine,
   return symbol;
 }
 
-/* __trax_heap and __trax_heap_end are optional. */
+/* What the program asked for with -mstack=global: the size of each thread's stack, 0 if it did not. */
+static trax_status stack_size(const trax_image *image, uint32_t *bytes, trax_error *error) {
+  const struct trax_symbol *size = trax_image_symbol(image, "__trax_stack_size");
+  *bytes = size ? size->address : 0;
+  if (size && (!size->absolute || size->address == 0 || size->address % TRAX_GRANULE))
+    return trax_fail(error, "%s: __trax_stack_size is not a number of bytes that is a multiple of %u",
+                     trax_image_path(image), TRAX_GRANULE);
+  return TRAX_OK;
+}
+
+/* Stacks lie at the end of memory, that of thread 0 topmost, each above bytes that nobody may write to. */
+static void place_stacks(struct trax_machine *machine) {
+  const struct trax_host *host = trax_host_of(machine);
+  if (!host->stack_bytes)
+    return;
+  const uint64_t stride = (uint64_t)host->stack_bytes + TRAX_STACK_GUARD;
+  for (uint64_t below = machine->space.size; below > host->memory_end; below -= stride)
+    trax_space_guard(&machine->space, (uint32_t)(below - stride), TRAX_STACK_GUARD);
+}
+
+/* These words are optional. */
 static trax_status place_heap(struct trax_machine *machine, trax_error *error) {
   const struct trax_host *host = trax_host_of(machine);
   const struct {
     const char *name;
     uint64_t value;
-  } words[] = {{"__trax_heap", host->free_address}, {"__trax_heap_end", machine->space.size}};
+  } words[] = {{"__trax_heap", host->free_address},
+               {"__trax_heap_end", host->memory_end},
+               {"__trax_stack_top", machine->space.size}};
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i) {
     if (!trax_image_symbol(host->image, words[i].name))
       continue;
@@ -66,6 +88,29 @@ static trax_status place_heap(struct trax_machine *machine, trax_error *error) {
       return TRAX_ERROR;
     store_word(machine, symbol->address, (uint32_t)words[i].value);
   }
+  return TRAX_OK;
+}
+
+static uint64_t stacks_bytes(const struct trax_machine *machine, uint32_t stack_bytes) {
+  const uint64_t threads = (uint64_t)machine->config.chip.tms * machine->config.chip.tps_per_tm;
+  return stack_bytes ? threads * (stack_bytes + (uint64_t)TRAX_STACK_GUARD) : 0;
+}
+
+static trax_status check_fit(const struct trax_machine *machine, const trax_image *image, uint64_t end,
+                             uint32_t *stack_bytes, trax_error *error) {
+  const char *path = trax_image_path(image);
+  const unsigned long long memory = machine->space.size;
+  if (end > memory)
+    return trax_fail(error, "%s: the program ends at 0x%08llx, but memory ends at 0x%08llx: raise memory.size_mib",
+                     path, (unsigned long long)end, memory);
+  if (stack_size(image, stack_bytes, error) != TRAX_OK)
+    return TRAX_ERROR;
+  const unsigned long long stacks = stacks_bytes(machine, *stack_bytes);
+  if (stacks > memory - end)
+    return trax_fail(error,
+                     "%s: the threads' stacks take %llu bytes, %u each, but only %llu are free behind the program: "
+                     "raise memory.size_mib or lower -mstack-size",
+                     path, stacks, *stack_bytes, memory - end);
   return TRAX_OK;
 }
 
@@ -80,9 +125,8 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   const struct trax_load_segment *last = &segments[count - 1];
   uint64_t end = align_up((uint64_t)last->address + last->memory_bytes, TRAX_GRANULE);
   /* Before anything is mapped: a program that does not fit changes nothing. */
-  if (end > machine->space.size) {
-    trax_fail(error, "%s: the program ends at 0x%08llx, but memory ends at 0x%08llx: raise memory.size_mib", path,
-              (unsigned long long)end, (unsigned long long)machine->space.size);
+  uint32_t stack_bytes = 0;
+  if (check_fit(machine, image, end, &stack_bytes, error) != TRAX_OK) {
     trax_image_close(image);
     return TRAX_ERROR;
   }
@@ -93,6 +137,8 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   }
   host->image = image;
   host->free_address = end;
+  host->stack_bytes = stack_bytes;
+  host->memory_end = machine->space.size - stacks_bytes(machine, stack_bytes);
   machine->host = host;
   machine->host_destroy = destroy_host;
 
@@ -106,6 +152,7 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   }
   if (trax_machine_set_entry(machine, trax_image_entry(image), &reason) != TRAX_OK)
     return trax_fail(error, "%s: %s", path, reason.message);
+  place_stacks(machine);
   return place_heap(machine, error);
 }
 
@@ -138,7 +185,8 @@ static trax_status check_bind(struct trax_machine *machine, const char *symbol, 
 
 static trax_status too_large(const struct trax_machine *machine, const char *symbol, trax_error *error) {
   return trax_fail(error, "buffer %s does not fit into memory: %llu bytes are free of %llu; raise memory.size_mib",
-                   symbol, (unsigned long long)(machine->space.size - trax_host_of(machine)->free_address),
+                   symbol,
+                   (unsigned long long)(trax_host_of(machine)->memory_end - trax_host_of(machine)->free_address),
                    (unsigned long long)machine->space.size);
 }
 
@@ -162,7 +210,7 @@ trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const v
   if (check_bind(machine, symbol, error) != TRAX_OK)
     return TRAX_ERROR;
   uint64_t address = trax_host_of(machine)->free_address;
-  if (size > machine->space.size - address)
+  if (size > trax_host_of(machine)->memory_end - address)
     return too_large(machine, symbol, error);
   if (bytes && size)
     memcpy(machine->space.bytes + address, bytes, size);
@@ -176,7 +224,7 @@ trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, co
   if (!file)
     return trax_fail(error, "%s: cannot be read for buffer %s: %s", path, symbol, strerror(errno));
   uint64_t address = trax_host_of(machine)->free_address;
-  uint64_t room = machine->space.size - address;
+  uint64_t room = trax_host_of(machine)->memory_end - address;
   errno = 0;
   size_t got = fread(machine->space.bytes + address, 1, room, file);
   int failure = ferror(file) ? (errno ? errno : EIO) : 0;

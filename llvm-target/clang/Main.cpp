@@ -131,10 +131,11 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
   if (Prefix.getArch() == llvm::Triple::UnknownArch && !trax::isTraxTriple(Prefix))
     Name.TargetIsValid = false;
 
+  trax::StackOptions Stack(Args);
   const std::string Target = requestedTarget(Args, Name);
   ForTrax |= !Target.empty() && trax::isTraxTriple(llvm::Triple(llvm::Triple::normalize(Target)));
   if (ForTrax)
-    trax::insertDefaults(Args, Installed.RuntimeDir, Strings);
+    trax::insertDefaults(Args, Stack, Installed.RuntimeDir, Strings);
   if (Name.DriverMode) // clang++
     Args.insert(Args.begin() + 1, Name.DriverMode);
   if (Name.TargetIsValid)
@@ -162,11 +163,13 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
   if (C && !ForTrax && !C->getJobs().empty() && trax::isTraxTriple(C->getDefaultToolChain().getTriple()))
     return drive(Given, Strings, /*ForTrax=*/true);
 
+  if (C && !C->containsError())
+    Stack.check(*C, ForTrax);
   std::unique_ptr<trax::Linker> Linker;
   if (C && ForTrax) {
     if (!C->containsError())
       trax::checkOptions(*C);
-    Linker = std::make_unique<trax::Linker>(C->getDefaultToolChain(), Installed.RuntimeDir);
+    Linker = std::make_unique<trax::Linker>(C->getDefaultToolChain(), Stack, Installed.RuntimeDir);
     Linker->replaceJobs(*C);
   }
   int Result = 1;

@@ -7,6 +7,7 @@
 #include "clang/Basic/TargetBuiltins.h"
 #include "clang/Basic/TargetOptions.h"
 #include "llvm/ADT/APFloat.h"
+#include "llvm/ADT/STLExtras.h"
 #include "llvm/ADT/StringMap.h"
 
 using namespace clang;
@@ -67,6 +68,8 @@ public:
     Builder.defineMacro("__trax__");
     Builder.defineMacro("__TRAX__");
     Builder.defineMacro("__ELF__");
+    if (HasGlobalStack)
+      Builder.defineMacro("__trax_global_stack__");
   }
 
   ArrayRef<Builtin::Info> getTargetBuiltins() const override { return Builtins; }
@@ -92,7 +95,15 @@ public:
   bool isValidCPUName(StringRef Name) const override { return Name == "generic"; }
   void fillValidCPUList(SmallVectorImpl<StringRef> &Values) const override { Values.push_back("generic"); }
   bool setCPU(const std::string &Name) override { return isValidCPUName(Name); }
-  bool isValidFeatureName(StringRef) const override { return false; }
+  bool isValidFeatureName(StringRef Name) const override { return Name == "global-stack"; }
+  bool hasFeature(StringRef Name) const override { return Name == "global-stack" && HasGlobalStack; }
+  bool handleTargetFeatures(std::vector<std::string> &Features, DiagnosticsEngine &) override {
+    HasGlobalStack = llvm::is_contained(Features, "+global-stack");
+    return true;
+  }
+
+private:
+  bool HasGlobalStack = false; // -mstack=global
 };
 
 } // namespace

@@ -18,7 +18,52 @@ using llvm::StringRef;
 using llvm::opt::Arg;
 using llvm::opt::ArgStringList;
 
-void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, StringRef RuntimeDir, llvm::StringSaver &Strings) {
+trax::StackOptions::StackOptions(llvm::SmallVectorImpl<const char *> &Args) {
+  llvm::erase_if(Args, [&](const char *Given) {
+    StringRef Value = Given ? Given : "";
+    if (Value.consume_front("-mstack="))
+      Place = Value;
+    else if (Value.consume_front("-mstack-size="))
+      Size = Value;
+    else
+      return false;
+    return true;
+  });
+}
+
+/// A number of bytes, 1 to 2^30, with k or M for 1024 or 1024^2 of them, rounded up to whole cache lines.
+static std::optional<unsigned> parseSize(StringRef Text) {
+  const StringRef Digits = Text.rtrim("kKM").size() + 1 >= Text.size() ? Text.rtrim("kKM") : Text;
+  const uint64_t Unit = Digits.size() == Text.size() ? 1 : Text.back() == 'M' ? 1024 * 1024 : 1024;
+  constexpr uint64_t Limit = 1 << 30;
+  uint64_t Number;
+  if (Digits.getAsInteger(0, Number) || Number == 0 || Number > Limit / Unit)
+    return std::nullopt;
+  return unsigned(llvm::alignTo(Number * Unit, 64));
+}
+
+void trax::StackOptions::check(const Compilation &C, bool ForTrax) {
+  const Driver &D = C.getDriver();
+  for (const auto &[Name, Value] : {std::pair<StringRef, StringRef>("-mstack=", Place), {"-mstack-size=", Size}})
+    if (!ForTrax && Value.data())
+      D.Diag(diag::err_drv_unsupported_opt_for_target)
+          << (Name + Value).str() << C.getDefaultToolChain().getTripleString();
+  if (!ForTrax)
+    return;
+  if (Place.data() && Place != "local" && Place != "global")
+    D.Diag(diag::err_drv_unsupported_option_argument) << "-mstack=" << Place;
+  if (!Size.data())
+    return;
+  if (const auto Given = parseSize(Size))
+    Bytes = *Given;
+  else
+    D.Diag(diag::err_drv_invalid_value) << "-mstack-size=" << Size;
+  if (!isGlobal())
+    D.Diag(diag::warn_drv_unused_argument) << ("-mstack-size=" + Size).str();
+}
+
+void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const StackOptions &Stack, StringRef RuntimeDir,
+                          llvm::StringSaver &Strings) {
   static const char *const Defaults[] = {
       "-fintegrated-as",
       "-nostdlibinc",         // the host's headers are not the machine's
@@ -41,6 +86,9 @@ void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, StringRef R
 
   llvm::SmallVector<const char *, 32> Inserted{"--start-no-unused-arguments"};
   Inserted.append(std::begin(Defaults), std::end(Defaults));
+  if (Stack.isGlobal())
+    for (const char *Part : {"-Xclang", "-target-feature", "-Xclang", "+global-stack"})
+      Inserted.push_back(Part);
   if (!NoHeaders) {
     // Like a system's /usr/include: behind clang's own headers, which include_next it, and C even when C++ includes it.
     const char *Directory = Strings.save(RuntimeDir + "/include").data();
@@ -136,7 +184,9 @@ std::unique_ptr<Command> trax::Linker::makeCommand(const Compilation &C, const A
   if (!Relocatable)
     Out.push_back("--gc-sections");
   if (!Relocatable && !Args.hasArg(OPT_nostdlib, OPT_nostartfiles))
-    Out.push_back(findStartFile(C, "crt0.o", RuntimeDir));
+    Out.push_back(findStartFile(C, Stack.isGlobal() ? "crt0-global-stack.o" : "crt0.o", RuntimeDir));
+  if (!Relocatable && Stack.isGlobal())
+    Out.push_back(Args.MakeArgString("--defsym=__trax_stack_size=" + llvm::Twine(Stack.bytes())));
   for (const auto Id : {OPT_L, OPT_u, OPT_s, OPT_t})
     Args.AddAllArgs(Out, Id);
   for (const Arg *Address : Args.filtered(OPT_T_Group)) // -Ttext=ADDRESS is the option -T to clang

@@ -18,9 +18,28 @@
 
 namespace trax {
 
+/// -mstack=local|global and -mstack-size=BYTES, which clang's table of options does not have.
+class StackOptions {
+public:
+  /// Removes them from the arguments; the last of each counts.
+  explicit StackOptions(llvm::SmallVectorImpl<const char *> &Args);
+
+  /// Reports what is wrong with them, for the target of the compilation.
+  void check(const clang::driver::Compilation &C, bool ForTrax);
+
+  bool isGlobal() const { return Place == "global"; }
+  /// Of each thread's stack in global memory: a multiple of 64.
+  unsigned bytes() const { return Bytes; }
+
+private:
+  llvm::StringRef Place, Size; // as given; empty if not
+  unsigned Bytes = 64 * 1024;
+};
+
 /// Puts the machine's defaults behind the program's name, so that the user's own options come later and win.
 /// RuntimeDir holds crt0.o, libc.a and include/.
-void insertDefaults(llvm::SmallVectorImpl<const char *> &Args, llvm::StringRef RuntimeDir, llvm::StringSaver &Strings);
+void insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const StackOptions &Stack, llvm::StringRef RuntimeDir,
+                    llvm::StringSaver &Strings);
 
 /// Reports options that clang accepts for any target and this machine cannot obey.
 void checkOptions(const clang::driver::Compilation &C);
@@ -29,8 +48,8 @@ void checkOptions(const clang::driver::Compilation &C);
 class Linker final : public clang::driver::Tool {
 public:
   /// RuntimeDir holds crt0.o and libc.a. The linker must outlive the compilation's execution.
-  Linker(const clang::driver::ToolChain &TC, std::string RuntimeDir)
-      : Tool("trax::Linker", "linker", TC), RuntimeDir(std::move(RuntimeDir)) {}
+  Linker(const clang::driver::ToolChain &TC, const StackOptions &Stack, std::string RuntimeDir)
+      : Tool("trax::Linker", "linker", TC), Stack(Stack), RuntimeDir(std::move(RuntimeDir)) {}
 
   /// Replaces the generic tool chain's link jobs, which call gcc.
   void replaceJobs(clang::driver::Compilation &C) const;
@@ -42,6 +61,7 @@ public:
                     const llvm::opt::ArgList &Args, const char *LinkingOutput) const override;
 
 private:
+  const StackOptions Stack;
   const std::string RuntimeDir;
 
   std::unique_ptr<clang::driver::Command> makeCommand(const clang::driver::Compilation &C,

@@ -1,11 +1,22 @@
-// Program start: every TP begins here at cycle 0 with all registers 0, so the stack pointer already stands at the end of local
-// memory (docs/abi.md, "Program start").
+// Program start: every TP begins here at cycle 0 with all registers 0 (docs/abi.md, "Program start"). The stack pointer then
+// stands at the end of local memory already; assembled with TRAX_GLOBAL_STACK, for -mstack=global, this sets it to the top
+// of the thread's stack in global memory.
 #include <trax/abi.h>
 
   .section .text._start, "ax", @progbits
   .globl _start
   .type _start, @function
 _start:
+#ifdef TRAX_GLOBAL_STACK
+  lui r12, %hi(__trax_stack_top)
+  lw r2, %lo(__trax_stack_top)(r12)
+  beq r2, r0, .Lno_stack
+  lui r13, %hi(__trax_stack_size + TRAX_STACK_GUARD)
+  addi r13, r13, %lo(__trax_stack_size + TRAX_STACK_GUARD)
+  rdsr r12, TRAX_SR_THREAD
+  mul r12, r12, r13
+  sub r2, r2, r12
+#endif
   lui r12, %hi(__init_array_start)
   addi r12, r12, %lo(__init_array_start)
   lui r13, %hi(__init_array_end)
@@ -19,4 +30,25 @@ _start:
 .Lconstructors:
   jal r1, __trax_run_constructors
   jal r0, .Lmain
+#ifdef TRAX_GLOBAL_STACK
+.Lno_stack:
+  lui r4, %hi(.Lmessage)
+  addi r4, r4, %lo(.Lmessage)
+  trap r4, TRAX_TRAP_ABORT
+#endif
   .size _start, . - _start
+
+#ifdef TRAX_GLOBAL_STACK
+  .section .rodata.str, "aMS", @progbits, 1
+.Lmessage:
+  .asciz "the loader gave no stack in global memory: was the symbol table removed?"
+
+  // The loader stores the end of memory here.
+  .section .bss.__trax_stack_top, "aw", @nobits
+  .globl __trax_stack_top
+  .type __trax_stack_top, @object
+  .p2align 2
+__trax_stack_top:
+  .zero 4
+  .size __trax_stack_top, 4
+#endif
