@@ -1,0 +1,33 @@
+/* <trax.h> for machines other than the TP, so that the ray tracer's sources can be compared: each function is the least
+   that such a machine can do for it. */
+#ifndef TRAX_H
+#define TRAX_H
+
+struct trax_buffer {
+  void *data;
+  unsigned size; /* bytes */
+};
+
+/* Two roundings instead of the TP's one; with EXACT_RSQRT the TP's result. */
+static inline float trax_rsqrt(float x) {
+#ifdef EXACT_RSQRT
+  return x >= 0 ? (float)(1.0 / __builtin_sqrt((double)x)) : __builtin_nanf("");
+#else
+  return 1.0f / __builtin_sqrtf(x);
+#endif
+}
+
+static inline unsigned trax_atomic_inc(unsigned *p) {
+  return (*p)++;
+}
+static inline void trax_store_nt(unsigned *p, unsigned value) {
+  *p = value;
+}
+static inline void trax_count_rays(unsigned n) {
+  (void)n;
+}
+static inline void trax_count_items(unsigned n) {
+  (void)n;
+}
+
+#endif
