@@ -1,0 +1,319 @@
+#!/usr/bin/env python3
+"""Compile and run gcc's C torture programs for the TP.
+
+    tests/torture/run.py                                all programs at -O0 and -O2
+    tests/torture/run.py --levels -O1,-Os --filter 'execute/2000*'
+
+The programs are those of Debian's package gcc-12-source; they are unpacked into the build folder. A program of execute/ (with ieee/ and
+builtins/) has to compile, link, run on trax-sim and end with status 0; one of compile/ has to become an object file, or to be refused
+where it says so. Each first has the 512 bytes of local memory for its stack; one that needs more gets -mstack=global.
+
+not_applicable.txt names the programs that cannot pass and why. Its lines are checked: a listed program that passes is an error, and one
+listed as "clang" must fail with the host's clang -m32 in the same way, which is run for each.
+
+Exit status: 0 if at least 98 % of the applicable programs pass at every level and the list holds, else 1.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import dataclasses
+import fnmatch
+import glob
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+
+import dejagnu
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ARCHIVE = "/usr/src/gcc-12/gcc-12.*-dfsg.tar.xz"
+SUITE = "gcc/testsuite/gcc.c-torture"
+REQUIRED = 98.0  # percent of the applicable
+SECONDS = 120  # per step
+CYCLES = 2_000_000_000
+SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set", "icache.bytes=1048576", "--set", "memory.size_mib=64"]
+
+# gcc 12 takes the C of before 1999 with warnings only; so do these, by clang.
+DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion", "-Wno-return-mismatch",
+           "-Wno-incompatible-function-pointer-types"]
+# What gcc's drivers (ieee.exp, builtins.exp) add for a folder.
+FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"], "execute/builtins": ["-fno-inline-functions"]}
+
+
+@dataclasses.dataclass
+class Program:
+    """One program of the suite."""
+
+    name: str  # for example execute/ieee/hugeval.c
+    sources: list
+    run: bool  # else only compiled
+
+
+@dataclasses.dataclass
+class Result:
+    """What came of a program: passed, failed or not applicable, with the reason; global_stack if it needed one."""
+
+    verdict: str
+    reason: str = ""
+    global_stack: bool = False
+
+
+@dataclasses.dataclass
+class Exception_:
+    """A line of not_applicable.txt."""
+
+    pattern: str
+    levels: str
+    kind: str  # clang or machine
+    reason: str
+    used: bool = False
+
+
+def fail(message):
+    print(f"run.py: error: {message}", file=sys.stderr)
+    sys.exit(1)
+
+
+def unpack(build):
+    """Return the suite's folder, unpacked from the package if it is not there yet."""
+    archives = glob.glob(ARCHIVE)
+    if not archives:
+        fail(f"there is no {ARCHIVE}: install the Debian package gcc-12-source")
+    folder = os.path.join(build, "tests", "torture")
+    suite = os.path.join(folder, "gcc.c-torture")
+    if not os.path.isdir(suite):
+        fresh = suite + ".unpacking"
+        shutil.rmtree(fresh, ignore_errors=True)
+        os.makedirs(fresh)
+        subprocess.run(["tar", "-xJf", archives[0], "-C", fresh, "--strip-components=1", "--wildcards", f"*/{SUITE}/*"], check=True)
+        os.rename(os.path.join(fresh, SUITE), suite)
+        shutil.rmtree(fresh)
+    return folder, suite
+
+
+def programs(suite):
+    """All programs of the suite, as gcc's drivers find them."""
+    def names(folder):
+        return sorted(glob.glob(os.path.join(suite, folder, "*.c")))
+
+    found = [Program(os.path.relpath(path, suite), [path], True) for folder in ("execute", "execute/ieee") for path in names(folder)]
+    for path in names("execute/builtins"):
+        if not path.endswith("-lib.c"):
+            sources = [path, path[:-2] + "-lib.c", os.path.join(suite, "execute/builtins/lib/main.c")]
+            found.append(Program(os.path.relpath(path, suite), sources, True))
+    return found + [Program(os.path.relpath(path, suite), [path], False) for path in names("compile")]
+
+
+def read_list(path):
+    """Read not_applicable.txt: name pattern, levels or *, kind, reason."""
+    exceptions = []
+    with open(path, encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            if not line.strip() or line.startswith("#"):
+                continue
+            parts = line.split(None, 3)
+            if len(parts) != 4 or parts[2] not in ("clang", "machine"):
+                fail(f"{path}:{number}: expected PATTERN LEVELS clang|machine REASON")
+            exceptions.append(Exception_(parts[0], parts[1], parts[2], parts[3].strip()))
+    return exceptions
+
+
+def options_of(program, directives):
+    """The options that the program, its .x file and its folder ask for."""
+    options = FOLDER_OPTIONS.get(os.path.dirname(program.name), []) + directives.options
+    driver = program.sources[0][:-2] + ".x"
+    if os.path.exists(driver):
+        with open(driver, encoding="latin-1") as file:
+            for line in file:
+                match = re.match(r"(?:set|lappend) additional_flags (.*)", line)
+                if match:
+                    options += match.group(1).replace('"', "").split()
+    return options
+
+
+def execute(command, folder):
+    """Run a command in a process group of its own; return (status, standard error and output); status None if it had to be stopped."""
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder,
+                          start_new_session=True) as process:
+        try:
+            output, _ = process.communicate(timeout=SECONDS)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+            return None, f"did not end in {SECONDS} s"
+    return process.returncode, output.decode(errors="replace")
+
+
+def compile_(command, options, folder):
+    """Compile; options that this compiler has never heard of (gcc's own optimizers') are left out."""
+    while True:
+        status, output = execute([*command, *options], folder)
+        unknown = set(re.findall(r"(?:unknown argument(?:; did you mean '.*?')?:?|unsupported option) '([^']*)'", output)) & set(options)
+        if status in (None, 0) or not unknown:
+            return status, output
+        options = [option for option in options if option not in unknown]
+
+
+def first_error(output):
+    """The line that says most about a failure."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    for pattern in (r"fatal error: error in backend", r"\*\*\* Bad machine code", r"Assertion .* failed", r"PLEASE submit a bug report",
+                    r"\berror: (?!linker command failed)", r"undefined", r"fault:"):
+        for line in lines:
+            if re.search(pattern, line):
+                return re.sub(r"^.*?((?:fatal )?error: |fault: )", r"\1", line)
+    return lines[-1] if lines else ""
+
+
+class Compiler:
+    """One of the two compilers that a program is tried with."""
+
+    def __init__(self, command, simulator):
+        self.command, self.simulator = command, simulator
+
+    def attempt(self, program, directives, level, folder, extra=()):
+        """Return "" if the program does what it has to, else why not; and the output of the failing step."""
+        binary = os.path.join(folder, "program")
+        mode = [] if program.run else ["-c"]
+        # -lm stands last, as in gcc's driver.
+        command = [*self.command, *DIALECT, level, *extra, *mode, *program.sources, "-o", binary, *(["-lm"] if program.run else [])]
+        status, output = compile_(command, options_of(program, directives), folder)
+        if directives.errors:
+            return ("", "") if status == 1 else ("is compiled, and should not be", output)
+        if status != 0:
+            return f"compilation: {first_error(output)}", output
+        if not program.run:
+            return "", ""
+        status, output = execute([*self.simulator, binary], folder)
+        if status == 0:
+            return "", ""
+        return f"run: status {status}: {first_error(output)}", output
+
+
+def needs_global_stack(output):
+    """Whether a program failed for want of stack: the linker refused it, or it went past the ends of local memory."""
+    return re.search(r"error:.*\b(stack|local memory)\b|stack overflow|neither global nor local memory", output)
+
+
+class Runner:
+    """Tries programs at one level."""
+
+    def __init__(self, options, folder, exceptions, level):
+        build = options.build
+        self.trax = Compiler([os.path.join(build, "bin", "clang"), "--target=trax", "-mllvm", "-verify-machineinstrs"],
+                             [os.path.join(build, "bin", "trax-sim"), *SIMULATOR])
+        # Without the 80 bits of the old floating-point unit, which are no machine's binary64.
+        self.host = Compiler([options.host_clang, "-m32", "-msse2", "-mfpmath=sse"], [])
+        self.folder, self.exceptions, self.level = folder, exceptions, level
+
+    def listed(self, name):
+        for exception in self.exceptions:
+            if fnmatch.fnmatchcase(name, exception.pattern) and (exception.levels == "*" or self.level in exception.levels.split(",")):
+                exception.used = True
+                return exception
+        return None
+
+    def attempt(self, program):
+        """Return the program's Result."""
+        with open(program.sources[0], encoding="latin-1") as file:
+            directives = dejagnu.read(file.read(), self.level)
+        if directives.unsupported:
+            return Result("not applicable", f"gcc's own driver: {directives.unsupported}")
+        run = dataclasses.replace(program, run=program.run if directives.action in ("", "run") else False)
+        folder = os.path.join(self.folder, self.level, program.name)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        problem, output = self.trax.attempt(run, directives, self.level, folder)
+        global_stack = bool(problem and run.run and needs_global_stack(output))
+        if global_stack:
+            problem, output = self.trax.attempt(run, directives, self.level, folder, ["-mstack=global"])
+        exception = self.listed(program.name)
+        if not problem:
+            if exception:
+                return Result("failed", f"passes, but not_applicable.txt lists it: {exception.reason}")
+            shutil.rmtree(folder)
+            return Result("passed", global_stack=global_stack)
+        with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as file:
+            file.write(output)
+        if not exception:
+            return Result("failed", problem)
+        if exception.kind == "clang" and not self.host.attempt(run, directives, self.level, folder)[0]:
+            return Result("failed", f"{problem}; not_applicable.txt blames clang, but clang -m32 passes it: {exception.reason}")
+        return Result("not applicable", exception.reason)
+
+
+def suite_of(name):
+    return os.path.dirname(name)
+
+
+def report(level, results):
+    """Print a level's table; return whether enough passed."""
+    rows = collections.defaultdict(collections.Counter)
+    for name, result in results.items():
+        rows[suite_of(name)][result.verdict] += 1
+        rows[suite_of(name)]["global"] += result.global_stack
+    total = sum(rows.values(), collections.Counter())
+    print(f"\n{'level':6}{'programs':20}{'passed':>8}{'failed':>8}{'not applicable':>16}{'passed of applicable':>22}{'-mstack=global':>16}")
+    for suite, row in [*sorted(rows.items()), ("all", total)]:
+        applicable = row["passed"] + row["failed"]
+        share = f"{100 * row['passed'] / applicable:.2f} %" if applicable else "-"
+        print(f"{level:6}{suite:20}{row['passed']:8}{row['failed']:8}{row['not applicable']:16}{share:>22}{row['global']:16}")
+    reasons = collections.Counter(result.reason for result in results.values() if result.verdict == "not applicable")
+    for reason, count in reasons.most_common():
+        print(f"  not applicable {count:4}  {reason}")
+    for name, result in results.items():
+        if result.verdict == "failed":
+            print(f"  FAILED {name}: {result.reason}")
+    return 100 * total["passed"] >= REQUIRED * (total["passed"] + total["failed"])
+
+
+def main():
+    default_build = os.path.join(os.path.dirname(os.path.dirname(HERE)), "build")
+    parser = argparse.ArgumentParser(description="Compile and run gcc's C torture programs for the TP.")
+    parser.add_argument("--build", default=default_build, help="build folder (default: build)")
+    parser.add_argument("--levels", default="-O0,-O2", help="comma separated (default: -O0,-O2)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--filter", action="append", default=[], metavar="PATTERN", help="only programs such as 'execute/ieee/*'")
+    parser.add_argument("--host-clang", default="clang-19", help="the reference for the list (default: clang-19)")
+    arguments = sys.argv[1:]
+    for place, argument in enumerate(arguments[:-1]):
+        if argument == "--levels":  # -O0 is its value, not an option
+            arguments[place:place + 2] = [f"--levels={arguments[place + 1]}"]
+            break
+    options = parser.parse_args(arguments)
+    options.build = os.path.abspath(options.build)
+
+    for name in ("clang", "trax-sim"):
+        if not os.path.exists(os.path.join(options.build, "bin", name)):
+            fail(f"{options.build}/bin/{name} is missing: build first")
+    folder, suite = unpack(options.build)
+    probe = os.path.join(folder, "probe")
+    status, output = execute([options.host_clang, "-m32", "-x", "c", "/dev/null", "-shared", "-o", probe], folder)
+    if status != 0:
+        fail(f"{options.host_clang} -m32 does not link, install the Debian packages clang-19 and gcc-multilib: {first_error(output)}")
+    chosen = [program for program in programs(suite)
+              if not options.filter or any(fnmatch.fnmatchcase(program.name, pattern) for pattern in options.filter)]
+    if not chosen:
+        fail("no program has such a name")
+
+    exceptions = read_list(os.path.join(HERE, "not_applicable.txt"))
+    good = True
+    for level in options.levels.split(","):
+        runner = Runner(options, folder, exceptions, level)
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            results = dict(zip([program.name for program in chosen], pool.map(runner.attempt, chosen)))
+        good &= report(level, results)
+    if not options.filter:
+        for exception in exceptions:
+            if not exception.used and (exception.levels == "*" or set(exception.levels.split(",")) & set(options.levels.split(","))):
+                print(f"  not_applicable.txt: no program is called {exception.pattern}")
+                good = False
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
