@@ -10,7 +10,9 @@
 namespace llvm {
 
 class FunctionPass;
+class MachineInstr;
 class PassRegistry;
+class TargetInstrInfo;
 class TraxTargetMachine;
 
 /// Selects machine instructions.
@@ -25,6 +27,9 @@ FunctionPass *createTraxLowerAtomicsPass();
 bool isTraxAtomicIncrement(const AtomicRMWInst &RMW);
 /// The library's function for an operation, without the size in bytes that ends its name; empty if there is none.
 StringRef getTraxAtomicFunction(AtomicRMWInst::BinOp Operation);
+
+/// Writes out __builtin_longjmp, once registers are allocated.
+void expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII);
 
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);

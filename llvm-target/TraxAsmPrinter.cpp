@@ -52,6 +52,8 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
   case Trax::PseudoTAILIndirect:
     Inst = MCInstBuilder(Trax::JALR).addReg(Trax::R0).addReg(MI->getOperand(0).getReg()).addImm(0);
     break;
+  case Trax::PseudoSjLjSetup:
+    return;
   default:
     lowerTraxInstruction(*MI, Inst, *this);
   }

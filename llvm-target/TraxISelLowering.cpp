@@ -49,6 +49,8 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   setOperationAction({ISD::FRAMEADDR, ISD::RETURNADDR}, MVT::i32, Custom);
   setOperationAction(ISD::READCYCLECOUNTER, MVT::i64, Custom);
   setOperationAction(ISD::PREFETCH, MVT::Other, Expand);
+  setOperationAction(ISD::EH_SJLJ_SETJMP, MVT::i32, Custom);
+  setOperationAction(ISD::EH_SJLJ_LONGJMP, MVT::Other, Custom);
   setMinimumJumpTableEntries(6);
 
   // Addresses.
@@ -108,6 +110,8 @@ const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
     NODE(RDSR)
     NODE(TRAP)
     NODE(HALT)
+    NODE(SETJMP)
+    NODE(LONGJMP)
     NODE(AINC)
     NODE(LWNT)
 #undef NODE
@@ -136,6 +140,10 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
     return lowerFrameAddr(Op, DAG);
   case ISD::RETURNADDR:
     return lowerReturnAddr(Op, DAG);
+  case ISD::EH_SJLJ_SETJMP:
+    return lowerSetJmp(Op, DAG);
+  case ISD::EH_SJLJ_LONGJMP:
+    return lowerLongJmp(Op, DAG);
   case ISD::ATOMIC_FENCE: // a thread's accesses reach memory in program order
     return DAG.getNode(ISD::MEMBARRIER, SDLoc(Op), MVT::Other, Op.getOperand(0));
   case ISD::ATOMIC_LOAD:

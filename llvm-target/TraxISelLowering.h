@@ -23,6 +23,8 @@ enum NodeType : unsigned {
   RDSR,       // any special register; chained
   TRAP,
   HALT,
+  SETJMP,  // __builtin_setjmp: 0, and 1 when it is jumped to
+  LONGJMP, // __builtin_longjmp
   FIRST_MEMORY = ISD::FIRST_TARGET_MEMORY_OPCODE,
   AINC, // atomic increment; the value before it
   LWNT, // atomic load of a word, past the cache
@@ -42,6 +44,7 @@ public:
   MVT getScalarShiftAmountTy(const DataLayout &, EVT) const override { return MVT::i32; }
   SDValue LowerOperation(SDValue Op, SelectionDAG &DAG) const override;
   void ReplaceNodeResults(SDNode *N, SmallVectorImpl<SDValue> &Results, SelectionDAG &DAG) const override;
+  MachineBasicBlock *EmitInstrWithCustomInserter(MachineInstr &MI, MachineBasicBlock *MBB) const override;
   SDValue PerformDAGCombine(SDNode *N, DAGCombinerInfo &DCI) const override;
 
   // Addresses and immediates.
@@ -105,6 +108,9 @@ private:
   SDValue lowerVAStart(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerFrameAddr(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerReturnAddr(SDValue Op, SelectionDAG &DAG) const;
+  SDValue lowerSetJmp(SDValue Op, SelectionDAG &DAG) const;
+  SDValue lowerLongJmp(SDValue Op, SelectionDAG &DAG) const;
+  MachineBasicBlock *emitSetJmp(MachineInstr &MI, MachineBasicBlock *This) const;
   SDValue lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const;
   SDValue performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const;

@@ -93,6 +93,13 @@ MachineInstr *TraxInstrInfo::commuteInstructionImpl(MachineInstr &MI, bool NewMI
   return TargetInstrInfo::commuteInstructionImpl(Result, /*NewMI=*/false, OpIdx1, OpIdx2);
 }
 
+bool TraxInstrInfo::expandPostRAPseudo(MachineInstr &MI) const {
+  if (MI.getOpcode() != Trax::PseudoLONGJMP)
+    return false;
+  expandTraxLongJmp(MI, *this);
+  return true;
+}
+
 unsigned TraxInstrInfo::getInstSizeInBytes(const MachineInstr &MI) const {
   if (MI.isInlineAsm()) {
     const MachineFunction *MF = MI.getParent()->getParent();

@@ -31,6 +31,7 @@ public:
   bool isAsCheapAsAMove(const MachineInstr &MI) const override;
   std::optional<DestSourcePair> isCopyInstrImpl(const MachineInstr &MI) const override;
   MachineInstr *commuteInstructionImpl(MachineInstr &MI, bool NewMI, unsigned OpIdx1, unsigned OpIdx2) const override;
+  bool expandPostRAPseudo(MachineInstr &MI) const override;
   unsigned getInstSizeInBytes(const MachineInstr &MI) const override;
 
   bool getMemOperandsWithOffsetWidth(const MachineInstr &MI, SmallVectorImpl<const MachineOperand *> &BaseOps,

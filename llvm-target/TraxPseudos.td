@@ -115,6 +115,16 @@ def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstEx
 let hasSideEffects = true in
 def PseudoHALT : TraxPseudo<(outs), (ins)>, PseudoInstExpansion<(HALT)>;
 
+// __builtin_setjmp and __builtin_longjmp, see TraxSjLj.cpp. The setup is where all registers may be other ones; it is nothing.
+let hasSideEffects = true, hasNoSchedulingInfo = true in {
+let usesCustomInserter = true in
+def PseudoSETJMP : TraxPseudo<(outs GPR:$rd), (ins GPR:$buffer)>;
+let isTerminator = true, Size = 0 in
+def PseudoSjLjSetup : TraxPseudo<(outs), (ins jaltarget:$again)>;
+let isTerminator = true, isBarrier = true, Defs = [R1], Size = 20 in
+def PseudoLONGJMP : TraxPseudo<(outs), (ins GPRTC:$buffer)>;
+}
+
 let Defs = [R2], Uses = [R2], hasNoSchedulingInfo = true, Size = 0 in {
 def ADJCALLSTACKDOWN : TraxPseudo<(outs), (ins i32imm:$size, i32imm:$unused)>;
 def ADJCALLSTACKUP : TraxPseudo<(outs), (ins i32imm:$size, i32imm:$unused)>;

@@ -85,6 +85,9 @@ public:
     return true;
   }
 
+  // __builtin_setjmp and __builtin_longjmp: TraxSjLj.cpp.
+  bool hasSjLjLowering() const override { return true; }
+
   // A double word is no better aligned for being one.
   bool allowsLargerPreferedTypeAlignment() const override { return false; }
 
