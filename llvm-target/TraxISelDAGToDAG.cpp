@@ -6,6 +6,8 @@
 #include "Trax.h"
 #include "TraxSubtarget.h"
 #include "TraxTargetMachine.h"
+#include "llvm/Analysis/LoopInfo.h"
+#include "llvm/CodeGen/FunctionLoweringInfo.h"
 #include "llvm/CodeGen/SelectionDAGISel.h"
 
 using namespace llvm;
@@ -23,11 +25,14 @@ public:
   bool SelectInlineAsmMemoryOperand(const SDValue &Op, InlineAsm::ConstraintCode Constraint,
                                     std::vector<SDValue> &OutOps) override;
 
+  const LoopInfo *Loops = nullptr; // none without optimization
+
 private:
   SDValue selectConstant(uint32_t Bits, const SDLoc &DL, EVT VT);
   bool selectAddrFrame(SDValue Addr, SDValue &Base, SDValue &Offset);
   bool selectAddrRegImm(SDValue Addr, SDValue &Base, SDValue &Offset);
   bool selectShiftAmount(SDValue Amount, SDValue &Result);
+  bool selectMask(SDNode *N);
 
 #include "TraxGenDAGISel.inc"
 };
@@ -36,7 +41,25 @@ class TraxDAGToDAGISelLegacy : public SelectionDAGISelLegacy {
 public:
   static char ID;
   TraxDAGToDAGISelLegacy(TraxTargetMachine &TM, CodeGenOptLevel OptLevel)
-      : SelectionDAGISelLegacy(ID, std::make_unique<TraxDAGToDAGISel>(TM, OptLevel)) {}
+      : TraxDAGToDAGISelLegacy(new TraxDAGToDAGISel(TM, OptLevel)) {}
+
+  void getAnalysisUsage(AnalysisUsage &AU) const override {
+    if (Selector->OptLevel != CodeGenOptLevel::None)
+      AU.addRequired<LoopInfoWrapperPass>();
+    SelectionDAGISelLegacy::getAnalysisUsage(AU);
+  }
+
+  bool runOnMachineFunction(MachineFunction &MF) override {
+    auto *Loops = getAnalysisIfAvailable<LoopInfoWrapperPass>();
+    Selector->Loops = Loops ? &Loops->getLoopInfo() : nullptr;
+    return SelectionDAGISelLegacy::runOnMachineFunction(MF);
+  }
+
+private:
+  explicit TraxDAGToDAGISelLegacy(TraxDAGToDAGISel *S)
+      : SelectionDAGISelLegacy(ID, std::unique_ptr<SelectionDAGISel>(S)), Selector(S) {}
+
+  TraxDAGToDAGISel *Selector; // the base class owns it and shows it to nobody
 };
 
 } // namespace
@@ -80,7 +103,28 @@ void TraxDAGToDAGISel::Select(SDNode *N) {
     ReplaceNode(N, selectConstant(C->getValueAPF().bitcastToAPInt().getZExtValue(), SDLoc(N), MVT::f32).getNode());
     return;
   }
+  if (selectMask(N))
+    return;
   SelectCode(N);
+}
+
+/// The lower bits of a word, and the magnitude of a float, are two shifts where they are taken once. In a loop they are
+/// one instruction and a mask, which then stays in a register.
+bool TraxDAGToDAGISel::selectMask(SDNode *N) {
+  uint32_t Mask = 0x7FFFFFFF;
+  if (N->getOpcode() == ISD::AND) {
+    auto *C = dyn_cast<ConstantSDNode>(N->getOperand(1));
+    Mask = C ? C->getZExtValue() : 0;
+  } else if (N->getOpcode() != ISD::FABS) {
+    return false;
+  }
+  if (!isMask_32(Mask) || isInt<16>(int32_t(Mask)) || MF->getFunction().hasOptSize() || !Loops ||
+      !Loops->getLoopFor(FuncInfo->MBB->getBasicBlock()))
+    return false;
+  SDLoc DL(N);
+  SDValue Bits = selectConstant(Mask, DL, MVT::i32);
+  ReplaceNode(N, CurDAG->getMachineNode(Trax::AND, DL, N->getValueType(0), N->getOperand(0), Bits));
+  return true;
 }
 
 /// An object of the frame, perhaps with an offset.
