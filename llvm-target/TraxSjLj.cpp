@@ -1,8 +1,8 @@
 //===- TraxSjLj.cpp - __builtin_setjmp and __builtin_longjmp -------------===//
 //
-// The buffer has five words. The front end stores the frame address into the first and sp into the third; the address to
-// continue at goes into the second and r31 into the fourth, which a function that needs a base pointer has there. No other
-// register outlives the jump, so the function saves and reloads whatever it still needs.
+// The buffer has five words. The front end stores the frame address into the first and sp into the third; the address
+// to continue at goes into the second and r31 into the fourth, which a function that needs a base pointer has there. No
+// other register outlives the jump, so the function saves and reloads whatever it still needs.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"

@@ -116,6 +116,7 @@ typedef struct ld_options {
   uint32_t text_start;
   unsigned error_limit; /* 0: none */
   unsigned response_files; /* read so far */
+  bool allow_multiple_definition;
   bool gc_sections, print_gc_sections, print_memory_usage;
   bool strip_all, strip_debug;
   bool fatal_warnings, no_warnings, trace;

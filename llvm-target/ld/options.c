@@ -7,6 +7,7 @@
 
 typedef enum option_id {
   OPT_ACCEPTED, /* without effect */
+  OPT_ALLOW_MULTIPLE,
   OPT_DEFSYM,
   OPT_ENTRY,
   OPT_ERROR_LIMIT,
@@ -66,6 +67,7 @@ static const option option_table[] = {
     {"undefined", VALUE, OPT_UNDEFINED, "SYMBOL", NULL},
     {"defsym", VALUE, OPT_DEFSYM, "NAME=VALUE", "define NAME as a number, SYMBOL, SYMBOL+NUMBER or SYMBOL-NUMBER"},
     {"wrap", VALUE, OPT_WRAP, "SYMBOL", "references to SYMBOL go to __wrap_SYMBOL, those to __real_SYMBOL to SYMBOL"},
+    {"allow-multiple-definition", NONE, OPT_ALLOW_MULTIPLE, NULL, "of several definitions of a symbol take the first"},
     {"whole-archive", NONE, OPT_WHOLE_ARCHIVE, NULL, "take every member of the archives that follow"},
     {"no-whole-archive", NONE, OPT_NO_WHOLE_ARCHIVE, NULL, "take only needed members (default)"},
     {"gc-sections", NONE, OPT_GC, NULL, "drop sections that the program cannot reach"},
@@ -268,6 +270,9 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   case OPT_PRINT_GC:
   case OPT_NO_PRINT_GC:
     options->print_gc_sections = option->id == OPT_PRINT_GC;
+    break;
+  case OPT_ALLOW_MULTIPLE:
+    options->allow_multiple_definition = true;
     break;
   case OPT_PRINT_MEMORY:
     options->print_memory_usage = true;

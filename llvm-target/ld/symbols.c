@@ -97,6 +97,8 @@ static void define(ld_context *ctx, ld_symbol *symbol, ld_symbol fresh) {
     return; /* the command line has the last word */
   int old_strength = strength(symbol), new_strength = strength(&fresh);
   if (old_strength == 3 && new_strength == 3) {
+    if (ctx->options.allow_multiple_definition)
+      return;
     ld_error(ctx, "%s: duplicate symbol '%s', first defined at %s", definition_place(ctx, &fresh), symbol->name,
              definition_place(ctx, symbol));
     return;

@@ -31,10 +31,24 @@ __attribute__((noinline)) static int clobbers(int a, int b) {
   __asm__ volatile("addi r20, r0, 0\n\taddi r21, r0, 0\n\taddi r12, r0, 0" : : : "r20", "r21", "r12");
   return kept + a + b;
 }
+__attribute__((noinline)) static int lower_half(long long a) { // a word in the register of a double word
+  int low;
+  __asm__("" : "=r"(low) : "0"(a));
+  return low;
+}
+__attribute__((noinline)) static int sign(int a) {
+  __asm__ goto("blt %0, r0, %l1\n\tbeq %0, r0, %l[zero]" : : "r"(a) : : negative, zero);
+  return 1;
+negative:
+  return -1;
+zero:
+  return 0;
+}
 
 int main(void) {
   printf("%x %d %d\n", high_product(0xFFFFFFFF, 0x80000000), add_constant(1000), increment(41));
   store(&cells[2], 77);
   printf("%d %g %d\n", cells[2], (double)reciprocal_root(16.0f), clobbers(6, 7));
+  printf("%x %d %d %d\n", (unsigned)lower_half(0x123456789ABCDEF0), sign(-5), sign(0), sign(7));
   return 0;
 }

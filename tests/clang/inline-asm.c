@@ -41,8 +41,25 @@ int pinned(int a) {
   return result;
 }
 
+// A word may share the register of a double word: its lower half.
+// CHECK-LABEL: define{{.*}} i32 @lower_half(
+// CHECK: call i64 asm "", "=r,0"(i64 %0)
+int lower_half(long long a) {
+  int low;
+  __asm__("" : "=r"(low) : "0"(a));
+  return low;
+}
+
 #ifdef INVALID
 void invalid(int a) {
+  long long wide = a;
+  struct { float x, y; } pair = {1, 2};
+  // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: invalid input size for constraint 'r'
+  __asm__("mv r4, %0" ::"r"(wide));
+  // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: invalid output size for constraint '=&r'
+  __asm__("mv %0, r0" : "=&r"(wide));
+  // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: invalid output size for constraint '+r'
+  __asm__("" : "+r"(pair));
   // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: value '32768' out of range for constraint 'I'
   __asm__("addi r4, r4, %0" ::"I"(32768));
   // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: invalid input constraint 'Q' in asm

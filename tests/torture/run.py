@@ -41,7 +41,7 @@ SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set"
 DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion", "-Wno-return-mismatch",
            "-Wno-incompatible-function-pointer-types"]
 # What gcc's drivers (ieee.exp, builtins.exp) add for a folder.
-FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"], "execute/builtins": ["-fno-inline-functions"]}
+FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"], "execute/builtins": ["-fno-inline-functions", "-Wl,--allow-multiple-definition"]}
 
 
 @dataclasses.dataclass
