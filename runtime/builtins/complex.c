@@ -1,8 +1,12 @@
-/* Complex products and quotients, with C's rules for infinities (C17 annex G.5.1). The quotient scales the divisor by a
-   power of two, so that nothing overflows or vanishes on the way. */
+/* Complex products and quotients, with C's rules for infinities (C17 annex G.5.1). The quotient computes with
+   significands and keeps their exponents apart, so that nothing overflows or vanishes on the way: each of its parts is
+   within a few units of the true one, as far as that does not cancel. */
 #include "double.h"
 
-#define COMPLEX_ARITHMETIC(suffix, type, fabs_, copysign_, inf_, scale_of, scaled)                                     \
+/* What the exponent of 0 is taken for: it decides nothing. */
+#define EXPONENT_OF_ZERO (-10000)
+
+#define COMPLEX_ARITHMETIC(suffix, type, fabs_, copysign_, inf_, split, power, scaled)                                 \
   static inline int is_infinite_##suffix(type x) {                                                                     \
     return fabs_(x) == inf_;                                                                                           \
   }                                                                                                                    \
@@ -47,13 +51,26 @@
     return __builtin_complex(x, y);                                                                                    \
   }                                                                                                                    \
                                                                                                                        \
+  /* A sum of two significands that have exponents of their own; *exponent becomes the sum's. What is 100 bits below   \
+     the other does not show. */                                                                                       \
+  static inline type sum_##suffix(type p, int p_exponent, type q, int q_exponent, int *exponent) {                     \
+    *exponent = p_exponent > q_exponent ? p_exponent : q_exponent;                                                     \
+    int p_shift = p_exponent - *exponent, q_shift = q_exponent - *exponent;                                            \
+    if (p_shift)                                                                                                       \
+      p *= power(p_shift < -100 ? -100 : p_shift);                                                                     \
+    if (q_shift)                                                                                                       \
+      q *= power(q_shift < -100 ? -100 : q_shift);                                                                     \
+    return p + q;                                                                                                      \
+  }                                                                                                                    \
+                                                                                                                       \
   _Complex type __div##suffix##c3(type a, type b, type c, type d) {                                                    \
-    type greater = fabs_(c) > fabs_(d) || d != d ? fabs_(c) : fabs_(d); /* of a NaN and a number, that */              \
-    int scale = scale_of(greater);                                                                                     \
-    type sc = scaled(c, -scale), sd = scaled(d, -scale);                                                               \
-    type denominator = sc * sc + sd * sd;                                                                              \
-    type x = scaled((a * sc + b * sd) / denominator, -scale);                                                          \
-    type y = scaled((b * sc - a * sd) / denominator, -scale);                                                          \
+    int ea, eb, ec, ed, ex, ey, e;                                                                                     \
+    type sa = split(a, &ea), sb = split(b, &eb), sc = split(c, &ec), sd = split(d, &ed);                               \
+    type denominator = sum_##suffix(sc * sc, 2 * ec, sd * sd, 2 * ed, &e);                                             \
+    type x = sum_##suffix(sa * sc, ea + ec, sb * sd, eb + ed, &ex) / denominator;                                      \
+    type y = sum_##suffix(sb * sc, eb + ec, -(sa * sd), ea + ed, &ey) / denominator;                                   \
+    x = scaled(x, ex - e);                                                                                             \
+    y = scaled(y, ey - e);                                                                                             \
     if (x != x && y != y) {                                                                                            \
       if (denominator == 0 && (a == a || b == b)) {                                                                    \
         x = copysign_(inf_, c) * a;                                                                                    \
@@ -63,7 +80,7 @@
         b = boxed_##suffix(b);                                                                                         \
         x = inf_ * (a * c + b * d);                                                                                    \
         y = inf_ * (b * c - a * d);                                                                                    \
-      } else if (greater == inf_ && fabs_(a) < inf_ && fabs_(b) < inf_) {                                              \
+      } else if ((is_infinite_##suffix(c) || is_infinite_##suffix(d)) && fabs_(a) < inf_ && fabs_(b) < inf_) {         \
         c = boxed_##suffix(c);                                                                                         \
         d = boxed_##suffix(d);                                                                                         \
         x = 0 * (a * c + b * d);                                                                                       \
@@ -86,32 +103,44 @@ INLINE double copysign_d(double x, double y) {
   return bits_double(double_magnitude(double_bits(x)) | (double_bits(y) & DOUBLE_SIGN));
 }
 
-/* The exponent of a number that is not negative; 0 where scaling would not help (zeros, infinities, NaNs). */
-INLINE int scale_s(float x) {
-  uint32_t bits = float_bits(x);
-  if (bits == 0 || bits >= FLOAT_INFINITY)
-    return 0;
-  return bits >> 23 ? (int)(bits >> 23) - 127 : -118 - leading_zeros(bits);
+/* The significand of x, of magnitude 1 to 2, and its exponent; infinities and NaNs are their own, with exponent 0. */
+INLINE float split_s(float x, int *exponent) {
+  uint32_t bits = float_bits(x), magnitude = bits & ~FLOAT_SIGN;
+  *exponent = magnitude ? 0 : EXPONENT_OF_ZERO;
+  if (magnitude == 0 || magnitude >= FLOAT_INFINITY)
+    return x;
+  int shift = magnitude >> 23 ? 0 : leading_zeros(magnitude) - 8;
+  *exponent = (magnitude >> 23 ? (int)(magnitude >> 23) - 127 : -126) - shift;
+  return bits_float((bits & FLOAT_SIGN) | 0x3F800000 | (magnitude << shift & 0x007FFFFF));
 }
-INLINE int scale_d(double x) {
-  uint64_t bits = double_bits(x);
-  int exponent = double_exponent(bits);
-  if (bits == 0 || exponent == EXPONENT_SPECIAL)
-    return 0;
-  if (exponent == 0)
-    normalised_significand(bits, &exponent);
-  return exponent - 1023;
+INLINE double split_d(double x, int *exponent) {
+  uint64_t bits = double_bits(x), magnitude = double_magnitude(bits);
+  *exponent = magnitude ? 0 : EXPONENT_OF_ZERO;
+  if (magnitude == 0 || magnitude >= DOUBLE_INFINITY)
+    return x;
+  int stored = double_exponent(bits);
+  uint64_t significand = normalised_significand(bits, &stored);
+  *exponent = stored - 1023;
+  return bits_double((bits & DOUBLE_SIGN) | 0x3FF0000000000000u | (significand & FRACTION_MASK));
 }
 
-/* x * 2^n, |n| up to the range of the exponent: two factors, because one may not be a number of the type. */
+/* 2^n, which is a normal number. */
+INLINE float power_s(int n) {
+  return bits_float((uint32_t)(127 + n) << 23);
+}
+INLINE double power_d(int n) {
+  return bits_double((uint64_t)(1023 + n) << 52);
+}
+
+/* x * 2^n for x around 1 and any n: two factors, because one may not be a number of the type. */
 INLINE float scaled_s(float x, int n) {
-  int half = n / 2;
-  return x * bits_float((uint32_t)(127 + half) << 23) * bits_float((uint32_t)(127 + n - half) << 23);
+  n = n < -252 ? -252 : n > 252 ? 252 : n;
+  return x * power_s(n / 2) * power_s(n - n / 2);
 }
 INLINE double scaled_d(double x, int n) {
-  int half = n / 2;
-  return x * bits_double((uint64_t)(1023 + half) << 52) * bits_double((uint64_t)(1023 + n - half) << 52);
+  n = n < -2044 ? -2044 : n > 2044 ? 2044 : n;
+  return x * power_d(n / 2) * power_d(n - n / 2);
 }
 
-COMPLEX_ARITHMETIC(s, float, fabs_s, copysign_s, __builtin_inff(), scale_s, scaled_s)
-COMPLEX_ARITHMETIC(d, double, fabs_d, copysign_d, __builtin_inf(), scale_d, scaled_d)
+COMPLEX_ARITHMETIC(s, float, fabs_s, copysign_s, __builtin_inff(), split_s, power_s, scaled_s)
+COMPLEX_ARITHMETIC(d, double, fabs_d, copysign_d, __builtin_inf(), split_d, power_d, scaled_d)

@@ -360,6 +360,41 @@ static void check_complex_float(float a, float b, float c, float d) {
     fail_msg("(%a, %a) / (%a, %a) = %a, %a", a, b, c, d, __real__ quotient, __imag__ quotient);
 }
 
+/* Each part by itself, for numbers of all sizes: the error is measured by the terms of which the part is the sum. */
+static void check_part(const double *v, const char *part, double got, long double p, long double q, long double divisor,
+                       int digits, int least_exponent) {
+  long double want = (p + q) / divisor;
+  if (fabsl(want) >= ldexpl(1, -least_exponent - digits - 1)) /* close to overflow, or beyond */
+    return;
+  long double bound = (fabsl(p) + fabsl(q)) / divisor * ldexpl(1, 3 - digits) + ldexpl(1, least_exponent);
+  if (!(fabsl(got - want) <= bound))
+    fail_msg("%s of (%a, %a) / (%a, %a) = %a; want %La", part, v[0], v[1], v[2], v[3], got, want);
+}
+
+static void complex_quotients_of_all_sizes(void **unused) {
+  (void)unused;
+  uint64_t state = 11;
+  for (int i = 0; i < 300000; i++) {
+    double v[4];
+    for (int j = 0; j < 4; j++)
+      v[j] = ldexp((double)(int64_t)random64(&state), (int)(random64(&state) % 2090) - 1130);
+    long double a = v[0], b = v[1], c = v[2], d = v[3];
+    if (c == 0 && d == 0)
+      continue;
+    double _Complex quotient = rt___divdc3(v[0], v[1], v[2], v[3]);
+    check_part(v, "real part", __real__ quotient, a * c, b * d, c * c + d * d, 53, -1074);
+    check_part(v, "imaginary part", __imag__ quotient, b * c, -a * d, c * c + d * d, 53, -1074);
+    for (int j = 0; j < 4; j++)
+      v[j] = (float)ldexp((double)(int64_t)random64(&state), (int)(random64(&state) % 270) - 208);
+    a = v[0], b = v[1], c = v[2], d = v[3];
+    if (c == 0 && d == 0)
+      continue;
+    float _Complex narrow = rt___divsc3((float)a, (float)b, (float)c, (float)d);
+    check_part(v, "real part", __real__ narrow, a * c, b * d, c * c + d * d, 24, -149);
+    check_part(v, "imaginary part", __imag__ narrow, b * c, -a * d, c * c + d * d, 24, -149);
+  }
+}
+
 static void complex_numbers(void **unused) {
   (void)unused;
   static const double special[] = {0.0, -0.0, 1.0, -2.5, 1e300, -1e-300, INFINITY, -INFINITY, NAN};
@@ -390,6 +425,7 @@ int main(void) {
       cmocka_unit_test(floats),
       cmocka_unit_test(integer_powers),
       cmocka_unit_test(complex_numbers),
+      cmocka_unit_test(complex_quotients_of_all_sizes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
