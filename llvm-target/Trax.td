@@ -37,4 +37,5 @@ def Trax : Target {
   let InstructionSet = TraxInstrInfo;
   let AssemblyParsers = [TraxAsmParser];
   let AssemblyWriters = [TraxAsmWriter];
+  let AllowRegisterRenaming = true; // else copies are not propagated after register allocation
 }

@@ -91,7 +91,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   MaxStoresPerMemcpy = MaxStoresPerMemmove = 8;
   MaxStoresPerMemsetOptSize = MaxStoresPerMemcpyOptSize = MaxStoresPerMemmoveOptSize = 4;
 
-  setTargetDAGCombine(ISD::ADD);
+  setTargetDAGCombine({ISD::ADD, ISD::SELECT});
 }
 
 const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
@@ -252,8 +252,43 @@ SDValue TraxTargetLowering::performAddCombine(SDNode *N, DAGCombinerInfo &DCI) c
   return DAG.getNode(TraxISD::ADD_LO, DL, MVT::i32, Hi, WithOffset(TraxII::MO_LO));
 }
 
+/// A choice between two constants that differ by a power of two is a shifted comparison: a conditional move would need
+/// both in registers, and destroy one.
+SDValue TraxTargetLowering::performSelectCombine(SDNode *N, DAGCombinerInfo &DCI) const {
+  SDValue Condition = N->getOperand(0);
+  auto *True = dyn_cast<ConstantSDNode>(N->getOperand(1)), *False = dyn_cast<ConstantSDNode>(N->getOperand(2));
+  if (DCI.isBeforeLegalize() || N->getValueType(0) != MVT::i32 || !True || !False ||
+      Condition.getOpcode() != ISD::SETCC || Condition.getOperand(0).getValueType() != MVT::i32)
+    return SDValue();
+  // Comparisons that the machine has, one way or the other.
+  ISD::CondCode CC = cast<CondCodeSDNode>(Condition.getOperand(2))->get();
+  uint32_t IfTrue = True->getZExtValue(), IfFalse = False->getZExtValue();
+  SelectionDAG &DAG = DCI.DAG;
+  SDLoc DL(N);
+  if (CC == ISD::SETGE || CC == ISD::SETLE || CC == ISD::SETUGE || CC == ISD::SETULE) {
+    CC = ISD::getSetCCInverse(CC, MVT::i32);
+    Condition = DAG.getSetCC(DL, MVT::i32, Condition.getOperand(0), Condition.getOperand(1), CC);
+    std::swap(IfTrue, IfFalse);
+  }
+  bool Adds = isPowerOf2_32(IfTrue - IfFalse);
+  if (!Adds && !isPowerOf2_32(IfFalse - IfTrue))
+    return SDValue();
+  SDValue Amount = DAG.getConstant(Log2_32(Adds ? IfTrue - IfFalse : IfFalse - IfTrue), DL, MVT::i32);
+  SDValue Difference = DAG.getNode(ISD::SHL, DL, MVT::i32, Condition, Amount);
+  SDValue Base = DAG.getConstant(IfFalse, DL, MVT::i32);
+  return Adds ? DAG.getNode(ISD::ADD, DL, MVT::i32, Difference, Base)
+              : DAG.getNode(ISD::SUB, DL, MVT::i32, Base, Difference);
+}
+
 SDValue TraxTargetLowering::PerformDAGCombine(SDNode *N, DAGCombinerInfo &DCI) const {
-  return N->getOpcode() == ISD::ADD ? performAddCombine(N, DCI) : SDValue();
+  switch (N->getOpcode()) {
+  case ISD::ADD:
+    return performAddCombine(N, DCI);
+  case ISD::SELECT:
+    return performSelectCombine(N, DCI);
+  default:
+    return SDValue();
+  }
 }
 
 //--- conversion ----------------------------------------------------------------

@@ -57,6 +57,7 @@ public:
   bool shouldConvertConstantLoadToIntImm(const APInt &, Type *) const override { return true; }
 
   // Costs.
+  bool convertSelectOfConstantsToMath(EVT VT) const override { return VT == MVT::i32; }
   bool isTruncateFree(Type *From, Type *To) const override;
   bool isTruncateFree(EVT From, EVT To) const override;
   bool isZExtFree(SDValue Value, EVT To) const override;
@@ -114,6 +115,7 @@ private:
   SDValue lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const;
   SDValue performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const;
+  SDValue performSelectCombine(SDNode *N, DAGCombinerInfo &DCI) const;
 };
 
 /// Whether this memory access is known to be of local memory (thread-local objects; the stack, unless it is in global

@@ -18,6 +18,9 @@ public:
   const uint32_t *getNoPreservedMask() const override;
   BitVector getReservedRegs(const MachineFunction &MF) const override;
   const TargetRegisterClass *getPointerRegClass(const MachineFunction &MF, unsigned Kind) const override;
+  // In 1/2^14 of the entry's frequency: nearly nothing, but enough for a value that only the path to an early return
+  // needs to stay in its argument's register, so that saving moves behind that return.
+  unsigned getCSRFirstUseCost() const override { return 5; }
   Register getFrameRegister(const MachineFunction &MF) const override;
 
   bool requiresRegisterScavenging(const MachineFunction &) const override { return true; }

@@ -39,6 +39,7 @@ public:
   bool hasGlobalStack() const { return HasGlobalStack; }
 
   bool enableMachineScheduler() const override { return true; }
+  bool enableSpillageCopyElimination() const override { return true; }
 };
 
 } // namespace llvm

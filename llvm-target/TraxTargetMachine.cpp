@@ -67,12 +67,24 @@ public:
     TargetPassConfig::addIRPasses();
   }
 
+  void addCodeGenPrepare() override {
+    // Loops over bytes and halves keep them as words: no extension at each comparison.
+    if (getOptLevel() != CodeGenOptLevel::None)
+      addPass(createTypePromotionLegacyPass());
+    TargetPassConfig::addCodeGenPrepare();
+  }
+
   bool addInstSelector() override {
     addPass(createTraxISelDag(getTraxTargetMachine(), getOptLevel()));
     return false;
   }
 
-  void addPreEmitPass() override { addPass(&BranchRelaxationPassID); }
+  void addPreEmitPass() override {
+    // Copies are addi by now: those that block placement brought next to their uses go.
+    if (getOptLevel() >= CodeGenOptLevel::Default)
+      addPass(createMachineCopyPropagationPass(/*UseCopyInstr=*/true));
+    addPass(&BranchRelaxationPassID);
+  }
 };
 
 } // namespace

@@ -1,7 +1,9 @@
 //===- TraxTargetTransformInfo.cpp - Costs, for the IR optimizer ---------===//
 #include "TraxTargetTransformInfo.h"
 #include "TraxBuiltins.h"
+#include "llvm/Analysis/LoopInfo.h"
 #include "llvm/IR/Function.h"
+#include "llvm/IR/InstrTypes.h"
 #include "llvm/Support/MathExtras.h"
 
 using namespace llvm;
@@ -14,22 +16,51 @@ bool TraxTTIImpl::isLoweredToCall(const Function *F) const {
   return BaseT::isLoweredToCall(F);
 }
 
-// A taken branch costs one cycle and the instruction cache holds 1,024 instructions, shared by all: unrolling pays
-// where it turns a small array's indices into constants, not to save the branch.
+// The instruction cache holds 1,024 instructions, shared by all: at -O2 unrolling must pay by turning a small array's
+// indices into constants. At -O3 an innermost loop may also save its counting, where a few copies of it stay small.
 void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::UnrollingPreferences &UP,
                                           OptimizationRemarkEmitter *ORE) {
+  // The unroller comes with a larger threshold at -O3; nothing else tells the level.
+  bool Aggressive = UP.Threshold > 150;
   BaseT::getUnrollingPreferences(L, SE, UP, ORE);
-  UP.Threshold = 120;
+  UP.Threshold = Aggressive ? 256 : 120;
   UP.PartialThreshold = 0;
   UP.OptSizeThreshold = 0;
   UP.PartialOptSizeThreshold = 0;
   UP.Partial = false;
   UP.Runtime = false;
   UP.UpperBound = false;
+  if (!Aggressive || !L->isInnermost() || L->getNumBlocks() > 4 || L->getHeader()->getParent()->hasOptSize())
+    return;
+  SmallVector<BasicBlock *, 4> Exiting;
+  L->getExitingBlocks(Exiting);
+  if (Exiting.size() > 2)
+    return;
+  InstructionCost Cost = 0;
+  for (const BasicBlock *Block : L->blocks())
+    for (const Instruction &I : *Block) {
+      if (const auto *Call = dyn_cast<CallBase>(&I))
+        if (const Function *Callee = Call->getCalledFunction(); !Callee || isLoweredToCall(Callee))
+          return;
+      Cost += getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
+    }
+  UP.PartialThreshold = 80;
+  UP.DefaultUnrollRuntimeCount = 4;
+  UP.MaxCount = 4;
+  UP.Partial = UP.Runtime = true;
+  UP.Force = Cost < 12;
 }
 
 void TraxTTIImpl::getPeelingPreferences(Loop *L, ScalarEvolution &SE, TTI::PeelingPreferences &PP) {
   BaseT::getPeelingPreferences(L, SE, PP);
+}
+
+// Instructions first: 27 registers are rarely short, and every instruction takes an issue slot.
+bool TraxTTIImpl::isLSRCostLess(const TTI::LSRCost &A, const TTI::LSRCost &B) const {
+  auto Key = [](const TTI::LSRCost &C) {
+    return std::tie(C.Insns, C.NumRegs, C.AddRecCost, C.NumIVMuls, C.NumBaseAdds, C.ScaleCost, C.ImmCost, C.SetupCost);
+  };
+  return Key(A) < Key(B);
 }
 
 InstructionCost TraxTTIImpl::getIntImmCost(const APInt &Imm, Type *Ty, TTI::TargetCostKind) {

@@ -34,6 +34,10 @@ public:
                                     TTI::TargetCostKind CostKind, Instruction *Inst = nullptr);
   InstructionCost getIntImmCostIntrin(Intrinsic::ID IID, unsigned Idx, const APInt &Imm, Type *Ty,
                                       TTI::TargetCostKind CostKind);
+  // Loops: a branch compares two registers, so an end pointer costs no more than a counter that runs to 0.
+  bool isLSRCostLess(const TTI::LSRCost &A, const TTI::LSRCost &B) const;
+  bool canMacroFuseCmp() const { return true; }
+
   TTI::PopcntSupportKind getPopcntSupport(unsigned) { return TTI::PSK_Software; }
 
   // There are no vectors: nothing to vectorize for.

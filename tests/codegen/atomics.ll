@@ -114,9 +114,9 @@ define i64 @load_wide(ptr %p) {
 ; CHECK: sw r1, 12(r2)
 ; CHECK: sw r20, 8(r2)
 ; CHECK: sw r21, 4(r2)
+; CHECK: lw r12, 0(r4)
 ; CHECK: mv r20, r4
 ; CHECK: mv r21, r5
-; CHECK: lw r12, 0(r20)
 ; CHECK: .LBB{{[0-9_]+}}:
 ; CHECK: slt r13, r21, r12
 ; CHECK: mv r6, r21
