@@ -33,8 +33,8 @@ define swiftcc void @convention() {
   ret void
 }
 ; CHECK: error: couldn't allocate input reg for constraint 'r'
-define void @wide_operand(i64 %x) {
-  call void asm sideeffect "nop", "r"(i64 %x)
+define void @wide_operand(i128 %x) {
+  call void asm sideeffect "nop", "r"(i128 %x)
   ret void
 }
 ; CHECK: error: value out of range for constraint 'I'
