@@ -1,0 +1,138 @@
+"""Compilers with a way to count the instructions that their programs execute."""
+
+import json
+import shutil
+import struct
+import subprocess
+from pathlib import Path
+
+BENCH = Path(__file__).resolve().parent
+ROOT = BENCH.parent.parent
+SECONDS = 600
+
+# What the library's square roots start from where there is no reciprocal square root: single precision suffices.
+LIBRARY_SQRT = "-D__builtin_sqrt(x)=__builtin_sqrtf((float)(x))"
+COMMON = ["-std=c17", "-fno-math-errno", "-Wall", "-Wextra", "-Werror", "-I", str(ROOT / "raytracer/device"), "-I",
+          str(ROOT / "raytracer/include")]
+RISCV = ["--target=riscv32", "-march=rv32im_zfinx", "-mabi=ilp32"]
+PACKAGES = {"clang-19": "clang-19", "llvm-ar-19": "llvm-19", "llvm-size-19": "llvm-19", "ld.lld-19": "lld-19",
+            "qemu-riscv32": "qemu-user", "cc": "gcc"}
+
+
+class Failure(Exception):
+    """What ends the program with a message."""
+
+
+def run(command):
+    """Run a command; return what it printed to standard output and to standard error."""
+    try:
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=SECONDS, check=False,
+                              stdin=subprocess.DEVNULL)
+    except subprocess.TimeoutExpired as expired:
+        raise Failure(f"{' '.join(map(str, command))}\n  did not end in {SECONDS} s") from expired
+    if done.returncode != 0:
+        raise Failure(f"{' '.join(map(str, command))}\n  ended with status {done.returncode}\n{done.stderr}{done.stdout}")
+    return done.stdout, done.stderr
+
+
+class Trax:
+    """Our compiler, counted by the simulator."""
+
+    def __init__(self, build, work):
+        self.build, self.work, self.name = build, work, "trax"
+        self.compiler = [build / "bin/clang", "--target=trax"]
+
+    def link(self, objects, output):
+        run([*self.compiler, *objects, "-o", output])
+
+    def execute(self, program):
+        """Run a program; return what it printed and how many instructions it took."""
+        statistics = program.with_suffix(".json")
+        printed, _ = run([self.build / "bin/trax-sim", "--engine", "fast", "--quiet", "--stats", statistics, program])
+        return printed, json.loads(statistics.read_text())["instructions"]
+
+
+class Riscv:
+    """Debian's clang for RISC-V, counted by qemu."""
+
+    def __init__(self, build, work, name="riscv", flags=(), library=True):
+        self.work, self.name = work, name
+        self.compiler = ["clang-19", *RISCV, "-nostdlibinc", "-isystem", build / "lib/trax/include", "-I", BENCH / "twin",
+                         *flags]
+        if not library: # to compile only
+            return
+        self.plugin = work / f"{name}-count.so"
+        run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", BENCH / "count_plugin.c", "-o", self.plugin])
+        self.library = self.make_library()
+
+    def make_library(self):
+        """The runtime's functions, with the flags that the runtime is compiled with."""
+        objects = []
+        for part in ("builtins", "math", "string"):
+            for source in sorted((ROOT / "runtime" / part).glob("*.c")):
+                objects.append(self.work / f"{self.name}-{part}-{source.stem}.o")
+                run([*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno", "-ffunction-sections",
+                     LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}", "-c", source, "-o", objects[-1]])
+        library = self.work / f"{self.name}.a"
+        run(["llvm-ar-19", "rcs", library, *objects])
+        return library
+
+    def link(self, objects, output):
+        run(["ld.lld-19", "--gc-sections", *objects, self.library, "-o", output])
+
+    def execute(self, program):
+        printed, counted = run(["qemu-riscv32", "-cpu", "rv32,zfinx=true,f=false,d=false", "-plugin", self.plugin, program])
+        return printed, int(counted.split()[1])
+
+
+class Host:
+    """The host's own results, which the others must have."""
+
+    def __init__(self, work, name, flags=()):
+        self.work, self.name = work, name
+        self.compiler = ["clang-19", "-ffp-contract=off", "-I", BENCH / "twin", *flags]
+
+    def link(self, objects, output):
+        run([*self.compiler, *objects, "-lm", "-o", output])
+
+    def execute(self, program):
+        return run([program])[0], None
+
+
+def build_and_run(machine, source, repetitions, flags=()):
+    """Compile and link a kernel and its driver; return (checksum, measure, executed instructions)."""
+    stem = machine.work / f"{machine.name}-{source.stem}-{repetitions}"
+    kernel, driver, program = stem.with_suffix(".kernel.o"), stem.with_suffix(".driver.o"), stem.with_suffix(".elf")
+    run([*machine.compiler, *COMMON, "-O3", *flags, "-c", source, "-o", kernel])
+    run([*machine.compiler, *COMMON, "-O3", f"-DREPETITIONS={repetitions}", "-c", BENCH / "driver.c", "-o", driver])
+    machine.link([driver, kernel], program)
+    printed, count = machine.execute(program)
+    try:
+        checksum, measure = (int(word, 16) for word in printed.split())
+    except ValueError as error:
+        raise Failure(f"{program} printed {printed!r}") from error
+    return checksum, struct.unpack("<f", struct.pack("<I", measure))[0], count
+
+
+def measure_kernel(machine, source):
+    """Return a kernel's result and how many instructions a repetition executes."""
+    _, _, once = build_and_run(machine, source, 1)
+    checksum, measure, twice = build_and_run(machine, source, 2)
+    return (checksum, measure), twice - once
+
+
+def check_counter(machine):
+    """A counter must count a loop of three instructions, and nothing else, right."""
+    counts = [build_and_run(machine, BENCH / "counted_loop.c", 1, [f"-DITERATIONS={n}"])[2] for n in (100000, 200000)]
+    if counts[1] - counts[0] != 300000:
+        raise Failure(f"the counter of {machine.name} finds {counts[1] - counts[0]} instructions in a loop of 300000")
+
+
+def check_programs(build):
+    missing = [program for program in PACKAGES if not shutil.which(program)]
+    if missing:
+        packages = sorted({PACKAGES[program] for program in missing})
+        raise Failure(f"not found: {', '.join(missing)}; Debian: apt-get install {' '.join(packages)}")
+    for path in (build / "bin/clang", build / "bin/trax-sim", build / "lib/trax/libc.a"):
+        if not path.exists():
+            raise Failure(f"{path} is missing; build it first (ninja -C {build})")
