@@ -18,7 +18,7 @@ import os
 
 import lit.formats
 
-SUITES = ["mc", "codegen", "clang", "ld", "c"]
+SUITES = ["mc", "tools", "codegen", "clang", "ld", "c"]
 
 config.name = "trax"
 config.test_format = lit.formats.ShTest(execute_external=False)

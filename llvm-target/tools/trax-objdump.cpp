@@ -1,249 +1,156 @@
-//===- trax-objdump.cpp - Lists a program --------------------------------===//
+//===- trax-objdump.cpp - Lists objects, archives and programs -----------===//
 //
-//   trax-objdump program        its instructions, with symbols
-//   trax-objdump -t -r a.o      its symbols and relocations too
+//   trax-objdump program                            its instructions, with symbols
+//   trax-objdump -S --disassemble-symbols=main p    those of one function, with the source
+//   trax-objdump -h -t -r a.o                       sections, symbols and relocations
+//
+// The options are llvm-objdump's. Options are read here; Listing.cpp and Disassembly.cpp print.
 //
 //===----------------------------------------------------------------------===//
+#include "ArchiveFile.h"
+#include "Listing.h"
 #include "ToolSupport.h"
-#include "trax/abi.h"
-#include "llvm/MC/MCAsmInfo.h"
-#include "llvm/MC/MCContext.h"
-#include "llvm/MC/MCDisassembler/MCDisassembler.h"
-#include "llvm/MC/MCInst.h"
-#include "llvm/MC/MCInstPrinter.h"
-#include "llvm/MC/MCInstrAnalysis.h"
-#include "llvm/MC/MCInstrInfo.h"
-#include "llvm/MC/MCRegisterInfo.h"
-#include "llvm/MC/MCSubtargetInfo.h"
-#include "llvm/MC/MCTargetOptions.h"
-#include "llvm/MC/TargetRegistry.h"
-#include "llvm/Object/ELFObjectFile.h"
 #include "llvm/Support/CommandLine.h"
-#include "llvm/Support/Endian.h"
-#include "llvm/Support/Format.h"
+#include "llvm/Support/FileSystem.h"
+#include "llvm/Support/MemoryBuffer.h"
+#include "llvm/Support/WithColor.h"
 #include "llvm/Support/raw_ostream.h"
-#include "llvm/TargetParser/Triple.h"
-#include <map>
 
 using namespace llvm;
-using namespace llvm::object;
 
 static cl::OptionCategory Category("Options of trax-objdump");
-static cl::opt<std::string> Input(cl::Positional, cl::desc("<ELF file>"), cl::Required, cl::cat(Category));
-static cl::opt<bool> NoAliases("no-aliases", cl::desc("Print every instruction under its own mnemonic"),
-                               cl::cat(Category));
-static cl::opt<bool> ShowSymbols("t", cl::desc("Print the symbols"), cl::cat(Category));
-static cl::opt<bool> ShowRelocations("r", cl::desc("Print relocations below the instructions they belong to"),
-                                     cl::cat(Category));
-static cl::opt<bool> NoDisassembly("no-disassembly", cl::desc("Print no instructions"), cl::cat(Category));
 
-static const char *relocationName(uint64_t Type) {
-  switch (Type) {
-#define CASE(NAME, NUMBER)                                                                                             \
-  case NUMBER:                                                                                                         \
-    return #NAME;
-    TRAX_RELOCATIONS(CASE)
-#undef CASE
-  default:
-    return "unknown relocation";
-  }
+static cl::list<std::string> Inputs(cl::Positional, cl::OneOrMore, cl::desc("<object, archive or program>..."),
+                                    cl::cat(Category));
+
+#define FLAG(VARIABLE, NAME, DESCRIPTION) static cl::opt<bool> VARIABLE(NAME, cl::desc(DESCRIPTION), cl::cat(Category));
+#define SHORT_FLAG(VARIABLE, LETTER, LONG, DESCRIPTION)                                                                \
+  FLAG(VARIABLE, LONG, DESCRIPTION)                                                                                    \
+  static cl::alias VARIABLE##Short(LETTER, cl::desc("Alias for --" LONG), cl::aliasopt(VARIABLE), cl::Grouping,        \
+                                   cl::NotHidden, cl::cat(Category));
+
+SHORT_FLAG(Disassemble, "d", "disassemble", "Instructions of all code; without another option, this one is taken")
+SHORT_FLAG(DisassembleAll, "D", "disassemble-all", "Instructions, and data in hexadecimal")
+SHORT_FLAG(FileHeaders, "f", "file-headers", "The kind of file and where it starts")
+SHORT_FLAG(SectionHeaders, "h", "section-headers", "The sections")
+SHORT_FLAG(LineNumbers, "l", "line-numbers",
+           "With the instructions, places in the source (compile with -g); implies -d")
+SHORT_FLAG(ProgramHeaders, "p", "private-headers", "The program headers")
+SHORT_FLAG(Relocations, "r", "reloc", "The relocations; with -d, below what they change")
+SHORT_FLAG(Contents, "s", "full-contents", "The bytes of the sections")
+SHORT_FLAG(Source, "S", "source", "With the instructions, lines of the source; implies -d")
+SHORT_FLAG(Symbols, "t", "syms", "The symbols")
+SHORT_FLAG(AllHeaders, "x", "all-headers", "The same as -f -p -h -t -r")
+FLAG(NoAliases, "no-aliases", "Every instruction under its own mnemonic")
+FLAG(NoLeadingAddr, "no-leading-addr", "No addresses in front of instructions")
+FLAG(NoShowRawInsn, "no-show-raw-insn", "No instructions as numbers")
+FLAG(Units, "units", "With each instruction, the unit that executes it and its latency")
+
+static cl::list<std::string> OnlySections("section", cl::desc("Only these sections"), cl::value_desc("name"),
+                                          cl::CommaSeparated, cl::cat(Category));
+static cl::alias OnlySectionsShort("j", cl::desc("Alias for --section"), cl::aliasopt(OnlySections), cl::NotHidden,
+                                   cl::cat(Category));
+static cl::list<std::string> OnlySymbols("disassemble-symbols",
+                                         cl::desc("Only the instructions of these functions; implies -d"),
+                                         cl::value_desc("name"), cl::CommaSeparated, cl::cat(Category));
+static cl::opt<uint64_t> StartAddress("start-address", cl::desc("No instructions or relocations below this address"),
+                                      cl::value_desc("address"), cl::init(0), cl::cat(Category));
+static cl::opt<uint64_t> StopAddress("stop-address", cl::desc("None at this address or above"),
+                                     cl::value_desc("address"), cl::init(UINT64_MAX), cl::cat(Category));
+static cl::list<std::string> PrinterOptions("M", cl::desc("Printer option: no-aliases"), cl::value_desc("option"),
+                                            cl::CommaSeparated, cl::cat(Category));
+
+static void warn(const std::string &Message) {
+  WithColor::warning(errs(), "trax-objdump") << Message << '\n';
 }
 
-namespace {
+/// A path in debug information can be anything: read regular files only, of a size that a source can have.
+static std::optional<std::string> readSource(const std::string &Path) {
+  sys::fs::file_status Status;
+  if (sys::fs::status(Path, Status) || !sys::fs::is_regular_file(Status) || Status.getSize() > (64u << 20))
+    return std::nullopt;
+  ErrorOr<std::unique_ptr<MemoryBuffer>> Buffer = MemoryBuffer::getFile(Path, /*IsText=*/true);
+  if (!Buffer)
+    return std::nullopt;
+  return (*Buffer)->getBuffer().str();
+}
 
-class Listing {
-  const ELF32LEObjectFile &File;
-  Triple TT{"trax"};
-  MCTargetOptions Options;
-  std::unique_ptr<MCRegisterInfo> MRI;
-  std::unique_ptr<MCAsmInfo> MAI;
-  std::unique_ptr<MCInstrInfo> MII;
-  std::unique_ptr<MCSubtargetInfo> STI;
-  std::unique_ptr<MCContext> Ctx;
-  std::unique_ptr<MCDisassembler> Decoder;
-  std::unique_ptr<MCInstPrinter> Printer;
-  std::unique_ptr<MCInstrAnalysis> Analysis;
-  /// Of one section (in an object, addresses of different sections overlap): names by address.
-  using SymbolMap = std::multimap<uint64_t, std::string>;
+static trax::ListingOptions readOptions() {
+  trax::ListingOptions Options;
+  Options.FileHeader = FileHeaders || AllHeaders;
+  Options.ProgramHeaders = ProgramHeaders || AllHeaders;
+  Options.SectionHeaders = SectionHeaders || AllHeaders;
+  Options.Symbols = Symbols || AllHeaders;
+  Options.Relocations = Relocations || AllHeaders;
+  Options.Contents = Contents;
+  bool IsOther = Options.FileHeader || Options.ProgramHeaders || Options.SectionHeaders || Options.Symbols ||
+                 Options.Relocations || Contents;
+  Options.Disassemble = !IsOther || Disassemble || DisassembleAll || LineNumbers || Source || !OnlySymbols.empty();
+  Options.Data = DisassembleAll;
+  Options.LineNumbers = LineNumbers;
+  Options.Source = Source;
+  Options.Units = Units;
+  Options.Aliases = !NoAliases;
+  for (const std::string &Option : PrinterOptions)
+    if (Option == "no-aliases")
+      Options.Aliases = false;
+    else
+      trax::fail("unknown printer option '" + Option + "' (-M knows no-aliases)");
+  Options.Words = !NoShowRawInsn;
+  Options.Addresses = !NoLeadingAddr;
+  Options.OnlySections = OnlySections;
+  Options.OnlySymbols = OnlySymbols;
+  Options.Start = StartAddress;
+  Options.Stop = StopAddress;
+  Options.ReadSource = readSource;
+  Options.Warning = warn;
+  return Options;
+}
 
-public:
-  Listing(const Target &T, const ELF32LEObjectFile &File) : File(File) {
-    MRI.reset(T.createMCRegInfo(TT.str()));
-    MAI.reset(T.createMCAsmInfo(*MRI, TT.str(), Options));
-    MII.reset(T.createMCInstrInfo());
-    STI.reset(T.createMCSubtargetInfo(TT.str(), "", ""));
-    Ctx = std::make_unique<MCContext>(TT, MAI.get(), MRI.get(), STI.get());
-    Decoder.reset(T.createMCDisassembler(*STI, *Ctx));
-    Printer.reset(T.createMCInstPrinter(TT, 0, *MAI, *MII, *MRI));
-    Printer->setPrintBranchImmAsAddress(true);
-    Printer->setPrintImmHex(false);
-    if (NoAliases)
-      Printer->applyTargetSpecificCLOption("no-aliases");
-    Analysis.reset(T.createMCInstrAnalysis(MII.get()));
-  }
-
-  Error printSymbols(raw_ostream &OS) const;
-  Error printSection(const SectionRef &Section, raw_ostream &OS) const;
-
-private:
-  Expected<SymbolMap> symbolsOf(const SectionRef &Section) const;
-  Error printRelocation(const RelocationRef &Relocation, raw_ostream &OS) const;
-  void printTarget(const MCInst &Inst, uint64_t Address, const SectionRef &Section, const SymbolMap &Symbols,
-                   raw_ostream &OS) const;
-};
-
-} // namespace
-
-Error Listing::printSymbols(raw_ostream &OS) const {
-  OS << "\nSymbols:\n";
-  for (const ELFSymbolRef &Symbol : File.symbols()) {
-    Expected<StringRef> Name = Symbol.getName();
-    Expected<uint64_t> Value = Symbol.getValue();
-    Expected<section_iterator> Section = Symbol.getSection();
-    if (!Name || !Value || !Section)
-      return joinErrors(joinErrors(Name.takeError(), Value.takeError()), Section.takeError());
-    StringRef SectionName =
-        Symbol.getFlags() && (*Symbol.getFlags() & SymbolRef::SF_Undefined) ? "*undefined*" : "*absolute*";
-    if (*Section != File.section_end()) {
-      Expected<StringRef> Found = (*Section)->getName();
-      if (!Found)
-        return Found.takeError();
-      SectionName = *Found;
-    }
-    char Kind = Symbol.getBinding() == ELF::STB_LOCAL ? 'l' : Symbol.getBinding() == ELF::STB_WEAK ? 'w' : 'g';
-    OS << format("%08x %c %-12s %6u ", unsigned(*Value), Kind, SectionName.str().c_str(), unsigned(Symbol.getSize()))
-       << *Name << '\n';
-  }
+static Error listFile(const Target &T, StringRef Name, StringRef Bytes, const trax::ListingOptions &Options) {
+  std::string Text;
+  raw_string_ostream OS(Text);
+  if (Error E = trax::list(T, Name, Bytes, Options, OS))
+    return createStringError(inconvertibleErrorCode(), "'" + Name + "': " + toString(std::move(E)));
+  outs() << '\n' << OS.str();
   return Error::success();
 }
 
-Expected<Listing::SymbolMap> Listing::symbolsOf(const SectionRef &Section) const {
-  SymbolMap Symbols;
-  for (const ELFSymbolRef &Symbol : File.symbols()) {
-    Expected<section_iterator> Where = Symbol.getSection();
-    Expected<StringRef> Name = Symbol.getName();
-    Expected<uint64_t> Address = Symbol.getAddress();
-    if (!Where || !Name || !Address)
-      return joinErrors(joinErrors(Where.takeError(), Name.takeError()), Address.takeError());
-    if (*Where != File.section_end() && **Where == Section && !Name->empty() &&
-        Symbol.getELFType() != ELF::STT_SECTION && Symbol.getELFType() != ELF::STT_FILE)
-      Symbols.emplace(*Address, Name->str());
-  }
-  return Symbols;
-}
-
-void Listing::printTarget(const MCInst &Inst, uint64_t Address, const SectionRef &Section, const SymbolMap &Symbols,
-                          raw_ostream &OS) const {
-  uint64_t Target;
-  if (!Analysis->evaluateBranch(Inst, Address, 4, Target) || Target < Section.getAddress() ||
-      Target >= Section.getAddress() + Section.getSize())
-    return;
-  auto Next = Symbols.upper_bound(Target);
-  if (Next == Symbols.begin())
-    return;
-  auto Symbol = std::prev(Next);
-  OS << " <" << Symbol->second;
-  if (Target != Symbol->first)
-    OS << format("+0x%x", unsigned(Target - Symbol->first));
-  OS << '>';
-}
-
-Error Listing::printRelocation(const RelocationRef &Relocation, raw_ostream &OS) const {
-  OS << format("                  %08x: ", unsigned(Relocation.getOffset())) << relocationName(Relocation.getType())
-     << ' ';
-  symbol_iterator Symbol = Relocation.getSymbol();
-  if (Symbol != File.symbol_end()) {
-    Expected<StringRef> Name = Symbol->getName();
-    if (!Name)
-      return Name.takeError();
-    if (Name->empty()) {
-      Expected<section_iterator> Section = Symbol->getSection();
-      if (!Section)
-        return Section.takeError();
-      if (*Section != File.section_end())
-        Name = (*Section)->getName();
-      if (!Name)
-        return Name.takeError();
-    }
-    OS << *Name;
-  }
-  Expected<int64_t> Addend = ELFRelocationRef(Relocation).getAddend();
-  if (!Addend)
-    return Addend.takeError();
-  if (*Addend != 0)
-    OS << (*Addend < 0 ? "-" : "+") << format("0x%x", unsigned(std::abs(*Addend)));
-  OS << '\n';
-  return Error::success();
-}
-
-Error Listing::printSection(const SectionRef &Section, raw_ostream &OS) const {
-  Expected<StringRef> Name = Section.getName();
-  Expected<StringRef> Contents = Section.getContents();
-  Expected<SymbolMap> Symbols = symbolsOf(Section);
-  if (!Name || !Contents || !Symbols)
-    return joinErrors(joinErrors(Name.takeError(), Contents.takeError()), Symbols.takeError());
-
-  std::multimap<uint64_t, RelocationRef> Relocations;
-  if (ShowRelocations)
-    for (const SectionRef &Other : File.sections()) {
-      Expected<section_iterator> Target = Other.getRelocatedSection();
-      if (!Target)
-        return Target.takeError();
-      if (*Target != File.section_end() && **Target == Section)
-        for (const RelocationRef &Relocation : Other.relocations())
-          Relocations.emplace(Relocation.getOffset(), Relocation);
-    }
-
-  OS << "\nSection " << *Name << ":\n";
-  ArrayRef<uint8_t> Bytes = arrayRefFromStringRef(*Contents);
-  auto Symbol = Symbols->begin();
-  for (uint64_t Offset = 0; Offset < Bytes.size(); Offset += 4) {
-    uint64_t Address = Section.getAddress() + Offset;
-    for (; Symbol != Symbols->end() && Symbol->first < Address + 4; ++Symbol)
-      OS << format("\n%08x <", unsigned(Symbol->first)) << Symbol->second << ">:\n";
-    if (Bytes.size() - Offset < 4) {
-      OS << format("%8x: ", unsigned(Address)) << "(" << Bytes.size() - Offset << " bytes)\n";
-      break;
-    }
-    MCInst Inst;
-    uint64_t Size;
-    OS << format("%8x: %08x  ", unsigned(Address), support::endian::read32le(Bytes.data() + Offset));
-    if (Decoder->getInstruction(Inst, Size, Bytes.slice(Offset), Address, nulls()) == MCDisassembler::Success) {
-      Printer->printInst(&Inst, Address, "", *STI, OS);
-      printTarget(Inst, Address, Section, *Symbols, OS);
-    } else {
-      OS << "\t.word\t" << format_hex(support::endian::read32le(Bytes.data() + Offset), 10);
-    }
-    OS << '\n';
-    for (auto [It, End] = Relocations.equal_range(Offset); It != End; ++It)
-      if (Error E = printRelocation(It->second, OS))
-        return E;
-  }
-  return Error::success();
+static Error listArchive(const Target &T, StringRef Path, StringRef Bytes, const trax::ListingOptions &Options) {
+  Error MemberError = Error::success();
+  Error E = trax::forEachMember(Bytes, [&](StringRef Name, StringRef Contents) {
+    MemberError = joinErrors(std::move(MemberError), listFile(T, (Path + "(" + Name + ")").str(), Contents, Options));
+    return Error::success();
+  });
+  if (E)
+    E = createStringError(inconvertibleErrorCode(), "'" + Path + "': " + toString(std::move(E)));
+  return joinErrors(std::move(MemberError), std::move(E));
 }
 
 int main(int Argc, char **Argv) {
   cl::HideUnrelatedOptions(Category);
   const Target &T = trax::startTool(Argc, Argv, "TRaX program listing\n");
-  Expected<OwningBinary<ObjectFile>> Binary = ObjectFile::createObjectFile(Input);
-  if (!Binary)
-    trax::fail(Binary.takeError(), Input);
-  const auto *File = dyn_cast<ELF32LEObjectFile>(Binary->getBinary());
-  if (!File || File->getELFFile().getHeader().e_machine != TRAX_EM)
-    trax::fail("'" + Input + "': not an ELF file for TRaX");
-
-  std::string Text;
-  raw_string_ostream OS(Text);
-  OS << Input << ":\n";
-  Listing List(T, *File);
-  if (ShowSymbols)
-    if (Error E = List.printSymbols(OS))
-      trax::fail(std::move(E), Input);
-  if (!NoDisassembly)
-    for (const SectionRef &Section : File->sections())
-      if (Section.isText() && Section.getSize() != 0)
-        if (Error E = List.printSection(Section, OS))
-          trax::fail(std::move(E), Input);
-  outs() << OS.str();
-  return 0;
+  trax::ListingOptions Options = readOptions();
+  bool Good = true;
+  for (const std::string &Path : Inputs) {
+    ErrorOr<std::unique_ptr<MemoryBuffer>> Buffer = MemoryBuffer::getFileOrSTDIN(Path);
+    Error E = Error::success();
+    if (std::error_code EC = Buffer.getError())
+      E = createStringError(EC, "'" + Path + "': " + EC.message());
+    else if (StringRef Bytes = (*Buffer)->getBuffer(); trax::isArchive(Bytes))
+      E = joinErrors(std::move(E), listArchive(T, Path, Bytes, Options));
+    else
+      E = joinErrors(std::move(E), listFile(T, Path, Bytes, Options));
+    handleAllErrors(std::move(E), [&](const ErrorInfoBase &Info) {
+      outs().flush();
+      WithColor::error(errs(), "trax-objdump") << Info.message() << '\n';
+      Good = false;
+    });
+  }
+  outs().flush();
+  if (std::error_code EC = outs().error()) {
+    outs().clear_error();
+    trax::fail("cannot write: " + EC.message());
+  }
+  return Good ? 0 : 1;
 }

@@ -1,7 +1,7 @@
 # Data of every size, symbols' addresses among them.
 # RUN: %trax_mc -filetype=obj -o %t.o %s
 # RUN: llvm-readelf -x .data %t.o | FileCheck %s --check-prefix=DATA
-# RUN: %trax_objdump -t %t.o | FileCheck %s --check-prefix=SYMBOLS
+# RUN: %trax_objdump -t -d %t.o | FileCheck %s --check-prefix=SYMBOLS
 
 .data
 .byte 1, 0xFF

@@ -1,7 +1,7 @@
 # Every relocation of an instruction's field.
 # RUN: %trax_mc -show-encoding %s | FileCheck %s --check-prefix=FIXUP
 # RUN: %trax_mc -filetype=obj -o %t.o %s
-# RUN: %trax_objdump -r %t.o | FileCheck %s
+# RUN: %trax_objdump -d -r %t.o | FileCheck %s
 # RUN: llvm-readelf -r %t.o | FileCheck %s --check-prefix=NUMBERS
 
 # FIXUP: lui r4, %hi(g) # encoding: [A,A,0x80,0x44]

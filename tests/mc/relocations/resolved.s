@@ -1,6 +1,6 @@
 # What the assembler knows needs no relocation.
 # RUN: %trax_mc -filetype=obj -o %t.o %s
-# RUN: %trax_objdump -r %t.o | FileCheck %s
+# RUN: %trax_objdump -d -r %t.o | FileCheck %s
 
 .equ value, 0x12348765
 # CHECK-NOT: R_TRAX
