@@ -20,7 +20,8 @@ packages=(
   llvm-19 llvm-19-dev llvm-19-tools libclang-19-dev libclang-common-19-dev clang-19
   libelf-dev libdw-dev libconfig-dev libjansson-dev                      # linker, emulator
   libassimp-dev libembree-dev libpng-dev liblzma-dev zlib1g-dev          # ray tracer's host side
-  libcmocka-dev                                                          # tests
+  libcmocka-dev libmpfr-dev                                              # tests
+  newlib-source                                                          # the mathematical functions of binary64
   glmark2-data                                                           # the demo's bunny
 )
 

@@ -1,10 +1,11 @@
-/* Mathematical functions: all of binary32 that are listed here, and of binary64 those that are exact. docs/runtime.md
-   has the errors. No function sets errno. */
+/* Mathematical functions of binary32 and binary64; long double is binary64. docs/runtime.md has the errors, and says
+   which functions are newlib's. No function sets errno or raises a flag. */
 #ifndef TRAX_MATH_H
 #define TRAX_MATH_H
 
 #define HUGE_VALF __builtin_huge_valf()
 #define HUGE_VAL __builtin_huge_val()
+#define HUGE_VALL __builtin_huge_vall()
 #define INFINITY __builtin_inff()
 #define NAN __builtin_nanf("")
 
@@ -18,6 +19,7 @@
 #define M_PI_4 0.78539816339744830962
 #define M_1_PI 0.31830988618379067154
 #define M_2_PI 0.63661977236758134308
+#define M_2_SQRTPI 1.12837916709551257390
 #define M_SQRT2 1.41421356237309504880
 #define M_SQRT1_2 0.70710678118654752440
 
@@ -52,67 +54,115 @@ extern "C" {
 typedef float float_t;
 typedef double double_t;
 
-/* Exact, or correctly rounded. */
-float sqrtf(float x);
-float fabsf(float x);
-float copysignf(float x, float y);
-float fminf(float x, float y);
-float fmaxf(float x, float y);
-float fdimf(float x, float y);
-float floorf(float x);
-float ceilf(float x);
-float truncf(float x);
-float roundf(float x);
-float rintf(float x);
-float nearbyintf(float x);
-long lroundf(float x);
-long lrintf(float x);
-float fmodf(float x, float y);
-float remainderf(float x, float y);
-float modff(float x, float *integer);
-float frexpf(float x, int *exponent);
-float ldexpf(float x, int exponent);
-float scalbnf(float x, int exponent);
-float scalblnf(float x, long exponent);
-float logbf(float x);
-int ilogbf(float x);
-float nextafterf(float x, float y);
-float fmaf(float x, float y, float z);
-
-/* Within a few hundredths of a unit in the last place of correctly rounded. */
-float sinf(float x);
-float cosf(float x);
-void sincosf(float x, float *sine, float *cosine);
-float tanf(float x);
-float asinf(float x);
-float acosf(float x);
-float atanf(float x);
-float atan2f(float y, float x);
-float expf(float x);
-float exp2f(float x);
-float logf(float x);
-float log2f(float x);
-float log10f(float x);
-float powf(float x, float y);
-float hypotf(float x, float y);
+/* Of each function three: name, namef and namel. */
+#define __TRAX_MATH_1(name)                                                                                            \
+  double name(double);                                                                                                 \
+  float name##f(float);                                                                                                \
+  long double name##l(long double);
+#define __TRAX_MATH_2(name)                                                                                            \
+  double name(double, double);                                                                                         \
+  float name##f(float, float);                                                                                         \
+  long double name##l(long double, long double);
+#define __TRAX_MATH_TO_INTEGER(type, name)                                                                             \
+  type name(double);                                                                                                   \
+  type name##f(float);                                                                                                 \
+  type name##l(long double);
+#define __TRAX_MATH_POINTER(name, type)                                                                                \
+  double name(double, type *);                                                                                         \
+  float name##f(float, type *);                                                                                        \
+  long double name##l(long double, type *);
+#define __TRAX_MATH_SCALE(name, type)                                                                                  \
+  double name(double, type);                                                                                           \
+  float name##f(float, type);                                                                                          \
+  long double name##l(long double, type);
 
 /* Exact, or correctly rounded. */
-double sqrt(double x);
-double fabs(double x);
-double copysign(double x, double y);
-double fmin(double x, double y);
-double fmax(double x, double y);
-double floor(double x);
-double ceil(double x);
-double trunc(double x);
-double round(double x);
-double rint(double x);
-double nearbyint(double x);
-double fmod(double x, double y);
+__TRAX_MATH_1(sqrt)
+__TRAX_MATH_1(fabs)
+__TRAX_MATH_1(floor)
+__TRAX_MATH_1(ceil)
+__TRAX_MATH_1(trunc)
+__TRAX_MATH_1(round)
+__TRAX_MATH_1(rint)
+__TRAX_MATH_1(nearbyint)
+__TRAX_MATH_1(logb)
+__TRAX_MATH_2(copysign)
+__TRAX_MATH_2(fmin)
+__TRAX_MATH_2(fmax)
+__TRAX_MATH_2(fdim)
+__TRAX_MATH_2(fmod)
+__TRAX_MATH_2(remainder)
+__TRAX_MATH_2(nextafter)
+__TRAX_MATH_TO_INTEGER(int, ilogb)
+__TRAX_MATH_TO_INTEGER(long, lround)
+__TRAX_MATH_TO_INTEGER(long, lrint)
+__TRAX_MATH_TO_INTEGER(long long, llround)
+__TRAX_MATH_TO_INTEGER(long long, llrint)
+__TRAX_MATH_POINTER(frexp, int)
+__TRAX_MATH_SCALE(ldexp, int)
+__TRAX_MATH_SCALE(scalbn, int)
+__TRAX_MATH_SCALE(scalbln, long)
 double modf(double x, double *integer);
-double frexp(double x, int *exponent);
-double ldexp(double x, int exponent);
-double scalbn(double x, int exponent);
+float modff(float x, float *integer);
+long double modfl(long double x, long double *integer);
+double nexttoward(double x, long double y);
+float nexttowardf(float x, long double y);
+long double nexttowardl(long double x, long double y);
+double fma(double x, double y, double z);
+float fmaf(float x, float y, float z);
+long double fmal(long double x, long double y, long double z);
+double remquo(double x, double y, int *quotient);
+float remquof(float x, float y, int *quotient);
+long double remquol(long double x, long double y, int *quotient);
+double nan(const char *payload); /* which is ignored */
+float nanf(const char *payload);
+long double nanl(const char *payload);
+
+/* Not always correctly rounded. */
+__TRAX_MATH_1(sin)
+__TRAX_MATH_1(cos)
+__TRAX_MATH_1(tan)
+__TRAX_MATH_1(asin)
+__TRAX_MATH_1(acos)
+__TRAX_MATH_1(atan)
+__TRAX_MATH_1(sinh)
+__TRAX_MATH_1(cosh)
+__TRAX_MATH_1(tanh)
+__TRAX_MATH_1(asinh)
+__TRAX_MATH_1(acosh)
+__TRAX_MATH_1(atanh)
+__TRAX_MATH_1(exp)
+__TRAX_MATH_1(exp2)
+__TRAX_MATH_1(expm1)
+__TRAX_MATH_1(log)
+__TRAX_MATH_1(log2)
+__TRAX_MATH_1(log10)
+__TRAX_MATH_1(log1p)
+__TRAX_MATH_1(cbrt)
+__TRAX_MATH_1(erf)
+__TRAX_MATH_1(erfc)
+__TRAX_MATH_1(tgamma)
+__TRAX_MATH_1(lgamma)
+__TRAX_MATH_2(atan2)
+__TRAX_MATH_2(pow)
+__TRAX_MATH_2(hypot)
+void sincos(double x, double *sine, double *cosine);
+void sincosf(float x, float *sine, float *cosine);
+double lgamma_r(double x, int *sign);
+float lgammaf_r(float x, int *sign);
+
+/* The sign of the gamma function after lgamma; each thread has its own. */
+#ifdef __cplusplus
+extern thread_local int signgam;
+#else
+extern _Thread_local int signgam;
+#endif
+
+#undef __TRAX_MATH_1
+#undef __TRAX_MATH_2
+#undef __TRAX_MATH_TO_INTEGER
+#undef __TRAX_MATH_POINTER
+#undef __TRAX_MATH_SCALE
 
 #ifdef __cplusplus
 }

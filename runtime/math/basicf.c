@@ -108,3 +108,19 @@ float nextafterf(float x, float y) {
     return bits_float((b & FLOAT_SIGN) | 1);
   return bits_float((x < y) == !(a >> 31) ? a + 1 : a - 1);
 }
+
+float nexttowardf(float x, long double y) {
+  uint32_t a = float_bits(x);
+  if (x != x || y != y)
+    return bits_float(FLOAT_NAN);
+  if ((long double)x == y)
+    return (float)y;
+  if ((a & MAGNITUDE) == 0)
+    return bits_float((y < 0 ? FLOAT_SIGN : 0) | 1);
+  return bits_float(((long double)x < y) == !(a >> 31) ? a + 1 : a - 1);
+}
+
+float nanf(const char *payload) {
+  (void)payload;
+  return bits_float(FLOAT_NAN);
+}

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Writes coefficients.h: the polynomials and tables of the binary32 functions, as fixed-point integers.
+"""Writes coefficients.h: the polynomials and tables of the mathematical functions, as fixed-point integers.
 
 Each polynomial interpolates its function at Chebyshev points of the interval where it is used, which is within a small factor of
 the best approximation of its degree; the comment beside it gives the greatest error found on a dense grid, against series summed
 to 60 digits. Run it again after changing a degree:  ./coefficients.py > coefficients.h
 """
 
-from decimal import Decimal, getcontext
+from decimal import Decimal, getcontext, localcontext
+from fractions import Fraction
+from math import comb
 
-getcontext().prec = 90
+getcontext().prec = 450
 D = Decimal
 
 
@@ -17,7 +19,7 @@ def pi():
 
     def atan_inverse(n):
         total, power, k = D(0), D(1) / n, 0
-        while abs(power) > D(10) ** -95:
+        while abs(power) > D(10) ** -440:
             total += power / (2 * k + 1) * (-1) ** k
             power /= n * n
             k += 1
@@ -79,6 +81,26 @@ def log2_tail(r):
     return -((1 + r).ln() - r) / LN2 / (r * r)
 
 
+BERNOULLI = [Fraction(1)]  # by the recurrence; those of odd index above 1 are 0
+for m in range(1, 41):
+    BERNOULLI.append(-sum(comb(m + 1, k) * BERNOULLI[k] for k in range(m)) / (m + 1))
+
+
+def gamma_inverse(t):
+    """1 / gamma(3/2 + t): Stirling's series for the argument 40 greater, over the factors in between."""
+    with localcontext() as context:
+        context.prec = 80
+        z = D("41.5") + t
+        total = (z - D("0.5")) * z.ln() - z + (2 * PI).ln() / 2
+        for k in range(1, 21):
+            b = BERNOULLI[2 * k]
+            total += D(b.numerator) / b.denominator / (2 * k * (2 * k - 1)) / z ** (2 * k - 1)
+        product = D(1)
+        for i in range(1, 41):
+            product *= z - i
+        return product / total.exp()
+
+
 def chebyshev(function, low, high, degree):
     """Coefficients, lowest first, of the interpolating polynomial."""
     low, high = D(low), D(high)
@@ -128,6 +150,17 @@ def emit_polynomial(name, what, function, low, high, degree, bits, weight, weigh
     print("};\n")
 
 
+def emit_signed_polynomial(name, what, function, low, high, degree, bits, weighted):
+    coefficients = chebyshev(function, low, high, degree)
+    error = greatest_error(function, coefficients, low, high, lambda x: D(1))
+    values = [int((c * D(2) ** bits).to_integral_value()) for c in coefficients]
+    print(f"/* {what}, times 2^{bits}; {weighted} {log2_text(error)}. */")
+    print(f"static const int64_t {name}[{degree + 1}] = {{")
+    for i in range(0, len(values), 4):
+        print("    " + ", ".join(f"{'-' if v < 0 else ''}0x{abs(v):X}LL" for v in values[i : i + 4]) + ",")
+    print("};\n")
+
+
 def emit_log2_table():
     """For each i of 0 to 32, a number c near 32/(32 + i) with 9 bits, and -log2 c; m = 1 + i/32 + at most 1/64 gives |m*c - 1| < 2^-5.9."""
     reciprocals = [round(512 * 32 / (32 + i)) for i in range(33)]
@@ -172,6 +205,8 @@ def main():
     emit_polynomial("log2_coefficients", "-(log2(1 + r) - r/ln 2) / r^2, |r| < 2^-5.9", log2_tail, -limit, limit, 5, 31,
                     lambda r: r * r, "error in log2", True)
     emit_log2_table()
+    emit_signed_polynomial("gamma_inverse_coefficients", "1 / gamma(3/2 + t) in t, |t| <= 1/2", gamma_inverse, D("-0.5"), D("0.5"), 17, 62,
+                           "error")
     bits = int(2 / PI * D(2) ** 224)
     print("/* 2/pi in words of 32 bits, the first of them zero. */")
     print("static const uint32_t two_over_pi[8] = {")
@@ -179,6 +214,16 @@ def main():
     for i in range(0, 8, 4):
         print("    " + ", ".join(f"0x{w:08X}" for w in words[i : i + 4]) + ",")
     print("};\n")
+    print("/* 2/pi for binary64: two words of zeros and 38 of digits. */")
+    print("static const uint32_t two_over_pi_long[40] = {")
+    bits = int(2 / PI * D(2) ** (32 * 38))
+    words = [0, 0] + [bits >> (32 * (37 - i)) & 0xFFFFFFFF for i in range(38)]
+    for i in range(0, 40, 8):
+        print("    " + ", ".join(f"0x{w:08X}" for w in words[i : i + 8]) + ",")
+    print("};\n")
+    bits = int(PI / 4 * D(2) ** 96)
+    print("/* pi/4 in words of 32 bits. */")
+    print("static const uint32_t pi_over_4[3] = {" + ", ".join(f"0x{bits >> shift & 0xFFFFFFFF:08X}" for shift in (64, 32, 0)) + "};\n")
     emit_constant("PI_OVER_4", "pi/4", PI / 4, 32)
     emit_constant("PI_64", "pi", PI, 62)
     emit_constant("LOG2_E", "1/ln 2", 1 / LN2, 63)

@@ -1,4 +1,4 @@
-/* sqrt and fmod of binary64, correctly rounded and exact. */
+/* sqrt of binary64, correctly rounded. */
 #include "fixed.h"
 
 #include <math.h>
@@ -41,27 +41,4 @@ double sqrt(double x) {
     inexact = first != square;
   }
   return trax_round_double(0, exponent / 2 + 1022, (root >> 1) | (root & 1) | (uint64_t)inexact);
-}
-
-double fmod(double x, double y) {
-  uint64_t a = double_bits(x) & ~DOUBLE_SIGN, b = double_bits(y) & ~DOUBLE_SIGN;
-  if (a >= DOUBLE_INFINITY || b == 0 || b > DOUBLE_INFINITY)
-    return bits_double(DOUBLE_NAN);
-  if (a < b)
-    return x;
-  int ea, eb;
-  uint64_t rest = (double_bits(frexp(bits_double(a), &ea)) & 0x000FFFFFFFFFFFFFu) | 0x0010000000000000u;
-  uint64_t divisor = (double_bits(frexp(bits_double(b), &eb)) & 0x000FFFFFFFFFFFFFu) | 0x0010000000000000u;
-  int distance = ea - eb;
-  /* Eleven digits of the quotient at a time: with 53 bits of remainder they fill two words. */
-  for (rest %= divisor; distance > 0; rest %= divisor) {
-    int step = distance < 11 ? distance : 11;
-    rest <<= step;
-    distance -= step;
-  }
-  uint64_t sign_bit = double_bits(x) & DOUBLE_SIGN;
-  if (rest == 0)
-    return bits_double(sign_bit);
-  int zeros = leading_zeros64(rest);
-  return trax_round_double((uint32_t)(sign_bit >> 63), eb + 1022 - 53 + 64 - zeros, rest << zeros >> 1);
 }

@@ -55,3 +55,11 @@ long lroundf(float x) {
 long lrintf(float x) {
   return (long)rintf(x);
 }
+
+long long llroundf(float x) {
+  return (long long)roundf(x);
+}
+
+long long llrintf(float x) {
+  return (long long)rintf(x);
+}

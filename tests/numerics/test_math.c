@@ -35,7 +35,20 @@
   X(exp2f, 0.52, exp2)                                                                                                 \
   X(logf, 0.53, log)                                                                                                   \
   X(log2f, 0.52, log2)                                                                                                 \
-  X(log10f, 0.53, log10)
+  X(log10f, 0.53, log10)                                                                                               \
+  X(sinhf, 1.85, sinh)                                                                                                 \
+  X(coshf, 1.85, cosh)                                                                                                 \
+  X(tanhf, 2.2, tanh)                                                                                                  \
+  X(asinhf, 1.7, asinh)                                                                                                \
+  X(acoshf, 1.95, acosh)                                                                                               \
+  X(atanhf, 1.75, atanh)                                                                                               \
+  X(expm1f, 0.82, expm1)                                                                                               \
+  X(log1pf, 0.85, log1p)                                                                                               \
+  X(cbrtf, 0.51, cbrt)                                                                                                 \
+  X(erff, 0.9, erf)                                                                                                    \
+  X(erfcf, 0.51, erfc)                                                                                                 \
+  X(tgammaf, 0.51, tgamma)                                                                                             \
+  X(lgammaf, 0.51, lgamma)
 
 #define FUNCTIONS_2(X)                                                                                                 \
   X(atan2f, 0.53, atan2)                                                                                               \
@@ -60,6 +73,10 @@ int rt_ilogbf(float);
 float rt_nextafterf(float, float);
 long rt_lroundf(float);
 long rt_lrintf(float);
+long long rt_llroundf(float);
+long long rt_llrintf(float);
+float rt_nexttowardf(float, double); /* the TP's long double */
+float rt_remquof(float, float, int *);
 void rt_sincosf(float, float *, float *);
 double rt_sqrt(double);
 double rt_fabs(double);
@@ -75,6 +92,18 @@ double rt_modf(double, double *);
 double rt_frexp(double, int *);
 double rt_ldexp(double, int);
 double rt_copysign(double, double);
+double rt_fma(double, double, double);
+double rt_remainder(double, double);
+double rt_remquo(double, double, int *);
+double rt_nextafter(double, double);
+double rt_fdim(double, double);
+double rt_logb(double);
+double rt_scalbln(double, long);
+int rt_ilogb(double);
+long rt_lround(double);
+long rt_lrint(double);
+long long rt_llround(double);
+long long rt_llrint(double);
 
 static double minimum(double x, double y) {
   return x != x ? y : y != y ? x : x < y || (x == y && signbit(x)) ? x : y;
@@ -215,6 +244,17 @@ static bool samef(float a, float b) {
   return (a != a && b != b) || float_bits_of(a) == float_bits_of(b);
 }
 
+static void check_fma(double x, double y, double z) {
+  expect(same(rt_fma(x, y, z), fma(x, y, z)), "fma", x, y);
+}
+
+static void check_remainder(double x, double y) {
+  int q, host_q;
+  double rest = rt_remquo(x, y, &q), host_rest = remquo(x, y, &host_q);
+  expect(same(rest, host_rest) && (rest != rest || (q & 7) == (host_q & 7)), "remquo", x, y);
+  expect(same(rt_remainder(x, y), host_rest), "remainder", x, y);
+}
+
 static void check_others(void) {
   uint64_t state = 14;
   for (int i = 0; i < 2000000; i++) {
@@ -240,6 +280,13 @@ static void check_others(void) {
     expect(samef(sine, rt_sinf(x)) && samef(cosine, rt_cosf(x)), "sincosf", x, 0);
     if (fabsf(x) < 1e9f)
       expect(rt_lroundf(x) == lroundf(x) && rt_lrintf(x) == lrintf(x), "lroundf, lrintf", x, 0);
+    if (fabsf(x) < 9e18f)
+      expect(rt_llroundf(x) == llroundf(x) && rt_llrintf(x) == llrintf(x), "llroundf, llrintf", x, 0);
+    double target = i % 2 ? (double)y : i % 4 ? nextafter((double)x, (double)y) : (double)x;
+    expect(samef(rt_nexttowardf(x, target), nexttowardf(x, target)), "nexttowardf", x, target);
+    int q, host_q;
+    float rest = rt_remquof(x, y, &q), host_rest = remquof(x, y, &host_q);
+    expect(samef(rest, host_rest) && (rest != rest || (q & 7) == (host_q & 7)), "remquof", x, y);
   }
   for (size_t i = 0; i < 2000000 + 4 * COUNT(special_doubles) * COUNT(special_doubles); i++) {
     double x = random_double(&state), y = random_double(&state);
@@ -273,6 +320,22 @@ static void check_others(void) {
     expect(same(fraction, host_fraction) && (!isfinite(x) || e == host_e), "frexp", x, 0);
     e = (int)(random64(&state) % 5000) - 2500;
     expect(same(rt_ldexp(x, e), ldexp(x, e)), "ldexp", x, e);
+    expect(same(rt_scalbln(x, e), scalbln(x, e)), "scalbln", x, e);
+    expect(same(rt_nextafter(x, y), nextafter(x, y)) && same(rt_nextafter(x, x), x), "nextafter", x, y);
+    expect(same(rt_fdim(x, y), fdim(x, y)), "fdim", x, y);
+    expect(same(rt_logb(x), logb(x)) && rt_ilogb(x) == ilogb(x), "logb, ilogb", x, 0);
+    if (fabs(x) < 2e9)
+      expect(rt_lround(x) == lround(x) && rt_lrint(x) == lrint(x), "lround, lrint", x, 0);
+    if (fabs(x) < 9e18)
+      expect(rt_llround(x) == llround(x) && rt_llrint(x) == llrint(x), "llround, llrint", x, 0);
+    check_remainder(x, y);
+    check_remainder(x, x * half); /* ties among them */
+    double z = random_double(&state);
+    check_fma(x, y, z);
+    check_fma(x, y, -(x * y)); /* cancellation */
+    check_fma(x, y, -(x * y) * (1 + 0x1p-52));
+    check_fma(x, y, (x * y) * 0x1p-53 * half); /* halfway cases */
+    check_fma(x, y, (x * y) * 0x1p53 * half);
   }
 }
 

@@ -1,0 +1,57 @@
+# The binary64 functions that are hard to do well, complex numbers, and some of binary32, are newlib's: Debian's package
+# newlib-source has its sources, which are unpacked into the build folder and compiled like ours. docs/runtime.md lists them.
+
+file(GLOB NEWLIB_FOUND /usr/src/newlib/newlib-*.tar.xz)
+set(TRAX_NEWLIB "${NEWLIB_FOUND}" CACHE FILEPATH "The archive of newlib's sources")
+if(NOT EXISTS "${TRAX_NEWLIB}")
+  message(FATAL_ERROR "newlib's sources are not at /usr/src/newlib: install the package newlib-source, "
+    "or say -DTRAX_NEWLIB=newlib-VERSION.tar.xz")
+endif()
+set(NEWLIB_DIR ${CMAKE_CURRENT_BINARY_DIR}/newlib)
+file(SHA256 ${TRAX_NEWLIB} NEWLIB_HASH)
+set(NEWLIB_UNPACKED "")
+if(EXISTS ${NEWLIB_DIR}/unpacked)
+  file(READ ${NEWLIB_DIR}/unpacked NEWLIB_UNPACKED)
+endif()
+if(NOT NEWLIB_UNPACKED STREQUAL NEWLIB_HASH)
+  message(STATUS "Unpacking ${TRAX_NEWLIB}")
+  file(REMOVE_RECURSE ${NEWLIB_DIR})
+  file(ARCHIVE_EXTRACT INPUT ${TRAX_NEWLIB} DESTINATION ${NEWLIB_DIR}
+    PATTERNS */newlib/libm/common/* */newlib/libm/math/* */newlib/libm/complex/* */COPYING.NEWLIB)
+  file(GLOB NEWLIB_TOP ${NEWLIB_DIR}/*)
+  file(RENAME ${NEWLIB_TOP}/newlib/libm ${NEWLIB_DIR}/libm)
+  file(RENAME ${NEWLIB_TOP}/COPYING.NEWLIB ${NEWLIB_DIR}/COPYING.NEWLIB)
+  file(REMOVE_RECURSE ${NEWLIB_TOP})
+  file(WRITE ${NEWLIB_DIR}/unpacked ${NEWLIB_HASH})
+endif()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${TRAX_NEWLIB} ${NEWLIB_DIR}/unpacked)
+
+set(NEWLIB_C
+  # binary64
+  math/k_sin math/k_cos math/k_tan math/s_sin math/s_cos math/s_tan math/e_asin math/e_acos math/s_atan math/e_atan2
+  math/e_sinh math/e_cosh math/s_tanh math/s_asinh math/e_acosh math/e_atanh math/e_log10 math/e_hypot math/s_erf
+  math/er_lgamma common/s_expm1 common/s_log1p common/s_cbrt
+  common/exp common/exp2 common/exp_data common/log common/log_data common/log2 common/log2_data common/pow
+  common/pow_log_data common/math_err
+  # binary32
+  math/ef_sinh math/ef_cosh math/sf_tanh math/sf_asinh math/ef_acosh math/ef_atanh math/sf_erf
+  common/sf_expm1 common/sf_log1p common/math_errf
+  # complex
+  complex/cephes_subr complex/cephes_subrf)
+foreach(name cabs cacos cacosh carg casin casinh catan catanh ccos ccosh cexp cimag clog conj cpow cproj creal csin csinh
+    csqrt ctan ctanh)
+  list(APPEND NEWLIB_C complex/${name} complex/${name}f)
+endforeach()
+list(TRANSFORM NEWLIB_C APPEND .c)
+list(TRANSFORM NEWLIB_C PREPEND ${NEWLIB_DIR}/libm/)
+
+# Our headers stand for newlib's own. The code is not ours to warn about.
+set(NEWLIB_FLAGS -w -include ${CMAKE_CURRENT_LIST_DIR}/config.h -I${CMAKE_CURRENT_LIST_DIR} -I${NEWLIB_DIR}/libm/common)
+file(GLOB NEWLIB_HEADERS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.h ${CMAKE_CURRENT_LIST_DIR}/*/*.h)
+
+# The functions of long double, which is binary64, are jumps to those of double.
+set(LONG_DOUBLE_NAMES
+  acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs fdim floor fma fmax fmin fmod
+  frexp hypot ilogb ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nan nearbyint nextafter nexttoward pow
+  remainder remquo rint round scalbln scalbn sin sinh sqrt tan tanh tgamma trunc
+  cabs cacos cacosh carg casin casinh catan catanh ccos ccosh cexp cimag clog conj cpow cproj creal csin csinh csqrt ctan ctanh)

@@ -1,0 +1,1 @@
+/* Included by newlib's complex functions, which need nothing of it. */

@@ -1,0 +1,133 @@
+/* Cycles of the runtime's functions on one TP, warm, the call included; docs/runtime.md has the table.
+
+     clang --target=trax -O2 tests/numerics/cycles.c -o cycles.elf
+     trax-sim --set icache.bytes=65536 --set dcache.bytes=65536 cycles.elf
+
+   Each is called through a pointer four times with the same arguments; the last call counts. */
+#include <math.h>
+#include <stdio.h>
+#include <trax.h>
+
+typedef double function_1(double);
+typedef double function_2(double, double);
+typedef float function_1f(float);
+typedef float function_2f(float, float);
+
+static double sum(double x, double y) {
+  return x + y;
+}
+static double product(double x, double y) {
+  return x * y;
+}
+static double quotient(double x, double y) {
+  return x / y;
+}
+static double less(double x, double y) {
+  return x < y;
+}
+
+static const struct {
+  const char *name;
+  function_1 *function;
+  double argument;
+} functions_1[] = {
+    {"sqrt", sqrt, 0.7},     {"sin", sin, 0.7},       {"sin", sin, 5.3},       {"sin", sin, 1e22},
+    {"cos", cos, 0.7},       {"cos", cos, 5.3},       {"tan", tan, 0.6},       {"tan", tan, 5.3},
+    {"asin", asin, 0.3},     {"asin", asin, 0.7},     {"acos", acos, 0.3},     {"acos", acos, 0.7},
+    {"atan", atan, 0.3},     {"atan", atan, 5.3},     {"sinh", sinh, 0.7},     {"cosh", cosh, 0.7},
+    {"tanh", tanh, 0.7},     {"asinh", asinh, 0.7},   {"acosh", acosh, 1.7},   {"atanh", atanh, 0.7},
+    {"exp", exp, 0.7},       {"exp2", exp2, 0.7},     {"expm1", expm1, 0.7},   {"log", log, 0.7},
+    {"log", log, 1.01},      {"log2", log2, 0.7},     {"log10", log10, 0.7},   {"log1p", log1p, 0.7},
+    {"cbrt", cbrt, 0.7},     {"erf", erf, 0.7},       {"erfc", erfc, 0.7},     {"erfc", erfc, 5.3},
+    {"lgamma", lgamma, 1.7}, {"lgamma", lgamma, 5.3}, {"tgamma", tgamma, 1.7}, {"tgamma", tgamma, 25.3},
+    {"rint", rint, 5.3},
+};
+
+static const struct {
+  const char *name;
+  function_2 *function;
+  double x, y;
+} functions_2[] = {
+    {"+", sum, 0.7, 5.3},       {"*", product, 0.7, 5.3},
+    {"/", quotient, 0.7, 5.3},  {"<", less, 0.7, 5.3},
+    {"pow", pow, 0.7, 5.3},     {"atan2", atan2, 0.7, -5.3},
+    {"hypot", hypot, 0.7, 5.3}, {"fmod", fmod, 5.3, 0.7},
+    {"fmod", fmod, 1e300, 0.7}, {"remainder", remainder, 5.3, 0.7},
+};
+
+static const struct {
+  const char *name;
+  function_1f *function;
+  float argument;
+} functions_1f[] = {
+    {"sqrtf", sqrtf, 0.7f},     {"sinf", sinf, 0.7f},       {"sinf", sinf, 5.3f},   {"cosf", cosf, 0.7f},
+    {"tanf", tanf, 0.7f},       {"asinf", asinf, 0.7f},     {"acosf", acosf, 0.7f}, {"atanf", atanf, 0.7f},
+    {"sinhf", sinhf, 0.7f},     {"coshf", coshf, 0.7f},     {"tanhf", tanhf, 0.7f}, {"asinhf", asinhf, 0.7f},
+    {"acoshf", acoshf, 1.7f},   {"atanhf", atanhf, 0.7f},   {"expf", expf, 0.7f},   {"exp2f", exp2f, 0.7f},
+    {"expm1f", expm1f, 0.7f},   {"logf", logf, 0.7f},       {"log2f", log2f, 0.7f}, {"log10f", log10f, 0.7f},
+    {"log1pf", log1pf, 0.7f},   {"cbrtf", cbrtf, 0.7f},     {"erff", erff, 0.7f},   {"erfcf", erfcf, 0.7f},
+    {"tgammaf", tgammaf, 5.3f}, {"lgammaf", lgammaf, 5.3f},
+};
+
+static const struct {
+  const char *name;
+  function_2f *function;
+  float x, y;
+} functions_2f[] = {
+    {"powf", powf, 0.7f, 5.3f},
+    {"atan2f", atan2f, 0.7f, -5.3f},
+    {"hypotf", hypotf, 0.7f, 5.3f},
+    {"fmodf", fmodf, 5.3f, 0.7f},
+};
+
+volatile double result;
+volatile float result_f;
+
+int main(void) {
+  unsigned cycles = 0;
+  for (unsigned i = 0; i < sizeof functions_2 / sizeof functions_2[0]; i++) {
+    for (int round = 0; round < 4; round++) {
+      function_2 *volatile function = functions_2[i].function;
+      double x = functions_2[i].x, y = functions_2[i].y;
+      unsigned start = trax_cycles();
+      double value = function(x, y);
+      cycles = trax_cycles() - start;
+      result = value;
+    }
+    printf("%-10s %8g %8g %6u\n", functions_2[i].name, functions_2[i].x, functions_2[i].y, cycles);
+  }
+  for (unsigned i = 0; i < sizeof functions_1 / sizeof functions_1[0]; i++) {
+    for (int round = 0; round < 4; round++) {
+      function_1 *volatile function = functions_1[i].function;
+      double x = functions_1[i].argument;
+      unsigned start = trax_cycles();
+      double value = function(x);
+      cycles = trax_cycles() - start;
+      result = value;
+    }
+    printf("%-10s %8g          %6u\n", functions_1[i].name, functions_1[i].argument, cycles);
+  }
+  for (unsigned i = 0; i < sizeof functions_2f / sizeof functions_2f[0]; i++) {
+    for (int round = 0; round < 4; round++) {
+      function_2f *volatile function = functions_2f[i].function;
+      float x = functions_2f[i].x, y = functions_2f[i].y;
+      unsigned start = trax_cycles();
+      float value = function(x, y);
+      cycles = trax_cycles() - start;
+      result_f = value;
+    }
+    printf("%-10s %8g %8g %6u\n", functions_2f[i].name, (double)functions_2f[i].x, (double)functions_2f[i].y, cycles);
+  }
+  for (unsigned i = 0; i < sizeof functions_1f / sizeof functions_1f[0]; i++) {
+    for (int round = 0; round < 4; round++) {
+      function_1f *volatile function = functions_1f[i].function;
+      float x = functions_1f[i].argument;
+      unsigned start = trax_cycles();
+      float value = function(x);
+      cycles = trax_cycles() - start;
+      result_f = value;
+    }
+    printf("%-10s %8g          %6u\n", functions_1f[i].name, (double)functions_1f[i].argument, cycles);
+  }
+  return 0;
+}
