@@ -107,6 +107,82 @@ bool TraxTargetLowering::isTailCallPossible(const CallLoweringInfo &CLI, const C
   return none_of(CLI.Outs, [](const ISD::OutputArg &Out) { return Out.Flags.isByVal(); });
 }
 
+/// Copies an aggregate to where it is passed, within the call's sequence: no call of memcpy. What is long goes through
+/// a loop.
+static SDValue copyArgument(SDValue Chain, const SDLoc &DL, SDValue To, SDValue From, ISD::ArgFlagsTy Flags,
+                            MachinePointerInfo Where, SelectionDAG &DAG) {
+  constexpr unsigned LongestInline = 64;
+  const Align Alignment = std::min(Align(4), Flags.getNonZeroByValAlign());
+  const unsigned Unit = Alignment == Align(4) ? 4 : 1, Size = Flags.getByValSize();
+  unsigned InLoop = 0;
+  if (Size > LongestInline) {
+    InLoop = Size - Size % (4 * Unit);
+    Chain = DAG.getNode(
+        TraxISD::COPY_LOOP, DL, MVT::Other,
+        {Chain, To, From, DAG.getTargetConstant(InLoop, DL, MVT::i32), DAG.getTargetConstant(Unit, DL, MVT::i32)});
+    if (InLoop == Size)
+      return Chain;
+    To = DAG.getMemBasePlusOffset(To, TypeSize::getFixed(InLoop), DL);
+    From = DAG.getMemBasePlusOffset(From, TypeSize::getFixed(InLoop), DL);
+  }
+  return DAG.getMemcpy(Chain, DL, To, From, DAG.getConstant(Size - InLoop, DL, MVT::i32), Alignment, /*isVol=*/false,
+                       /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt, Where.getWithOffset(InLoop),
+                       MachinePointerInfo());
+}
+
+/// PseudoCopyLoop to, from, bytes, unit: four units a turn; bytes is a multiple of that and not 0.
+MachineBasicBlock *TraxTargetLowering::emitCopyLoop(MachineInstr &MI, MachineBasicBlock *This) const {
+  MachineFunction &MF = *This->getParent();
+  MachineRegisterInfo &MRI = MF.getRegInfo();
+  const TargetInstrInfo &TII = *MF.getSubtarget().getInstrInfo();
+  const DebugLoc DL = MI.getDebugLoc();
+  const Register FirstTo = MI.getOperand(0).getReg(), FirstFrom = MI.getOperand(1).getReg();
+  const int64_t Bytes = MI.getOperand(2).getImm(), Unit = MI.getOperand(3).getImm();
+  auto NewRegister = [&] { return MRI.createVirtualRegister(&Trax::GPRRegClass); };
+
+  MachineBasicBlock *Loop = MF.CreateMachineBasicBlock(This->getBasicBlock());
+  MachineBasicBlock *Rest = MF.CreateMachineBasicBlock(This->getBasicBlock());
+  MF.insert(std::next(This->getIterator()), Loop);
+  MF.insert(std::next(Loop->getIterator()), Rest);
+  const unsigned CallFrameSize = TII.getCallFrameSizeAt(MI);
+  Loop->setCallFrameSize(CallFrameSize);
+  Rest->setCallFrameSize(CallFrameSize);
+  Rest->splice(Rest->begin(), This, std::next(MI.getIterator()), This->end());
+  Rest->transferSuccessorsAndUpdatePHIs(This);
+  This->addSuccessor(Loop);
+  Loop->addSuccessor(Loop);
+  Loop->addSuccessor(Rest);
+
+  const Register End = NewRegister();
+  if (isInt<16>(Bytes)) {
+    BuildMI(This, DL, TII.get(Trax::ADDI), End).addReg(FirstFrom).addImm(Bytes);
+  } else {
+    const Register Upper = NewRegister(), Size = NewRegister();
+    BuildMI(This, DL, TII.get(Trax::LUI), Upper).addImm((Bytes + 0x8000) >> 16 & 0xFFFF);
+    BuildMI(This, DL, TII.get(Trax::ADDI), Size).addReg(Upper).addImm(SignExtend64<16>(Bytes));
+    BuildMI(This, DL, TII.get(Trax::ADD), End).addReg(FirstFrom).addReg(Size);
+  }
+  const Register To = NewRegister(), From = NewRegister(), NextTo = NewRegister(), NextFrom = NewRegister();
+  BuildMI(Loop, DL, TII.get(TargetOpcode::PHI), To).addReg(FirstTo).addMBB(This).addReg(NextTo).addMBB(Loop);
+  BuildMI(Loop, DL, TII.get(TargetOpcode::PHI), From).addReg(FirstFrom).addMBB(This).addReg(NextFrom).addMBB(Loop);
+  Register Values[4];
+  for (int I = 0; I < 4; ++I)
+    BuildMI(Loop, DL, TII.get(Unit == 4 ? Trax::LW : Trax::LBU), Values[I] = NewRegister())
+        .addReg(From)
+        .addImm(I * Unit);
+  for (int I = 0; I < 4; ++I)
+    BuildMI(Loop, DL, TII.get(Unit == 4 ? Trax::SW : Trax::SB)).addReg(Values[I]).addReg(To).addImm(I * Unit);
+  BuildMI(Loop, DL, TII.get(Trax::ADDI), NextTo).addReg(To).addImm(4 * Unit);
+  BuildMI(Loop, DL, TII.get(Trax::ADDI), NextFrom).addReg(From).addImm(4 * Unit);
+  BuildMI(Loop, DL, TII.get(Trax::BNE)).addReg(NextFrom).addReg(End).addMBB(Loop);
+  MI.eraseFromParent();
+  return Rest;
+}
+
+MachineBasicBlock *TraxTargetLowering::EmitInstrWithCustomInserter(MachineInstr &MI, MachineBasicBlock *MBB) const {
+  return MI.getOpcode() == Trax::PseudoSETJMP ? emitSetJmp(MI, MBB) : emitCopyLoop(MI, MBB);
+}
+
 SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDValue> &InVals) const {
   if (SDValue Chain = lowerBuiltinCall(CLI, InVals))
     return Chain;
@@ -126,7 +202,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
     if (!Out.Flags.isByVal())
       continue;
     unsigned Size = Out.Flags.getByValSize();
-    if (Size > TRAX_LOCAL_SIZE) {
+    if (Size > TRAX_LOCAL_SIZE && !Subtarget.hasGlobalStack()) {
       unsupported(DAG, DL, "an argument of " + Twine(Size) + " bytes does not fit the local memory");
       Out.Flags.setByValSize(4);
       Size = 4;
@@ -136,9 +212,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
     Align Alignment = std::max(Align(4), Out.Flags.getNonZeroByValAlign());
     int FI = MFI.CreateStackObject(std::max(4u, Size), Alignment, /*isSpillSlot=*/false);
     SDValue Copy = DAG.getFrameIndex(FI, MVT::i32);
-    Chain = DAG.getMemcpy(Chain, DL, Copy, Value, DAG.getConstant(Size, DL, MVT::i32), Out.Flags.getNonZeroByValAlign(),
-                          /*isVol=*/false, /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt,
-                          MachinePointerInfo::getFixedStack(MF, FI), MachinePointerInfo());
+    Chain = copyArgument(Chain, DL, Copy, Value, Out.Flags, MachinePointerInfo::getFixedStack(MF, FI), DAG);
     Value = Copy;
     Out.Flags = ISD::ArgFlagsTy();
     CopiesToFrame = true;
@@ -170,9 +244,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
         DAG.getNode(ISD::ADD, DL, MVT::i32, StackPointer, DAG.getConstant(VA.getLocMemOffset(), DL, MVT::i32));
     MachinePointerInfo Where = MachinePointerInfo::getStack(MF, VA.getLocMemOffset());
     if (Out.Flags.isByVal())
-      Stores.push_back(DAG.getMemcpy(Chain, DL, Address, Value, DAG.getConstant(Out.Flags.getByValSize(), DL, MVT::i32),
-                                     std::min(Align(4), Out.Flags.getNonZeroByValAlign()), /*isVol=*/false,
-                                     /*AlwaysInline=*/true, /*CI=*/nullptr, std::nullopt, Where, MachinePointerInfo()));
+      Stores.push_back(copyArgument(Chain, DL, Address, Value, Out.Flags, Where, DAG));
     else
       Stores.push_back(DAG.getStore(Chain, DL, Value, Address, Where));
   }

@@ -39,6 +39,11 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   for (MVT VT : {MVT::i8, MVT::i16, MVT::i32})
     setLoadExtAction({ISD::EXTLOAD, ISD::SEXTLOAD, ISD::ZEXTLOAD}, VT, MVT::i1, Promote);
 
+  // Overflow checks of i64 compute with i128, which is no type of C here: inline, there is no library for it.
+  for (RTLIB::Libcall Call : {RTLIB::MULO_I32, RTLIB::MULO_I64, RTLIB::MULO_I128, RTLIB::MUL_I128, RTLIB::SHL_I128,
+                              RTLIB::SRL_I128, RTLIB::SRA_I128})
+    setLibcallName(Call, nullptr);
+
   // Control.
   setOperationAction({ISD::BR_JT, ISD::BRCOND}, MVT::Other, Expand);
   setOperationAction({ISD::TRAP, ISD::DEBUGTRAP}, MVT::Other, Legal);
@@ -110,6 +115,7 @@ const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
     NODE(RDSR)
     NODE(TRAP)
     NODE(HALT)
+    NODE(COPY_LOOP)
     NODE(SETJMP)
     NODE(LONGJMP)
     NODE(AINC)

@@ -23,8 +23,9 @@ enum NodeType : unsigned {
   RDSR,       // any special register; chained
   TRAP,
   HALT,
-  SETJMP,  // __builtin_setjmp: 0, and 1 when it is jumped to
-  LONGJMP, // __builtin_longjmp
+  COPY_LOOP, // of a long argument
+  SETJMP,    // __builtin_setjmp: 0, and 1 when it is jumped to
+  LONGJMP,   // __builtin_longjmp
   FIRST_MEMORY = ISD::FIRST_TARGET_MEMORY_OPCODE,
   AINC, // atomic increment; the value before it
   LWNT, // atomic load of a word, past the cache
@@ -111,6 +112,7 @@ private:
   SDValue lowerReturnAddr(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerSetJmp(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerLongJmp(SDValue Op, SelectionDAG &DAG) const;
+  MachineBasicBlock *emitCopyLoop(MachineInstr &MI, MachineBasicBlock *This) const;
   MachineBasicBlock *emitSetJmp(MachineInstr &MI, MachineBasicBlock *This) const;
   SDValue lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const;

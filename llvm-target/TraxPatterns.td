@@ -19,6 +19,9 @@ def trax_rdsr_const : SDNode<"TraxISD::RDSR_CONST", SDT_TraxUnary>;
 def trax_rdsr : SDNode<"TraxISD::RDSR", SDT_TraxUnary, [SDNPHasChain, SDNPSideEffect]>;
 def trax_trap : SDNode<"TraxISD::TRAP", SDT_TraxTrap, [SDNPHasChain, SDNPSideEffect]>;
 def trax_halt : SDNode<"TraxISD::HALT", SDTNone, [SDNPHasChain, SDNPSideEffect]>;
+def trax_copy_loop : SDNode<"TraxISD::COPY_LOOP",
+                            SDTypeProfile<0, 4, [SDTCisVT<0, i32>, SDTCisVT<1, i32>, SDTCisVT<2, i32>, SDTCisVT<3, i32>]>,
+                            [SDNPHasChain, SDNPMayLoad, SDNPMayStore]>;
 def trax_setjmp : SDNode<"TraxISD::SETJMP", SDT_TraxUnary, [SDNPHasChain, SDNPSideEffect]>;
 def trax_longjmp : SDNode<"TraxISD::LONGJMP", SDTypeProfile<0, 1, [SDTCisVT<0, i32>]>, [SDNPHasChain, SDNPSideEffect]>;
 def trax_ainc : SDNode<"TraxISD::AINC", SDTLoad, [SDNPHasChain, SDNPMayLoad, SDNPMayStore, SDNPMemOperand]>;
@@ -199,6 +202,8 @@ def : Pat<(trax_rdsr_const timm:$n), (PseudoRDSRConst timm:$n)>;
 def : Pat<(trax_rdsr timm:$n), (RDSR timm:$n)>;
 def : Pat<(trax_trap (i32 GPR:$a), timm:$code), (TRAP GPR:$a, timm:$code)>;
 def : Pat<(trax_halt), (PseudoHALT)>;
+def : Pat<(trax_copy_loop (i32 GPR:$to), (i32 GPR:$from), timm:$bytes, timm:$unit),
+          (PseudoCopyLoop GPR:$to, GPR:$from, timm:$bytes, timm:$unit)>;
 def : Pat<(trax_setjmp (i32 GPR:$buffer)), (PseudoSETJMP GPR:$buffer)>;
 def : Pat<(trax_longjmp (i32 GPRTC:$buffer)), (PseudoLONGJMP GPRTC:$buffer)>;
 def : Pat<(trap), (TRAP (i32 R0), 2)>; // abort without a message

@@ -115,6 +115,10 @@ def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstEx
 let hasSideEffects = true in
 def PseudoHALT : TraxPseudo<(outs), (ins)>, PseudoInstExpansion<(HALT)>;
 
+// Copies a long argument to where it is passed.
+let mayLoad = true, mayStore = true, usesCustomInserter = true, hasNoSchedulingInfo = true in
+def PseudoCopyLoop : TraxPseudo<(outs), (ins GPR:$to, GPR:$from, i32imm:$bytes, i32imm:$unit)>;
+
 // __builtin_setjmp and __builtin_longjmp, see TraxSjLj.cpp. The setup is where all registers may be other ones; it is nothing.
 let hasSideEffects = true, hasNoSchedulingInfo = true in {
 let usesCustomInserter = true in

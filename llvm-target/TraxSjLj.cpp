@@ -78,11 +78,6 @@ MachineBasicBlock *TraxTargetLowering::emitSetJmp(MachineInstr &MI, MachineBasic
   return Rest;
 }
 
-MachineBasicBlock *TraxTargetLowering::EmitInstrWithCustomInserter(MachineInstr &MI, MachineBasicBlock *MBB) const {
-  assert(MI.getOpcode() == Trax::PseudoSETJMP && "no other instruction asks for this");
-  return emitSetJmp(MI, MBB);
-}
-
 /// After register allocation, since nothing may be reloaded from the stack once sp and fp are another function's. ra is
 /// free: it has been saved, and the buffer's register is none of those that are loaded.
 void llvm::expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII) {
