@@ -7,6 +7,8 @@
 #include "TraxTargetMachine.h"
 #include "llvm/CodeGen/AsmPrinter.h"
 #include "llvm/CodeGen/MachineInstr.h"
+#include "llvm/MC/MCContext.h"
+#include "llvm/MC/MCExpr.h"
 #include "llvm/MC/MCInst.h"
 #include "llvm/MC/MCInstBuilder.h"
 #include "llvm/MC/MCStreamer.h"
@@ -31,11 +33,22 @@ public:
   // Generated from the PseudoInstExpansions of TraxPseudos.td.
   bool emitPseudoExpansionLowering(MCStreamer &OutStreamer, const MachineInstr *MI);
   bool lowerOperand(const MachineOperand &MO, MCOperand &MCOp) { return lowerTraxOperand(MO, MCOp, *this); }
+
+private:
+  void emitJumpMarker();
 };
 
 } // namespace
 
 #include "TraxGenMCPseudoLowering.inc"
+
+/// Tells the linker that the jalr to come is a jump within the function, not a call in tail position.
+void TraxAsmPrinter::emitJumpMarker() {
+  MCSymbol *Place = OutContext.createTempSymbol();
+  OutStreamer->emitLabel(Place);
+  OutStreamer->emitRelocDirective(*MCSymbolRefExpr::create(Place, OutContext), "R_TRAX_JUMP", nullptr, SMLoc(),
+                                  getSubtargetInfo());
+}
 
 void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
   if (emitPseudoExpansionLowering(*OutStreamer, MI))
@@ -54,6 +67,12 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
     break;
   case Trax::PseudoSjLjSetup:
     return;
+  case Trax::PseudoBRIND:
+    emitJumpMarker();
+    Inst = MCInstBuilder(Trax::JALR).addReg(Trax::R0).addReg(MI->getOperand(0).getReg());
+    lowerOperand(MI->getOperand(1), Callee);
+    Inst.addOperand(Callee);
+    break;
   default:
     lowerTraxInstruction(*MI, Inst, *this);
   }

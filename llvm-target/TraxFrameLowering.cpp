@@ -101,6 +101,8 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
     emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfa(nullptr, TRI.getDwarfRegNum(Trax::R3, true), 0),
             MachineInstr::FrameSetup);
   if (needsRealignment(MF)) {
+    // Counted in .stack_sizes, which is to bound the frame.
+    MFI.setUnsafeStackSize(MFI.getMaxAlign().value() - getStackAlign().value());
     unsigned Shift = Log2(MFI.getMaxAlign());
     if (Shift <= 15) {
       BuildMI(MBB, MBBI, DL, TII.get(Trax::ANDI), Trax::R2)

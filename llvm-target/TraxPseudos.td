@@ -85,8 +85,7 @@ let isBranch = true, isTerminator = true, isBarrier = true in {
 def PseudoBR : TraxPseudo<(outs), (ins jaltarget:$offset), [(br bb:$offset)]>,
                PseudoInstExpansion<(JAL R0, jaltarget:$offset)>;
 let isIndirectBranch = true in
-def PseudoBRIND : TraxPseudo<(outs), (ins GPR:$ra, simm16:$imm)>,
-                  PseudoInstExpansion<(JALR R0, GPR:$ra, simm16:$imm)>;
+def PseudoBRIND : TraxPseudo<(outs), (ins GPR:$ra, simm16:$imm)>; // jalr r0, marked by TraxAsmPrinter
 }
 
 // An address, where jaltarget is a block; TraxAsmPrinter makes the one from the other.

@@ -1,6 +1,8 @@
 //===- TraxAsmBackend.cpp - Fixups that the layout resolves --------------===//
 #include "TraxFixupKinds.h"
 #include "TraxMCTargetDesc.h"
+#include "trax/abi.h"
+#include "llvm/ADT/StringSwitch.h"
 #include "llvm/MC/MCAsmBackend.h"
 #include "llvm/MC/MCAssembler.h"
 #include "llvm/MC/MCContext.h"
@@ -19,16 +21,31 @@ public:
   TraxAsmBackend() : MCAsmBackend(endianness::little) {}
 
   unsigned getNumFixupKinds() const override { return Trax::NumTargetFixupKinds; }
+  std::optional<MCFixupKind> getFixupKind(StringRef Name) const override;
   const MCFixupKindInfo &getFixupKindInfo(MCFixupKind Kind) const override;
   std::unique_ptr<MCObjectTargetWriter> createObjectTargetWriter() const override {
     return createTraxELFObjectWriter();
   }
   void applyFixup(const MCAssembler &Asm, const MCFixup &Fixup, const MCValue &Target, MutableArrayRef<char> Data,
                   uint64_t Value, bool IsResolved, const MCSubtargetInfo *STI) const override;
+  bool shouldForceRelocation(const MCAssembler &, const MCFixup &Fixup, const MCValue &,
+                             const MCSubtargetInfo *) override {
+    return Fixup.getKind() >= FirstLiteralRelocationKind;
+  }
   bool writeNopData(raw_ostream &OS, uint64_t Count, const MCSubtargetInfo *STI) const override;
 };
 
 } // namespace
+
+/// What .reloc calls a relocation.
+std::optional<MCFixupKind> TraxAsmBackend::getFixupKind(StringRef Name) const {
+#define TRAX_RELOCATION(NAME, NUMBER) .Case(#NAME, NUMBER)
+  const unsigned Type = StringSwitch<unsigned>(Name) TRAX_RELOCATIONS(TRAX_RELOCATION).Default(~0u);
+#undef TRAX_RELOCATION
+  if (Type == ~0u)
+    return std::nullopt;
+  return MCFixupKind(FirstLiteralRelocationKind + Type);
+}
 
 const MCFixupKindInfo &TraxAsmBackend::getFixupKindInfo(MCFixupKind Kind) const {
   static const MCFixupKindInfo Infos[Trax::NumTargetFixupKinds] = {
@@ -39,6 +56,8 @@ const MCFixupKindInfo &TraxAsmBackend::getFixupKindInfo(MCFixupKind Kind) const 
       {"fixup_br16", 0, 16, MCFixupKindInfo::FKF_IsPCRel},
       {"fixup_jal21", 0, 21, MCFixupKindInfo::FKF_IsPCRel},
   };
+  if (Kind >= FirstLiteralRelocationKind)
+    return MCAsmBackend::getFixupKindInfo(FK_NONE);
   if (Kind < FirstTargetFixupKind || Kind >= FirstTargetFixupKind + Trax::NumTargetFixupKinds)
     return MCAsmBackend::getFixupKindInfo(Kind);
   return Infos[Kind - FirstTargetFixupKind];

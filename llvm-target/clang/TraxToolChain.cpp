@@ -72,6 +72,7 @@ void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const Stack
       "-ffunction-sections",  // a 4 kB instruction cache: the linker drops what is not called
       "-fdata-sections",
       "-fno-addrsig",
+      "-fstack-size-section", // the linker checks the worst depth of the stack
       "-fno-math-errno",
       "-ffp-contract=off",      // there is no fused multiply-add
       "-ftls-model=local-exec", // thread-local data has absolute addresses

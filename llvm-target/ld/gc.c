@@ -108,17 +108,26 @@ static void trace(marker *marker) {
   }
 }
 
+/* With the debug information goes the compiler's account of stack sizes, which the linker still reads itself. */
+static void drop_stack_sizes(ld_context *ctx) {
+  for (size_t i = 0; ctx->options.strip_debug && i < ctx->sections.count; i++)
+    if (strcmp(ctx->sections.items[i]->name, ".stack_sizes") == 0)
+      ctx->sections.items[i]->live = false;
+}
+
 void ld_mark_live(ld_context *ctx) {
   if (!ctx->options.gc_sections) {
     mark_all(ctx);
+    drop_stack_sizes(ctx);
     return;
   }
   marker marker = {.ctx = ctx};
   mark_roots(&marker);
   trace(&marker);
+  drop_stack_sizes(ctx);
   for (size_t i = 0; ctx->options.print_gc_sections && i < ctx->sections.count; i++) {
     const ld_section *section = ctx->sections.items[i];
-    if (!section->live && !section->discarded)
+    if (!section->live && !section->discarded && (section->flags & SHF_ALLOC))
       printf("removing unused section %s:(%s)\n", section->object->name, section->name);
   }
 }

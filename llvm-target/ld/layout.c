@@ -2,7 +2,6 @@
    R-X, R-- and RW-, in ascending addresses from options.text_start; thread-local data in local memory; the rest has no
    address. */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <stdlib.h>
 #include <string.h>

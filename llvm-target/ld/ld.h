@@ -6,6 +6,8 @@
      merge     string and constant sections cut into pieces
      gc        what the program can reach                -> section.live, piece.live
      layout    output sections, segments, addresses      -> context.outputs, context.segments
+     callgraph functions and their calls                 -> context.functions
+     stack     the worst stack depth, or an error        -> context.stack_report
      output    the image: headers, contents, symbol table; relocate applies the relocations in it
      map       the optional reports
 
@@ -13,6 +15,8 @@
    whether the link is still free of them. Memory belongs to the context and is freed with it. */
 #ifndef TRAX_LD_H
 #define TRAX_LD_H
+
+#include "trax/abi.h"
 
 #include <elf.h>
 #include <libelf.h>
@@ -104,6 +108,8 @@ typedef struct ld_defsym {
   uint32_t offset;
 } ld_defsym;
 
+typedef enum ld_stack_check { LD_STACK_ERROR, LD_STACK_WARN, LD_STACK_NONE } ld_stack_check;
+
 typedef struct ld_options {
   const char *output;
   const char *entry;
@@ -117,7 +123,9 @@ typedef struct ld_options {
   unsigned error_limit; /* 0: none */
   unsigned response_files; /* read so far */
   bool allow_multiple_definition;
-  bool gc_sections, print_gc_sections, print_memory_usage;
+  uint32_t stack_size;  /* bytes that the stack may take; 0: what local memory has */
+  ld_stack_check stack_check;
+  bool gc_sections, print_gc_sections, print_memory_usage, print_stack;
   bool strip_all, strip_debug;
   bool fatal_warnings, no_warnings, trace;
   bool help, version, version_only; /* asked for; version_only: and nothing else */
@@ -128,6 +136,12 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv);
 void ld_print_help(FILE *out);
 
 /* --- object.c, archive.c, input.c: what is linked --- */
+
+enum {
+#define LD_NUMBER(name, number) name = number,
+  TRAX_RELOCATIONS(LD_NUMBER)
+#undef LD_NUMBER
+};
 
 typedef struct ld_reloc {
   uint32_t offset; /* in the section */
@@ -159,7 +173,9 @@ struct ld_section {
   ld_section *merged_into;
   ld_output *output;
   uint32_t output_offset;
-  uint32_t ordinal; /* in the order of the image, for the map */
+  uint32_t ordinal;        /* in the order of the passes that need one */
+  uint32_t first_function; /* in context.functions */
+  uint32_t function_count;
 };
 
 typedef enum ld_symbol_kind {
@@ -276,6 +292,37 @@ bool ld_layout(ld_context *ctx);
 uint32_t ld_section_address(const ld_section *section, uint32_t offset);
 ld_output *ld_output_find(const ld_context *ctx, const char *name);
 
+/* --- callgraph.c --- */
+
+typedef struct ld_call {
+  uint32_t callee; /* in context.functions */
+  uint32_t sites;
+  bool is_tail; /* a jump: the callee returns to the caller's caller */
+} ld_call;
+
+typedef struct ld_function {
+  ld_section *section;
+  const char *name;
+  uint32_t start, end; /* offsets in the section */
+  uint32_t frame;      /* bytes; without a record, what is seen of it */
+  bool has_record;     /* in .stack_sizes */
+  bool moves_sp;       /* by more than a constant */
+  bool is_complete;    /* its symbol has a size */
+  bool runs_constructors, runs_destructors;
+  uint32_t indirect_calls;
+  uint32_t link_registers;     /* with which it is called, a bit for each */
+  uint16_t indirect_jumps[32]; /* by register */
+  LD_VECTOR(ld_call) calls;
+} ld_function;
+
+bool ld_build_call_graph(ld_context *ctx);
+ld_function *ld_function_at(const ld_context *ctx, const ld_section *section, uint32_t offset); /* NULL if none */
+
+/* --- stack.c --- */
+
+/* Computes the worst stack depth; an error, or a warning, if the stack has less room. */
+bool ld_check_stack(ld_context *ctx);
+
 /* --- relocate.c --- */
 
 /* Reports symbols that live code needs and nobody defines. */
@@ -302,7 +349,7 @@ int ld_main(int argc, char **argv);
 
 struct ld_context {
   ld_options options;
-  jmp_buf out_of_memory; /* where the link ends then */
+  jmp_buf out_of_memory;   /* where the link ends then */
   struct ld_chunk *chunks; /* memory */
   unsigned error_count, warning_count;
 
@@ -321,6 +368,12 @@ struct ld_context {
   ld_bounds bounds;
   uint32_t local_size; /* bytes of local memory that thread-local data takes */
   uint32_t entry;
+
+  LD_VECTOR(ld_function) functions;              /* of the live code, in the order of sections and offsets */
+  LD_VECTOR(uint32_t) constructors, destructors; /* functions */
+  uint64_t stack_depth;                          /* bytes: the deepest known path from the entry */
+  bool stack_is_bounded;                         /* whether it is the deepest of all */
+  const char *stack_report;
 
   uint8_t *image;
   size_t image_size;

@@ -8,7 +8,8 @@ static bool link_program(ld_context *ctx) {
     return false;
   ld_split_merge_sections(ctx);
   ld_mark_live(ctx);
-  if (!ld_check_undefined(ctx) || !ld_layout(ctx) || !ld_build_image(ctx) || !ld_relocate(ctx))
+  if (!ld_check_undefined(ctx) || !ld_layout(ctx) || !ld_build_call_graph(ctx) || !ld_check_stack(ctx) ||
+      !ld_build_image(ctx) || !ld_relocate(ctx))
     return false;
   if (ctx->options.fatal_warnings && ctx->warning_count) {
     ld_error(ctx, "%u warning%s, treated as errors", ctx->warning_count, ctx->warning_count == 1 ? "" : "s");

@@ -1,6 +1,5 @@
 /* Reports on a finished link: the map (-Map) and the sizes (--print-memory-usage). */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,6 +130,8 @@ bool ld_write_map(ld_context *ctx) {
   print_removed(ctx, out);
   print_image(ctx, out);
   print_absolute(ctx, out);
+  if (ctx->stack_report)
+    fprintf(out, "\n%s", ctx->stack_report);
   fclose(out);
   bool ok;
   if (strcmp(path, "-") == 0)

@@ -1,7 +1,6 @@
 /* Relocatable ELF objects. libelf reads them; everything in them that is used as an index or a length is checked here.
  */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <gelf.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /* The command line: one table of options, from which parsing and --help both work; response files. */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -14,7 +13,7 @@ typedef enum option_id {
   OPT_FATAL_WARNINGS,
   OPT_GC,
   OPT_HELP,
-  OPT_IGNORED_WITH_WARNING,
+  OPT_KEYWORD,
   OPT_LIBRARY,
   OPT_LIBRARY_PATH,
   OPT_MAP,
@@ -27,7 +26,10 @@ typedef enum option_id {
   OPT_OUTPUT,
   OPT_PRINT_GC,
   OPT_PRINT_MEMORY,
+  OPT_PRINT_STACK,
   OPT_REJECTED,
+  OPT_NO_STACK_CHECK,
+  OPT_STACK_CHECK,
   OPT_STRIP_ALL,
   OPT_STRIP_DEBUG,
   OPT_TEXT_START,
@@ -83,6 +85,11 @@ static const option option_table[] = {
     {"M", NONE, OPT_MAP_STDOUT, NULL, "print the map"},
     {"print-map", NONE, OPT_MAP_STDOUT, NULL, NULL},
     {"print-memory-usage", NONE, OPT_PRINT_MEMORY, NULL, "print the sizes of text, data and local memory"},
+    {"print-stack", NONE, OPT_PRINT_STACK, NULL, "print the deepest path of calls, and what has no bound"},
+    {"stack-check", VALUE, OPT_STACK_CHECK, "MODE", "a stack too deep for its room: error (default), warn or none"},
+    {"no-stack-check", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
+    {"no-check-stack", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
+    {"z", JOINED, OPT_KEYWORD, "stack-size=N", "the stack's room is N bytes (default: what local memory has left)"},
     {"t", NONE, OPT_TRACE, NULL, "print the files that are linked"},
     {"trace", NONE, OPT_TRACE, NULL, NULL},
     {"verbose", NONE, OPT_TRACE, NULL, NULL},
@@ -112,7 +119,6 @@ static const option option_table[] = {
     {"build-id", NONE, OPT_ACCEPTED, NULL, NULL},
     {"color-diagnostics", NONE, OPT_ACCEPTED, NULL, NULL},
     {"O", JOINED, OPT_ACCEPTED, "LEVEL", NULL},
-    {"z", JOINED, OPT_IGNORED_WITH_WARNING, "KEYWORD", NULL},
     /* What this linker does not do. */
     {"r", NONE, OPT_REJECTED, NULL, "relocatable output is not supported; archives (llvm-ar) hold objects together"},
     {"relocatable", NONE, OPT_REJECTED, NULL, "relocatable output is not supported; archives (llvm-ar) hold objects together"},
@@ -219,6 +225,25 @@ static void set_error_limit(ld_context *ctx, const char *value) {
     ld_error(ctx, "--error-limit=%s: not a number", value);
 }
 
+static void set_stack_check(ld_context *ctx, const char *value) {
+  static const char *const modes[] = {[LD_STACK_ERROR] = "error", [LD_STACK_WARN] = "warn", [LD_STACK_NONE] = "none"};
+  for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++)
+    if (strcmp(value, modes[i]) == 0) {
+      ctx->options.stack_check = (ld_stack_check)i;
+      return;
+    }
+  ld_error(ctx, "--stack-check=%s: must be error, warn or none", value);
+}
+
+/* -z: other linkers' keywords are about what this machine does not have. */
+static void set_keyword(ld_context *ctx, const char *value) {
+  static const char stack_size[] = "stack-size=";
+  if (!ld_starts_with(value, stack_size))
+    ld_warning(ctx, "-z %s is ignored", value);
+  else if (!ld_parse_number(value + strlen(stack_size), &ctx->options.stack_size) || !ctx->options.stack_size)
+    ld_error(ctx, "-z %s: not a number of bytes", value);
+}
+
 static void apply(ld_context *ctx, const option *option, const char *spelled, const char *value, bool *whole_archive) {
   ld_options *options = &ctx->options;
   switch (option->id) {
@@ -244,8 +269,8 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   case OPT_HELP:
     options->help = true;
     break;
-  case OPT_IGNORED_WITH_WARNING:
-    ld_warning(ctx, "-z %s is ignored", value);
+  case OPT_KEYWORD:
+    set_keyword(ctx, value);
     break;
   case OPT_LIBRARY: {
     ld_input input = {.name = value, .is_library = true, .whole_archive = *whole_archive};
@@ -276,6 +301,15 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
     break;
   case OPT_PRINT_MEMORY:
     options->print_memory_usage = true;
+    break;
+  case OPT_PRINT_STACK:
+    options->print_stack = true;
+    break;
+  case OPT_NO_STACK_CHECK:
+    options->stack_check = LD_STACK_NONE;
+    break;
+  case OPT_STACK_CHECK:
+    set_stack_check(ctx, value);
     break;
   case OPT_REJECTED:
     ld_error(ctx, "%s: %s", spelled, option->help);

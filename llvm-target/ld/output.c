@@ -1,6 +1,5 @@
 /* The executable: file header, program headers, contents, symbol table, section headers, in this order. */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <string.h>
 

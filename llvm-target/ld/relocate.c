@@ -1,6 +1,5 @@
 /* Relocations: the table of docs/abi.md. S is the symbol's address, A the addend, P the place's own address. */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <string.h>
 
@@ -9,15 +8,10 @@ static const char *const reloc_names[] = {
     TRAX_RELOCATIONS(NAME)
 #undef NAME
 };
-enum {
-#define NUMBER(name, number) name = number,
-  TRAX_RELOCATIONS(NUMBER)
-#undef NUMBER
-      RELOC_COUNT = sizeof reloc_names / sizeof reloc_names[0]
-};
+#define RELOC_COUNT (sizeof reloc_names / sizeof reloc_names[0])
 
 static uint32_t field_bytes(uint32_t type) {
-  return type == R_TRAX_NONE ? 0 : type == R_TRAX_8 ? 1 : type == R_TRAX_16 ? 2 : 4;
+  return type == R_TRAX_NONE || type == R_TRAX_JUMP ? 0 : type == R_TRAX_8 ? 1 : type == R_TRAX_16 ? 2 : 4;
 }
 
 /* --- places in words --- */
@@ -263,7 +257,7 @@ static void relocate_section(ld_context *ctx, const ld_section *section) {
     }
     place place = {.ctx = ctx, .section = section, .reloc = reloc, .bytes = bytes + reloc->offset};
     uint32_t target;
-    if (reloc->type != R_TRAX_NONE && target_address(&place, &target))
+    if (field_bytes(reloc->type) && target_address(&place, &target))
       apply(&place, target, start + reloc->offset);
   }
 }

@@ -5,7 +5,6 @@
    Two common symbols make one of the larger size and alignment; two strong definitions are an error. A strong reference
    to a lazy symbol takes its archive member, wherever the archive stood on the command line. */
 #include "ld.h"
-#include "trax/abi.h"
 
 #include <string.h>
 

@@ -37,6 +37,9 @@ _start:
   trap r4, TRAX_TRAP_ABORT
 #endif
   .size _start, . - _start
+  .section .stack_sizes, "o", @progbits, .text._start
+  .long _start
+  .uleb128 0
 
 #ifdef TRAX_GLOBAL_STACK
   .section .rodata.str, "aMS", @progbits, 1

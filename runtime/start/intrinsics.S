@@ -9,19 +9,27 @@
 \name:
 .endm
 
+// No frame: docs/abi.md, "Stack sizes".
+.macro end name
+  .size \name, . - \name
+  .section .stack_sizes, "o", @progbits, .text.\name
+  .long \name
+  .uleb128 0
+.endm
+
 function __builtin_trax_rsqrt
   frsqrt r4, r4
   jalr r0, 0(r1)
-  .size __builtin_trax_rsqrt, . - __builtin_trax_rsqrt
+  end __builtin_trax_rsqrt
 
 function __builtin_trax_ainc
   ainc r4, 0(r4)
   jalr r0, 0(r1)
-  .size __builtin_trax_ainc, . - __builtin_trax_ainc
+  end __builtin_trax_ainc
 
 function __builtin_trax_halt
   halt
-  .size __builtin_trax_halt, . - __builtin_trax_halt
+  end __builtin_trax_halt
 
 function __builtin_trax_rdsr
   addi r12, r0, TRAX_SR_COUNT
@@ -45,7 +53,7 @@ function __builtin_trax_rdsr
   jalr r0, 0(r1)
 .Lillegal_register:
   .word 0
-  .size __builtin_trax_rdsr, . - __builtin_trax_rdsr
+  end __builtin_trax_rdsr
 
 function __builtin_trax_trap
   addi r12, r0, TRAX_TRAP_COUNT
@@ -69,4 +77,4 @@ function __builtin_trax_trap
   jalr r0, 0(r1)
 .Lillegal_code:
   .word 0
-  .size __builtin_trax_trap, . - __builtin_trax_trap
+  end __builtin_trax_trap

@@ -22,6 +22,9 @@ setjmp:
   addi r4, r0, 0
   jalr r0, 0(r1)
   .size setjmp, . - setjmp
+  .section .stack_sizes, "o", @progbits, .text.setjmp
+  .long setjmp
+  .uleb128 0
 
   .section .text.longjmp, "ax", @progbits
   .globl longjmp
@@ -46,3 +49,6 @@ longjmp:
   cmovnz r4, r5, r5 // longjmp(e, 0) returns 1
   jalr r0, 0(r1)
   .size longjmp, . - longjmp
+  .section .stack_sizes, "o", @progbits, .text.longjmp
+  .long longjmp
+  .uleb128 0

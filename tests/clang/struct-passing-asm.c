@@ -1,6 +1,6 @@
 // Nothing of a vec3 touches memory.
-// RUN: %clang -O2 -S %s -o - | FileCheck %s
-// RUN: %clang -O2 -S %s -o - | grep -c fmul | FileCheck %s --check-prefix=MULTIPLIES
+// RUN: %clang -O2 -fno-stack-size-section -S %s -o - | FileCheck %s
+// RUN: %clang -O2 -fno-stack-size-section -S %s -o - | grep -c fmul | FileCheck %s --check-prefix=MULTIPLIES
 // MULTIPLIES: {{^}}3{{$}}
 
 typedef struct { float x, y, z; } vec3;

@@ -16,7 +16,8 @@
   X(R_TRAX_LO16, 6)                                                                                                    \
   X(R_TRAX_IMM16, 7)                                                                                                   \
   X(R_TRAX_BR16, 8)                                                                                                    \
-  X(R_TRAX_JAL21, 9)
+  X(R_TRAX_JAL21, 9)                                                                                                   \
+  X(R_TRAX_JUMP, 10)
 
 #define TRAX_NULL_END 0x00001000u   /* first valid global address */
 #define TRAX_LOCAL_BASE 0xFFFFFE00u /* first byte of local memory */
