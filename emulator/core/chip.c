@@ -1,7 +1,7 @@
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "core/chip.h"
 
-#include "fast/fast.h"
+#include "fast/engine.h"
 
 #include <string.h>
 #include <time.h>
@@ -25,11 +25,13 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   for (uint32_t i = 0; i < chip->tms; i++)
     if (trax_tm_create(&chip->tm[i], i, machine, &chip->text, options->output, error))
       return TRAX_ERROR;
-  return options->engine == TRAX_ENGINE_FAST ? trax_fast_create(chip, error) : TRAX_OK;
+  chip->engine = options->engine == TRAX_ENGINE_FAST ? trax_fast_best_engine() : NULL;
+  return chip->engine ? chip->engine->create(chip, error) : TRAX_OK;
 }
 
 void trax_chip_destroy(struct trax_chip *chip) {
-  trax_fast_destroy(chip->fast);
+  if (chip->engine)
+    chip->engine->destroy(chip->fast);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
@@ -37,8 +39,8 @@ void trax_chip_destroy(struct trax_chip *chip) {
 }
 
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
-  if (chip->fast)
-    trax_fast_settle(chip->fast);
+  if (chip->engine)
+    chip->engine->settle(chip->fast);
   for (uint32_t i = 0; i < chip->tms; i++)
     trax_tm_settle(&chip->tm[i], cycles);
 }
@@ -60,6 +62,8 @@ static void report_progress(const struct trax_chip *chip, const struct trax_run_
   if (now - poll->reported < PROGRESS_SECONDS)
     return;
   poll->reported = now;
+  if (chip->engine)
+    chip->engine->collect(chip->fast);
   trax_progress progress = {.cycle = t, .total_items = options->total_items, .host_seconds = now - poll->begun};
   for (uint32_t i = 0; i < chip->tms; i++) {
     progress.items += chip->tm[i].stats->items;
@@ -98,8 +102,8 @@ trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options 
     bool faulted = false;
     for (uint32_t i = 0; i < chip->tms; i++)
       if (chip->tm[i].next_cycle <= t) {
-        if (chip->fast)
-          trax_fast_cycle(chip->fast, i, t);
+        if (chip->engine)
+          chip->engine->cycle(chip->fast, i, t);
         else
           trax_tm_cycle(&chip->tm[i], t);
         faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;

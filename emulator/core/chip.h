@@ -11,8 +11,9 @@ struct trax_chip {
   struct trax_tm *tm; /* [tms] */
   uint32_t tms;
   struct trax_memory memory;
-  struct trax_fast *fast; /* NULL: the reference engine runs */
-  uint32_t running;       /* threads that have not ended */
+  const struct trax_fast_engine *engine; /* NULL: the reference engine runs */
+  struct trax_fast *fast;                /* the engine's */
+  uint32_t running;                      /* threads that have not ended */
 };
 
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,

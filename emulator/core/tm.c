@@ -107,28 +107,32 @@ void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t
   }
 }
 
-void trax_tm_arrive(struct trax_tm *tm, uint64_t t) {
+void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, uint64_t t) {
+  switch ((trax_request_kind)request->kind) {
+  case TRAX_REQUEST_INSTRUCTION_LINE:
+    trax_icache_arrival(&tm->icache[request->icache], tm, request->line, t);
+    break;
+  case TRAX_REQUEST_DATA_LINE:
+    trax_dcache_arrival(&tm->dcache, tm, request->line, t);
+    break;
+  case TRAX_REQUEST_ATOMIC:
+    tm->tp[request->tp].reg[request->rd] = request->value;
+    trax_tm_data_arrival(tm, request->tp, request->rd, t);
+    break;
+  case TRAX_REQUEST_LOAD:
+    trax_tm_data_arrival(tm, request->tp, request->rd, t);
+    break;
+  case TRAX_REQUEST_WRITE:
+    break;
+  }
+}
+
+static void arrive(struct trax_tm *tm, uint64_t t) {
   struct trax_queue *queue = &tm->queue;
   while (queue->started && trax_queue_oldest(queue)->completion <= t) {
     const struct trax_request request = *trax_queue_oldest(queue);
     trax_queue_pop(queue);
-    switch ((trax_request_kind)request.kind) {
-    case TRAX_REQUEST_INSTRUCTION_LINE:
-      trax_icache_arrival(&tm->icache[request.icache], tm, request.line, t);
-      break;
-    case TRAX_REQUEST_DATA_LINE:
-      trax_dcache_arrival(&tm->dcache, tm, request.line, t);
-      break;
-    case TRAX_REQUEST_ATOMIC:
-      tm->tp[request.tp].reg[request.rd] = request.value;
-      trax_tm_data_arrival(tm, request.tp, request.rd, t);
-      break;
-    case TRAX_REQUEST_LOAD:
-      trax_tm_data_arrival(tm, request.tp, request.rd, t);
-      break;
-    case TRAX_REQUEST_WRITE:
-      break;
-    }
+    trax_tm_complete(tm, &request, t);
   }
 }
 
@@ -410,7 +414,7 @@ uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
 }
 
 void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
-  trax_tm_arrive(tm, t);
+  arrive(tm, t);
   trax_tm_wake_sleepers(tm, t);
   fetch(tm, t);
   struct asks asks = check_operands(tm, t);

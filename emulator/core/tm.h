@@ -78,7 +78,8 @@ void trax_tm_fault(struct trax_tm *tm, unsigned tp, uint64_t t, trax_fault_kind 
 void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t);
 
 /* The parts of a cycle that both engines use (emulator/fast has its own of the others). */
-void trax_tm_arrive(struct trax_tm *tm, uint64_t t);
+/* A request's completion is t: what it was for. */
+void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, uint64_t t);
 void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t);
 /* In cycle t: TP `tp` sleeps from `since` on and wakes in `until`. */
 void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause);

@@ -38,15 +38,22 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   }
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
   const unsigned issued = (unsigned)(slot->step - ftp->steps);
+  const uint32_t head = slot->step->index;
+  trax_fast_close(ftm, number, 0); /* as if nothing had happened */
   ftp->resume = ftp->begin;
-  ftp->resume_pc = ftp->begin->pc;
+  ftp->resume_pc = fast->program.pc[ftp->begin->step.index];
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);
-  assert(again == issued && ftp->resume == slot->step->inst);
-  (void)again;
-  trax_fast_show(ftm, number);
+  assert(again == issued && ftp->resume->step.index == head);
+  (void)again, (void)head;
+  ftp->last = ftp->steps + issued - 1;
+  trax_fast_close(ftm, number, issued);
   ftp->only = *slot->step;
-  slot->step = slot->last = &ftp->only;
-  ftm->deferred |= bit; /* its class and what it asks for stay */
+  ftp->only.asks |= TRAX_ASKS_SLOWLY;
+  slot->step = ftp->last = &ftp->only;
+  ftm->deferred |= bit; /* what it asks for stays */
+  tp->inst = ftp->resume->decoded;
+  tp->pc = ftp->resume_pc;
+  tp->address = ftp->only.address;
 }
 
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {

@@ -6,10 +6,17 @@
 
 #include <string.h>
 
+#define NOWHERE UINT64_MAX /* no pc */
+
 static bool may_load_ahead(const struct trax_fast *fast, const struct trax_space *space, uint32_t address,
                            uint32_t bytes) {
   return address - TRAX_NULL_END < space->size - TRAX_NULL_END && !(address & (bytes - 1)) &&
          fast->blocks.state[address >> TRAX_BLOCK_SHIFT] != TRAX_BLOCK_WRITTEN;
+}
+
+static unsigned data_bank(const struct trax_fast_tm *ftm, uint32_t address) {
+  const uint32_t banks = ftm->data_banks;
+  return (banks & (banks - 1)) == 0 ? address / 4 & (banks - 1) : address / 4 % banks;
 }
 
 static uint32_t special_register(const struct trax_tm *tm, unsigned tp, uint32_t number) {
@@ -30,41 +37,46 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
   struct trax_fast_tp *const ftp = &ftm->tp[number];
   struct trax_tp *const tp = &ftm->tm->tp[number];
   uint32_t *const reg = tp->reg;
+  const struct trax_fast_program *const program = &fast->program;
   const struct trax_fast_inst *inst = ftp->resume;
   const struct trax_space *const space = &fast->chip->machine->space;
   const struct trax_config *const config = ftm->tm->config;
-  uint32_t address, word;
-  uint32_t pc = ftp->resume_pc;
-  unsigned count = 0;
+  const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_ASKS_SLOWLY : 0;
+  const uint16_t slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0;
+  struct trax_fast_step *step = ftp->steps;
+  const struct trax_fast_step *const end = step + limit;
+  uint32_t address, word, jumps = 0;
+  uint64_t resume_pc = ftp->resume_pc; /* of the outside */
+  int64_t *const changes = ftm->changes;
   ftp->undo_count = 0;
+  changes[inst->step.index]++;
 
 /* What the instructions' semantics are written in (isa/TraxInstructions.td). */
 #define RD reg[inst->rd]
 #define RA reg[inst->ra]
 #define RB reg[inst->rb]
 #define IMM ((uint32_t)inst->imm)
-#define PC pc
+#define PC (program->pc[inst->step.index])
 #define NEXT_PC next_pc
 #define LOAD(ADDRESS, BYTES)                                                                                           \
   (__extension__({                                                                                                     \
-    address = (ADDRESS);                                                                                               \
+    step->address = address = (ADDRESS);                                                                               \
     word = 0;                                                                                                          \
     if (address >= TRAX_LOCAL_BASE && !(address & (BYTES - 1))) {                                                      \
       memcpy(&word, tp->local + (address - TRAX_LOCAL_BASE), BYTES);                                                   \
-      step->class = TRAX_CLASS_LOCAL_LOAD;                                                                             \
+      step->asks = slow_local;                                                                                         \
     } else if (may_load_ahead(fast, space, address, BYTES)) {                                                          \
       memcpy(&word, space->bytes + address, BYTES);                                                                    \
       fast->blocks.state[address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_LOADED;                                             \
-      step->rd = TRAX_NO_REGISTER;                                                                                     \
+      step->asks = (uint16_t)(step->asks | data_bank(ftm, address) << TRAX_ASKS_BANK_SHIFT);                           \
     } else {                                                                                                           \
       goto stop;                                                                                                       \
     }                                                                                                                  \
-    step->address = address;                                                                                           \
     word;                                                                                                              \
   }))
 #define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
   do {                                                                                                                 \
-    address = (ADDRESS);                                                                                               \
+    step->address = address = (ADDRESS);                                                                               \
     if (address < TRAX_LOCAL_BASE || (address & (BYTES - 1)))                                                          \
       goto stop;                                                                                                       \
     struct trax_fast_undo *const undo = &ftp->undo[ftp->undo_count++];                                                 \
@@ -72,7 +84,6 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
     memcpy(&undo->word, tp->local + undo->offset, sizeof undo->word);                                                  \
     word = (VALUE);                                                                                                    \
     memcpy(tp->local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                     \
-    step->address = address;                                                                                           \
   } while (0)
 #define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
 #define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
@@ -91,30 +102,48 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
 #define HALT() goto stop
 #define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), config->special.precision_bits)
 #define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), config->special.precision_bits)
-  while (count < limit) {
-    uint32_t next_pc = pc + 4;
-    struct trax_fast_step *const step = &ftp->steps[count];
-    *step = (struct trax_fast_step){.inst = inst, .class = inst->class, .rd = inst->rd};
-    switch ((trax_op)inst->op) {
-#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
-  case TRAX_OP_##NAME:                                                                                                 \
-    __VA_ARGS__                                                                                                        \
-    break;
+
+  /* Each operation goes on to the next one by itself, which the host's branch predictor learns far better than one
+     switch for all. */
+  __extension__ static const void *const operations[] = {
+#define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
-    case TRAX_OP_ILLEGAL:
-    case TRAX_OP_COUNT:
-      goto stop;
-    }
-    count++;
-    if (next_pc == pc + 4)
-      inst++;
-    else
-      inst = trax_fast_inst_at(&fast->program, next_pc);
-    pc = next_pc;
+      [TRAX_OP_ILLEGAL] = &&stop};
+#define GO_ON()                                                                                                        \
+  do {                                                                                                                 \
+    *step = inst->step;                                                                                                \
+    __extension__({ goto *operations[inst->op]; });                                                                    \
+  } while (0)
+
+  if (step == end)
+    goto stop;
+  GO_ON();
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  do_##NAME : {                                                                                                        \
+    uint64_t next_pc = NOWHERE;                                                                                        \
+    __VA_ARGS__                                                                                                        \
+    if (next_pc != NOWHERE && (uint32_t)next_pc != PC + 4) {                                                           \
+      jumps++;                                                                                                         \
+      changes[inst->step.index + 1]--;                                                                                 \
+      step->asks |= slow_jump;                                                                                         \
+      inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                            \
+      resume_pc = next_pc;                                                                                             \
+      changes[inst->step.index]++;                                                                                     \
+    } else {                                                                                                           \
+      inst++;                                                                                                          \
+    }                                                                                                                  \
+    if (++step == end)                                                                                                 \
+      goto stop;                                                                                                       \
+    GO_ON();                                                                                                           \
   }
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+
 stop:
+  changes[inst->step.index]--;
   ftp->resume = inst;
-  ftp->resume_pc = pc;
-  return count;
+  ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->pc[inst->step.index];
+  ftp->burst_jumps = jumps;
+  return (unsigned)(step - ftp->steps);
 }

@@ -7,20 +7,23 @@ static inline unsigned count_bits(uint64_t mask) {
 
 /* --- arrivals and alarms --- */
 
+/* The reference's arrivals, but lines of instructions are noted. */
+static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  while (tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t) {
+    const struct trax_request request = *trax_queue_oldest(&tm->queue);
+    if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
+      trax_fast_line_arrives(ftm, request.icache, request.line);
+    trax_queue_pop(&tm->queue);
+    trax_tm_complete(tm, &request, t);
+  }
+}
+
 /* Returns those who wake with their instruction; the others ask for one. */
 static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const uint64_t awake = tm->awake;
-  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t) {
-    uint32_t pending = 0;
-    for (uint32_t i = 0; i < tm->icaches; i++)
-      pending += tm->icache[i].pending_count;
-    trax_tm_arrive(tm, t);
-    for (uint32_t i = 0; i < tm->icaches; i++)
-      pending -= tm->icache[i].pending_count;
-    if (pending)
-      ftm->same_line = 0; /* an instruction line came, and perhaps in the place of another */
-  }
+  arrive(ftm, t);
   if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
     trax_tm_wake_sleepers(tm, t);
   const uint64_t woken = tm->awake & ~awake;
@@ -39,61 +42,52 @@ static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
   }
 }
 
-/* Returns the losers. */
+/* Grants the instruction caches' banks; returns the losers, who go on asking. */
 static uint64_t lose_fetches(struct trax_fast_tm *ftm) {
   const uint32_t ports = ftm->tm->config->icache.ports_per_bank;
+  uint64_t *const asking = (uint64_t *)ftm->asking, *const last = (uint64_t *)ftm->last;
   uint64_t losers = 0;
-  for (uint32_t i = 0; i < ftm->tm->icaches; i++) {
-    struct trax_fast_icache *icache = &ftm->icache[i];
-    uint64_t asked = 0, conflicts = 0;
-    for (uint64_t rest = icache->conflicts; rest; rest &= rest - 1) {
-      struct trax_fast_bank *bank = &icache->bank[trax_first(rest)];
-      uint64_t asking = bank->asking, last = bank->last;
-      for (uint32_t port = 0; port < ports && asking; port++) {
-        last = trax_fast_first_after(last, asking);
-        asking ^= last;
-      }
-      losers |= asking;
-      bank->last = last;
-      bank->asking = asking ? asking : last;
-      asked |= asking ? rest & -rest : 0;
-      conflicts |= asking & (asking - 1) ? rest & -rest : 0;
+  for (uint32_t base = 0; base < ftm->banks; base += 64) {
+    const uint32_t end = base + 64 < ftm->banks ? base + 64 : ftm->banks;
+    uint64_t contended = 0;
+    for (uint32_t bank = base; bank < end; bank += TRAX_FAST_LANES) {
+      trax_fast_lanes *const asks = &ftm->asking[bank / TRAX_FAST_LANES];
+      const trax_fast_lanes all = *asks;
+      contended |= (uint64_t)trax_fast_contended(asks) << (bank - base);
+      const trax_fast_lanes single = all ^ *asks;
+      trax_fast_lanes *const latest = &ftm->last[bank / TRAX_FAST_LANES];
+      *latest = single | (*latest & (trax_fast_lanes)(single == 0));
     }
-    icache->banks = asked;
-    icache->conflicts = conflicts;
+    for (; contended; contended &= contended - 1) {
+      const unsigned bank = base + trax_first(contended);
+      uint64_t askers = asking[bank], latest = last[bank];
+      uint32_t port = 0;
+      do {
+        latest = trax_fast_first_after(latest, askers);
+        askers ^= latest;
+      } while (__builtin_expect(++port < ports, false) && askers);
+      last[bank] = latest;
+      asking[bank] = askers;
+      losers |= askers;
+    }
   }
   return losers;
 }
 
-/* Returns those who hold their instructions now. */
-static uint64_t fetch(struct trax_fast_tm *ftm, uint64_t t) {
+/* A bank has let the TP look up the line of its head. True if it is there. */
+static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  if (ftm->outside)
-    fault_outside(ftm, t);
-  const uint64_t askers = tm->awake & ~tm->holding;
-  if (!askers)
-    return 0;
-  const uint64_t losers = lose_fetches(ftm);
-  const uint64_t winners = askers & ~losers;
-  trax_fast_count(&ftm->tally[TRAX_CAUSE_ICACHE_BANK], losers);
-
-  uint64_t hits = winners;
-  for (uint64_t rest = winners & ~ftm->same_line; rest; rest &= rest - 1) {
-    const unsigned number = trax_first(rest);
-    const struct trax_fast_slot *slot = &ftm->slot[number];
-    if (trax_fast_is_resident(slot->icache->tags, slot->step->inst)) {
-      ftm->same_line |= rest & -rest;
-      continue;
-    }
-    hits ^= rest & -rest;
-    trax_fast_show(ftm, number);
-    trax_icache_look_up(&tm->icache[ftm->icache_of[number]], tm, number, t);
-    if (tm->awake & rest & -rest)
-      trax_fast_ask_fetch(ftm, number); /* refused by the memory queue */
-  }
-  tm->stats->icache_hits += count_bits(hits);
-  tm->holding |= hits;
-  return hits;
+  const struct trax_fast_slot *slot = &ftm->slot[number];
+  struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
+  if (slot->resident[slot->step->line])
+    return true;
+  trax_fast_show(ftm, number);
+  if (trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc)))
+    return true;
+  trax_icache_look_up(icache, tm, number, t);
+  if (tm->awake >> number & 1)
+    trax_fast_ask_fetch(ftm, number); /* refused by the memory queue */
+  return false;
 }
 
 /* --- step 2 --- */
@@ -103,15 +97,13 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  const uint64_t bit = (uint64_t)1 << number;
-  trax_fast_class class = (trax_fast_class)ftm->slot[number].step->inst->class;
-  ftm->want[TRAX_CLASS_DEFERRED] &= ~bit;
+  uint16_t asks = ftm->fast->program.inst[ftm->slot[number].step->index].step.asks;
   if (inst->ask == TRAX_ASK_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
   }
   if (inst->ask == TRAX_ASK_END)
-    class = TRAX_CLASS_QUEUE;
+    asks = TRAX_ASKS_QUEUE;
   if (inst->ask == TRAX_ASK_MEMORY) {
     tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
     const trax_fault_kind kind = trax_tp_check_access(tp, &tm->machine->space, tp->address);
@@ -120,15 +112,15 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
       return false;
     }
     if (tp->address >= TRAX_LOCAL_BASE)
-      class = inst->is_store ? TRAX_CLASS_LOCAL_STORE : TRAX_CLASS_LOCAL_LOAD;
+      asks = 0;
     else if (inst->is_nontemporal || inst->is_atomic)
-      class = TRAX_CLASS_QUEUE;
+      asks = TRAX_ASKS_QUEUE;
     else {
-      class = TRAX_CLASS_BANK;
+      asks = (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);
       ftm->tp[number].only.address = tp->address;
     }
   }
-  ftm->want[class] |= bit;
+  ftm->asks[number] = asks;
   return true;
 }
 
@@ -137,7 +129,7 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   trax_fast_show(ftm, number);
   const struct trax_tp *tp = &tm->tp[number];
   if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL) {
-    ftm->slot[number].busy &= ~ftm->slot[number].step->inst->waits;
+    ftm->slot[number].busy &= ~ftm->slot[number].step->waits;
     return true;
   }
   uint64_t until = 0;
@@ -151,71 +143,57 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   return false;
 }
 
-/* fetched: those who hold their instructions since this cycle; woken: those whose operands may be usable now. */
-static void check_operands(struct trax_fast_tm *ftm, uint64_t fetched, uint64_t woken, uint64_t t) {
-  uint64_t passed = fetched & ftm->clear & ~woken;
-  for (uint64_t rest = (fetched | woken) & ~passed; rest; rest &= rest - 1)
-    if (operands_usable(ftm, trax_first(rest), t))
+/* Steps 1 and 2; woken: those whose operands may be usable now. */
+static void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, struct trax_fast_lost *lost, uint64_t t) {
+  struct trax_tm *tm = ftm->tm;
+  if (ftm->outside)
+    fault_outside(ftm, t);
+  const uint64_t askers = tm->awake & ~tm->holding;
+  uint64_t hits = 0;
+  if (askers) {
+    const uint64_t losers = lose_fetches(ftm);
+    lost->fetch = losers;
+    hits = askers & ~losers;
+  }
+  uint64_t passed = hits & ftm->smooth;
+  for (uint64_t rest = hits & ~passed; rest; rest &= rest - 1)
+    if (!look_up(ftm, trax_first(rest), t))
+      hits ^= rest & -rest;
+  tm->stats->icache_hits += count_bits(hits);
+  tm->holding |= hits;
+  for (uint64_t rest = (hits & ~passed) | woken; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
+    if (operands_usable(ftm, number, t) && (!(ftm->deferred >> number & 1) || classify(ftm, number, t)))
       passed |= rest & -rest;
-  for (uint64_t rest = passed & ftm->want[TRAX_CLASS_DEFERRED]; rest; rest &= rest - 1)
-    if (!classify(ftm, trax_first(rest), t))
-      passed &= ~(rest & -rest);
+  }
   ftm->ready |= passed;
 }
 
 /* --- steps 3 and 4 --- */
 
-/* Charges those who were refused and returns the others. */
-static inline uint64_t refuse(struct trax_fast_tm *ftm, uint64_t askers, uint64_t winners, trax_cause cause) {
-  trax_fast_count(&ftm->tally[cause], askers & ~winners);
-  return winners;
-}
-
-static inline uint64_t grant_unit(struct trax_fast_unit *unit, uint64_t askers) {
-  uint64_t winners = 0;
-  for (uint32_t i = 0; i < unit->groups; i++) {
-    const uint64_t winner = trax_fast_first_after(unit->last[i], askers & unit->group[i]);
-    unit->last[i] = winner ? winner : unit->last[i];
-    winners |= winner;
-  }
-  return winners;
-}
-
-static uint64_t grant_units(struct trax_fast_tm *ftm, uint64_t t) {
-  struct trax_tm *tm = ftm->tm;
-  const uint64_t ready = ftm->ready, *want = ftm->want;
-  uint64_t granted = ready & (want[TRAX_CLASS_OWN] | want[TRAX_CLASS_LOCAL_LOAD] | want[TRAX_CLASS_LOCAL_STORE]);
-  tm->stats->local_loads += count_bits(ready & want[TRAX_CLASS_LOCAL_LOAD]);
-  tm->stats->local_stores += count_bits(ready & want[TRAX_CLASS_LOCAL_STORE]);
-  uint64_t askers;
-  if ((askers = ready & want[TRAX_CLASS_FP_ADD]))
-    granted |= refuse(ftm, askers, grant_unit(&ftm->fp_add, askers), TRAX_CAUSE_FP_ADD);
-  if ((askers = ready & want[TRAX_CLASS_FP_MUL]))
-    granted |= refuse(ftm, askers, grant_unit(&ftm->fp_mul, askers), TRAX_CAUSE_FP_MUL);
-  if ((askers = ready & want[TRAX_CLASS_INT_MUL]))
-    granted |= refuse(ftm, askers, grant_unit(&ftm->int_mul, askers), TRAX_CAUSE_INT_MUL);
-  if ((askers = ready & want[TRAX_CLASS_SPECIAL]))
-    granted |= refuse(ftm, askers, trax_special_unit_grant(&tm->special, askers, t), TRAX_CAUSE_SPECIAL);
-  return granted;
-}
-
-static uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers) {
-  const uint32_t banks = ftm->tm->dcache.banks;
-  const bool power_of_two = (banks & (banks - 1)) == 0;
+/* Those who win a bank of the data cache; `hits` receives those of them whose lines are there and who need no more. */
+static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, const struct trax_fast_planes *asks,
+                                   uint64_t *hits) {
+  const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
   uint64_t asking[TRAX_MAX_TPS_PER_TM];
-  for (uint32_t bank = 0; bank < banks; bank++)
-    asking[bank] = 0;
-  for (uint64_t rest = askers; rest; rest &= rest - 1) {
-    const uint32_t word = ftm->slot[trax_first(rest)].step->address / 4;
-    asking[power_of_two ? word & (banks - 1) : word % banks] |= rest & -rest;
-  }
+  asking[0] = askers;
+  for (unsigned bit = 0; bit < ftm->data_bank_bits; bit++)
+    for (unsigned bank = 0; bank < 1u << bit; bank++) {
+      asking[bank | 1u << bit] = asking[bank] & asks->bit[TRAX_ASKS_BANK_SHIFT + bit];
+      asking[bank] &= ~asks->bit[TRAX_ASKS_BANK_SHIFT + bit];
+    }
   uint64_t winners = 0;
-  for (uint32_t bank = 0; bank < banks; bank++) {
+  *hits = 0;
+  for (uint32_t bank = 0; bank < ftm->data_banks; bank++) { /* without branches: who asks is hard to predict */
     const uint64_t winner = trax_fast_first_after(ftm->data_bank_last[bank], asking[bank]);
     ftm->data_bank_last[bank] = winner ? winner : ftm->data_bank_last[bank];
     winners |= winner;
+    const uint32_t line = trax_line_of(tags, ftm->slot[trax_first(winner | (uint64_t)1 << 63)].step->address);
+    const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
+    *hits |= winner & -(uint64_t)is_there;
   }
-  return refuse(ftm, askers, winners, TRAX_CAUSE_DCACHE_BANK);
+  *hits &= ~ftm->deferred;
+  return winners;
 }
 
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
@@ -226,8 +204,9 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   tm->stats->dcache_hits++;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
-    trax_tp_set_usable(&tm->tp[number], step->inst->rd, t + latency, TRAX_CAUSE_DATA_HIT);
-    ftm->slot[number].busy |= trax_fast_register_bit(step->inst->rd);
+    const unsigned rd = ftm->fast->program.inst[step->index].rd;
+    trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
+    ftm->slot[number].busy |= trax_fast_register_bit(rd);
   }
   return true;
 }
@@ -255,22 +234,49 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
   return granted;
 }
 
-void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
-  struct trax_fast_tm *ftm = &fast->tm[tm_number];
+/* Steps 3 and 4: those who are granted all they ask for. */
+static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const uint64_t woken = wake(ftm, t);
-  const uint64_t fetched = fetch(ftm, t);
-  check_operands(ftm, fetched, woken, t);
-  uint64_t granted = grant_units(ftm, t);
-  uint64_t queue_askers = ftm->ready & ftm->want[TRAX_CLASS_QUEUE];
-  const uint64_t bank_askers = ftm->ready & ftm->want[TRAX_CLASS_BANK];
-  if (bank_askers)
-    queue_askers |= grant_banks(ftm, bank_askers);
+  struct trax_fast_planes asks;
+  trax_fast_transpose(ftm->asks, tm->tps, ftm->data_bank_bits, &asks);
+  const uint64_t ready = ftm->ready;
+  uint64_t granted = ready & ~(asks.bit[1] | asks.bit[2] | asks.bit[3] | asks.bit[4] | asks.bit[5] | asks.bit[6]);
+  uint64_t askers, won;
+  const trax_fast_pair fp_askers = {ready & asks.bit[1], ready & asks.bit[2]};
+  const trax_fast_pair fp_won = trax_fast_grant_units(&ftm->fp, fp_askers);
+  granted |= fp_won[0] | fp_won[1];
+  lost->fp_add = fp_askers[0] & ~fp_won[0];
+  lost->fp_mul = fp_askers[1] & ~fp_won[1];
+  if ((askers = ready & asks.bit[3])) {
+    granted |= won = trax_fast_grant_units(&ftm->int_mul, (trax_fast_pair){askers, 0})[0];
+    lost->int_mul = askers & ~won;
+  }
+  if ((askers = ready & asks.bit[4])) {
+    granted |= won = trax_special_unit_grant(&tm->special, askers, t);
+    lost->special = askers & ~won;
+  }
+  uint64_t queue_askers = ready & asks.bit[6];
+  if ((askers = ready & asks.bit[5])) {
+    uint64_t hits;
+    won = grant_banks(ftm, askers, &asks, &hits);
+    lost->bank = askers & ~won;
+    if (tm->config->dcache.hit_latency_cycles > 1)
+      hits = 0; /* serve sees to that */
+    tm->stats->dcache_hits += count_bits(hits);
+    granted |= hits;
+    queue_askers |= won & ~hits;
+  }
   if (queue_askers)
     granted |= grant_queue(ftm, queue_askers, t);
-  for (unsigned class = 0; class < TRAX_CLASS_COUNT; class ++)
-    ftm->want[class] &= ~granted;
   ftm->ready &= ~granted;
-  trax_fast_issue(ftm, granted, t);
-  tm->next_cycle = trax_tm_next_cycle(tm, t);
+  return granted;
+}
+
+void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
+  struct trax_fast_tm *ftm = &fast->tm[tm_number];
+  struct trax_fast_lost lost = {0};
+  fetch_and_check(ftm, wake(ftm, t), &lost, t);
+  trax_fast_issue(ftm, grant(ftm, &lost, t), t);
+  trax_fast_count(&ftm->tally, &lost);
+  ftm->tm->next_cycle = trax_tm_next_cycle(ftm->tm, t);
 }

@@ -2,45 +2,73 @@
 
 #include "fast/head.h"
 
-static void create_unit(struct trax_fast_unit *unit, const struct trax_shared_unit *reference) {
+#include <string.h>
+
+static void create_unit(struct trax_fast_units *unit, const struct trax_shared_unit *reference) {
   unit->groups = reference->groups;
+  unit->group_size = reference->group_size;
+  unit->even = 64 % unit->group_size == 0;
   for (uint32_t i = 0; i < unit->groups; i++)
     unit->group[i] = trax_group_mask(i, reference->group_size);
+  for (uint32_t i = unit->group_size - 1; unit->even && i < 64; i += unit->group_size)
+    unit->top |= (uint64_t)1 << i;
+  unit->below_top = ~unit->top;
+}
+
+static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
+  const uint32_t vectors = (tm->icaches * tm->config->icache.banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
+  const size_t bytes = vectors * sizeof *ftm->asking;
+  ftm->banks = vectors * TRAX_FAST_LANES;
+  ftm->asking = aligned_alloc(sizeof *ftm->asking, bytes);
+  ftm->last = aligned_alloc(sizeof *ftm->last, bytes);
+  ftm->resident = calloc(tm->icaches, sizeof *ftm->resident);
+  if (!ftm->asking || !ftm->last || !ftm->resident)
+    return false;
+  memset(ftm->asking, 0, bytes);
+  memset(ftm->last, 0, bytes);
+  return true;
 }
 
 static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm, trax_error *error) {
   ftm->fast = fast;
   ftm->tm = tm;
   ftm->tp = calloc(tm->tps, sizeof *ftm->tp);
-  if (!ftm->tp)
+  ftm->changes = calloc(fast->program.inst_count + 1, sizeof *ftm->changes);
+  if (!create_fetch(ftm, tm) || !ftm->tp || !ftm->changes)
     return trax_fail(error, "out of memory");
-  for (uint32_t i = 0; i < tm->icaches; i++)
-    ftm->icache[i].tags = &tm->icache[i].tags;
-  create_unit(&ftm->fp_add, &tm->fp_add);
-  create_unit(&ftm->fp_mul, &tm->fp_mul);
+  ftm->data_banks = tm->dcache.banks;
+  while (1u << ftm->data_bank_bits < ftm->data_banks)
+    ftm->data_bank_bits++;
+  create_unit(&ftm->fp, &tm->fp_add);
   create_unit(&ftm->int_mul, &tm->int_mul);
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++)
+    ftm->slot[i].step = &ftm->tp[0].only; /* those that do not exist are looked at in place of nobody */
   for (unsigned i = 0; i < tm->tps; i++) {
-    ftm->icache_of[i] = (uint8_t)(i / tm->config->icache.tps_per_cache);
-    ftm->slot[i].icache = &ftm->icache[ftm->icache_of[i]];
+    const uint32_t icache = i / tm->config->icache.tps_per_cache;
+    ftm->icache_of[i] = (uint8_t)icache;
+    ftm->slot[i].resident = ftm->resident[icache];
+    ftm->slot[i].asking = (uint64_t *)ftm->asking + icache * tm->config->icache.banks;
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
-    ftm->slot[i].step = ftm->slot[i].last = &ftm->tp[i].only;
+    ftm->slot[i].step = ftm->tp[i].last = &ftm->tp[i].only;
     trax_fast_advance(ftm, i);
     trax_fast_ask_fetch(ftm, i);
   }
   return TRAX_OK;
 }
 
-trax_status trax_fast_create(struct trax_chip *chip, trax_error *error) {
+static trax_status create(struct trax_chip *chip, trax_error *error) {
   struct trax_machine *machine = chip->machine;
   struct trax_fast *fast = chip->fast = calloc(1, sizeof *fast);
   if (!fast)
     return trax_fail(error, "out of memory");
   fast->chip = chip;
   fast->burst = machine->trace ? 1 : TRAX_BURST;
-  fast->tm = calloc(chip->tms, sizeof *fast->tm);
+  const size_t bytes = chip->tms * sizeof *fast->tm;
+  fast->tm = aligned_alloc(_Alignof(struct trax_fast_tm), bytes);
   if (!fast->tm)
     return trax_fail(error, "out of memory");
+  memset(fast->tm, 0, bytes);
   if (trax_fast_blocks_create(&fast->blocks, machine->space.size, error) ||
       trax_fast_program_create(&fast->program, &chip->text, &machine->config, error))
     return TRAX_ERROR;
@@ -50,23 +78,73 @@ trax_status trax_fast_create(struct trax_chip *chip, trax_error *error) {
   return TRAX_OK;
 }
 
-void trax_fast_destroy(struct trax_fast *fast) {
+static void destroy(struct trax_fast *fast) {
   if (!fast)
     return;
-  for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++)
+  for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++) {
     free(fast->tm[i].tp);
+    free(fast->tm[i].changes);
+    free(fast->tm[i].asking);
+    free(fast->tm[i].last);
+    free(fast->tm[i].resident);
+  }
   free(fast->tm);
   trax_fast_blocks_destroy(&fast->blocks);
   trax_fast_program_destroy(&fast->program);
   free(fast);
 }
 
-void trax_fast_settle(struct trax_fast *fast) {
+static void collect(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
-    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
-      for (unsigned bit = 0; bit < 64; bit++)
-        for (uint64_t tps = ftm->tally[cause].planes[bit]; tps; tps &= tps - 1)
-          ftm->tm->tp_stats[trax_first(tps)].cycles[cause] += (uint64_t)1 << bit;
+    int64_t count = 0;
+    for (size_t index = 0; index < fast->program.inst_count; index++) {
+      count += ftm->changes[index];
+      ftm->tm->stats->instructions[fast->program.inst[index].decoded->op] += (uint64_t)count;
+      ftm->changes[index] = 0;
+    }
+    ftm->changes[fast->program.inst_count] = 0;
   }
 }
+
+/* Loads and stores that went neither past nor through the data cache. */
+static void count_local(struct trax_tm_stats *stats) {
+  const uint64_t *count = stats->instructions;
+  stats->local_loads = count[TRAX_OP_LB] + count[TRAX_OP_LBU] + count[TRAX_OP_LH] + count[TRAX_OP_LHU] +
+                       count[TRAX_OP_LW] - stats->dcache_hits - stats->dcache_merged - stats->dcache_misses;
+  stats->local_stores =
+      count[TRAX_OP_SB] + count[TRAX_OP_SH] + count[TRAX_OP_SW] - stats->store_hits - stats->store_misses;
+}
+
+static void charge_losses(struct trax_fast_tm *ftm) {
+  static const trax_cause causes[] = {TRAX_CAUSE_ICACHE_BANK, TRAX_CAUSE_FP_ADD,  TRAX_CAUSE_FP_MUL,
+                                      TRAX_CAUSE_INT_MUL,     TRAX_CAUSE_SPECIAL, TRAX_CAUSE_DCACHE_BANK};
+  for (unsigned bit = 0; bit < 64; bit++)
+    for (unsigned lost = 0; lost < sizeof causes / sizeof *causes; lost++)
+      for (uint64_t tps = ftm->tally.planes[bit][lost / 4][lost % 4]; tps; tps &= tps - 1)
+        ftm->tm->tp_stats[trax_first(tps)].cycles[causes[lost]] += (uint64_t)1 << bit;
+}
+
+static void settle(struct trax_fast *fast) {
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    struct trax_fast_tm *ftm = &fast->tm[i];
+    for (unsigned tp = 0; tp < ftm->tm->tps; tp++) {
+      struct trax_fast_tp *ftp = &ftm->tp[tp];
+      if (ftm->slot[tp].step != &ftp->only && !(ftm->tm->ended >> tp & 1))
+        trax_fast_close(ftm, tp, (unsigned)(ftm->slot[tp].step - ftp->steps));
+      ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftp->issued;
+      ftm->tm->stats->taken_branches += ftp->jumps;
+    }
+    charge_losses(ftm);
+  }
+  collect(fast);
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    count_local(fast->tm[i].tm->stats);
+}
+
+#ifdef TRAX_FAST_V3
+const struct trax_fast_engine trax_fast_engine_v3
+#else
+const struct trax_fast_engine trax_fast_engine
+#endif
+    = {create, destroy, trax_fast_cycle, collect, settle};

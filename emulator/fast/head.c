@@ -23,12 +23,14 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   }
   if (count) {
     ftm->deferred &= ~bit;
+    ftp->steps[count - 1].asks |= TRAX_ASKS_SLOWLY;
     slot->step = ftp->steps;
-    slot->last = ftp->steps + count - 1;
+    ftp->last = ftp->steps + count - 1;
   } else {
     ftm->deferred |= bit;
-    ftp->only = (struct trax_fast_step){.inst = ftp->resume, .class = TRAX_CLASS_DEFERRED};
-    slot->step = slot->last = &ftp->only;
+    ftp->only = ftp->resume->step;
+    ftp->only.asks = TRAX_ASKS_SLOWLY;
+    slot->step = ftp->last = &ftp->only;
     tp->inst = ftp->resume->decoded;
     tp->pc = ftp->resume_pc;
   }
@@ -37,15 +39,13 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_slot *slot = &ftm->slot[number];
-  if (slot->step == slot->last)
+  if (slot->step == ftm->tp[number].last)
     trax_fast_refill(ftm, number);
   else
     slot->step++;
-  const struct trax_fast_inst *head = slot->step->inst;
-  ftm->want[slot->step->class] |= bit;
-  ftm->clear = (ftm->clear & ~bit) | (head->waits & slot->busy ? 0 : bit);
-  ftm->same_line &= ~bit;
-  return ftm->deferred & bit ? ftm->tm->tp[number].pc : head->pc;
+  ftm->asks[number] = slot->step->asks;
+  ftm->smooth = (ftm->smooth & ~bit) | (trax_fast_is_smooth(slot, slot->step) ? bit & ~ftm->deferred : 0);
+  return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[slot->step->index];
 }
 
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
@@ -53,7 +53,42 @@ void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred >> number & 1)
     return; /* set when it became the head, and its address since */
-  tp->inst = step->inst->decoded;
-  tp->pc = step->inst->pc;
+  tp->inst = ftm->fast->program.inst[step->index].decoded;
+  tp->pc = ftm->fast->program.pc[step->index];
   tp->address = step->address;
+}
+
+void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned issued) {
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  const unsigned executed = (unsigned)(ftp->last - ftp->steps) + 1;
+  ftp->issued += issued;
+  ftp->jumps += ftp->burst_jumps;
+  for (unsigned i = issued; i < executed; i++) { /* takes back what did not happen */
+    const uint32_t index = ftp->steps[i].index;
+    const uint32_t next = i + 1 < executed ? ftp->steps[i + 1].index : ftp->resume->step.index;
+    ftm->changes[index]--;
+    ftm->changes[index + 1]++;
+    ftp->jumps -= next != index + 1;
+  }
+}
+
+void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned number, uint32_t line) {
+  uint8_t *const resident = ftm->resident[number];
+  const struct trax_fast_program *program = &ftm->fast->program;
+  const struct trax_cache_tags *tags = &ftm->tm->icache[number].tags;
+  const uint32_t set = line & tags->set_mask;
+  const uint64_t gone = tags->lines[(size_t)set * tags->ways + tags->next[set]]; /* its number + 1 */
+  for (size_t i = 0; i < program->count; i++) {
+    const struct trax_fast_section *section = &program->sections[i];
+    const uint64_t last_line = (section->begin + section->bytes) >> tags->line_shift;
+    const uint64_t comes_as = section->line + (uint64_t)line - section->first_line;
+    const uint64_t goes_as = section->line + gone - 1 - section->first_line;
+    if (gone > section->first_line && gone - 1 <= last_line && goes_as < TRAX_FAST_LINES - 1)
+      resident[goes_as] = 0;
+    if (line >= section->first_line && line <= last_line && comes_as < TRAX_FAST_LINES - 1)
+      resident[comes_as] = 1;
+  }
+  for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
+    if (ftm->icache_of[tp] == number && !resident[ftm->slot[tp].step->line])
+      ftm->smooth &= ~((uint64_t)1 << tp);
 }

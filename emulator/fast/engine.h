@@ -1,0 +1,40 @@
+/* The fast engine as the chip sees it. It is compiled twice where the host may have more than its family's least
+   instructions: bits and vectors are what the engine is made of. */
+#ifndef TRAX_FAST_ENGINE_H
+#define TRAX_FAST_ENGINE_H
+
+#include "trax/emulator.h"
+
+#include <stdint.h>
+
+struct trax_chip;
+struct trax_fast;
+
+struct trax_fast_engine {
+  /* Into chip->fast. */
+  trax_status (*create)(struct trax_chip *chip, trax_error *error);
+  void (*destroy)(struct trax_fast *fast); /* which may be NULL */
+  /* Arrivals and the five steps of a TM; sets its next_cycle. */
+  void (*cycle)(struct trax_fast *fast, uint32_t tm, uint64_t t);
+  /* Adds the instructions executed since the last call to the TMs' statistics; before the run's end, also those that
+     ran ahead. */
+  void (*collect)(struct trax_fast *fast);
+  /* Completes statistics and charges at the run's end. */
+  void (*settle)(struct trax_fast *fast);
+};
+
+extern const struct trax_fast_engine trax_fast_engine;
+#ifdef TRAX_FAST_HAVE_V3
+extern const struct trax_fast_engine trax_fast_engine_v3; /* for x86-64-v3: AVX2, BMI2 */
+#endif
+
+static inline const struct trax_fast_engine *trax_fast_best_engine(void) {
+#ifdef TRAX_FAST_HAVE_V3
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+      __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("fma"))
+    return &trax_fast_engine_v3;
+#endif
+  return &trax_fast_engine;
+}
+
+#endif
