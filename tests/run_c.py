@@ -6,7 +6,8 @@
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
 
 Standard output must equal the file beside the program with the ending .expected, byte for byte, and the exit status the one given
-(default 0). With --fault TEXT the program must end in a fault report (status 1) that contains TEXT, once for each --fault.
+(default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
+the status 1 or, if it aborts, the one given.
 The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
 each level that does not.
 """
@@ -57,7 +58,7 @@ def check_level(options, level, expected):
         return None
     command = [options.sim, *shlex.split(options.simflags), binary]
     status, output, error = run(command)
-    if status != (1 if options.fault else options.status):
+    if status != (options.status or (1 if options.fault else 0)):
         return describe(command, status, error) + output.decode(errors="replace")[-2000:]
     for text in options.fault:
         if text not in error.decode(errors="replace"):

@@ -10,6 +10,7 @@
 #include "clang/Driver/Options.h"
 #include "clang/Driver/ToolChain.h"
 #include "llvm/Option/ArgList.h"
+#include "llvm/Support/FileSystem.h"
 #include "llvm/Support/Path.h"
 
 using namespace clang;
@@ -77,19 +78,31 @@ void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const Stack
       "-ffp-contract=off",      // there is no fused multiply-add
       "-ftls-model=local-exec", // thread-local data has absolute addresses
       "-fdebug-default-version=4",
-      "-fno-exceptions", // C++: no unwinder, no type information, no start-up races
+      "-fno-exceptions", // C++: no unwinder, no type information
       "-fno-rtti",
-      "-fno-threadsafe-statics",
   };
-  bool NoHeaders = false;
-  for (const char *Given : llvm::drop_begin(Args))
-    NoHeaders |= Given && (StringRef(Given) == "-nostdinc" || StringRef(Given) == "-nostdlibinc");
+  bool NoHeaders = false, NoCXXHeaders = false;
+  for (const char *Given : llvm::drop_begin(Args)) {
+    const StringRef Option = Given ? Given : "";
+    NoHeaders |= Option == "-nostdinc" || Option == "--no-standard-includes" || Option == "-nostdlibinc";
+    NoCXXHeaders |= Option == "-nostdinc++";
+  }
 
   llvm::SmallVector<const char *, 32> Inserted{"--start-no-unused-arguments"};
   Inserted.append(std::begin(Defaults), std::end(Defaults));
   if (Stack.isGlobal())
     for (const char *Part : {"-Xclang", "-target-feature", "-Xclang", "+global-stack"})
       Inserted.push_back(Part);
+  if (!NoHeaders && !NoCXXHeaders) {
+    // libc++ as Debian has it, behind our description of what it can rely on, before clang's own headers.
+    std::string Headers = (RuntimeDir + "/include/c++/v1").str();
+    if (!llvm::sys::fs::exists(Headers + "/vector"))
+      Headers = TRAX_LIBCXX_DIR;
+    for (const std::string &Directory : {(RuntimeDir + "/include/c++").str(), Headers}) {
+      Inserted.push_back("-cxx-isystem");
+      Inserted.push_back(Strings.save(Directory).data());
+    }
+  }
   if (!NoHeaders) {
     // Like a system's /usr/include: behind clang's own headers, which include_next it, and C even when C++ includes it.
     const char *Directory = Strings.save(RuntimeDir + "/include").data();
@@ -199,9 +212,10 @@ std::unique_ptr<Command> trax::Linker::makeCommand(const Compilation &C, const A
       Out.push_back(Input.getFilename());
       continue;
     }
-    // The functions of <math.h> are in libc.a.
+    // libc.a has the functions of <math.h> and what C++ needs.
     const Arg &Option = Input.getInputArg();
-    if (NoLibraries || !Option.getOption().matches(OPT_l) || StringRef(Option.getValue()) != "m")
+    static constexpr StringRef Contained[] = {"m", "c++", "c++abi", "stdc++", "supc++"};
+    if (NoLibraries || !Option.getOption().matches(OPT_l) || !llvm::is_contained(Contained, Option.getValue()))
       Option.renderAsInput(Args, Out);
   }
   if (!NoLibraries)

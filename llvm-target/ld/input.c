@@ -76,6 +76,23 @@ static void add_input(ld_context *ctx, const ld_input *input) {
   }
 }
 
+/* The start file calls these functions of the runtime if they are there (weakly), and they are taken from its archive
+   only for programs that have something for them to do (docs/abi.md, "Program start"). */
+static void offer_start_work(ld_context *ctx) {
+  bool start = false, end = false;
+  for (size_t i = 0; i < ctx->sections.count; i++) {
+    const ld_section *section = ctx->sections.items[i];
+    if (section->discarded || section->size == 0)
+      continue;
+    start |= section->type == SHT_INIT_ARRAY || (section->flags & SHF_TLS && section->type != SHT_NOBITS);
+    end |= section->type == SHT_FINI_ARRAY;
+  }
+  if (start)
+    ld_symbols_offer(ctx, "__trax_start");
+  if (end)
+    ld_symbols_offer(ctx, "__trax_end_program");
+}
+
 bool ld_load_inputs(ld_context *ctx) {
   const ld_options *options = &ctx->options;
   ld_start_symbols(ctx);
@@ -83,5 +100,7 @@ bool ld_load_inputs(ld_context *ctx) {
     add_input(ctx, &options->inputs.items[i]);
     load_pending(ctx);
   }
+  offer_start_work(ctx);
+  load_pending(ctx);
   return ctx->error_count == 0;
 }

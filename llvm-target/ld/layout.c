@@ -76,7 +76,7 @@ static int output_rank(const ld_output *output) {
   if (!(output->flags & SHF_ALLOC))
     return 100;
   if (output->flags & SHF_TLS)
-    return 90;
+    return 90 + zeros;
   if (output->flags & SHF_EXECINSTR)
     return 0 + zeros;
   if (!(output->flags & SHF_WRITE))
@@ -182,6 +182,23 @@ static void gather(ld_context *ctx) {
 
 /* --- addresses --- */
 
+static bool is_thread_local(const ld_output *output) {
+  return output->rank / 10 == 9;
+}
+
+/* The initial values of thread-local data lie behind the constants; each thread copies them into its local memory. */
+static void place_initial_values(ld_context *ctx, ld_segment *segment, uint64_t *at) {
+  for (size_t i = 0; i < ctx->outputs.count; i++) {
+    ld_output *output = ctx->outputs.items[i];
+    if (!is_thread_local(output) || output->type == SHT_NOBITS || output->size == 0)
+      continue;
+    *at = ld_align(*at, output->alignment < 4 ? 4 : output->alignment);
+    output->load_address = (uint32_t)*at;
+    *at = ld_align(*at + output->size, 4); /* they are copied as words */
+    segment->memory_size = segment->file_size = (uint32_t)(*at - segment->address);
+  }
+}
+
 static void place_segment(ld_context *ctx, int class, uint32_t flags, uint64_t *address) {
   ld_segment segment = {.flags = flags, .address = (uint32_t)ld_align(*address, LD_SEGMENT_ALIGNMENT)};
   uint64_t at = segment.address;
@@ -205,44 +222,37 @@ static void place_segment(ld_context *ctx, int class, uint32_t flags, uint64_t *
   }
   segment.file_size = (uint32_t)(file_end - segment.address);
   segment.memory_size = (uint32_t)(memory_end - segment.address);
+  if (flags == PF_R) {
+    place_initial_values(ctx, &segment, &at);
+    memory_end = segment.address + segment.memory_size;
+  }
   if (segment.memory_size)
     ctx->segments[ctx->segment_count++] = segment;
   *address = segment.memory_size ? memory_end : *address;
 }
 
-static const char *thread_local_name(const ld_section *section) {
-  const ld_object *object = section->object;
-  for (size_t i = 1; i < object->symbol_count; i++) {
-    const ld_symbol *symbol = object->symbols[i];
-    if (symbol->kind == LD_DEFINED && symbol->section == section && symbol->type == STT_TLS)
-      return symbol->name;
-  }
-  return NULL;
-}
-
-/* Local memory is not loaded at start, it is zero: there can be no initialised thread-local data. */
+/* The initialised data first: the rest of local memory is zero at start. */
 static void place_thread_local(ld_context *ctx) {
   uint64_t at = TRAX_LOCAL_BASE;
+  ld_bounds *bounds = &ctx->bounds;
+  bounds->tdata_start = bounds->tdata_end = TRAX_LOCAL_BASE;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    if (output->rank != 90)
+    if (!is_thread_local(output))
       continue;
     at = ld_align(at, output->alignment);
     output->address = (uint32_t)at;
     at += output->size;
-    for (size_t s = 0; s < output->sections.count; s++) {
-      const ld_section *section = output->sections.items[s];
-      if (section->type == SHT_NOBITS || section->size == 0)
-        continue;
-      const char *name = thread_local_name(section);
-      ld_error(ctx,
-               "%s:(%s): initialised thread-local data%s%s%s: local memory is not loaded at start, it is all zero; "
-               "assign the value at run time",
-               section->object->name, section->name, name ? " '" : "", name ? name : "", name ? "'" : "");
-    }
+    if (!output->load_address)
+      continue;
+    if (bounds->tdata_load)
+      ld_error(ctx, "section %s: initialised thread-local data is in .tdata already", output->name);
+    bounds->tdata_start = output->address;
+    bounds->tdata_end = (uint32_t)at;
+    bounds->tdata_load = output->load_address;
   }
-  ctx->bounds.tbss_start = TRAX_LOCAL_BASE;
-  ctx->bounds.tbss_end = (uint32_t)at;
+  bounds->tbss_start = bounds->tdata_end;
+  bounds->tbss_end = (uint32_t)at;
   uint64_t size = at - TRAX_LOCAL_BASE;
   ctx->local_size = (uint32_t)size;
   if (size >= TRAX_LOCAL_SIZE)
@@ -303,13 +313,18 @@ static void place_in_file(ld_context *ctx) {
           output->address - segment->address < segment->memory_size)
         output->file_offset = segment->file_offset + minimum(output->address - segment->address, segment->file_size);
     }
+    for (size_t o = 0; o < ctx->outputs.count; o++) {
+      ld_output *output = ctx->outputs.items[o];
+      if (output->load_address && output->load_address - segment->address < segment->file_size)
+        output->file_offset = segment->file_offset + (output->load_address - segment->address);
+    }
     offset += segment->file_size;
   }
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    if (output->rank < 90)
+    if (output->rank < 90 || output->load_address)
       continue;
-    offset = ld_align(offset, output->rank == 90 ? 1 : output->alignment);
+    offset = ld_align(offset, is_thread_local(output) ? 1 : output->alignment);
     output->file_offset = (uint32_t)offset;
     if (output->type != SHT_NOBITS)
       offset += output->size;

@@ -120,7 +120,7 @@ typedef struct ld_options {
   LD_VECTOR(const char *) wrapped;
   LD_VECTOR(ld_defsym) defsyms;
   uint32_t text_start;
-  unsigned error_limit; /* 0: none */
+  unsigned error_limit;    /* 0: none */
   unsigned response_files; /* read so far */
   bool allow_multiple_definition;
   uint32_t stack_size;  /* bytes that the stack may take; 0: what local memory has */
@@ -241,6 +241,8 @@ ld_symbol *ld_symbol_find(const ld_context *ctx, const char *name); /* NULL if n
 void ld_symbols_add_lazy(ld_context *ctx, ld_object *object);       /* what object's extraction would define */
 bool ld_symbols_add(ld_context *ctx, ld_object *object);            /* fills object->symbols */
 void ld_start_symbols(ld_context *ctx); /* what the command line wraps, defines and refers to */
+/* Takes the archive member that defines name, if one does. */
+void ld_symbols_offer(ld_context *ctx, const char *name);
 /* After the last input: common symbols get sections, those of the linker are defined where referenced. */
 bool ld_finish_symbols(ld_context *ctx);
 /* The address of a symbol with a place in the output; undefined weak ones and those of dropped sections have 0. */
@@ -273,6 +275,7 @@ struct ld_output {
   LD_VECTOR(ld_section *) sections;
   int rank; /* order in the image */
   uint32_t address, size;
+  uint32_t load_address; /* of .tdata: where its initial values are in the image; otherwise 0 */
   uint32_t file_offset;
   uint32_t header_index, name_offset; /* section header table */
 };
@@ -284,7 +287,7 @@ typedef struct ld_segment {
 
 typedef struct ld_bounds {
   uint32_t executable_start, end, text_start, text_end, init_array_start, init_array_end, fini_array_start,
-      fini_array_end, bss_start, bss_end, tbss_start, tbss_end;
+      fini_array_end, bss_start, bss_end, tdata_start, tdata_end, tdata_load, tbss_start, tbss_end;
 } ld_bounds;
 
 bool ld_layout(ld_context *ctx);

@@ -52,6 +52,12 @@ static void require(ld_context *ctx, const char *name) {
   refer(ctx, intern(ctx, name), NULL, false);
 }
 
+void ld_symbols_offer(ld_context *ctx, const char *name) {
+  ld_symbol *symbol = ld_symbol_find(ctx, name);
+  if (symbol && symbol->kind == LD_LAZY)
+    extract(ctx, symbol, NULL);
+}
+
 void ld_symbols_add_lazy(ld_context *ctx, ld_object *object) {
   for (size_t i = object->first_global; i < object->symbol_count && !object->taken; i++) {
     const Elf32_Sym *raw = &object->raw_symbols[i];
@@ -268,6 +274,9 @@ static const struct {
     {"__fini_array_end", offsetof(ld_bounds, fini_array_end)},
     {"__bss_start", offsetof(ld_bounds, bss_start)},
     {"__bss_end", offsetof(ld_bounds, bss_end)},
+    {"__tdata_start", offsetof(ld_bounds, tdata_start)},
+    {"__tdata_end", offsetof(ld_bounds, tdata_end)},
+    {"__tdata_load", offsetof(ld_bounds, tdata_load)},
     {"__tbss_start", offsetof(ld_bounds, tbss_start)},
     {"__tbss_end", offsetof(ld_bounds, tbss_end)},
 };

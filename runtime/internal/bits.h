@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#define INLINE static inline __attribute__((always_inline, unused))
+#include "inline.h"
 
 INLINE uint32_t float_bits(float x) {
   return ((union {

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "bits.h"
+#include "inline.h"
 
 #ifdef __trax__
 

@@ -37,6 +37,9 @@ lldiv_t lldiv(long long n, long long d);
 __attribute__((noreturn)) void exit(int status);
 __attribute__((noreturn)) void _Exit(int status);
 __attribute__((noreturn)) void abort(void);
+/* The function runs once, on the last thread to return from main or to call exit, the latest given first. 0 if it will.
+ */
+int atexit(void (*function)(void));
 
 int atoi(const char *text);
 long atol(const char *text);

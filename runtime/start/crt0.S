@@ -1,7 +1,11 @@
 // Program start: every TP begins here at cycle 0 with all registers 0 (docs/abi.md, "Program start"). The stack pointer then
 // stands at the end of local memory already; assembled with TRAX_GLOBAL_STACK, for -mstack=global, this sets it to the top
 // of the thread's stack in global memory.
+//
+// What the program does not have is not there to be called: a call of an undefined weak function goes on behind itself.
 #include <trax/abi.h>
+
+  .weak __trax_start, __trax_end_thread, __trax_end_program
 
   .section .text._start, "ax", @progbits
   .globl _start
@@ -17,19 +21,14 @@ _start:
   mul r12, r12, r13
   sub r2, r2, r12
 #endif
-  lui r12, %hi(__init_array_start)
-  addi r12, r12, %lo(__init_array_start)
-  lui r13, %hi(__init_array_end)
-  addi r13, r13, %lo(__init_array_end)
-  bne r12, r13, .Lconstructors
-.Lmain:
+  jal r1, __trax_start
   addi r4, r0, 0 // argc
   addi r5, r0, 0 // argv
   jal r1, main
-  trap r4, TRAX_TRAP_EXIT
-.Lconstructors:
-  jal r1, __trax_run_constructors
-  jal r0, .Lmain
+  addi r20, r4, 0
+  jal r1, __trax_end_thread
+  jal r1, __trax_end_program
+  trap r20, TRAX_TRAP_EXIT
 #ifdef TRAX_GLOBAL_STACK
 .Lno_stack:
   lui r4, %hi(.Lmessage)

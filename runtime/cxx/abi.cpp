@@ -1,0 +1,49 @@
+// What compiled C++ calls (Itanium C++ ABI, sections 3.2.6 and 3.3.3): initialisation of function-local statics, and
+// calls of functions that there are not.
+#include "../internal/machine.h"
+
+// A guard is two words. The first byte says that the object is initialised, the three behind it which thread (its
+// number plus 1) is at it; the second word counts who asked, so that the first one, by the atomic increment,
+// initialises.
+namespace {
+
+constexpr unsigned initialised = 1;
+
+unsigned owned() {
+  return (trax_thread() + 1) << 8;
+}
+
+} // namespace
+
+extern "C" int __cxa_guard_acquire(unsigned *guard) {
+  unsigned state = load_shared(guard);
+  if (state & initialised)
+    return 0;
+  if (trax_atomic_inc(&guard[1]) == 0) {
+    store_shared(guard, owned());
+    return 1;
+  }
+  while (!((state = load_shared(guard)) & initialised))
+    if (state == owned())
+      machine_abort("the initialisation of a function-local static object enters itself");
+  return 0;
+}
+
+extern "C" void __cxa_guard_release(unsigned *guard) {
+  store_shared(guard, initialised);
+}
+
+extern "C" [[noreturn]] void __cxa_pure_virtual() {
+  machine_abort("call of a pure virtual function");
+}
+
+extern "C" [[noreturn]] void __cxa_deleted_virtual() {
+  machine_abort("call of a deleted virtual function");
+}
+
+namespace std {
+[[noreturn]] void terminate() noexcept;
+[[noreturn]] void terminate() noexcept {
+  machine_abort("std::terminate");
+}
+} // namespace std

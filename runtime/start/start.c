@@ -1,0 +1,35 @@
+/* What a thread does before main, in programs that have initialised thread-local data or constructors; the linker takes
+   this file only for them, and the start file calls it if it is there. */
+#include "../internal/machine.h"
+
+#ifdef __trax__
+
+void __trax_start(void);
+
+extern void (*const __init_array_start[])(void);
+extern void (*const __init_array_end[])(void);
+extern unsigned __tdata_start[], __tdata_end[];
+extern const unsigned __tdata_load[];
+
+static unsigned done;
+
+void __trax_start(void) {
+  const unsigned *from = __tdata_load;
+  for (unsigned *to = __tdata_start; to < __tdata_end; to++)
+    *to = *from++;
+
+  const uintptr_t bytes = (uintptr_t)__init_array_end - (uintptr_t)__init_array_start;
+  if (bytes == 0)
+    return;
+  /* All threads share the objects: thread 0 constructs them, the others wait. */
+  if (trax_thread() == 0) {
+    for (unsigned i = 0; i < bytes / sizeof *__init_array_start; i++)
+      __init_array_start[i]();
+    store_shared(&done, 1);
+  } else {
+    while (!load_shared(&done))
+      ;
+  }
+}
+
+#endif
