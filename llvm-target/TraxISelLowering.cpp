@@ -29,7 +29,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   setOperationAction({ISD::SDIV, ISD::UDIV, ISD::SREM, ISD::UREM, ISD::SDIVREM, ISD::UDIVREM}, MVT::i32, Expand);
   setOperationAction({ISD::SMUL_LOHI, ISD::UMUL_LOHI}, MVT::i32, Expand);
   setOperationAction({ISD::MULHS, ISD::MULHU}, MVT::i32, Legal);
-  setOperationAction({ISD::SHL_PARTS, ISD::SRL_PARTS, ISD::SRA_PARTS}, MVT::i32, Expand);
+  setOperationAction({ISD::SHL_PARTS, ISD::SRL_PARTS, ISD::SRA_PARTS}, MVT::i32, Custom);
   setOperationAction({ISD::ROTL, ISD::ROTR, ISD::BSWAP, ISD::BITREVERSE, ISD::CTPOP, ISD::CTLZ, ISD::CTTZ,
                       ISD::CTLZ_ZERO_UNDEF, ISD::CTTZ_ZERO_UNDEF, ISD::ABS},
                      MVT::i32, Expand);
@@ -137,6 +137,13 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
     return lowerAddress(cast<JumpTableSDNode>(Op), DAG);
   case ISD::ConstantPool:
     return lowerAddress(cast<ConstantPoolSDNode>(Op), DAG);
+  case ISD::SHL_PARTS:
+  case ISD::SRL_PARTS:
+  case ISD::SRA_PARTS: {
+    SDValue Low, High;
+    expandShiftParts(Op.getNode(), Low, High, DAG);
+    return DAG.getMergeValues({Low, High}, SDLoc(Op));
+  }
   case ISD::FP_TO_SINT_SAT:
   case ISD::FP_TO_UINT_SAT:
     return lowerFPToIntSat(Op, DAG);
@@ -334,6 +341,14 @@ SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, Selecti
 }
 
 //--- costs --------------------------------------------------------------------
+
+/// A double word is shifted by any amount in nine instructions. A call is fewer, but then all values live elsewhere.
+TargetLowering::ShiftLegalizationStrategy
+TraxTargetLowering::preferredShiftLegalizationStrategy(SelectionDAG &DAG, SDNode *N, unsigned ExpansionFactor) const {
+  if (DAG.shouldOptForSize())
+    return ShiftLegalizationStrategy::LowerToLibcall;
+  return TargetLowering::preferredShiftLegalizationStrategy(DAG, N, ExpansionFactor);
+}
 
 bool TraxTargetLowering::isTruncateFree(Type *From, Type *To) const {
   return From->isIntegerTy() && To->isIntegerTy() && From->getPrimitiveSizeInBits() > To->getPrimitiveSizeInBits();

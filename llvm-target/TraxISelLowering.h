@@ -59,6 +59,8 @@ public:
 
   // Costs.
   bool convertSelectOfConstantsToMath(EVT VT) const override { return VT == MVT::i32; }
+  ShiftLegalizationStrategy preferredShiftLegalizationStrategy(SelectionDAG &DAG, SDNode *N,
+                                                               unsigned ExpansionFactor) const override;
   bool isTruncateFree(Type *From, Type *To) const override;
   bool isTruncateFree(EVT From, EVT To) const override;
   bool isZExtFree(SDValue Value, EVT To) const override;

@@ -57,6 +57,18 @@ def LeadingZeros : SDNodeXForm<imm, [{
   return CurDAG->getTargetConstant(llvm::countl_zero(uint32_t(N->getZExtValue())), SDLoc(N), MVT::i32);
 }]>;
 
+// The number of a bit that andi can mask.
+def andi_bit : ImmLeaf<i32, [{ return Imm >= 0 && Imm < 15; }]>;
+def BitMask : SDNodeXForm<imm, [{
+  return CurDAG->getTargetConstant(1 << N->getZExtValue(), SDLoc(N), MVT::i32);
+}]>;
+// A bit that was masked where it is and then moved to the lowest place.
+def moved_bit : PatFrag<(ops node:$masked), (srl node:$masked, (i32 imm)), [{
+  SDValue Masked = N->getOperand(0);
+  return Masked.getOpcode() == ISD::AND && isa<ConstantSDNode>(Masked.getOperand(1)) &&
+         Masked.getConstantOperandVal(1) == uint64_t(1) << N->getConstantOperandVal(1);
+}]>;
+
 def AddrRegImm : ComplexPattern<iPTR, 2, "selectAddrRegImm">;
 def AddrFrame : ComplexPattern<iPTR, 2, "selectAddrFrame", [frameindex, or, add]>;
 // A shift amount without the mask that the machine applies anyway.
@@ -134,6 +146,10 @@ multiclass SelectPatterns<ValueType vt> {
   def : Pat<(vt (select (i32 GPR:$c), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$f, GPR:$t, GPR:$c)>;
   def : Pat<(vt (select (i32 (setne (i32 GPR:$c), 0)), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$f, GPR:$t, GPR:$c)>;
   def : Pat<(vt (select (i32 (seteq (i32 GPR:$c), 0)), (vt GPR:$t), (vt GPR:$f))), (CMOVZ GPR:$f, GPR:$t, GPR:$c)>;
+  // A bit is as good where it is.
+  def : Pat<(vt (select (i32 (and (i32 (srl (i32 GPR:$c), andi_bit:$bit)), 1)), (vt GPR:$t), (vt GPR:$f))),
+            (CMOVNZ GPR:$f, GPR:$t, (i32 (ANDI GPR:$c, (BitMask imm:$bit))))>;
+  def : Pat<(vt (select (i32 (moved_bit (i32 GPR:$c))), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$f, GPR:$t, GPR:$c)>;
   def : Pat<(vt (select (i32 (xor (i32 GPR:$c), 1)), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$t, GPR:$f, GPR:$c)>;
   // A condition that would need an inversion or a second instruction picks the other move instead.
   def : Pat<(vt (select (i32 (seteq (i32 GPR:$a), (i32 GPR:$b))), (vt GPR:$t), (vt GPR:$f))),

@@ -98,3 +98,44 @@ define float @narrow(double %a) {
   %r = fptrunc double %a to float
   ret float %r
 }
+; By any amount, without a call but where size counts.
+; CHECK-LABEL: shift_left_any:
+; CHECK-DAG: srli [[HALF:r[0-9]+]], r4, 1
+; CHECK-DAG: not [[REST:r[0-9]+]], r6
+; CHECK-DAG: sll [[UP:r[0-9]+]], r5, r6
+; CHECK-DAG: andi [[LARGE:r[0-9]+]], r6, 32
+; CHECK-DAG: srl [[CARRIED:r[0-9]+]], [[HALF]], [[REST]]
+; CHECK-DAG: or r5, [[UP]], [[CARRIED]]
+; CHECK: cmovnz r5, r4, [[LARGE]]
+; CHECK: cmovnz r4, r0, [[LARGE]]
+; CHECK-NEXT: ret
+define i64 @shift_left_any(i64 %a, i64 %n) {
+  %r = shl i64 %a, %n
+  ret i64 %r
+}
+; CHECK-LABEL: shift_right_any:
+; CHECK-NOT: call
+; CHECK: srai r5, r5, 31
+; CHECK: cmovz r5,
+; CHECK-NEXT: ret
+define i64 @shift_right_any(i64 %a, i64 %n) {
+  %r = ashr i64 %a, %n
+  ret i64 %r
+}
+; CHECK-LABEL: shift_small:
+; CHECK: call __lshrdi3
+define i64 @shift_small(i64 %a, i64 %n) optsize {
+  %r = lshr i64 %a, %n
+  %s = add i64 %r, 1
+  ret i64 %s
+}
+; CHECK-LABEL: bit:
+; CHECK: andi [[BIT:r[0-9]+]], r4, 8
+; CHECK-NEXT: cmov{{n?z}} r{{[0-9]+}}, r{{[0-9]+}}, [[BIT]]
+; CHECK-NEXT: {{ret|mv}}
+define float @bit(i32 %a, float %b, float %c) {
+  %m = and i32 %a, 8
+  %d = icmp ne i32 %m, 0
+  %r = select i1 %d, float %b, float %c
+  ret float %r
+}
