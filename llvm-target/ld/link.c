@@ -3,13 +3,18 @@
 
 #include <stdlib.h>
 
+static bool build_executable(ld_context *ctx) {
+  return ld_check_undefined(ctx) && ld_layout(ctx) && ld_build_call_graph(ctx) && ld_check_stack(ctx) &&
+         ld_build_image(ctx) && ld_relocate(ctx);
+}
+
 static bool link_program(ld_context *ctx) {
   if (!ld_load_inputs(ctx) || !ld_finish_symbols(ctx))
     return false;
-  ld_split_merge_sections(ctx);
+  if (!ctx->options.relocatable)
+    ld_split_merge_sections(ctx);
   ld_mark_live(ctx);
-  if (!ld_check_undefined(ctx) || !ld_layout(ctx) || !ld_build_call_graph(ctx) || !ld_check_stack(ctx) ||
-      !ld_build_image(ctx) || !ld_relocate(ctx))
+  if (ctx->options.relocatable ? !ld_build_relocatable(ctx) : !build_executable(ctx))
     return false;
   if (ctx->options.fatal_warnings && ctx->warning_count) {
     ld_error(ctx, "%u warning%s, treated as errors", ctx->warning_count, ctx->warning_count == 1 ? "" : "s");

@@ -28,6 +28,7 @@ typedef enum option_id {
   OPT_PRINT_MEMORY,
   OPT_PRINT_STACK,
   OPT_REJECTED,
+  OPT_RELOCATABLE,
   OPT_NO_STACK_CHECK,
   OPT_STACK_CHECK,
   OPT_STRIP_ALL,
@@ -61,6 +62,8 @@ static const option option_table[] = {
     {"output", VALUE, OPT_OUTPUT, "FILE", NULL},
     {"e", JOINED, OPT_ENTRY, "SYMBOL", "start at SYMBOL or at an address (default _start)"},
     {"entry", VALUE, OPT_ENTRY, "SYMBOL", NULL},
+    {"r", NONE, OPT_RELOCATABLE, NULL, "make one relocatable object instead of an executable"},
+    {"relocatable", NONE, OPT_RELOCATABLE, NULL, NULL},
     {"L", JOINED, OPT_LIBRARY_PATH, "DIR", "search DIR for libraries"},
     {"library-path", VALUE, OPT_LIBRARY_PATH, "DIR", NULL},
     {"l", JOINED, OPT_LIBRARY, "NAME", "link libNAME.a, or the file NAME if written -l:NAME"},
@@ -120,8 +123,6 @@ static const option option_table[] = {
     {"color-diagnostics", NONE, OPT_ACCEPTED, NULL, NULL},
     {"O", JOINED, OPT_ACCEPTED, "LEVEL", NULL},
     /* What this linker does not do. */
-    {"r", NONE, OPT_REJECTED, NULL, "relocatable output is not supported; archives (llvm-ar) hold objects together"},
-    {"relocatable", NONE, OPT_REJECTED, NULL, "relocatable output is not supported; archives (llvm-ar) hold objects together"},
     {"shared", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
     {"Bdynamic", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
     {"pie", NONE, OPT_REJECTED, NULL, "programs have fixed addresses"},
@@ -311,6 +312,9 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   case OPT_STACK_CHECK:
     set_stack_check(ctx, value);
     break;
+  case OPT_RELOCATABLE:
+    options->relocatable = true;
+    break;
   case OPT_REJECTED:
     ld_error(ctx, "%s: %s", spelled, option->help);
     break;
@@ -413,6 +417,18 @@ static void expand(ld_context *ctx, argument_list *arguments, const char *argume
   }
 }
 
+/* What -r has no use for: it keeps everything, and has no addresses. */
+static void check_relocatable(ld_context *ctx) {
+  const ld_options *options = &ctx->options;
+  const char *other = options->gc_sections          ? "--gc-sections"
+                      : options->strip_all          ? "--strip-all"
+                      : options->print_stack        ? "--print-stack"
+                      : options->print_memory_usage ? "--print-memory-usage"
+                                                    : NULL;
+  if (options->relocatable && other)
+    ld_error(ctx, "-r and %s cannot be combined", other);
+}
+
 bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
   ld_options *options = &ctx->options;
   options->output = "a.out";
@@ -455,6 +471,7 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
     }
     apply(ctx, option, argument, value, &whole_archive);
   }
+  check_relocatable(ctx);
   if (options->inputs.count == 0 && !options->help && !options->version && ctx->error_count == 0)
     ld_error(ctx, "no input files");
   return ctx->error_count == 0;

@@ -226,14 +226,14 @@ static const char *describe(const walk *walk, uint32_t index) {
   return ld_format(walk->ctx, "%s, %s:(%s%s)", function->name, section->object->name, section->name, offset);
 }
 
-static void print_path(const walk *walk, uint32_t root, FILE *out) {
+static void print_path(const walk *walk, uint32_t root, const char *margin, FILE *out) {
   uint64_t depth = 0;
-  fprintf(out, "  %8s %8s  %s\n", "frame", "depth", "function");
+  fprintf(out, "%s%8s %8s  %s\n", margin, "frame", "depth", "function");
   for (uint32_t at = root; at != NONE; at = walk->nodes[at].next) {
     const ld_function *function = function_of(walk, at);
     bool replaced = walk->nodes[at].next != NONE && walk->nodes[at].next_is_tail;
     depth += function->frame;
-    fprintf(out, "  %8u %8llu  %s%s\n", function->frame, (unsigned long long)depth, describe(walk, at),
+    fprintf(out, "%s%8u %8llu  %s%s\n", margin, function->frame, (unsigned long long)depth, describe(walk, at),
             replaced ? ", leaves by a tail call" : "");
     if (replaced)
       depth -= function->frame;
@@ -290,6 +290,55 @@ static uint32_t find_entry(const ld_context *ctx) {
   return NONE;
 }
 
+typedef struct text { /* that is printed into memory */
+  FILE *out;
+  char *bytes;
+  size_t size;
+} text;
+
+static void open_text(const walk *walk, text *text) {
+  text->bytes = NULL;
+  text->out = open_memstream(&text->bytes, &text->size);
+  if (!text->out)
+    longjmp(walk->ctx->out_of_memory, 1);
+}
+
+static const char *close_text(const walk *walk, text *text) {
+  fclose(text->out);
+  const char *copy = ld_format(walk->ctx, "%s", text->bytes);
+  free(text->bytes);
+  return copy;
+}
+
+static const char *path_text(const walk *walk, uint32_t root, const char *margin) {
+  text text;
+  open_text(walk, &text);
+  print_path(walk, root, margin, text.out);
+  return close_text(walk, &text);
+}
+
+static void report_depth(const walk *walk, uint32_t root, uint64_t limit, const char *where) {
+  ld_context *ctx = walk->ctx;
+  text text;
+  open_text(walk, &text);
+  bool is_bounded = print_unbounded(walk, text.out) == 0;
+  const char *unbounded = close_text(walk, &text);
+  ctx->stack_is_bounded = is_bounded;
+  ctx->stack_report = ld_format(ctx, "stack: at %s %llu bytes, of %llu (%s)\n%s%s%s", is_bounded ? "most" : "least",
+                                (unsigned long long)ctx->stack_depth, (unsigned long long)limit, where,
+                                path_text(walk, root, "  "), is_bounded ? "" : "  not counted:\n", unbounded);
+}
+
+static void refuse(const walk *walk, uint32_t root, uint64_t limit, const char *where) {
+  ld_context *ctx = walk->ctx;
+  void (*report)(ld_context *, const char *, ...) = ctx->options.stack_check == LD_STACK_ERROR ? ld_error : ld_warning;
+  report(ctx,
+         "the stack takes %s%llu bytes, there are %llu (%s); the deepest path is\n%s"
+         ">>> -mstack=global gives the stack more room, --stack-check=none links all the same",
+         ctx->stack_is_bounded ? "" : "at least ", (unsigned long long)ctx->stack_depth, (unsigned long long)limit,
+         where, path_text(walk, root, ">>> "));
+}
+
 bool ld_check_stack(ld_context *ctx) {
   walk walk = {.ctx = ctx};
   walk.nodes = ld_alloc_array(ctx, ctx->functions.count + 1, sizeof *walk.nodes);
@@ -301,37 +350,10 @@ bool ld_check_stack(ld_context *ctx) {
 
   const char *where;
   uint64_t limit = stack_limit(ctx, &where);
-  char *path = NULL, *unbounded = NULL;
-  size_t path_size, unbounded_size;
-  FILE *path_out = open_memstream(&path, &path_size), *unbounded_out = open_memstream(&unbounded, &unbounded_size);
-  if (!path_out || !unbounded_out) {
-    ld_error(ctx, "no memory for the stack's report");
-    return false;
-  }
-  print_path(&walk, root, path_out);
-  size_t unbounded_count = print_unbounded(&walk, unbounded_out);
-  fclose(path_out);
-  fclose(unbounded_out);
-  ctx->stack_is_bounded = unbounded_count == 0;
-  ctx->stack_report =
-      ld_format(ctx, "stack: %s %llu bytes, of %llu (%s)\n%s%s%s", unbounded_count ? "at least" : "at most",
-                (unsigned long long)ctx->stack_depth, (unsigned long long)limit, where, path,
-                unbounded_count ? "  not counted:\n" : "", unbounded);
+  report_depth(&walk, root, limit, where);
   if (ctx->options.print_stack)
     fputs(ctx->stack_report, stdout);
-  if (ctx->stack_depth > limit && ctx->options.stack_check != LD_STACK_NONE) {
-    const char *message =
-        ld_format(ctx,
-                  "the stack takes %s%llu bytes, there are %llu (%s); the deepest path is\n%s"
-                  ">>> -mstack=global gives the stack more room, --stack-check=none links all the same",
-                  unbounded_count ? "at least " : "", (unsigned long long)ctx->stack_depth, (unsigned long long)limit,
-                  where, path);
-    if (ctx->options.stack_check == LD_STACK_ERROR)
-      ld_error(ctx, "%s", message);
-    else
-      ld_warning(ctx, "%s", message);
-  }
-  free(path);
-  free(unbounded);
+  if (ctx->stack_depth > limit && ctx->options.stack_check != LD_STACK_NONE)
+    refuse(&walk, root, limit, where);
   return ctx->error_count == 0;
 }

@@ -232,7 +232,7 @@ void ld_start_symbols(ld_context *ctx) {
     ld_symbol *symbol = intern(ctx, options->defsyms.items[i].name);
     *symbol = (ld_symbol){.name = symbol->name, .kind = LD_DEFSYM, .binding = STB_GLOBAL, .value = (uint32_t)i};
   }
-  if (!ld_parse_number(options->entry, &address))
+  if (!options->relocatable && !ld_parse_number(options->entry, &address))
     require(ctx, options->entry);
   for (size_t i = 0; i < options->undefined.count; i++)
     require(ctx, options->undefined.items[i]);
@@ -338,11 +338,12 @@ bool ld_finish_symbols(ld_context *ctx) {
     if (symbol->kind == LD_LAZY) { /* at most weak references */
       symbol->kind = LD_UNDEFINED;
       symbol->object = NULL;
-    } else if (symbol->kind == LD_COMMON) {
+    } else if (symbol->kind == LD_COMMON && !ctx->options.relocatable) {
       place_common(ctx, symbol);
     }
   }
-  define_boundaries(ctx);
+  if (!ctx->options.relocatable)
+    define_boundaries(ctx);
   check_defsyms(ctx);
   return ctx->error_count == 0;
 }

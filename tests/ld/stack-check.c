@@ -39,11 +39,11 @@
    Refused, with the path; there is no output then.
    RUN: not %clang -DBIG=70 %s -o no 2>&1 | FileCheck %s --check-prefix=REFUSED
    REFUSED: trax-ld: error: the stack takes [[DEPTH:[0-9]+]] bytes, there are 512 (local memory); the deepest path is
-   REFUSED-NEXT: frame depth function
-   REFUSED-NEXT: 0 0 _start, {{.*}}crt0.o:(.text._start)
-   REFUSED-NEXT: {{[0-9]+ [0-9]+}} main, {{.*}}.o:(.text.main)
-   REFUSED-NEXT: {{[0-9]+ [0-9]+}} big, {{.*}}.o:(.text.big)
-   REFUSED-NEXT: {{[0-9]+}} [[DEPTH]] half, {{.*}}.o:(.text.half)
+   REFUSED-NEXT: >>> frame depth function
+   REFUSED-NEXT: >>> 0 0 _start, {{.*}}crt0.o:(.text._start)
+   REFUSED-NEXT: >>> {{[0-9]+ [0-9]+}} main, {{.*}}.o:(.text.main)
+   REFUSED-NEXT: >>> {{[0-9]+ [0-9]+}} big, {{.*}}.o:(.text.big)
+   REFUSED-NEXT: >>> {{[0-9]+}} [[DEPTH]] half, {{.*}}.o:(.text.half)
    REFUSED-NEXT: >>> -mstack=global gives the stack more room, --stack-check=none links all the same
    RUN: not ls no
 
