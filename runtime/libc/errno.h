@@ -11,11 +11,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#ifdef __cplusplus
-extern thread_local int errno;
-#else
-extern _Thread_local int errno;
-#endif
+extern __thread int errno;
 
 #ifdef __cplusplus
 }

@@ -152,11 +152,7 @@ double lgamma_r(double x, int *sign);
 float lgammaf_r(float x, int *sign);
 
 /* The sign of the gamma function after lgamma; each thread has its own. */
-#ifdef __cplusplus
-extern thread_local int signgam;
-#else
-extern _Thread_local int signgam;
-#endif
+extern __thread int signgam;
 
 #undef __TRAX_MATH_1
 #undef __TRAX_MATH_2
