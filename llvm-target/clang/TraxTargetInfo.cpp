@@ -79,10 +79,21 @@ public:
   ArrayRef<GCCRegAlias> getGCCRegAliases() const override { return RegisterAliases; }
 
   bool validateAsmConstraint(const char *&Name, ConstraintInfo &Info) const override {
-    if (*Name != 'I') // a signed 16-bit immediate, as addi takes it
+    switch (*Name) {
+    case 'I': // as addi takes it
+      Info.setRequiresImmediate(-32768, 32767);
+      return true;
+    case 'J': // r0
+      Info.setRequiresImmediate(0);
+      return true;
+    case 'K': // as lui takes it
+      Info.setRequiresImmediate(0, 65535);
+      return true;
+    case 's': // a symbol, gcc's for all machines
+      return true;
+    default:
       return false;
-    Info.setRequiresImmediate(-32768, 32767);
-    return true;
+    }
   }
 
   // A register is a word. What shares a register with another operand is measured by that one.

@@ -27,6 +27,18 @@ int immediates(int a) {
   return sum + upper;
 }
 
+// CHECK-LABEL: define{{.*}} i32 @other_immediates(
+// CHECK: call i32 asm "lui $0, $1", "=r,K"(i32 65535)
+// CHECK: call void asm sideeffect "sw ${0:z}, $1(r4)", "J,n"(i32 0, i32 4)
+// CHECK: call i32 asm "lui $0, %hi($1)", "=r,s"(ptr {{.*}}@other_immediates)
+int other_immediates(void) {
+  int upper, address;
+  __asm__("lui %0, %1" : "=r"(upper) : "K"(65535));
+  __asm__ volatile("sw %z0, %1(r4)" : : "J"(0), "n"(4));
+  __asm__("lui %0, %%hi(%1)" : "=r"(address) : "s"(other_immediates));
+  return upper + address;
+}
+
 // Registers go by number or by their names in the ABI.
 // CHECK-LABEL: define{{.*}} void @clobbers(
 // CHECK: call void asm sideeffect "", "~{r4},~{r12},~{r31},~{memory}"()
@@ -62,6 +74,10 @@ void invalid(int a) {
   __asm__("" : "+r"(pair));
   // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: value '32768' out of range for constraint 'I'
   __asm__("addi r4, r4, %0" ::"I"(32768));
+  // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: value '1' out of range for constraint 'J'
+  __asm__("sw %z0, 0(r4)" ::"J"(1));
+  // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: value '-1' out of range for constraint 'K'
+  __asm__("lui r4, %0" ::"K"(-1));
   // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: invalid input constraint 'Q' in asm
   __asm__("addi r4, r4, %0" ::"Q"(a));
   // ERROR: inline-asm.c:[[@LINE+1]]:{{[0-9]+}}: error: unknown register name 'r32' in asm

@@ -105,8 +105,8 @@ class Directives:
     errors: bool = False  # the compiler has to refuse it
 
 
-def read(text, level):
-    """Read the directives of a program's text for compiling it at a level such as "-O2"."""
+def read(text, given):
+    """Read the directives of a program's text for compiling it with the options given."""
     result = Directives()
     for match in re.finditer(r"\{\s*(dg-[a-z-]+)((?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\})*)\}", text):
         arguments = words(match.group(2))
@@ -126,7 +126,7 @@ def read(text, level):
             result.unsupported = "shared libraries"
         elif name == "dg-require-profiling":
             result.unsupported = "profiling writes files"
-        elif name == "dg-skip-if" and selected(arguments[1]) and skips(arguments[2:], ["-w", level, *result.options]):
+        elif name == "dg-skip-if" and selected(arguments[1]) and skips(arguments[2:], ["-w", *given, *result.options]):
             result.unsupported = arguments[0] or "for another machine"
         elif name == "dg-error" and applies:
             result.errors = True

@@ -35,11 +35,14 @@ SUITE = "gcc/testsuite/gcc.c-torture"
 REQUIRED = 98.0  # percent of the applicable
 SECONDS = 120  # per step
 CYCLES = 2_000_000_000
+GLOBAL_STACK = ["-mstack=global", "-mstack-size=8388608"]
 SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set", "icache.bytes=1048576", "--set", "memory.size_mib=64"]
 
 # gcc 12 takes the C of before 1999 with warnings only; so do these, by clang.
-DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion", "-Wno-return-mismatch",
+DIALECT = ["-w", "-std=gnu17", "-fbracket-depth=300000", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion", "-Wno-return-mismatch",
            "-Wno-incompatible-function-pointer-types"]
+# What our driver passes by itself, where a program asks to be skipped with it.
+TARGET_OPTIONS = ["-fomit-frame-pointer"]
 # What gcc's drivers (ieee.exp, builtins.exp) add for a folder.
 FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"], "execute/builtins": ["-fno-inline-functions", "-Wl,--allow-multiple-definition"]}
 
@@ -63,14 +66,17 @@ class Result:
 
 
 @dataclasses.dataclass
-class Exception_:
-    """A line of not_applicable.txt."""
+class Listed:
+    """A program of not_applicable.txt."""
 
-    pattern: str
-    levels: str
+    name: str
+    levels: str  # all, optimized or a list
     kind: str  # clang or machine
     reason: str
     used: bool = False
+
+    def covers(self, level):
+        return self.levels == "all" or (level != "-O0" if self.levels == "optimized" else level in self.levels.split(","))
 
 
 def fail(message):
@@ -109,16 +115,19 @@ def programs(suite):
 
 
 def read_list(path):
-    """Read not_applicable.txt: name pattern, levels or *, kind, reason."""
-    exceptions = []
+    """Read not_applicable.txt, whose head says how it looks."""
+    exceptions, kind = [], None
     with open(path, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             if not line.strip() or line.startswith("#"):
                 continue
-            parts = line.split(None, 3)
-            if len(parts) != 4 or parts[2] not in ("clang", "machine"):
-                fail(f"{path}:{number}: expected PATTERN LEVELS clang|machine REASON")
-            exceptions.append(Exception_(parts[0], parts[1], parts[2], parts[3].strip()))
+            if line[0].isspace() and kind:
+                exceptions += [Listed(name, levels, kind, reason) for name in line.split()]
+                continue
+            match = re.fullmatch(r"(clang|machine) (all|optimized|-O\S+) (.+)\n", line)
+            if not match:
+                fail(f"{path}:{number}: expected 'clang|machine all|optimized|LEVELS REASON', or names with a blank before them")
+            kind, levels, reason = match.groups()
     return exceptions
 
 
@@ -202,25 +211,25 @@ def needs_global_stack(output):
 class Runner:
     """Tries programs at one level."""
 
-    def __init__(self, options, folder, exceptions, level):
+    def __init__(self, options, folder, not_applicable, level):
         build = options.build
         self.trax = Compiler([os.path.join(build, "bin", "clang"), "--target=trax", "-mllvm", "-verify-machineinstrs"],
                              [os.path.join(build, "bin", "trax-sim"), *SIMULATOR])
         # Without the 80 bits of the old floating-point unit, which are no machine's binary64.
         self.host = Compiler([options.host_clang, "-m32", "-msse2", "-mfpmath=sse"], [])
-        self.folder, self.exceptions, self.level = folder, exceptions, level
+        self.folder, self.list, self.level = folder, not_applicable, level
 
     def listed(self, name):
-        for exception in self.exceptions:
-            if fnmatch.fnmatchcase(name, exception.pattern) and (exception.levels == "*" or self.level in exception.levels.split(",")):
-                exception.used = True
-                return exception
+        for listed in self.list:
+            if listed.name == name and listed.covers(self.level):
+                listed.used = True
+                return listed
         return None
 
     def attempt(self, program):
         """Return the program's Result."""
         with open(program.sources[0], encoding="latin-1") as file:
-            directives = dejagnu.read(file.read(), self.level)
+            directives = dejagnu.read(file.read(), [self.level, *TARGET_OPTIONS])
         if directives.unsupported:
             return Result("not applicable", f"gcc's own driver: {directives.unsupported}")
         run = dataclasses.replace(program, run=program.run if directives.action in ("", "run") else False)
@@ -228,22 +237,22 @@ class Runner:
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
         problem, output = self.trax.attempt(run, directives, self.level, folder)
-        global_stack = bool(problem and run.run and needs_global_stack(output))
+        global_stack = bool(problem and needs_global_stack(output))
         if global_stack:
-            problem, output = self.trax.attempt(run, directives, self.level, folder, ["-mstack=global"])
-        exception = self.listed(program.name)
+            problem, output = self.trax.attempt(run, directives, self.level, folder, GLOBAL_STACK)
+        listed = self.listed(program.name)
         if not problem:
-            if exception:
-                return Result("failed", f"passes, but not_applicable.txt lists it: {exception.reason}")
+            if listed:
+                return Result("failed", f"passes, but not_applicable.txt lists it: {listed.reason}")
             shutil.rmtree(folder)
             return Result("passed", global_stack=global_stack)
         with open(os.path.join(folder, "output.txt"), "w", encoding="utf-8") as file:
             file.write(output)
-        if not exception:
+        if not listed:
             return Result("failed", problem)
-        if exception.kind == "clang" and not self.host.attempt(run, directives, self.level, folder)[0]:
-            return Result("failed", f"{problem}; not_applicable.txt blames clang, but clang -m32 passes it: {exception.reason}")
-        return Result("not applicable", exception.reason)
+        if listed.kind == "clang" and not self.host.attempt(run, directives, self.level, folder)[0]:
+            return Result("failed", f"{problem}; not_applicable.txt blames clang, but clang -m32 passes it: {listed.reason}")
+        return Result("not applicable", listed.reason)
 
 
 def suite_of(name):
@@ -300,18 +309,18 @@ def main():
     if not chosen:
         fail("no program has such a name")
 
-    exceptions = read_list(os.path.join(HERE, "not_applicable.txt"))
+    not_applicable = read_list(os.path.join(HERE, "not_applicable.txt"))
     good = True
     for level in options.levels.split(","):
-        runner = Runner(options, folder, exceptions, level)
+        runner = Runner(options, folder, not_applicable, level)
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             results = dict(zip([program.name for program in chosen], pool.map(runner.attempt, chosen)))
         good &= report(level, results)
-    if not options.filter:
-        for exception in exceptions:
-            if not exception.used and (exception.levels == "*" or set(exception.levels.split(",")) & set(options.levels.split(","))):
-                print(f"  not_applicable.txt: no program is called {exception.pattern}")
-                good = False
+    levels = options.levels.split(",")
+    for listed in not_applicable:
+        if not options.filter and not listed.used and any(listed.covers(level) for level in levels):
+            print(f"  not_applicable.txt: there is no program {listed.name} to compile")
+            good = False
     return 0 if good else 1
 
 
