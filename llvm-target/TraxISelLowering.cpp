@@ -54,6 +54,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   setOperationAction({ISD::FRAMEADDR, ISD::RETURNADDR}, MVT::i32, Custom);
   setOperationAction(ISD::READCYCLECOUNTER, MVT::i64, Custom);
   setOperationAction(ISD::PREFETCH, MVT::Other, Expand);
+  setOperationAction(ISD::EH_RETURN, MVT::Other, Custom);
   setOperationAction(ISD::EH_SJLJ_SETJMP, MVT::i32, Custom);
   setOperationAction(ISD::EH_SJLJ_LONGJMP, MVT::Other, Custom);
   setMinimumJumpTableEntries(6);
@@ -153,6 +154,11 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
     return lowerFrameAddr(Op, DAG);
   case ISD::RETURNADDR:
     return lowerReturnAddr(Op, DAG);
+  case ISD::EH_RETURN: {
+    const Function &F = DAG.getMachineFunction().getFunction();
+    DAG.getContext()->diagnose(DiagnosticInfoUnsupported(F, "there is no unwinder to return from", Op.getDebugLoc()));
+    return Op.getOperand(0);
+  }
   case ISD::EH_SJLJ_SETJMP:
     return lowerSetJmp(Op, DAG);
   case ISD::EH_SJLJ_LONGJMP:
@@ -491,7 +497,9 @@ Register TraxTargetLowering::getRegisterByName(const char *Name, LLT, const Mach
   if (Reg && !Subtarget.getRegisterInfo()->getReservedRegs(MF).test(Reg)) {
     DiagnosticInfoUnsupported Diag(MF.getFunction(), "global register variable needs a reserved register: zero or sp");
     MF.getFunction().getContext().diagnose(Diag);
-  } else if (!Reg) {
+    return Trax::R0;
+  }
+  if (!Reg) {
     DiagnosticInfoUnsupported Diag(MF.getFunction(), Twine("no register is called '") + Name + "'");
     MF.getFunction().getContext().diagnose(Diag);
   }

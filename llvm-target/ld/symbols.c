@@ -138,6 +138,10 @@ static bool read_symbol(ld_context *ctx, ld_object *object, size_t index, ld_sym
                         .size = raw->st_size};
   if (!symbol->name)
     return false;
+  if (symbol->type == STT_GNU_IFUNC) {
+    ld_error(ctx, "%s: '%s' is an indirect function, which nothing resolves at start", object->name, symbol->name);
+    return false;
+  }
   bool reserved;
   uint32_t section = ld_object_symbol_section(object, index, &reserved);
   if (reserved && section == SHN_ABS) {
