@@ -33,6 +33,7 @@
 #endif
 
 #define LD_SEGMENT_ALIGNMENT 64u       /* docs/abi.md */
+#define LD_INSTRUCTION_CACHE 4096u     /* bytes, docs/emulator.md, by default; for reports only */
 #define LD_MAX_ALIGNMENT 65536u        /* of a section; a larger one is taken for a damaged file */
 #define LD_BOUNDARY_SECTION UINT32_MAX /* __start_NAME, __stop_NAME */
 #define LD_MERGE_NONE UINT32_MAX       /* a piece without a place in the output */
@@ -199,6 +200,7 @@ struct ld_symbol {
   uint8_t visibility; /* STV_* */
   bool referenced;    /* by an object that was taken, or by the command line */
   bool reported;      /* as undefined */
+  bool in_archive;    /* of an undefined symbol: a member that was not taken defines it */
   ld_object *object;  /* the definer (LD_LAZY: who would be), NULL for the linker; the first referrer if undefined */
   ld_section *section;
   uint32_t value, size;
@@ -339,16 +341,21 @@ ld_function *ld_function_at(const ld_context *ctx, const ld_section *section, ui
 /* Computes the worst stack depth; an error, or a warning, if the stack has less room. */
 bool ld_check_stack(ld_context *ctx);
 
-/* --- relocate.c --- */
+/* --- undefined.c --- */
 
 /* Reports symbols that live code needs and nobody defines. */
 bool ld_check_undefined(ld_context *ctx);
+
+/* --- relocate.c --- */
+
 /* Applies the relocations of every live section to its bytes in the image. */
 bool ld_relocate(ld_context *ctx);
 /* What unloaded sections hold in place of the address of something that was dropped. */
 uint32_t ld_tombstone(const ld_section *section);
 /* "a.o:(.text+0x4)" */
 const char *ld_place(ld_context *ctx, const ld_section *section, uint32_t offset);
+/* " (in function 'f')" or nothing. */
+const char *ld_in_function(ld_context *ctx, const ld_section *section, uint32_t offset);
 
 /* --- output.c --- */
 

@@ -160,6 +160,12 @@ void ld_print_memory_usage(const ld_context *ctx, FILE *out) {
   fprintf(out, "  %-16s %10u bytes, to 0x%x\n", "image", ctx->bounds.end - ctx->bounds.executable_start,
           ctx->bounds.end);
   fprintf(out, "local memory, %u bytes for each thread\n", TRAX_LOCAL_SIZE);
-  fprintf(out, "  %-16s %10u bytes\n  %-16s %10u bytes left\n", "thread-local", ctx->local_size, "stack",
-          TRAX_LOCAL_SIZE - ctx->local_size);
+  fprintf(out, "  %-16s %10u bytes\n", "thread-local", ctx->local_size);
+  bool global_stack = ld_symbol_find(ctx, "__trax_stack_size") != NULL;
+  fprintf(out, "  %-16s %10llu bytes at %s%s\n", "stack", (unsigned long long)ctx->stack_depth,
+          ctx->stack_is_bounded ? "most" : "least", global_stack ? ", in global memory" : "");
+  int64_t left = (int64_t)TRAX_LOCAL_SIZE - ctx->local_size - (global_stack ? 0 : (int64_t)ctx->stack_depth);
+  fprintf(out, "  %-16s %10lld bytes\n", "left", (long long)left);
+  fprintf(out, "instruction cache, %u bytes\n  %-16s %10.1f %%\n", LD_INSTRUCTION_CACHE, "text",
+          100.0 * sizes[0] / LD_INSTRUCTION_CACHE);
 }

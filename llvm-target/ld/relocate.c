@@ -33,7 +33,7 @@ static const char *enclosing_function(const ld_section *section, uint32_t offset
 }
 
 /* " (in function 'f')" or nothing. */
-static const char *in_function(ld_context *ctx, const ld_section *section, uint32_t offset) {
+const char *ld_in_function(ld_context *ctx, const ld_section *section, uint32_t offset) {
   const char *function = enclosing_function(section, offset);
   return function ? ld_format(ctx, " (in function '%s')", function) : "";
 }
@@ -46,64 +46,6 @@ static const char *describe_target(ld_context *ctx, const ld_reloc *reloc) {
     return name;
   uint32_t magnitude = reloc->addend < 0 ? 0 - (uint32_t)reloc->addend : (uint32_t)reloc->addend;
   return ld_format(ctx, "%s%s0x%x", name, reloc->addend < 0 ? "-" : *name ? "+" : "", magnitude);
-}
-
-/* --- undefined symbols --- */
-
-#define SHOWN_REFERENCES 3
-
-typedef struct missing {
-  ld_symbol *symbol;
-  struct {
-    const char *place, *function;
-  } references[SHOWN_REFERENCES];
-  size_t count;
-} missing;
-typedef LD_VECTOR(missing) missing_list;
-
-static void note_missing(ld_context *ctx, missing_list *list, const ld_section *section, const ld_reloc *reloc) {
-  ld_symbol *symbol = reloc->symbol;
-  if (!symbol->reported) {
-    missing fresh = {.symbol = symbol};
-    symbol->reported = true;
-    symbol->value = (uint32_t)list->count; /* an undefined symbol has no other use for it */
-    ld_push(ctx, list, fresh);
-  }
-  missing *missing = &list->items[symbol->value];
-  if (missing->count < SHOWN_REFERENCES) {
-    missing->references[missing->count].place = ld_place(ctx, section, reloc->offset);
-    missing->references[missing->count].function = in_function(ctx, section, reloc->offset);
-  }
-  missing->count++;
-}
-
-static void report_missing(ld_context *ctx, const missing *missing) {
-  const char *text = ld_format(ctx, "%s: undefined symbol '%s'%s", missing->references[0].place, missing->symbol->name,
-                               missing->references[0].function);
-  for (size_t i = 1; i < missing->count && i < SHOWN_REFERENCES; i++)
-    text = ld_format(ctx, "%s\n>>> also needed at %s%s", text, missing->references[i].place,
-                     missing->references[i].function);
-  if (missing->count > SHOWN_REFERENCES)
-    text = ld_format(ctx, "%s\n>>> and at %zu more place%s", text, missing->count - SHOWN_REFERENCES,
-                     missing->count - SHOWN_REFERENCES == 1 ? "" : "s");
-  ld_error(ctx, "%s", text);
-}
-
-bool ld_check_undefined(ld_context *ctx) {
-  missing_list list = {0};
-  for (size_t i = 0; i < ctx->sections.count; i++) {
-    const ld_section *section = ctx->sections.items[i];
-    if (!section->live || !(section->flags & SHF_ALLOC))
-      continue;
-    for (uint32_t r = 0; r < section->reloc_count; r++) {
-      const ld_symbol *symbol = section->relocs[r].symbol;
-      if (symbol->kind == LD_UNDEFINED && symbol->binding != STB_WEAK && section->relocs[r].type != R_TRAX_NONE)
-        note_missing(ctx, &list, section, &section->relocs[r]);
-    }
-  }
-  for (size_t i = 0; i < list.count; i++)
-    report_missing(ctx, &list.items[i]);
-  return ctx->error_count == 0;
 }
 
 /* --- applying --- */
@@ -144,7 +86,7 @@ static bool check_range(const place *place, int64_t value, int64_t low, int64_t 
   ld_error(ctx, "%s: relocation %s to '%s' out of range: %lld is not in [%lld, %lld]%s%s",
            ld_place(ctx, place->section, place->reloc->offset), reloc_names[place->reloc->type],
            describe_target(ctx, place->reloc), (long long)value, (long long)low, (long long)high,
-           target_place(ctx, place->reloc->symbol), in_function(ctx, place->section, place->reloc->offset));
+           target_place(ctx, place->reloc->symbol), ld_in_function(ctx, place->section, place->reloc->offset));
   return false;
 }
 
@@ -158,7 +100,7 @@ static void store_distance(const place *place, uint32_t distance, unsigned bits)
     ld_error(ctx, "%s: relocation %s to '%s': the distance %lld is not a multiple of 4%s",
              ld_place(ctx, place->section, place->reloc->offset), reloc_names[place->reloc->type],
              describe_target(ctx, place->reloc), (long long)value,
-             in_function(ctx, place->section, place->reloc->offset));
+             ld_in_function(ctx, place->section, place->reloc->offset));
   else if (check_range(place, value, -limit, limit - 4))
     store_field(place->bytes, (uint32_t)(value / 4), bits);
 }
@@ -221,7 +163,7 @@ static bool target_address(const place *place, uint32_t *target) {
   if (ld_symbol_is_dropped(symbol, reloc->addend)) {
     ld_error(ctx, "%s: relocation refers to '%s' in %s, which is not linked%s",
              ld_place(ctx, place->section, reloc->offset), describe_target(ctx, reloc),
-             ld_place(ctx, symbol->section, symbol->value), in_function(ctx, place->section, reloc->offset));
+             ld_place(ctx, symbol->section, symbol->value), ld_in_function(ctx, place->section, reloc->offset));
     return false;
   }
   bool from_section = symbol->kind == LD_DEFINED && symbol->type == STT_SECTION && symbol->section->pieces;

@@ -342,6 +342,7 @@ bool ld_finish_symbols(ld_context *ctx) {
     if (symbol->kind == LD_LAZY) { /* at most weak references */
       symbol->kind = LD_UNDEFINED;
       symbol->object = NULL;
+      symbol->in_archive = true;
     } else if (symbol->kind == LD_COMMON && !ctx->options.relocatable) {
       place_common(ctx, symbol);
     }
