@@ -2,6 +2,7 @@
 #include "core/chip.h"
 
 #include "fast/engine.h"
+#include "fast/functional.h"
 
 #include <string.h>
 #include <time.h>
@@ -25,6 +26,8 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   for (uint32_t i = 0; i < chip->tms; i++)
     if (trax_tm_create(&chip->tm[i], i, machine, &chip->text, options->output, error))
       return TRAX_ERROR;
+  if (options->engine == TRAX_ENGINE_FUNCTIONAL)
+    return trax_functional_create(chip, error);
   chip->engine = options->engine == TRAX_ENGINE_FAST ? trax_fast_best_engine() : NULL;
   return chip->engine ? chip->engine->create(chip, error) : TRAX_OK;
 }
@@ -32,6 +35,7 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
 void trax_chip_destroy(struct trax_chip *chip) {
   if (chip->engine)
     chip->engine->destroy(chip->fast);
+  trax_functional_destroy(chip->functional);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
@@ -39,6 +43,10 @@ void trax_chip_destroy(struct trax_chip *chip) {
 }
 
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
+  if (chip->functional) {
+    trax_functional_collect(chip->functional);
+    return;
+  }
   if (chip->engine)
     chip->engine->settle(chip->fast);
   for (uint32_t i = 0; i < chip->tms; i++)
@@ -64,6 +72,8 @@ static void report_progress(const struct trax_chip *chip, const struct trax_run_
   poll->reported = now;
   if (chip->engine)
     chip->engine->collect(chip->fast);
+  if (chip->functional)
+    trax_functional_collect(chip->functional);
   trax_progress progress = {.cycle = t, .total_items = options->total_items, .host_seconds = now - poll->begun};
   for (uint32_t i = 0; i < chip->tms; i++) {
     progress.items += chip->tm[i].stats->items;
@@ -84,10 +94,28 @@ static bool poll_host(const struct trax_chip *chip, const struct trax_run_option
   return options->interrupt && *options->interrupt;
 }
 
-trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options *options, uint64_t *cycles) {
+struct functional_poll {
+  const struct trax_chip *chip;
+  const trax_run_options *options;
+  struct poll poll;
+};
+
+static bool poll_without_time(void *context, uint64_t instructions) {
+  struct functional_poll *it = context;
+  (void)instructions;
+  it->poll.countdown = 1;
+  return poll_host(it->chip, it->options, &it->poll, 0);
+}
+
+trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *options, uint64_t *cycles) {
   const uint64_t limit = options->max_cycles ? options->max_cycles : TRAX_NEVER;
   const double begun = host_seconds();
   struct poll poll = {begun, begun, 1};
+  if (chip->functional) {
+    struct functional_poll context = {chip, options, poll};
+    *cycles = 0;
+    return trax_functional_run(chip->functional, limit, poll_without_time, &context);
+  }
   uint64_t t = 0;
   while (true) {
     if (t >= limit) {

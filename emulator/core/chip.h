@@ -13,6 +13,7 @@ struct trax_chip {
   struct trax_memory memory;
   const struct trax_fast_engine *engine; /* NULL: the reference engine runs */
   struct trax_fast *fast;                /* the engine's */
+  struct trax_functional *functional;    /* instead of an engine, where time is not wanted; else NULL */
   uint32_t running;                      /* threads that have not ended */
 };
 

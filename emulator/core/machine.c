@@ -160,10 +160,14 @@ static trax_status collect(struct trax_machine *machine, struct trax_chip *chip,
     add_stats(&machine->stats.total, stats);
   }
   machine->stats.instructions = machine->stats.total.cycles[TRAX_CAUSE_ISSUED];
+  if (chip->functional) /* which charges nobody */
+    for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+      machine->stats.instructions += machine->stats.total.instructions[op];
   return TRAX_OK;
 }
 
-static trax_status report_outcome(struct trax_machine *machine, struct trax_chip *chip, trax_error *error) {
+static trax_status report_outcome(struct trax_machine *machine, struct trax_chip *chip, uint64_t limit,
+                                  trax_error *error) {
   switch (machine->status) {
   case TRAX_FAULT:
     for (uint32_t i = 0; i < chip->tms && !machine->fault.kind; i++)
@@ -172,7 +176,10 @@ static trax_status report_outcome(struct trax_machine *machine, struct trax_chip
               machine->fault.pc, machine->fault.thread, machine->fault.cycle);
     break;
   case TRAX_STUCK:
-    trax_fail(error, "the program has not ended after %" PRIu64 " cycles", machine->stats.cycles);
+    if (chip->functional)
+      trax_fail(error, "the program has not ended after %" PRIu64 " instructions of a thread", limit);
+    else
+      trax_fail(error, "the program has not ended after %" PRIu64 " cycles", machine->stats.cycles);
     break;
   case TRAX_INTERRUPTED:
     trax_fail(error, "interrupted in cycle %" PRIu64, machine->stats.cycles);
@@ -205,7 +212,7 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
     if (collect(machine, &chip, error))
       machine->status = TRAX_ERROR;
     else
-      report_outcome(machine, &chip, error);
+      report_outcome(machine, &chip, options->max_cycles, error);
   }
   trax_chip_destroy(&chip);
   machine->chip = NULL;

@@ -106,6 +106,25 @@ run 124 --stats stats.json --max-cycles 1000 spin.elf
 grep -q '"status": "stuck"' stats.json || fail "stats.json of a stuck program"
 grep -q '"cycles": 1000,' stats.json || fail "stats.json: --max-cycles"
 
+# --- without time
+run 0 --engine functional hello.elf
+[ "$(cat out)" = hello ] || fail "hello.elf"
+run 3 --config 4x32 --engine functional exit3.elf
+run 1 --engine functional null.elf
+says "outer+0x8, inner at dir/source.c:5:3"
+run 134 --engine functional abort.elf
+says "out of luck"
+run 124 --engine functional spin.elf --max-cycles 10000
+says "the program has not ended after 10000 instructions of a thread"
+run 0 --engine functional --bind input=input.bin --alloc output=64 --dump output=output.bin copy.elf
+cmp -s output.bin expected.bin || fail "output.bin is not the copy"
+run 0 --config 2x32 --stats stats.json mix.elf
+run 0 --config 2x32 --engine functional --stats timeless.json --report timeless.txt mix.elf
+for key in rays items instructions flops; do
+  [ "$(grep -m1 "\"$key\"" timeless.json)" = "$(grep -m1 "\"$key\"" stats.json)" ] || fail "timeless.json: $key"
+done
+grep -q '"cycles": 0,' timeless.json || fail "timeless.json: cycles"
+
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
 refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf
@@ -141,7 +160,7 @@ refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: FILE is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse '--engine: "slow" is neither reference nor fast' --engine slow hello.elf
+refuse '--engine: "slow" is none of reference, fast and functional' --engine slow hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
 refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
 refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf

@@ -154,12 +154,58 @@ static void random_words(void **state) {
   }
 }
 
+/* What does not depend on time. */
+static void expect_same_effects(const struct run *timed, const struct run *functional) {
+  const struct trax_machine *x = timed->bench.machine, *y = functional->bench.machine;
+  assert_int_equal(timed->bench.status, functional->bench.status);
+  assert_int_equal(y->stats.cycles, 0);
+  assert_int_equal(x->stats.instructions, y->stats.instructions);
+  assert_memory_equal(x->stats.total.instructions, y->stats.total.instructions, sizeof x->stats.total.instructions);
+  assert_int_equal(x->stats.total.rays, y->stats.total.rays);
+  assert_int_equal(x->stats.total.items, y->stats.total.items);
+  assert_memory_equal(x->exit_statuses, y->exit_statuses, x->stats.threads * sizeof *x->exit_statuses);
+  assert_true(memcmp(x->space.bytes, y->space.bytes, x->space.size) == 0);
+  assert_int_equal(x->fault.kind, y->fault.kind);
+  assert_int_equal(x->fault.pc, y->fault.pc);
+  assert_int_equal(x->fault.address, y->fault.address);
+  assert_memory_equal(x->fault.registers, y->fault.registers, sizeof x->fault.registers);
+  assert_int_equal(timed->output_bytes, functional->output_bytes);
+  assert_true(timed->output_bytes == 0 || memcmp(timed->output, functional->output, timed->output_bytes) == 0);
+}
+
+static void functional_mode(void **state) {
+  (void)state;
+  const unsigned rounds = setting("TRAX_RANDOM_ROUNDS", 30), seed = setting("TRAX_RANDOM_SEED", 1);
+  unsigned compared = 0;
+  for (unsigned round = 0; round < 10 * rounds; round++) {
+    random_state = 0xA24BAED4963EE407u * (seed + round);
+    uint32_t program[BODY + 64];
+    size_t count = 32;
+    struct trax_config config;
+    if (round % 10) { /* one thread, anything */
+      any_words(program, count);
+      config = any_config(1, 1);
+    } else { /* many that do not meet */
+      count = any_program(program);
+      config = any_config(any(1, 4), any(1, 32));
+    }
+    struct run timed = run(&config, program, count, TRAX_ENGINE_FAST, false, round % 10 ? 5000 : 0);
+    struct run functional = run(&config, program, count, TRAX_ENGINE_FUNCTIONAL, false, round % 10 ? 5000 : 0);
+    /* Neither counts the time of an endless loop as the other does. */
+    if (timed.bench.status != TRAX_STUCK && functional.bench.status != TRAX_STUCK) {
+      expect_same_effects(&timed, &functional);
+      compared++;
+    }
+    end(&timed);
+    end(&functional);
+  }
+  assert_true(compared > 5 * rounds);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(own_words),
-      cmocka_unit_test(races),
-      cmocka_unit_test(races_near_the_defaults),
-      cmocka_unit_test(random_words),
+      cmocka_unit_test(functional_mode),         cmocka_unit_test(own_words),    cmocka_unit_test(races),
+      cmocka_unit_test(races_near_the_defaults), cmocka_unit_test(random_words),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

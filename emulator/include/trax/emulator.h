@@ -74,10 +74,12 @@ typedef struct trax_progress {
   double host_seconds;
 } trax_progress;
 
-/* Both give the same: every cycle, every count, every byte. */
+/* The first two give the same: every cycle, every count, every byte. The third knows no time: its cycles are 0, and
+   max_cycles limits the instructions of a thread. */
 typedef enum trax_engine {
   TRAX_ENGINE_REFERENCE = 0, /* written to be read: emulator/core */
-  TRAX_ENGINE_FAST           /* emulator/fast */
+  TRAX_ENGINE_FAST,          /* emulator/fast */
+  TRAX_ENGINE_FUNCTIONAL     /* emulator/fast/functional.c */
 } trax_engine;
 
 typedef struct trax_run_options {
