@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t --cflags "-std=c2x"
-// _BitInt of odd widths: arithmetic wraps or is exact at the declared width, in memory and through calls. (Expected
-// output by clang.)
+// _BitInt of odd widths: arithmetic wraps or is exact at the declared width, in memory and through calls.
+// (Expected output by clang.)
 #include <stdio.h>
 
 typedef _BitInt(5) s5;

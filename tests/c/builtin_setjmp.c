@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t --cflags "-mstack=global"
 // __builtin_setjmp and __builtin_longjmp: everything in registers, variable-length and over-aligned locals survive,
-// twice over.
+// twice over. (Expected output by hand.)
 #include <stdio.h>
 
 static void *buffer[5], *inner_buffer[5];
