@@ -3,6 +3,7 @@
    address. */
 #include "ld.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,7 +114,7 @@ static uint32_t section_order(const ld_section *section) {
 
 typedef struct ordered {
   ld_section *section;
-  uint32_t order;
+  uint64_t order; /* the class of the name, then the place in --symbol-ordering-file */
   size_t index;
 } ordered;
 
@@ -129,6 +130,11 @@ static void order_sections(ld_context *ctx, ld_output *output) {
   ordered *list = ld_alloc_array(ctx, count, sizeof *list);
   for (size_t i = 0; i < count; i++)
     list[i] = (ordered){output->sections.items[i], section_order(output->sections.items[i]), i};
+  bool is_array = output->type == SHT_INIT_ARRAY || output->type == SHT_FINI_ARRAY; /* priorities come first */
+  for (size_t i = 0; i < count; i++) {
+    uint32_t place = list[i].section->wanted_place;
+    list[i].order = place && !is_array ? place : list[i].order + (UINT64_C(1) << 32); /* behind all that are wanted */
+  }
   qsort(list, count, sizeof *list, compare_ordered);
   for (size_t i = 0; i < count; i++)
     output->sections.items[i] = list[i].section;
@@ -160,7 +166,50 @@ static void place_sections(ld_context *ctx, ld_output *output) {
   output->size = (uint32_t)size;
 }
 
+/* Names in the order that --symbol-ordering-file wants; their sections come first in their output sections. */
+static void read_order(ld_context *ctx) {
+  const char *path = ctx->options.ordering_path;
+  const uint8_t *bytes;
+  size_t size;
+  if (!path || !ld_read_file(ctx, path, &bytes, &size))
+    return;
+  ld_map places = {0}; /* name -> its line */
+  uintptr_t line = 0;
+  for (const char *at = (const char *)bytes, *end = at + size; at < end;) {
+    const char *stop = memchr(at, '\n', (size_t)(end - at));
+    size_t length = (size_t)((stop ? stop : end) - at);
+    line++;
+    while (length > 0 && isspace((unsigned char)at[length - 1]))
+      length--;
+    while (length > 0 && isspace((unsigned char)*at)) {
+      at++;
+      length--;
+    }
+    if (length > 0 && *at != '#') {
+      uintptr_t *place = ld_map_at(ctx, &places, at, length);
+      if (!*place)
+        *place = line;
+      const ld_symbol *symbol = ld_symbol_find(ctx, ld_format(ctx, "%.*s", (int)length, at));
+      if (symbol && symbol->kind == LD_DEFINED && !symbol->section->wanted_place)
+        symbol->section->wanted_place = (uint32_t)line;
+    }
+    if (!stop)
+      break;
+    at = stop + 1;
+  }
+  for (size_t o = 0; o < ctx->objects.count; o++) { /* local functions of that name, too */
+    const ld_object *object = ctx->objects.items[o];
+    for (size_t i = 1; i < object->symbol_count && i < object->first_global; i++) {
+      const ld_symbol *symbol = object->symbols[i];
+      uintptr_t place = symbol->kind == LD_DEFINED ? ld_map_find(&places, symbol->name, strlen(symbol->name)) : 0;
+      if (place && !symbol->section->wanted_place)
+        symbol->section->wanted_place = (uint32_t)place;
+    }
+  }
+}
+
 static void gather(ld_context *ctx) {
+  read_order(ctx);
   ld_map by_name = {0};
   for (size_t i = 0; i < ctx->sections.count; i++)
     if (ctx->sections.items[i]->live)
@@ -186,27 +235,53 @@ static bool is_thread_local(const ld_output *output) {
   return output->rank / 10 == 9;
 }
 
-/* The initial values of thread-local data lie behind the constants; each thread copies them into its local memory. */
-static void place_initial_values(ld_context *ctx, ld_segment *segment, uint64_t *at) {
+/* The initial values of thread-local data lie behind the constants, from at on; each thread copies them into its local
+   memory. Returns where they end, 0 if there are none. */
+static uint64_t place_initial_values(ld_context *ctx, uint64_t at) {
+  bool any = false;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
     if (!is_thread_local(output) || output->type == SHT_NOBITS || output->size == 0)
       continue;
-    *at = ld_align(*at, output->alignment < 4 ? 4 : output->alignment);
-    output->load_address = (uint32_t)*at;
-    *at = ld_align(*at + output->size, 4); /* they are copied as words */
-    segment->memory_size = segment->file_size = (uint32_t)(*at - segment->address);
+    at = ld_align(at, output->alignment < 4 ? 4 : output->alignment);
+    output->load_address = (uint32_t)at;
+    at = ld_align(at + output->size, 4); /* they are copied as words */
+    any = true;
   }
+  return any ? at : 0;
 }
 
-static void place_segment(ld_context *ctx, int class, uint32_t flags, uint64_t *address) {
+static const ld_section_start *find_start(const ld_context *ctx, const char *name) {
+  for (size_t i = ctx->options.section_starts.count; i-- > 0;) /* the last one counts */
+    if (strcmp(ctx->options.section_starts.items[i].name, name) == 0)
+      return &ctx->options.section_starts.items[i];
+  return NULL;
+}
+
+/* Ends a segment at the sections that were placed in it. Returns the first free address. */
+static uint64_t close_segment(ld_context *ctx, ld_segment segment, uint64_t file_end, uint64_t memory_end) {
+  segment.file_size = (uint32_t)(file_end - segment.address);
+  segment.memory_size = (uint32_t)(memory_end - segment.address);
+  if (segment.memory_size)
+    ld_push(ctx, &ctx->segments, segment);
+  return memory_end;
+}
+
+/* Sections of one class follow each other from *address on, up to one with an address of its own, which begins a new
+   segment. */
+static void place_segments(ld_context *ctx, int class, uint32_t flags, uint64_t *address) {
   ld_segment segment = {.flags = flags, .address = (uint32_t)ld_align(*address, LD_SEGMENT_ALIGNMENT)};
-  uint64_t at = segment.address;
-  uint64_t file_end = at, memory_end = at;
+  uint64_t at = segment.address, file_end = at, memory_end = at;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
     if (output->rank / 10 != class)
       continue;
+    const ld_section_start *start = find_start(ctx, output->name);
+    if (start) {
+      close_segment(ctx, segment, file_end, memory_end);
+      segment.address = start->address;
+      at = file_end = memory_end = start->address;
+    }
     at = ld_align(at, output->alignment);
     output->address = (uint32_t)at;
     at += output->size;
@@ -215,20 +290,34 @@ static void place_segment(ld_context *ctx, int class, uint32_t flags, uint64_t *
                (unsigned long long)at, TRAX_LOCAL_BASE);
       return;
     }
+    if (start && output->address != start->address)
+      ld_error(ctx, "--section-start=%s=0x%x: the section is aligned to %u", output->name, start->address,
+               output->alignment);
     if (output->size)
       memory_end = at;
     if (output->size && output->type != SHT_NOBITS)
       file_end = at;
   }
-  segment.file_size = (uint32_t)(file_end - segment.address);
-  segment.memory_size = (uint32_t)(memory_end - segment.address);
   if (flags == PF_R) {
-    place_initial_values(ctx, &segment, &at);
-    memory_end = segment.address + segment.memory_size;
+    uint64_t initial_end = place_initial_values(ctx, memory_end);
+    if (initial_end)
+      file_end = memory_end = initial_end;
   }
-  if (segment.memory_size)
-    ctx->segments[ctx->segment_count++] = segment;
-  *address = segment.memory_size ? memory_end : *address;
+  bool is_empty = memory_end == segment.address && segment.address == ld_align(*address, LD_SEGMENT_ALIGNMENT);
+  memory_end = close_segment(ctx, segment, file_end, memory_end);
+  if (!is_empty)
+    *address = memory_end;
+}
+
+static void check_overlap(ld_context *ctx) {
+  for (size_t i = 0; i < ctx->outputs.count; i++)
+    for (size_t j = 0; ctx->options.section_starts.count && j < i; j++) {
+      const ld_output *a = ctx->outputs.items[i], *b = ctx->outputs.items[j];
+      if (a->rank < 90 && b->rank < 90 && a->size && b->size && a->address < (uint64_t)b->address + b->size &&
+          b->address < (uint64_t)a->address + a->size)
+        ld_error(ctx, "section %s, at 0x%x, overlaps section %s, at 0x%x to 0x%x", a->name, a->address, b->name,
+                 b->address, b->address + b->size);
+    }
 }
 
 /* The initialised data first: the rest of local memory is zero at start. */
@@ -292,9 +381,13 @@ static void find_entry(ld_context *ctx) {
     }
     ctx->entry = ld_symbol_address(ctx, symbol);
   }
-  if (ctx->entry < ctx->bounds.text_start || ctx->entry >= ctx->bounds.text_end || ctx->entry % 4)
-    ld_error(ctx, "the entry '%s' (0x%x) is not an instruction's address in the text, 0x%x to 0x%x", name, ctx->entry,
-             ctx->bounds.text_start, ctx->bounds.text_end);
+  for (size_t i = 0; i < ctx->segments.count; i++) {
+    const ld_segment *segment = &ctx->segments.items[i];
+    if ((segment->flags & PF_X) && ctx->entry - segment->address < segment->memory_size && ctx->entry % 4 == 0)
+      return;
+  }
+  ld_error(ctx, "the entry '%s' (0x%x) is not an instruction's address in the text, 0x%x to 0x%x", name, ctx->entry,
+           ctx->bounds.text_start, ctx->bounds.text_end);
 }
 
 static uint32_t minimum(uint32_t a, uint32_t b) {
@@ -302,9 +395,9 @@ static uint32_t minimum(uint32_t a, uint32_t b) {
 }
 
 static void place_in_file(ld_context *ctx) {
-  uint64_t offset = sizeof(Elf32_Ehdr) + ctx->segment_count * sizeof(Elf32_Phdr);
-  for (size_t i = 0; i < ctx->segment_count; i++) {
-    ld_segment *segment = &ctx->segments[i];
+  uint64_t offset = sizeof(Elf32_Ehdr) + ctx->segments.count * sizeof(Elf32_Phdr);
+  for (size_t i = 0; i < ctx->segments.count; i++) {
+    ld_segment *segment = &ctx->segments.items[i];
     offset = ld_align(offset, LD_SEGMENT_ALIGNMENT); /* as addresses are */
     segment->file_offset = (uint32_t)offset;
     for (size_t o = 0; o < ctx->outputs.count; o++) {
@@ -334,18 +427,32 @@ static void place_in_file(ld_context *ctx) {
   ctx->image_size = (size_t)offset; /* what follows is output.c's */
 }
 
+/* ELF wants them in the order of their addresses. */
+static int compare_segments(const void *left, const void *right) {
+  const ld_segment *a = left, *b = right;
+  return a->address < b->address ? -1 : a->address > b->address;
+}
+
 bool ld_layout(ld_context *ctx) {
   gather(ctx);
   if (ctx->error_count)
     return false;
   uint64_t address = ctx->options.text_start;
-  place_segment(ctx, 0, PF_R | PF_X, &address);
+  place_segments(ctx, 0, PF_R | PF_X, &address);
   uint32_t text_end = (uint32_t)address;
-  place_segment(ctx, 1, PF_R, &address);
-  place_segment(ctx, 2, PF_R | PF_W, &address);
+  place_segments(ctx, 1, PF_R, &address);
+  place_segments(ctx, 2, PF_R | PF_W, &address);
+  check_overlap(ctx);
   place_thread_local(ctx);
   if (ctx->error_count)
     return false;
+  if (ctx->segments.count)
+    qsort(ctx->segments.items, ctx->segments.count, sizeof *ctx->segments.items, compare_segments);
+  for (size_t i = 0; i < ctx->segments.count; i++) { /* sections with addresses of their own may lie anywhere */
+    const ld_segment *segment = &ctx->segments.items[i];
+    if (segment->address + segment->memory_size > address)
+      address = segment->address + segment->memory_size;
+  }
   set_bounds(ctx, text_end, (uint32_t)address);
   ld_place_boundaries(ctx);
   find_entry(ctx);

@@ -110,6 +110,11 @@ typedef struct ld_defsym {
   uint32_t offset;
 } ld_defsym;
 
+typedef struct ld_section_start {
+  const char *name; /* of an output section */
+  uint32_t address;
+} ld_section_start;
+
 typedef enum ld_stack_check { LD_STACK_ERROR, LD_STACK_WARN, LD_STACK_NONE } ld_stack_check;
 
 typedef struct ld_options {
@@ -121,6 +126,8 @@ typedef struct ld_options {
   LD_VECTOR(const char *) undefined; /* -u */
   LD_VECTOR(const char *) wrapped;
   LD_VECTOR(ld_defsym) defsyms;
+  LD_VECTOR(ld_section_start) section_starts;
+  const char *ordering_path; /* --symbol-ordering-file, or NULL */
   uint32_t text_start;
   unsigned error_limit;    /* 0: none */
   unsigned response_files; /* read so far */
@@ -177,6 +184,7 @@ struct ld_section {
   ld_section *merged_into;
   ld_output *output;
   uint32_t output_offset;
+  uint32_t wanted_place;   /* by --symbol-ordering-file; 0: none */
   uint32_t ordinal;        /* in the order of the passes that need one */
   uint32_t first_function; /* in context.functions */
   uint32_t function_count;
@@ -408,8 +416,7 @@ struct ld_context {
   ld_map wrapped; /* --wrap: name of a reference -> name to use, const char * */
 
   LD_VECTOR(ld_output *) outputs; /* in the order of the image */
-  ld_segment segments[3];         /* R-X, R--, RW- */
-  size_t segment_count;
+  LD_VECTOR(ld_segment) segments; /* R-X, R--, RW-, and more where sections have addresses of their own */
   ld_bounds bounds;
   uint32_t local_size; /* bytes of local memory that thread-local data takes */
   uint32_t entry;

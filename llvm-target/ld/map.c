@@ -145,13 +145,13 @@ bool ld_write_map(ld_context *ctx) {
 void ld_print_memory_usage(const ld_context *ctx, FILE *out) {
   static const char *const labels[] = {"text", "read-only data", "data", "zeroed data"};
   uint32_t sizes[4] = {0};
-  for (size_t i = 0; i < ctx->segment_count; i++) {
-    const ld_segment *segment = &ctx->segments[i];
+  for (size_t i = 0; i < ctx->segments.count; i++) {
+    const ld_segment *segment = &ctx->segments.items[i];
     if (segment->flags & PF_W) {
-      sizes[2] = segment->file_size;
-      sizes[3] = segment->memory_size - segment->file_size;
+      sizes[2] += segment->file_size;
+      sizes[3] += segment->memory_size - segment->file_size;
     } else {
-      sizes[segment->flags & PF_X ? 0 : 1] = segment->memory_size;
+      sizes[segment->flags & PF_X ? 0 : 1] += segment->memory_size;
     }
   }
   fputs("global memory\n", out);

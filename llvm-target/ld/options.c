@@ -23,17 +23,19 @@ typedef enum option_id {
   OPT_NO_PRINT_GC,
   OPT_NO_WARNINGS,
   OPT_NO_WHOLE_ARCHIVE,
+  OPT_ORDERING,
   OPT_OUTPUT,
   OPT_PRINT_GC,
   OPT_PRINT_MEMORY,
   OPT_PRINT_STACK,
   OPT_REJECTED,
   OPT_RELOCATABLE,
+  OPT_SECTION_ADDRESS,
+  OPT_SECTION_START,
   OPT_NO_STACK_CHECK,
   OPT_STACK_CHECK,
   OPT_STRIP_ALL,
   OPT_STRIP_DEBUG,
-  OPT_TEXT_START,
   OPT_TRACE,
   OPT_UNDEFINED,
   OPT_V,
@@ -83,7 +85,11 @@ static const option option_table[] = {
     {"strip-all", NONE, OPT_STRIP_ALL, NULL, NULL},
     {"S", NONE, OPT_STRIP_DEBUG, NULL, "leave out debug information"},
     {"strip-debug", NONE, OPT_STRIP_DEBUG, NULL, NULL},
-    {"Ttext", VALUE, OPT_TEXT_START, "ADDRESS", "put the image at ADDRESS (default 0x1000; a multiple of 64)"},
+    {"Ttext", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put the image at ADDRESS (default 0x1000; a multiple of 64)"},
+    {"Tdata", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put .data at ADDRESS, a multiple of 64, and what follows behind it"},
+    {"Tbss", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put .bss at ADDRESS, likewise"},
+    {"section-start", VALUE, OPT_SECTION_START, "NAME=ADDRESS", "put the section NAME at ADDRESS, likewise"},
+    {"symbol-ordering-file", VALUE, OPT_ORDERING, "FILE", "put the sections of the symbols that FILE lists first, in its order"},
     {"Map", VALUE, OPT_MAP, "FILE", "write a map of the image to FILE, - for standard output"},
     {"M", NONE, OPT_MAP_STDOUT, NULL, "print the map"},
     {"print-map", NONE, OPT_MAP_STDOUT, NULL, NULL},
@@ -121,6 +127,8 @@ static const option option_table[] = {
     {"discard-locals", NONE, OPT_ACCEPTED, NULL, NULL},
     {"build-id", NONE, OPT_ACCEPTED, NULL, NULL},
     {"color-diagnostics", NONE, OPT_ACCEPTED, NULL, NULL},
+    {"relax", NONE, OPT_ACCEPTED, NULL, NULL},
+    {"no-relax", NONE, OPT_ACCEPTED, NULL, NULL},
     {"O", JOINED, OPT_ACCEPTED, "LEVEL", NULL},
     /* What this linker does not do. */
     {"shared", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
@@ -207,15 +215,36 @@ static void add_defsym(ld_context *ctx, const char *text) {
   ld_push(ctx, &ctx->options.defsyms, defsym);
 }
 
-static void set_text_start(ld_context *ctx, const char *value) {
-  uint32_t address;
-  if (!ld_parse_number(value, &address))
-    ld_error(ctx, "-Ttext=%s: not a 32-bit number", value);
-  else if (address < TRAX_NULL_END || address >= TRAX_LOCAL_BASE || address % LD_SEGMENT_ALIGNMENT)
-    ld_error(ctx, "-Ttext=%s: must be a multiple of %u in global memory, 0x%x or above", value, LD_SEGMENT_ALIGNMENT,
-             TRAX_NULL_END);
+/* The address of a segment; false after an error message. */
+static bool parse_address(ld_context *ctx, const char *option, const char *value, uint32_t *address) {
+  if (!ld_parse_number(value, address))
+    ld_error(ctx, "%s=%s: not a 32-bit number", option, value);
+  else if (*address < TRAX_NULL_END || *address >= TRAX_LOCAL_BASE || *address % LD_SEGMENT_ALIGNMENT)
+    ld_error(ctx, "%s=%s: must be a multiple of %u in global memory, 0x%x or above", option, value,
+             LD_SEGMENT_ALIGNMENT, TRAX_NULL_END);
   else
-    ctx->options.text_start = address;
+    return true;
+  return false;
+}
+
+static void add_section_start(ld_context *ctx, const char *name, const char *option, const char *value) {
+  ld_section_start start = {.name = name};
+  if (!parse_address(ctx, option, value, &start.address))
+    return;
+  if (strcmp(name, ".text") == 0)
+    ctx->options.text_start = start.address; /* where the whole image begins */
+  else
+    ld_push(ctx, &ctx->options.section_starts, start);
+}
+
+static void set_section_start(ld_context *ctx, const char *value) {
+  const char *equals = strchr(value, '=');
+  if (!equals || equals == value) {
+    ld_error(ctx, "--section-start=%s: expected NAME=ADDRESS", value);
+    return;
+  }
+  const char *name = ld_format(ctx, "%.*s", (int)(equals - value), value);
+  add_section_start(ctx, name, ld_format(ctx, "--section-start=%s", name), equals + 1);
 }
 
 static void set_error_limit(ld_context *ctx, const char *value) {
@@ -290,6 +319,9 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   case OPT_NO_WARNINGS:
     options->no_warnings = true;
     break;
+  case OPT_ORDERING:
+    options->ordering_path = value;
+    break;
   case OPT_OUTPUT:
     options->output = value;
     break;
@@ -312,6 +344,12 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   case OPT_STACK_CHECK:
     set_stack_check(ctx, value);
     break;
+  case OPT_SECTION_ADDRESS:
+    add_section_start(ctx, ld_format(ctx, ".%s", option->name + 1), ld_format(ctx, "-%s", option->name), value);
+    break;
+  case OPT_SECTION_START:
+    set_section_start(ctx, value);
+    break;
   case OPT_RELOCATABLE:
     options->relocatable = true;
     break;
@@ -323,9 +361,6 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
     break;
   case OPT_STRIP_DEBUG:
     options->strip_debug = true;
-    break;
-  case OPT_TEXT_START:
-    set_text_start(ctx, value);
     break;
   case OPT_TRACE:
     options->trace = true;

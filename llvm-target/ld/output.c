@@ -112,7 +112,7 @@ static void put_file_header(const ld_context *ctx, size_t section_headers, size_
                        .e_shoff = (uint32_t)section_headers,
                        .e_ehsize = sizeof(Elf32_Ehdr),
                        .e_phentsize = sizeof(Elf32_Phdr),
-                       .e_phnum = (Elf32_Half)ctx->segment_count,
+                       .e_phnum = (Elf32_Half)ctx->segments.count,
                        .e_shentsize = sizeof(Elf32_Shdr),
                        .e_shnum = (Elf32_Half)section_count,
                        .e_shstrndx = (Elf32_Half)(section_count - 1)};
@@ -120,8 +120,8 @@ static void put_file_header(const ld_context *ctx, size_t section_headers, size_
 }
 
 static void put_program_headers(const ld_context *ctx) {
-  for (size_t i = 0; i < ctx->segment_count; i++) {
-    const ld_segment *segment = &ctx->segments[i];
+  for (size_t i = 0; i < ctx->segments.count; i++) {
+    const ld_segment *segment = &ctx->segments.items[i];
     Elf32_Phdr header = {.p_type = PT_LOAD,
                          .p_offset = segment->file_offset,
                          .p_vaddr = segment->address,
