@@ -27,6 +27,9 @@ set(CMAKE_EXECUTABLE_SUFFIX_C .elf)
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
 set(CMAKE_CROSSCOMPILING_EMULATOR "${TRAX_PREFIX}/bin/trax-sim")
 
+# find_package(trax) in the project.
+set(trax_DIR "${TRAX_PREFIX}/lib/cmake/trax" CACHE PATH "Where traxConfig.cmake is")
+
 # The host's libraries and headers are not the machine's.
 set(CMAKE_FIND_ROOT_PATH "${TRAX_PREFIX}/lib/trax")
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

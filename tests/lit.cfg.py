@@ -51,6 +51,8 @@ config.substitutions += [
     ("%runtime", os.path.join(config.trax_build_root, "lib", "trax")),
     ("%trax_bin", config.trax_bin),
     ("%trax_source", config.trax_source_root),
+    ("%trax_build", config.trax_build_root),
+    ("%{path}", config.environment["PATH"]),
     ("%python", config.python),
     ("%cmake", config.cmake),
     ("%run_c", " ".join([

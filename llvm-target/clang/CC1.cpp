@@ -111,6 +111,12 @@ bool compileForTrax(CompilerInstance &CI) {
     llvm::EnableStatistics(/*DoPrintOnExit=*/false);
 
   for (const FrontendInputFile &Input : CI.getFrontendOpts().Inputs) {
+    if (Input.getKind().getFormat() == InputKind::Precompiled) { // the library would create its target itself
+      CI.getDiagnostics().Report(CI.getDiagnostics().getCustomDiagID(
+          DiagnosticsEngine::Error, "%0: compiled modules and syntax trees are not supported for the target 'trax'"))
+          << Input.getFile();
+      continue;
+    }
     if (CI.hasSourceManager() && !Action->isModelParsingAction())
       CI.getSourceManager().clearIDTables();
     if (!Action->BeginSourceFile(CI, Input))

@@ -80,7 +80,17 @@ void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const Stack
       "-fdebug-default-version=4",
       "-fno-exceptions", // C++: no unwinder, no type information
       "-fno-rtti",
+      "-fsanitize-trap=all", // checks of undefined behaviour end in a fault report: there is no run-time library for
+                             // them
   };
+  // What says nothing new here, and what clang does not expect of a linker other than its own.
+  llvm::erase_if(Args, [](const char *Given) {
+    return Given && llvm::is_contained({"-mcpu=generic", "-mtune=generic", "-stdlib=libc++"}, StringRef(Given));
+  });
+  for (const char *&Given : llvm::drop_begin(Args))
+    if (Given && StringRef(Given) == "-nolibc")
+      Given = "-nodefaultlibs";
+
   bool NoHeaders = false, NoCXXHeaders = false;
   for (const char *Given : llvm::drop_begin(Args)) {
     const StringRef Option = Given ? Given : "";
@@ -135,6 +145,19 @@ void trax::checkOptions(const Compilation &C) {
       {{OPT_femulated_tls}, {OPT_fno_emulated_tls}},
       {{OPT_fprofile_generate, OPT_fprofile_generate_EQ}, {OPT_fno_profile_generate}},
       {{OPT_fprofile_instr_generate, OPT_fprofile_instr_generate_EQ}, {OPT_fno_profile_instr_generate}},
+      {{OPT_fprofile_arcs}, {OPT_fno_profile_arcs}},
+      {{OPT_ftest_coverage}, {OPT_fno_test_coverage}},
+      {{OPT_fsanitize_coverage}, {}},
+      {{OPT_fno_sanitize_trap, OPT_fno_sanitize_trap_EQ}, {OPT_fsanitize_trap, OPT_fsanitize_trap_EQ}},
+      {{OPT_fsanitize_minimal_runtime}, {OPT_fno_sanitize_minimal_runtime}},
+      {{OPT_fexceptions, OPT_fcxx_exceptions}, {OPT_fno_exceptions, OPT_fno_cxx_exceptions}},
+      {{OPT_frtti}, {OPT_fno_rtti}},
+      {{OPT_fmodules}, {OPT_fno_modules}},
+      {{OPT_fmodule_file, OPT_fmodule_output, OPT_fmodule_output_EQ, OPT__precompile}, {}},
+      {{OPT_fno_integrated_as}, {OPT_fintegrated_as}},
+      {{OPT_fno_use_init_array}, {OPT_fuse_init_array}},
+      {{OPT_mtune_EQ}, {}},
+      {{OPT_m64, OPT_m16, OPT_mx32}, {OPT_m32}},
       {{OPT_pg, OPT_coverage}, {}},
       {{OPT_gsplit_dwarf, OPT_gsplit_dwarf_EQ}, {OPT_gno_split_dwarf}},
   };
@@ -155,6 +178,8 @@ void trax::checkOptions(const Compilation &C) {
   if (const Arg *Given = Args.getLastArg(OPT_fuse_ld_EQ))
     if (StringRef(Given->getValue()) != "trax-ld")
       Refuse(Given);
+  if (const Arg *Given = Args.getLastArg(OPT_stdlib_EQ)) // libc++ is no longer among them
+    Refuse(Given);
 }
 
 namespace {
@@ -214,7 +239,9 @@ std::unique_ptr<Command> trax::Linker::makeCommand(const Compilation &C, const A
     }
     // libc.a has the functions of <math.h> and what C++ needs.
     const Arg &Option = Input.getInputArg();
-    static constexpr StringRef Contained[] = {"m", "c++", "c++abi", "stdc++", "supc++"};
+    static constexpr StringRef Contained[] = {"m", "c++", "c++abi", "supc++"};
+    if (Option.getOption().matches(OPT_Z_reserved_lib_stdcxx)) // what clang makes of -lstdc++
+      continue;
     if (NoLibraries || !Option.getOption().matches(OPT_l) || !llvm::is_contained(Contained, Option.getValue()))
       Option.renderAsInput(Args, Out);
   }

@@ -12,6 +12,7 @@
 
 // The functions of <math.h> are in libc.a.
 // RUN: %clang -### %t.o -lm 2>&1 | FileCheck %s --check-prefix=MATH
+// RUN: %clangxx -### %t.o -lstdc++ -lc++ -lm 2>&1 | FileCheck %s --check-prefix=MATH --implicit-check-not=c++\"
 // MATH: trax-ld"
 // MATH-NOT: "-lm"
 // MATH-SAME: "-lc"
