@@ -79,10 +79,17 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
   EmitToStreamer(*OutStreamer, Inst);
 }
 
-/// An operand of inline assembly. %z prints r0 for the constant 0.
+/// An operand of inline assembly. %z prints r0 for the constant 0, %H the register of a double word's upper half.
 bool TraxAsmPrinter::PrintAsmOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) {
   const MachineOperand &MO = MI->getOperand(OpNo);
   if (ExtraCode && ExtraCode[0]) {
+    if (ExtraCode[0] == 'H' && ExtraCode[1] == 0) {
+      const InlineAsm::Flag Operand(MI->getOperand(OpNo - 1).getImm());
+      if (!MO.isReg() || Operand.getNumOperandRegisters() != 2)
+        return true;
+      OS << TraxInstPrinter::getRegisterName(MI->getOperand(OpNo + 1).getReg());
+      return false;
+    }
     if (ExtraCode[0] == 'z' && ExtraCode[1] == 0 && MO.isImm() && MO.getImm() == 0) {
       OS << TraxInstPrinter::getRegisterName(Trax::R0);
       return false;

@@ -522,8 +522,7 @@ TargetLowering::ConstraintType TraxTargetLowering::getConstraintType(StringRef C
 std::pair<unsigned, const TargetRegisterClass *>
 TraxTargetLowering::getRegForInlineAsmConstraint(const TargetRegisterInfo *TRI, StringRef Constraint, MVT VT) const {
   if (Constraint == "r") {
-    // A double word takes two, of which the text can name the first. The front end makes one of a word that shares its
-    // register with a double word, and refuses others.
+    // A double word takes two: %0 names the lower word's, %H0 the upper word's.
     if (VT != MVT::Other && VT.getSizeInBits() > 64)
       return {0U, nullptr};
     return {0U, &Trax::GPRRegClass};

@@ -96,15 +96,6 @@ public:
     }
   }
 
-  // A register is a word. What shares a register with another operand is measured by that one.
-  bool validateOutputSize(const llvm::StringMap<bool> &, StringRef Constraint, unsigned Size) const override {
-    return !namesRegister(Constraint) || Size <= 32;
-  }
-  bool validateInputSize(const llvm::StringMap<bool> &, StringRef Constraint, unsigned Size) const override {
-    return !namesRegister(Constraint) || Size <= 32;
-  }
-  static bool namesRegister(StringRef Constraint) { return Constraint.ltrim("=+&%") == "r"; }
-
   // __builtin_setjmp and __builtin_longjmp: TraxSjLj.cpp.
   bool hasSjLjLowering() const override { return true; }
 

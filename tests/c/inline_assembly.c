@@ -36,6 +36,16 @@ __attribute__((noinline)) static int lower_half(long long a) { // a word in the 
   __asm__("" : "=r"(low) : "0"(a));
   return low;
 }
+__attribute__((noinline)) static long long swapped(long long a) { // each in two registers
+  long long r;
+  __asm__("mv %0, %H1\n\tmv %H0, %1" : "=&r"(r) : "r"(a));
+  return r;
+}
+__attribute__((noinline)) static double negated(double a) {
+  unsigned sign = 0x80000000;
+  __asm__("xor %H0, %H0, %1" : "+r"(a) : "r"(sign));
+  return a;
+}
 __attribute__((noinline)) static int sign(int a) {
   __asm__ goto("blt %0, r0, %l1\n\tbeq %0, r0, %l[zero]" : : "r"(a) : : negative, zero);
   return 1;
@@ -50,5 +60,6 @@ int main(void) {
   store(&cells[2], 77);
   printf("%d %g %d\n", cells[2], (double)reciprocal_root(16.0f), clobbers(6, 7));
   printf("%x %d %d %d\n", (unsigned)lower_half(0x123456789ABCDEF0), sign(-5), sign(0), sign(7));
+  printf("%llx %g\n", (unsigned long long)swapped(0x123456789ABCDEF0), negated(2.5));
   return 0;
 }
