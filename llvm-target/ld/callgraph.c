@@ -262,29 +262,53 @@ static void scan_function(scanner *scanner, ld_function *function) {
     add_call(scanner->ctx, function, ld_function_at(scanner->ctx, section, function->end), true);
 }
 
+/* A function whose address is taken can be called through a pointer. Calls and branches take none. */
+static void note_address(ld_context *ctx, const ld_reloc *reloc) {
+  if (reloc->type == R_TRAX_JAL21 || reloc->type == R_TRAX_BR16 || reloc->type == R_TRAX_JUMP)
+    return;
+  ld_function *function = function_of(ctx, reloc->symbol, reloc->addend);
+  const ld_symbol *symbol = reloc->symbol;
+  bool is_start =
+      function && (symbol->kind != LD_DEFINED || symbol->value + (uint32_t)reloc->addend == function->start);
+  if (is_start)
+    function->address_taken = true;
+}
+
 /* The constructors' and destructors' tables are called through pointers, but the linker knows what is in them. */
-static void scan_tables(ld_context *ctx) {
+static void note_table_entry(ld_context *ctx, const ld_section *table, const ld_reloc *reloc) {
+  const ld_function *function = function_of(ctx, reloc->symbol, reloc->addend);
+  if (!function)
+    return;
+  uint32_t index = (uint32_t)(function - ctx->functions.items);
+  if (table->type == SHT_FINI_ARRAY)
+    ld_push(ctx, &ctx->destructors, index);
+  else
+    ld_push(ctx, &ctx->constructors, index);
+}
+
+static void note_table_reader(ld_context *ctx, const ld_section *section, const ld_reloc *reloc) {
+  ld_function *reader = ld_function_at(ctx, section, reloc->offset);
+  if (reader && strcmp(reloc->symbol->name, "__init_array_start") == 0)
+    reader->runs_constructors = true;
+  else if (reader && strcmp(reloc->symbol->name, "__fini_array_start") == 0)
+    reader->runs_destructors = true;
+}
+
+static void scan_references(ld_context *ctx) {
   for (size_t i = 0; i < ctx->sections.count; i++) {
     const ld_section *section = ctx->sections.items[i];
-    if (!section->live)
+    if (!section->live || !(section->flags & SHF_ALLOC))
       continue;
-    bool init = section->type == SHT_INIT_ARRAY || section->type == SHT_PREINIT_ARRAY;
+    bool is_table =
+        section->type == SHT_INIT_ARRAY || section->type == SHT_PREINIT_ARRAY || section->type == SHT_FINI_ARRAY;
     for (uint32_t r = 0; r < section->reloc_count; r++) {
       const ld_reloc *reloc = &section->relocs[r];
-      if (is_code(section) && reloc->symbol->kind == LD_ABSOLUTE) {
-        ld_function *reader = ld_function_at(ctx, section, reloc->offset);
-        if (reader && strcmp(reloc->symbol->name, "__init_array_start") == 0)
-          reader->runs_constructors = true;
-        else if (reader && strcmp(reloc->symbol->name, "__fini_array_start") == 0)
-          reader->runs_destructors = true;
-      } else if (init || section->type == SHT_FINI_ARRAY) {
-        const ld_function *function = function_of(ctx, reloc->symbol, reloc->addend);
-        uint32_t index = function ? (uint32_t)(function - ctx->functions.items) : 0;
-        if (function && init)
-          ld_push(ctx, &ctx->constructors, index);
-        else if (function)
-          ld_push(ctx, &ctx->destructors, index);
-      }
+      if (is_table)
+        note_table_entry(ctx, section, reloc);
+      else
+        note_address(ctx, reloc);
+      if (reloc->symbol->kind == LD_ABSOLUTE)
+        note_table_reader(ctx, section, reloc);
     }
   }
 }
@@ -344,7 +368,7 @@ bool ld_build_call_graph(ld_context *ctx) {
   scanner scanner = {.ctx = ctx};
   const ld_section *indexed = NULL;
   cut_functions(ctx);
-  scan_tables(ctx);
+  scan_references(ctx);
   for (size_t i = 0; i < ctx->functions.count; i++) {
     ld_function *function = &ctx->functions.items[i];
     if (function->section != indexed)

@@ -327,7 +327,7 @@ typedef struct ld_call {
 } ld_call;
 
 typedef struct ld_function {
-  ld_section *section;
+  ld_section *section; /* NULL: stands for the callees of indirect calls */
   const char *name;
   uint32_t start, end; /* offsets in the section */
   uint32_t frame;      /* bytes; without a record, what is seen of it */
@@ -335,6 +335,7 @@ typedef struct ld_function {
   bool moves_sp;       /* by more than a constant */
   bool is_complete;    /* its symbol has a size */
   bool runs_constructors, runs_destructors;
+  bool address_taken;
   uint32_t indirect_calls;
   uint32_t link_registers;     /* with which it is called, a bit for each */
   uint16_t indirect_jumps[32]; /* by register */

@@ -222,6 +222,8 @@ static void walk_from(walk *walk, uint32_t root) {
 static const char *describe(const walk *walk, uint32_t index) {
   const ld_function *function = function_of(walk, index);
   const ld_section *section = function->section;
+  if (!section)
+    return function->name;
   const char *offset = function->start ? ld_format(walk->ctx, "+0x%x", function->start) : "";
   return ld_format(walk->ctx, "%s, %s:(%s%s)", function->name, section->object->name, section->name, offset);
 }
@@ -329,6 +331,34 @@ static void report_depth(const walk *walk, uint32_t root, uint64_t limit, const 
                                 path_text(walk, root, "  "), is_bounded ? "" : "  not counted:\n", unbounded);
 }
 
+/* The depth if every indirect call can reach every function whose address is taken: a bound that holds unless recursion
+   or a frame of unknown size is in the way, and often far from what can happen. Adds these calls to the graph. */
+static void add_estimate(ld_context *ctx, uint32_t root) {
+  uint32_t any = (uint32_t)ctx->functions.count;
+  ld_function callees = {.has_record = true};
+  for (uint32_t i = 0; i < any; i++) {
+    ld_function *function = &ctx->functions.items[i];
+    ld_call call = {.callee = i, .is_tail = true};
+    if (function->address_taken)
+      ld_push(ctx, &callees.calls, call);
+    call = (ld_call){.callee = any};
+    if (function->indirect_calls)
+      ld_push(ctx, &function->calls, call);
+  }
+  if (callees.calls.count == 0)
+    return;
+  callees.name =
+      ld_format(ctx, "(%zu function%s by address)", callees.calls.count, callees.calls.count == 1 ? "" : "s");
+  ld_push(ctx, &ctx->functions, callees);
+  walk walk = {.ctx = ctx};
+  walk.nodes = ld_alloc_array(ctx, ctx->functions.count, sizeof *walk.nodes);
+  walk_from(&walk, root);
+  if (walk.nodes[root].depth > ctx->stack_depth)
+    ctx->stack_report =
+        ld_format(ctx, "%s  with indirect calls of any function whose address is taken, %llu bytes:\n%s",
+                  ctx->stack_report, (unsigned long long)walk.nodes[root].depth, path_text(&walk, root, "  "));
+}
+
 static void refuse(const walk *walk, uint32_t root, uint64_t limit, const char *where) {
   ld_context *ctx = walk->ctx;
   void (*report)(ld_context *, const char *, ...) = ctx->options.stack_check == LD_STACK_ERROR ? ld_error : ld_warning;
@@ -351,9 +381,10 @@ bool ld_check_stack(ld_context *ctx) {
   const char *where;
   uint64_t limit = stack_limit(ctx, &where);
   report_depth(&walk, root, limit, where);
-  if (ctx->options.print_stack)
-    fputs(ctx->stack_report, stdout);
   if (ctx->stack_depth > limit && ctx->options.stack_check != LD_STACK_NONE)
     refuse(&walk, root, limit, where);
+  add_estimate(ctx, root);
+  if (ctx->options.print_stack)
+    fputs(ctx->stack_report, stdout);
   return ctx->error_count == 0;
 }

@@ -24,6 +24,8 @@
 // RUN: %{link}
 // REDEFINE: %{case} = tables
 // RUN: %{link}
+// REDEFINE: %{case} = pointers
+// RUN: %{link}
 
 //--- macros.s
 .macro function name, frame
@@ -307,3 +309,55 @@ second:
   .long constructor
   .section .fini_array, "aw", @fini_array
   .long destructor
+
+//--- pointers.s
+// With indirect calls of every function whose address is taken, in data or by instructions: pointed is one, inner another, though
+// it calls back; called and dropped are none, nor is what a jump table holds.
+//      CHECK:stack: at least 30 bytes, of 512 (local memory)
+// CHECK-NEXT:     frame    depth  function
+// CHECK-NEXT:        10       10  _start, pointers.o:(.text._start)
+// CHECK-NEXT:        20       30  called, pointers.o:(.text.called)
+// CHECK-NEXT:  not counted:
+// CHECK-NEXT:  1 indirect call: _start, pointers.o:(.text._start)
+// CHECK-NEXT:  with indirect calls of any function whose address is taken, 150 bytes:
+// CHECK-NEXT:     frame    depth  function
+// CHECK-NEXT:        10       10  _start, pointers.o:(.text._start)
+// CHECK-NEXT:         0       10  (2 functions by address), leaves by a tail call
+// CHECK-NEXT:        40       50  pointed, pointers.o:(.text.pointed)
+// CHECK-NEXT:       100      150  below, pointers.o:(.text.below)
+//  CHECK-NOT:{{.}}
+  function _start, 10
+  jal r1, called
+  lui r4, %hi(table)
+  lw r4, %lo(table)(r4)
+  jalr r1, 0(r4)
+  lui r5, %hi(inner)
+  addi r5, r5, %lo(inner)
+  halt
+  finish _start
+  function called, 20
+  lui r4, %hi(switch)
+  lw r4, %lo(switch)(r4)
+  .reloc ., R_TRAX_JUMP
+  jr r4
+.Lcase:
+  ret
+  finish called
+  function pointed, 40
+  jal r1, below
+  ret
+  finish pointed
+  leaf below, 100
+  function inner, 12
+  jalr r1, 0(r4)
+  ret
+  finish inner
+  leaf dropped, 400
+  .section .data.table, "aw", @progbits
+table:
+  .long pointed
+  .section .data.dropped, "aw", @progbits
+  .long dropped
+  .section .rodata.switch, "a", @progbits
+switch:
+  .long .Lcase
