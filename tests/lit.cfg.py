@@ -8,6 +8,7 @@ some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substitutions beyond 
   %host_clang    clang, for the host          %trax_mc       assembler and disassembler
   %runtime       directory of crt0.o, libc.a  %trax_llc      LLVM IR to assembly, with the verifier on
   %python        the Python interpreter       %trax_objdump  disassembler of ELF files
+  %unwind_test   compares frame information with the call chain (tests/unwind)
   %run_c         run_c.py: compiles a C program at every -O level, runs each and compares (see tests/c)
 
 LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a program is
@@ -48,6 +49,7 @@ config.substitutions += [
     ("%trax_mc", program("trax-mc")),
     ("%trax_llc", program("trax-llc", "-verify-machineinstrs")),
     ("%trax_objdump", program("trax-objdump")),
+    ("%unwind_test", program("unwind-test")),
     ("%runtime", os.path.join(config.trax_build_root, "lib", "trax")),
     ("%trax_bin", config.trax_bin),
     ("%trax_source", config.trax_source_root),

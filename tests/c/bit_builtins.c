@@ -18,7 +18,7 @@ int main(void) {
     printf("%d%d%d", __builtin_sadd_overflow((int)x, 5, &r), __builtin_smul_overflow((int)x, 3, &r),
            __builtin_uadd_overflow(x, 7, &u));
     printf("%d%d\n", __builtin_usub_overflow(x, 100u, &u),
-           __builtin_saddll_overflow((long long)y << 32, (long long)y << 31, &l));
+           __builtin_saddll_overflow((long long)(y << 32), (long long)(y << 31), &l));
   }
   return 0;
 }

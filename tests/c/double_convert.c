@@ -31,7 +31,7 @@ int main(void) {
   for (int i = 0; i < 6; i++) {
     int n = ints[i];
     printf("%llx %llx ", bits(n), bits((unsigned)n));
-    printf("%llx %llx\n", bits((double)((long long)n * 9876543210ll)), bits((double)~(unsigned long long)(unsigned)n));
+    printf("%llx %llx\n", bits((double)(long long)((unsigned long long)n * 9876543210ull)), bits((double)~(unsigned long long)(unsigned)n));
   }
   return 0;
 }

@@ -16,7 +16,7 @@ __attribute__((noinline)) static int64_t mix(unsigned char *base) {
   h[1] = (uint16_t)(h[0] + 5);
   w[0] = b[2] - h[1];
   w[1] = (int16_t)h[0];
-  d[0] = (int64_t)w[0] << 33 | (uint32_t)w[1];
+  d[0] = (int64_t)((uint64_t)w[0] << 33 | (uint32_t)w[1]);
   d[1] = d[0] >> 7;
   return d[1] ^ b[2];
 }
