@@ -28,6 +28,10 @@ public:
   bool hasFP(const MachineFunction &MF) const override;
   bool hasBP(const MachineFunction &MF) const;
   bool hasReservedCallFrame(const MachineFunction &MF) const override;
+  int getInitialCFAOffset(const MachineFunction &) const override { return 0; }
+  Register getInitialCFARegister(const MachineFunction &) const override { return Trax::R2; }
+  /// CFIInstrInserter does it, which also knows of prologues in the middle of a function.
+  bool enableCFIFixup(MachineFunction &) const override { return false; }
   bool enableShrinkWrapping(const MachineFunction &) const override { return true; }
 
   void emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB) const override;

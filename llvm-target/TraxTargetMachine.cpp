@@ -85,6 +85,9 @@ public:
       addPass(createMachineCopyPropagationPass(/*UseCopyInstr=*/true));
     addPass(&BranchRelaxationPassID);
   }
+
+  // Last: blocks are in their order. One behind an epilogue is told again what the frame is.
+  void addPreEmitPass2() override { addPass(createCFIInstrInserter()); }
 };
 
 } // namespace

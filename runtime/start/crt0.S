@@ -7,10 +7,13 @@
 
   .weak __trax_start, __trax_end_thread, __trax_end_program
 
+  .cfi_sections .debug_frame
   .section .text._start, "ax", @progbits
   .globl _start
   .type _start, @function
 _start:
+  .cfi_startproc
+  .cfi_undefined r1 // nobody called: debuggers stop here
 #ifdef TRAX_GLOBAL_STACK
   lui r12, %hi(__trax_stack_top)
   lw r2, %lo(__trax_stack_top)(r12)
@@ -35,6 +38,7 @@ _start:
   addi r4, r4, %lo(.Lmessage)
   trap r4, TRAX_TRAP_ABORT
 #endif
+  .cfi_endproc
   .size _start, . - _start
   .section .stack_sizes, "o", @progbits, .text._start
   .long _start

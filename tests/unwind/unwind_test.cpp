@@ -136,7 +136,8 @@ void Checker::step(const unwind_state &State) {
   std::copy_n(State.registers, 32, R.begin());
   R[0] = 0;
   bool IsJump = Previous.op == TRAX_OP_JAL || Previous.op == TRAX_OP_JALR;
-  if (IsJump && Previous.rd == RA) {
+  // A call of the next instruction is one of a weak function that is not there.
+  if (IsJump && Previous.rd == RA && State.pc != State.previous_pc + 4) {
     Frames.push_back({State.pc, R[RA], R});
     Deepest = std::max(Deepest, Frames.size());
   } else if (Previous.op == TRAX_OP_JALR && !Frames.empty() && State.pc == Frames.back().ReturnAddress &&
