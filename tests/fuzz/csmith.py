@@ -10,14 +10,11 @@ A second run with the same toolchain goes on where the first stopped. Exit statu
 1 if any differs (each with the command to reproduce it; its files are in failures/seed-N) or something is missing.
 """
 
-import argparse
 import collections
 import concurrent.futures
 import hashlib
 import json
-import os
 import pathlib
-import re
 import shutil
 import sys
 import tempfile
@@ -26,46 +23,25 @@ import time
 
 import checks
 import programs
-from toolchain import Failure, Progress, SetupError, Target, require_host_compiler, require_programs
+import runner
+from toolchain import Failure, Progress, SetupError
 
 LEVELS = "-O0,-O1,-O2,-O3,-Os"
 LONG_RUN = 40  # times --max-cycles: how long a program may run that the host runs in no time, before it counts as hanging
 
 
-def seed_range(text):
-    match = re.fullmatch(r"(\d+)-(\d+)", text) or re.fullmatch(r"(\d+)()", text)
-    if not match:
-        raise argparse.ArgumentTypeError(f"'{text}' is not FIRST-LAST, like 1-500")
-    first, last = int(match[1]), int(match[2] or match[1])
-    if last < first:
-        raise argparse.ArgumentTypeError(f"'{text}' holds no seed")
-    return range(first, last + 1)
-
-
-def natural(text):
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number from 1 up")
-    return int(text)
-
-
 def parse_arguments():
-    top = pathlib.Path(__file__).resolve().parents[2]
-    parser = argparse.ArgumentParser(description="Compare Csmith's programs on the TP with the host.",
-                                     formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-    parser.add_argument("--seeds", type=seed_range, default=range(1, 501), metavar="FIRST-LAST")
-    parser.add_argument("--build", type=pathlib.Path, default=top / "build", help="build directory of the toolchain")
-    parser.add_argument("--work", type=pathlib.Path, help="directory of the results (default: BUILD/fuzz/csmith)")
-    parser.add_argument("--jobs", type=natural, default=os.cpu_count())
-    parser.add_argument("--levels", default=LEVELS, help="comma separated; write --levels=-O0,...")
-    parser.add_argument("--sample", type=int, default=5, help="every N-th seed gets all checks, 0: none")
-    parser.add_argument("--cflags", default="", help="further flags of the compiler; write --cflags=-...")
-    parser.add_argument("--max-cycles", type=natural, default=30_000_000, help="longer programs (at the first level) are skipped")
+    parser = runner.Parser(description="Compare Csmith's programs on the TP with the host.")
+    runner.add_options(parser, "csmith", "1-500")
+    parser.add_argument("--levels", default=LEVELS, help=f"comma separated; write --levels=-O0,... (default: {LEVELS})")
+    parser.add_argument("--sample", type=int, default=5, help="every N-th seed gets all checks; 0: none (default: 5)")
+    parser.add_argument("--max-cycles", type=runner.natural, default=30_000_000,
+                        help="programs that run longer at the first level are skipped (default: 30000000)")
     parser.add_argument("--again", action="store_true", help="forget earlier results")
     options = parser.parse_args()
     options.levels = [level for level in options.levels.split(",") if level]
     if not options.levels:
         parser.error("--levels: no level")
-    options.work = (options.work or options.build / "fuzz" / "csmith").resolve()
     return options
 
 
@@ -116,8 +92,7 @@ def simulate_first(target, image, max_cycles, host_seconds, what):
 
 def check_seed(target, seed, options, directory):
     """Compiles and runs one program at all levels. Returns how often its stack was local and global."""
-    program = programs.generate(seed, directory)
-    output, host_seconds = programs.expected(program, directory)
+    program, output, host_seconds = programs.obtain(seed, options.work / "programs", directory)
     stacks = collections.Counter()
     try:
         for level in options.levels:
@@ -153,13 +128,8 @@ def run_seed(target, seed, options):
     except programs.Skip as skip:
         record.update(outcome="skipped", reason=str(skip))
     except Failure as failure:
-        kept = options.work / "failures" / f"seed-{seed}"
-        command = failure.command.replace(str(directory), str(kept))
-        record.update(outcome="failed", reason=str(failure), command=command)
-        shutil.rmtree(kept, ignore_errors=True)
-        kept.parent.mkdir(exist_ok=True)
-        shutil.copytree(directory, kept)
-        (kept / "failure.txt").write_text(f"{failure}\n{command}\n")
+        reason, command = runner.keep(options, seed, directory, failure)
+        record.update(outcome="failed", reason=reason, command=command)
     finally:
         shutil.rmtree(directory, ignore_errors=True)
     return record
@@ -213,13 +183,11 @@ def run_all(target, options, results):
 def main():
     options = parse_arguments()
     try:
-        require_programs({"csmith": "csmith", programs.INCLUDE + "/csmith.h": "libcsmith-dev", "gcc": "gcc"})
-        target = Target(options.build, options.cflags.split())
-        options.work.mkdir(parents=True, exist_ok=True)
-        require_host_compiler(options.work)
+        target = runner.prepare(options, "csmith", {"csmith": "csmith", programs.INCLUDE + "/csmith.h": "libcsmith-dev"})
     except SetupError as error:
         print(f"csmith.py: error: {error}", file=sys.stderr)
         return 1
+    (options.work / "programs").mkdir(exist_ok=True)
     settings = repr((programs.PROFILES, options.levels, options.sample, options.max_cycles, list(checks.CHECKS)))
     key = f"{target.fingerprint()} {hashlib.sha256(settings.encode()).hexdigest()[:16]}"
     results = Results(options.work / "results.jsonl", key, options.again)

@@ -5,6 +5,8 @@ checksum of their global variables and have, with few exceptions, no undefined b
 """
 
 import dataclasses
+import hashlib
+import json
 import pathlib
 import resource
 import shlex
@@ -14,7 +16,7 @@ from toolchain import HOST_COMPILER, run
 
 INCLUDE = "/usr/include/csmith"
 # Processor time: nearly all programs take milliseconds to be made and to run, or for ever.
-CSMITH_SECONDS, HOST_SECONDS = 3, 1
+CSMITH_SECONDS, HOST_SECONDS = 2, 1
 
 # A seed's profile is PROFILES[seed % len(PROFILES)]: options of Csmith, flags of the compilers, language. Arithmetic that is
 # defined for all operands goes through functions unless USE_MATH_MACROS makes it macros.
@@ -22,11 +24,11 @@ PROFILES = [
     ("default", "", "", "c"),
     ("float", "--float", "", "c"),
     ("builtins", "--builtins --disable-builtin-kinds x86", "", "c"),
-    ("structs", "--max-struct-fields 20 --max-union-fields 8 --max-funcs 14", "-DUSE_MATH_MACROS", "c"),
+    ("structs", "--max-struct-fields 16 --max-union-fields 8", "-DUSE_MATH_MACROS", "c"),
     ("arrays", "--max-array-dim 4 --max-array-len-per-dim 6", "", "c"),
     ("calls", "--max-funcs 30 --max-block-size 2 --max-expr-complexity 6", "", "c"),
     ("random", "--random-random", "-DUSE_MATH_MACROS", "c"),
-    ("deep", "--max-block-depth 7 --max-expr-complexity 20", "", "c"),
+    ("deep", "--max-block-depth 6 --max-expr-complexity 14", "", "c"),
     ("pointers", "--max-pointer-depth 5 --no-volatiles", "-DUSE_MATH_MACROS", "c"),
     ("c++", "--lang-cpp --no-pointers --max-struct-fields 16", "-std=gnu++98", "c++"),
     ("mixed", "--float --builtins --disable-builtin-kinds x86 --no-volatiles", "", "c"),
@@ -40,24 +42,30 @@ class Program:
     profile: str
     language: str
     source: pathlib.Path
-    flags: list
+    options: list  # of csmith
+    flags: list  # of the compilers
 
 
 class Skip(Exception):
     """A program that cannot be compared; the message is the reason in a word or two."""
 
 
-def generate(seed, directory):
-    """Writes the seed's program into a directory."""
+def describe(seed, directory):
     profile, options, flags, language = PROFILES[seed % len(PROFILES)]
     source = directory / ("program.cpp" if language == "c++" else "program.c")
-    csmith = ["prlimit", f"--cpu={CSMITH_SECONDS}", "csmith", "--seed", seed, "--output", source, *shlex.split(options)]
+    return Program(seed, profile, language, source, shlex.split(options), shlex.split(flags) + ["-I", INCLUDE])
+
+
+def generate(seed, directory):
+    """Writes the seed's program into a directory."""
+    program = describe(seed, directory)
+    csmith = ["prlimit", f"--cpu={CSMITH_SECONDS}", "csmith", "--seed", seed, "--output", program.source, *program.options]
     result = run(csmith, cwd=directory)
     if result.status in (None, -signal.SIGXCPU, -signal.SIGKILL):
         raise Skip("csmith takes too long")
     if result.status != 0:
         raise Skip("csmith fails")
-    return Program(seed, profile, language, source, shlex.split(flags) + ["-I", INCLUDE])
+    return program
 
 
 def host_compile(program, binary, flags=("-O0",)):
@@ -81,6 +89,31 @@ def expected(program, directory):
     if result.status != 0 or not result.output.startswith(b"checksum = "):
         raise Skip("fails on the host")
     return result.output, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def obtain(seed, cache, directory):
+    """Puts the seed's program into a directory; returns (program, what it prints, processor time on the host). Programs and
+    output are kept in the directory `cache`, since they take as long as compiling for the TP."""
+    settings = hashlib.sha256(repr((PROFILES, CSMITH_SECONDS, HOST_SECONDS, HOST_COMPILER)).encode()).hexdigest()[:8]
+    kept = cache / f"{settings}-{seed}.json"
+    if not kept.exists():
+        known = {}
+        try:
+            program = generate(seed, directory)
+            output, known["seconds"] = expected(program, directory)
+            known["output"] = output.decode()
+            known["source"] = program.source.read_text()
+        except Skip as skip:
+            known["skip"] = str(skip)
+        fresh = directory / "known.json"
+        fresh.write_text(json.dumps(known))
+        fresh.replace(kept)
+    known = json.loads(kept.read_text())
+    if "skip" in known:
+        raise Skip(known["skip"])
+    program = describe(seed, directory)
+    program.source.write_text(known["source"])
+    return program, known["output"].encode(), known["seconds"]
 
 
 def undefined_behaviour(program, directory):
