@@ -4,6 +4,7 @@
 #include "TraxMachineFunctionInfo.h"
 #include "TraxSubtarget.h"
 #include "trax/abi.h"
+#include "llvm/Analysis/ValueTracking.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
 #include "llvm/CodeGen/MachineJumpTableInfo.h"
 #include "llvm/CodeGen/MachineRegisterInfo.h"
@@ -240,7 +241,7 @@ bool llvm::isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG) {
   if (Base.getOpcode() == TraxISD::ABS_ADDR)
     return true;
   const Value *V = N->getMemOperand()->getValue();
-  V = V ? V->stripInBoundsConstantOffsets() : nullptr;
+  V = V ? getUnderlyingObject(V) : nullptr;
   if (const auto *GV = dyn_cast_or_null<GlobalVariable>(V))
     return GV->isThreadLocal();
   return StackIsLocal && isa_and_nonnull<AllocaInst>(V);

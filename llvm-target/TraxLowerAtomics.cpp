@@ -1,16 +1,24 @@
 //===- TraxLowerAtomics.cpp - Atomic operations that the machine lacks ---===//
 //
 // The machine loads, stores and increments atomically. Every other read-modify-write becomes a call of the runtime's
-// function of libatomic's name, which takes a lock. Runs behind AtomicExpand, which has reduced operations without such
-// a function to compare-and-exchange, and has made calls of operations wider than a word.
+// function of libatomic's name, which takes a lock. An increment or a store between the load and the store of such a
+// call would be lost, so both are the machine's own only where all uses of the object are in sight and none is such a
+// call; elsewhere they take the lock as well. A load never needs it.
+//
+// Runs behind AtomicExpand, which has reduced operations without a function to compare-and-exchange, and has made calls
+// of operations wider than a word.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
+#include "llvm/ADT/STLExtras.h"
+#include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/Instructions.h"
+#include "llvm/IR/IntrinsicInst.h"
 #include "llvm/IR/Module.h"
+#include "llvm/IR/Operator.h"
 #include "llvm/InitializePasses.h"
 #include "llvm/Pass.h"
 #include "llvm/Support/AtomicOrdering.h"
@@ -59,6 +67,7 @@ public:
   void getAnalysisUsage(AnalysisUsage &AU) const override { AU.setPreservesCFG(); }
 
 private:
+  static void lower(StoreInst &Store);
   static void lower(AtomicRMWInst &RMW);
   static void lower(AtomicCmpXchgInst &CmpXchg);
 };
@@ -87,6 +96,46 @@ static CallInst *callLibrary(IRBuilder<> &Builder, StringRef Name, Type *ObjectT
 
 static Value *orderingOf(IRBuilder<> &Builder, AtomicOrdering Ordering) {
   return Builder.getInt32(unsigned(toCABI(Ordering)));
+}
+
+/// Whether every use of the pointer is a load, a store or an increment.
+static bool isOnlyCounted(const Value &Pointer) {
+  return all_of(Pointer.uses(), [&](const Use &U) {
+    const User *Where = U.getUser();
+    if (isa<LoadInst>(Where))
+      return true;
+    if (isa<StoreInst>(Where))
+      return U.getOperandNo() == StoreInst::getPointerOperandIndex();
+    if (const auto *RMW = dyn_cast<AtomicRMWInst>(Where))
+      return isTraxAtomicIncrement(*RMW) && U.getOperandNo() == AtomicRMWInst::getPointerOperandIndex();
+    if (const auto *Call = dyn_cast<CallBase>(Where)) {
+      const Function *Callee = Call->getCalledFunction();
+      return isa<MemIntrinsic>(Call) || Call->isLifetimeStartOrEnd() ||
+             (Callee && Callee->getName() == "__builtin_trax_ainc");
+    }
+    const auto *Derived = dyn_cast<Operator>(Where);
+    return Derived && (isa<GEPOperator>(Derived) || isa<BitCastOperator>(Derived)) && isOnlyCounted(*Derived);
+  });
+}
+
+/// Whether an increment of or a store to this address needs no lock.
+static bool isLockFree(const Value *Address, const Function &F) {
+  const Value *Object = getUnderlyingObject(Address);
+  if (isa<AllocaInst>(Object)) // in local memory no other thread reaches it
+    return !F.getFnAttribute("target-features").getValueAsString().contains("+global-stack") || isOnlyCounted(*Object);
+  const auto *Global = dyn_cast<GlobalVariable>(Object);
+  return Global && (Global->isThreadLocal() || (Global->hasLocalLinkage() && isOnlyCounted(*Global)));
+}
+
+/// void __atomic_store_N(object, value, order)
+void TraxLowerAtomics::lower(StoreInst &Store) {
+  IRBuilder<> Builder(&Store);
+  Value *Stored = Store.getValueOperand();
+  Type *Ty = Builder.getIntNTy(Store.getDataLayout().getTypeSizeInBits(Stored->getType()));
+  callLibrary(Builder, "__atomic_store_", Ty, Builder.getVoidTy(),
+              {Store.getPointerOperand(), Builder.CreateBitOrPointerCast(Stored, Ty),
+               orderingOf(Builder, Store.getOrdering())});
+  Store.eraseFromParent();
 }
 
 void TraxLowerAtomics::lower(AtomicRMWInst &RMW) {
@@ -118,8 +167,13 @@ void TraxLowerAtomics::lower(AtomicCmpXchgInst &CmpXchg) {
 bool TraxLowerAtomics::runOnFunction(Function &F) {
   bool Changed = false;
   for (Instruction &I : make_early_inc_range(instructions(F))) {
-    if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
-      if (isTraxAtomicIncrement(*RMW))
+    if (auto *Store = dyn_cast<StoreInst>(&I)) {
+      if (!Store->isAtomic() || isLockFree(Store->getPointerOperand(), F))
+        continue;
+      lower(*Store);
+      Changed = true;
+    } else if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
+      if (isTraxAtomicIncrement(*RMW) && isLockFree(RMW->getPointerOperand(), F))
         continue;
       lower(*RMW);
       Changed = true;

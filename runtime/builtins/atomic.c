@@ -1,9 +1,7 @@
 /* Atomic operations that the machine has no instruction for, under a lock made from the one it has. The functions are
    those of GCC's and LLVM's libatomic. Each object belongs to one of a few locks by its address.
 
-   A read-modify-write that leaves the value as it was stores nothing: a plain atomic store by another thread, which
-   takes no lock, then is not overwritten by the old value. So a flag that is set by exchange and cleared by a store
-   works as a spinlock. */
+   A read-modify-write that leaves the value as it was stores nothing: then nobody waits for memory. */
 #include "../internal/machine.h"
 
 #include <stdbool.h>

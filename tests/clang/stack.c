@@ -45,7 +45,7 @@ void use(_Atomic int *);
 // LOCAL-CODE-NOT: lwnt
 // LOCAL-CODE-NOT: has_macro
 // GLOBAL-CODE-LABEL: {{^}}counter:
-// GLOBAL-CODE: ainc
+// GLOBAL-CODE: __atomic_fetch_add_4
 // GLOBAL-CODE: lwnt
 int counter(void) {
   _Atomic int n = 0;

@@ -1,20 +1,72 @@
-; Loads, stores and the increment are the machine's; other operations are calls of the library.
+; Loads are the machine's, and so are stores and the increment where nothing but these happens to the object; other operations are
+; calls of the library.
 ; RUN: %trax_llc -O2 %s -o - | FileCheck %s
 
+@counted = internal global i32 0
+@counters = internal global [9 x i32] zeroinitializer
+@changed = internal global i32 0
+@seen = internal global i32 0
+@visible = global i32 0
+declare void @look(ptr)
+
 ; CHECK-LABEL: increment:
-; CHECK: ainc r4, 0(r4)
+; CHECK: ainc r4, %lo(counted)(r12)
 ; CHECK: ret
-define i32 @increment(ptr %p) {
-  %r = atomicrmw add ptr %p, i32 1 seq_cst
+define i32 @increment() {
+  %r = atomicrmw add ptr @counted, i32 1 seq_cst
+  store atomic i32 %r, ptr @counters release, align 4
   ret i32 %r
 }
 ; CHECK-LABEL: increment_at:
-; CHECK: ainc r4, 8(r4)
+; CHECK: ainc r4, %lo(counters+8)(r12)
 ; CHECK: ret
-define i32 @increment_at(ptr %p) {
-  %q = getelementptr i8, ptr %p, i32 8
-  %r = atomicrmw sub ptr %q, i32 -1 monotonic
+define i32 @increment_at() {
+  %r = atomicrmw sub ptr getelementptr (i8, ptr @counters, i32 8), i32 -1 monotonic
   ret i32 %r
+}
+; CHECK-LABEL: increment_any:
+; CHECK: ainc r4, %lo(counters)(r12)
+; CHECK: ret
+define i32 @increment_any(i32 %i) {
+  %q = getelementptr [9 x i32], ptr @counters, i32 0, i32 %i
+  %r = atomicrmw add ptr %q, i32 1 monotonic
+  ret i32 %r
+}
+; CHECK-LABEL: increment_changed:
+; CHECK: li r5, 1
+; CHECK: call __atomic_fetch_add_4
+; CHECK: call __atomic_store_4
+; CHECK: call __atomic_fetch_sub_4
+define i32 @increment_changed() {
+  %r = atomicrmw add ptr @changed, i32 1 seq_cst
+  store atomic i32 7, ptr @changed release, align 4
+  %s = atomicrmw sub ptr @changed, i32 1 seq_cst
+  ret i32 %r
+}
+; CHECK-LABEL: increment_seen:
+; CHECK: call __atomic_fetch_add_4
+; CHECK: call __atomic_fetch_add_4
+; CHECK: call __atomic_fetch_add_4
+define i32 @increment_seen(ptr %p) {
+  call void @look(ptr @seen)
+  %a = atomicrmw add ptr @seen, i32 1 seq_cst
+  %b = atomicrmw add ptr @visible, i32 1 seq_cst
+  %c = atomicrmw add ptr %p, i32 1 seq_cst
+  ret i32 %c
+}
+; CHECK-LABEL: local_array:
+; CHECK-NOT: {{ainc|lwnt|call}}
+; CHECK: ret
+define i32 @local_array(i32 %i, i32 %j) {
+  %p = alloca [4 x i32]
+  call void @llvm.memset.p0.i32(ptr %p, i8 0, i32 16, i1 true)
+  %q = getelementptr [4 x i32], ptr %p, i32 0, i32 %i
+  %a = atomicrmw add ptr %q, i32 1 monotonic
+  %q2 = getelementptr [4 x i32], ptr %p, i32 0, i32 %j
+  %b = load atomic i32, ptr %q2 acquire, align 4
+  store atomic i32 %b, ptr %q release, align 4
+  %c = add i32 %a, %b
+  ret i32 %c
 }
 ; CHECK-LABEL: increment_local:
 ; CHECK: sw r0, -4(r2)
@@ -48,11 +100,25 @@ define zeroext i8 @load_byte(ptr %p) {
   ret i8 %r
 }
 ; CHECK-LABEL: store:
-; CHECK: sw r5, 0(r4)
+; CHECK: sw r4, %lo(counted)(r12)
 ; CHECK: ret
-define void @store(ptr %p, i32 %x) {
-  store atomic i32 %x, ptr %p seq_cst, align 4
+define void @store(i32 %x) {
+  store atomic i32 %x, ptr @counted seq_cst, align 4
   fence seq_cst
+  ret void
+}
+; CHECK-LABEL: store_anywhere:
+; CHECK: call __atomic_store_4
+define void @store_anywhere(ptr %p, ptr %x) {
+  store atomic ptr %x, ptr %p seq_cst, align 4
+  ret void
+}
+; CHECK-LABEL: store_byte:
+; CHECK: andi r5, r5, 255
+; CHECK: li r6, 3
+; CHECK: call __atomic_store_1
+define void @store_byte(ptr %p, i8 %x) {
+  store atomic i8 %x, ptr %p release, align 1
   ret void
 }
 ; CHECK-LABEL: add_two:
