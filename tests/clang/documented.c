@@ -1,0 +1,65 @@
+// What docs/compiler.md says that no other test shows.
+// RUN: %clang -O2 -S %s -o - | FileCheck %s
+// RUN: not %clang -DREFUSED -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=REFUSED
+// RUN: %clang -mstack=global -dM -E %s | FileCheck %s --check-prefix=STACK
+// RUN: %clang -dM -E %s | FileCheck %s --check-prefix=ABSENT
+// STACK: #define __trax_global_stack__ 1
+// ABSENT-NOT: __trax_global_stack__
+// ABSENT-NOT: __unix__
+#include <stdatomic.h>
+
+// CHECK-LABEL: {{^}}store:
+// CHECK: swnt
+void store(unsigned *p) { __builtin_nontemporal_store(3u, p); }
+// CHECK-LABEL: {{^}}merged:
+// CHECK: lwnt
+// CHECK-NOT: lwnt
+// CHECK: ret
+unsigned merged(const volatile unsigned *p) { return __builtin_nontemporal_load(p) + __builtin_nontemporal_load(p); }
+// CHECK-LABEL: {{^}}each_time:
+// CHECK: lwnt
+// CHECK: lwnt
+// CHECK: ret
+unsigned each_time(const unsigned *p) { return __atomic_load_n(p, __ATOMIC_RELAXED) + __atomic_load_n(p, __ATOMIC_RELAXED); }
+// CHECK-LABEL: {{^}}quotient:
+// CHECK: fdiv
+float quotient(float a, float b) { return a / b; }
+// CHECK-LABEL: {{^}}cycles:
+// CHECK: rdsr {{.*}}cycleh
+// CHECK: rdsr {{.*}}cycle
+unsigned long long cycles(void) { return __builtin_readcyclecounter(); }
+// CHECK-LABEL: {{^}}stop:
+// CHECK: trap r0, abort
+void stop(void) { __builtin_trap(); }
+// CHECK-LABEL: {{^}}memory:
+// CHECK: lw r{{[0-9]+}}, 8(r4)
+int memory(int *p) {
+  int v;
+  __asm__("lw %0, %1" : "=r"(v) : "m"(p[2]));
+  return v;
+}
+typedef int vector __attribute__((vector_size(8)));
+// CHECK-LABEL: {{^}}elements:
+// CHECK: add
+// CHECK: add
+vector elements(vector a, vector b) { return a + b; }
+// CHECK-LABEL: {{^}}address:
+// CHECK: mv r4, r1
+void *address(void) { return __builtin_return_address(0); }
+
+#ifdef REFUSED
+// REFUSED: error: __int128 is not supported on this target
+__int128 a;
+// REFUSED: error: _Float16 is not supported on this target
+_Float16 b;
+// REFUSED: error: {{.*}}_BitInt of bit sizes greater than 64 not supported
+_BitInt(65) c;
+// REFUSED: error: __float128 is not supported on this target
+__float128 d;
+// REFUSED: error: __bf16 is not supported on this target
+__bf16 e;
+// REFUSED: warning: unknown attribute 'interrupt' ignored
+__attribute__((interrupt)) void f(void);
+// REFUSED: error: ifunc is not supported: nothing resolves functions at start
+int resolved(void) __attribute__((ifunc("resolver")));
+#endif
