@@ -203,8 +203,8 @@ class Compiler:
 
 
 def needs_global_stack(output):
-    """Whether a program failed for want of stack: the linker refused it, or it went past the ends of local memory."""
-    return re.search(r"error:.*\b(stack|local memory)\b|stack overflow|neither global nor local memory", output)
+    """Whether a program failed for want of stack: the compiler or the linker refused it, or it overflowed."""
+    return re.search(r"does not fit the local memory|error: the stack takes|fault: stack overflow", output)
 
 
 class Runner:
