@@ -26,6 +26,7 @@ uint64_t __ashldi3(uint64_t a, int n);
 uint64_t __lshrdi3(uint64_t a, int n);
 int64_t __ashrdi3(int64_t a, int n);
 uint64_t __muldi3(uint64_t a, uint64_t b);
+int64_t __mulodi4(int64_t a, int64_t b, int *overflow); /* wraps, and says so */
 int __cmpdi2(int64_t a, int64_t b);
 int __ucmpdi2(uint64_t a, uint64_t b);
 uint64_t __negdi2(uint64_t a);
@@ -83,6 +84,13 @@ double __floatdidf(int64_t a);
 double __floatundidf(uint64_t a);
 float __floatdisf(int64_t a);
 float __floatundisf(uint64_t a);
+
+/* binary16, passed in the low half of a word. The second names are older ones for the first two. */
+float __extendhfsf2(uint16_t x);
+uint16_t __truncsfhf2(float x);
+uint16_t __truncdfhf2(double x);
+float __gnu_h2f_ieee(uint16_t x);
+uint16_t __gnu_f2h_ieee(float x);
 
 /* Powers with an integer exponent. */
 float __powisf2(float a, int n);

@@ -35,6 +35,17 @@ uint64_t __muldi3(uint64_t a, uint64_t b) {
   return words(high, low_word(a) * low_word(b));
 }
 
+/* Of magnitudes: at most one of two cross products is not 0 unless the product overflows. */
+int64_t __mulodi4(int64_t a, int64_t b, int *overflow) {
+  uint64_t sa = (uint64_t)(a >> 63), sb = (uint64_t)(b >> 63), sign = sa ^ sb;
+  uint64_t m = ((uint64_t)a ^ sa) - sa, n = ((uint64_t)b ^ sb) - sb;
+  uint64_t low = mul_wide(low_word(m), low_word(n));
+  uint64_t cross = mul_wide(low_word(m), high_word(n)) + mul_wide(high_word(m), low_word(n)) + high_word(low);
+  uint64_t magnitude = words(low_word(cross), low_word(low));
+  *overflow = (high_word(m) && high_word(n)) || high_word(cross) || magnitude > INT64_MAX - sign;
+  return (int64_t)((uint64_t)a * (uint64_t)b);
+}
+
 int __cmpdi2(int64_t a, int64_t b) {
   return a < b ? 0 : a > b ? 2 : 1;
 }

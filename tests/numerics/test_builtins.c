@@ -84,6 +84,10 @@ float _Complex rt___mulsc3(float, float, float, float);
 float _Complex rt___divsc3(float, float, float, float);
 double _Complex rt___muldc3(double, double, double, double);
 double _Complex rt___divdc3(double, double, double, double);
+float rt___extendhfsf2(uint16_t);
+uint16_t rt___truncsfhf2(float);
+uint16_t rt___truncdfhf2(double);
+int64_t rt___mulodi4(int64_t, int64_t, int *);
 /* The host compiler's library. */
 double __powidf2(double, int);
 float __powisf2(float, int);
@@ -308,6 +312,46 @@ static void floats(void **unused) {
                    float_of(special[j / 2] | (uint32_t)(j & 1) << 31));
 }
 
+static uint16_t half_bits_of(_Float16 x) {
+  uint16_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return x == x ? bits : 0x7E00;
+}
+
+static void halves(void **unused) {
+  (void)unused;
+  for (uint32_t bits = 0; bits < 0x10000; bits++) {
+    uint16_t pattern = (uint16_t)bits;
+    _Float16 x;
+    memcpy(&x, &pattern, sizeof x);
+    same_float("__extendhfsf2", rt___extendhfsf2(pattern), (float)x, bits);
+  }
+  uint64_t state = 8;
+  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+    uint64_t r = random64(&state);
+    /* From below the least half to above the greatest; few bits behind its last place, so that many are halfway. */
+    uint32_t bits = (uint32_t)(r & 0x80000000u) | (uint32_t)(127 - 27 + (r >> 32) % 46) << 23 |
+                    ((uint32_t)r & 0x7FE000) | ((r >> 40 & 3) << 11 & 0x1FFF) | (r >> 42 & (r >> 44 & 1 ? 0x1FFF : 0));
+    float f = i & 1 ? float_of(bits) : random_float(&state);
+    SAME(rt___truncsfhf2(f), half_bits_of((_Float16)f), "%a", (double)f);
+    double d = (double)f + (i & 2 ? (double)f * 0x1p-45 : 0);
+    SAME(rt___truncdfhf2(d), half_bits_of((_Float16)d), "%a", d);
+  }
+}
+
+static void products_that_overflow(void **unused) {
+  (void)unused;
+  uint64_t state = 9;
+  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+    int64_t a = (int64_t)random_integer(&state), b = (int64_t)random_integer(&state), want;
+    if (i & 1 && a) /* at the limit */
+      b = INT64_MAX / a + (int64_t)(random64(&state) % 3) - 1;
+    int overflow, host_overflow = __builtin_mul_overflow(a, b, &want);
+    SAME(rt___mulodi4(a, b, &overflow), want, "%lld, %lld", (long long)a, (long long)b);
+    SAME(overflow, host_overflow, "%lld, %lld", (long long)a, (long long)b);
+  }
+}
+
 static void integer_powers(void **unused) {
   (void)unused;
   uint64_t state = 6;
@@ -423,6 +467,8 @@ int main(void) {
       cmocka_unit_test(random_doubles),
       cmocka_unit_test(doubles_near_underflow),
       cmocka_unit_test(floats),
+      cmocka_unit_test(halves),
+      cmocka_unit_test(products_that_overflow),
       cmocka_unit_test(integer_powers),
       cmocka_unit_test(complex_numbers),
       cmocka_unit_test(complex_quotients_of_all_sizes),
