@@ -78,6 +78,13 @@ INLINE struct divided divide_2by1(uint32_t n1, uint32_t n0, uint32_t d, uint32_t
   return (struct divided){q1, r};
 }
 
+/* x / 10^9 for x < 10^9 * 2^32, through 4 * 10^9, whose top bit is set, and its reciprocal. */
+INLINE struct divided divide_by_billion(uint64_t x) {
+  x <<= 2;
+  struct divided r = divide_2by1(high_word(x), low_word(x), 4000000000u, 0x12E0BE82);
+  return (struct divided){r.quotient, r.remainder >> 2};
+}
+
 /* floor((2^96 - 1) / d) - 2^32. */
 INLINE uint32_t reciprocal_3by2(uint64_t d) {
   uint32_t d1 = high_word(d), d0 = low_word(d);

@@ -24,6 +24,9 @@ __attribute__((noreturn)) INLINE void machine_exit(int status) {
   __builtin_trax_trap((unsigned)status, 0);
   __builtin_trax_halt();
 }
+INLINE unsigned long long machine_cycles(void) {
+  return trax_cycles64();
+}
 /* The host reads strings from global memory only; this one may be on the stack. */
 INLINE int machine_is_local(const void *p) {
   return (uintptr_t)p >= 0xFFFFFE00u;
@@ -58,6 +61,7 @@ INLINE void unlock(struct ticket_lock *l) {
 #else
 
 void host_put_char(int c);
+unsigned long long host_cycles(void);
 void host_put_string(const char *s);
 __attribute__((noreturn)) void host_abort(const char *message);
 __attribute__((noreturn)) void host_exit(int status);
@@ -73,6 +77,9 @@ __attribute__((noreturn)) INLINE void machine_abort(const char *message) {
 }
 __attribute__((noreturn)) INLINE void machine_exit(int status) {
   host_exit(status);
+}
+INLINE unsigned long long machine_cycles(void) {
+  return host_cycles();
 }
 INLINE int machine_is_local(const void *p) {
   (void)p;

@@ -41,6 +41,7 @@ int fputc(int c, FILE *stream);
 int puts(const char *string);
 int fputs(const char *__restrict string, FILE *__restrict stream);
 size_t fwrite(const void *__restrict memory, size_t size, size_t count, FILE *__restrict stream);
+void perror(const char *text);
 int fflush(FILE *stream);     /* nothing is ever held back */
 int remove(const char *path); /* there are no files: fails */
 

@@ -41,6 +41,11 @@ __attribute__((noreturn)) void abort(void);
  */
 int atexit(void (*function)(void));
 
+/* Correctly rounded. ERANGE where the result is infinite, subnormal or, from another number, 0. */
+double strtod(const char *__restrict text, char **__restrict end);
+float strtof(const char *__restrict text, char **__restrict end);
+long double strtold(const char *__restrict text, char **__restrict end);
+double atof(const char *text);
 int atoi(const char *text);
 long atol(const char *text);
 long long atoll(const char *text);
@@ -63,6 +68,10 @@ void free(void *memory);
 /* Each thread has a sequence of its own. */
 int rand(void);
 void srand(unsigned seed);
+int rand_r(unsigned *seed);
+
+/* Characters are bytes. */
+#define MB_CUR_MAX ((size_t)1)
 
 #ifdef __cplusplus
 }

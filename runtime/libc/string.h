@@ -15,6 +15,10 @@ void *memmove(void *to, const void *from, size_t size);
 void *memset(void *to, int byte, size_t size);
 int memcmp(const void *a, const void *b, size_t size);
 void *memchr(const void *memory, int byte, size_t size);
+void *memrchr(const void *memory, int byte, size_t size);
+void *memccpy(void *__restrict to, const void *__restrict from, int byte, size_t size);
+void *memmem(const void *memory, size_t size, const void *part, size_t part_size);
+void *mempcpy(void *__restrict to, const void *__restrict from, size_t size);
 
 size_t strlen(const char *string);
 size_t strnlen(const char *string, size_t size);
@@ -31,7 +35,16 @@ size_t strspn(const char *string, const char *set);
 size_t strcspn(const char *string, const char *set);
 char *strpbrk(const char *string, const char *set);
 char *strtok_r(char *__restrict string, const char *__restrict separators, char **__restrict rest);
+char *strtok(char *__restrict string, const char *__restrict separators); /* each thread has its own rest */
+char *stpcpy(char *__restrict to, const char *__restrict from);
+char *stpncpy(char *__restrict to, const char *__restrict from, size_t size);
+int strcasecmp(const char *a, const char *b);
+int strncasecmp(const char *a, const char *b, size_t size);
+int strcoll(const char *a, const char *b);
+size_t strxfrm(char *__restrict to, const char *__restrict from, size_t size);
+char *strerror(int number);
 char *strdup(const char *string); /* by malloc */
+char *strndup(const char *string, size_t size);
 
 #ifdef __cplusplus
 }

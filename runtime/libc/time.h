@@ -1,4 +1,5 @@
-/* Types of C's time. The machine knows no time of day: trax_cycles64() of <trax.h> counts its cycles. */
+/* C's time, as far as the machine knows it: clock() counts its cycles, at the paper's 1 GHz. There is no time of day.
+ */
 #ifndef TRAX_TIME_H
 #define TRAX_TIME_H
 
@@ -7,7 +8,9 @@
 #include <stddef.h>
 
 typedef long long time_t;
-typedef unsigned long clock_t;
+typedef long long clock_t;
+
+#define CLOCKS_PER_SEC ((clock_t)1000000000)
 
 struct timespec {
   time_t tv_sec;
@@ -17,5 +20,16 @@ struct timespec {
 struct tm {
   int tm_sec, tm_min, tm_hour, tm_mday, tm_mon, tm_year, tm_wday, tm_yday, tm_isdst;
 };
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+clock_t clock(void);
+double difftime(time_t end, time_t start);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

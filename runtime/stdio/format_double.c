@@ -39,13 +39,6 @@ struct digits {
 static struct digits shared_digits;
 static struct ticket_lock digits_lock;
 
-/* x / 10^9 for x < 10^9 * 2^32, through 4 * 10^9, whose top bit is set, and its reciprocal. */
-static inline struct divided divide_by_base(uint64_t x) {
-  x <<= 2;
-  struct divided r = divide_2by1(high_word(x), low_word(x), 4 * BASE, 0x12E0BE82);
-  return (struct divided){r.quotient, r.remainder >> 2};
-}
-
 SEPARATE static void start_integer(struct digits *d) {
   int shift = d->exponent;
   d->integer_limbs = 0;
@@ -54,7 +47,7 @@ SEPARATE static void start_integer(struct digits *d) {
   uint64_t x = shift < 0 ? d->mantissa >> -shift : d->mantissa;
   int n = 0;
   while (x) {
-    struct divided r = divide_by_base(x);
+    struct divided r = divide_by_billion(x);
     d->limb[n++] = r.remainder;
     x = r.quotient;
   }
@@ -62,7 +55,7 @@ SEPARATE static void start_integer(struct digits *d) {
     int step = shift < 29 ? shift : 29;
     uint32_t carry = 0;
     for (int i = 0; i < n; i++) {
-      struct divided r = divide_by_base(((uint64_t)d->limb[i] << step) + carry);
+      struct divided r = divide_by_billion(((uint64_t)d->limb[i] << step) + carry);
       d->limb[i] = r.remainder;
       carry = r.quotient;
     }

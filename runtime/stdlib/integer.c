@@ -1,4 +1,5 @@
-/* Integer arithmetic of <stdlib.h>. */
+/* Integer arithmetic of <stdlib.h> and <inttypes.h>. */
+#include <inttypes.h>
 #include <stdlib.h>
 
 int abs(int x) {
@@ -19,4 +20,11 @@ ldiv_t ldiv(long n, long d) {
 }
 lldiv_t lldiv(long long n, long long d) {
   return (lldiv_t){n / d, n % d};
+}
+
+intmax_t imaxabs(intmax_t x) {
+  return x < 0 ? -x : x;
+}
+imaxdiv_t imaxdiv(intmax_t n, intmax_t d) {
+  return (imaxdiv_t){n / d, n % d};
 }

@@ -10,11 +10,15 @@ void srand(unsigned seed) {
   state = seed * 2654435761u;
 }
 
-int rand(void) {
-  uint32_t x = state ? state : 2654435761u;
+int rand_r(unsigned *seed) {
+  uint32_t x = *seed ? *seed : 2654435761u;
   x ^= x << 13;
   x ^= x >> 17;
   x ^= x << 5;
-  state = x;
+  *seed = x;
   return (int)(x >> 1);
+}
+
+int rand(void) {
+  return rand_r(&state);
 }

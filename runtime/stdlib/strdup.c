@@ -1,4 +1,4 @@
-/* strdup, apart from the other string functions because it needs the heap. */
+/* Copies of strings, apart from the other string functions because they need the heap. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,4 +6,14 @@ char *strdup(const char *string) {
   size_t size = strlen(string) + 1;
   char *copy = malloc(size);
   return copy ? memcpy(copy, string, size) : NULL;
+}
+
+char *strndup(const char *string, size_t size) {
+  size_t length = strnlen(string, size);
+  char *copy = malloc(length + 1);
+  if (copy) {
+    memcpy(copy, string, length);
+    copy[length] = 0;
+  }
+  return copy;
 }

@@ -1,6 +1,7 @@
 /* Integers from text. */
 #include <ctype.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 
 static int digit_value(int c) {
@@ -89,4 +90,11 @@ long atol(const char *text) {
 }
 int atoi(const char *text) {
   return (int)strtol(text, NULL, 10);
+}
+
+intmax_t strtoimax(const char *restrict text, char **restrict end, int base) {
+  return strtoll(text, end, base);
+}
+uintmax_t strtoumax(const char *restrict text, char **restrict end, int base) {
+  return strtoull(text, end, base);
 }

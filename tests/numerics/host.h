@@ -11,6 +11,7 @@ extern jmp_buf host_abort_target; /* where an abort or an exit goes */
 extern const char *host_abort_message;
 
 void rt_host_put_char(int c);
+unsigned long long rt_host_cycles(void); /* counts on by 1000 */
 void rt_host_put_string(const char *s);
 __attribute__((noreturn)) void rt_host_abort(const char *message);
 __attribute__((noreturn)) void rt_host_exit(int status);

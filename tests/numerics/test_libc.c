@@ -1,5 +1,6 @@
 /* The C library's memory, string, number, heap and formatting functions, compiled for the host, against the host's own.
  */
+#define _GNU_SOURCE /* memmem, memrchr, mempcpy */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,11 +37,31 @@ size_t rt_strspn(const char *, const char *);
 size_t rt_strcspn(const char *, const char *);
 char *rt_strpbrk(const char *, const char *);
 char *rt_strtok_r(char *, const char *, char **);
+char *rt_strtok(char *, const char *);
+void *rt_memrchr(const void *, int, size_t);
+void *rt_memccpy(void *, const void *, int, size_t);
+void *rt_memmem(const void *, size_t, const void *, size_t);
+void *rt_mempcpy(void *, const void *, size_t);
+char *rt_stpcpy(char *, const char *);
+char *rt_stpncpy(char *, const char *, size_t);
+int rt_strcasecmp(const char *, const char *);
+int rt_strncasecmp(const char *, const char *, size_t);
+int rt_strcoll(const char *, const char *);
+size_t rt_strxfrm(char *, const char *, size_t);
+char *rt_strerror(int);
+char *rt_strndup(const char *, size_t);
+void rt_perror(const char *);
+long long rt_clock(void);
+int rt_rand(void);
+int rt_rand_r(unsigned *);
+void rt_srand(unsigned);
 long rt_strtol(const char *, char **, int);
 unsigned long rt_strtoul(const char *, char **, int);
 long long rt_strtoll(const char *, char **, int);
 unsigned long long rt_strtoull(const char *, char **, int);
 int rt_atoi(const char *);
+double rt_strtod(const char *, char **);
+float rt_strtof(const char *, char **);
 extern _Thread_local int rt_errno;
 void rt_qsort(void *, size_t, size_t, int (*)(const void *, const void *));
 void *rt_bsearch(const void *, const void *, size_t, size_t, int (*)(const void *, const void *));
@@ -164,6 +185,61 @@ static void string_functions(void **unused) {
   }
 }
 
+static int sign(int x) {
+  return (x > 0) - (x < 0);
+}
+
+/* Random strings over a small alphabet, so that parts are found, against the host's functions. */
+static void more_string_functions(void **unused) {
+  (void)unused;
+  uint64_t state = 16;
+  for (int i = 0; i < 200000; i++) {
+    char a[24], b[24], got[32], want[32];
+    size_t size_a = random64(&state) % sizeof a, size_b = random64(&state) % (i & 1 ? 4 : sizeof b),
+           n = random64(&state) % 26;
+    for (size_t k = 0; k < sizeof a; k++) {
+      a[k] = (char)(k == size_a ? 0 : "aAbB"[random64(&state) & 3]);
+      b[k] = (char)(k == size_b ? 0 : "aAbB"[random64(&state) & 3]);
+    }
+    a[sizeof a - 1] = b[sizeof b - 1] = 0;
+    size_t length_a = strlen(a), length_b = strlen(b), bytes = n < sizeof a ? n : sizeof a;
+    assert_ptr_equal(rt_memrchr(a, 'b', bytes), memrchr(a, 'b', bytes));
+    assert_ptr_equal(rt_memmem(a, length_a, b, length_b), memmem(a, length_a, b, length_b));
+    memset(got, '#', sizeof got);
+    memset(want, '#', sizeof want);
+    char *end = rt_memccpy(got, a, 'B', bytes), *host_end = memccpy(want, a, 'B', bytes);
+    assert_int_equal(end ? end - got : -1, host_end ? host_end - want : -1);
+    assert_memory_equal(got, want, sizeof got);
+    assert_int_equal((char *)rt_mempcpy(got, b, bytes) - got, (char *)mempcpy(want, b, bytes) - want);
+    assert_memory_equal(got, want, sizeof got);
+    assert_int_equal(rt_stpcpy(got, a) - got, stpcpy(want, a) - want);
+    assert_memory_equal(got, want, sizeof got);
+    assert_int_equal(rt_stpncpy(got, b, n) - got, stpncpy(want, b, n) - want);
+    assert_memory_equal(got, want, sizeof got);
+    assert_int_equal(sign(rt_strcasecmp(a, b)), sign(strcasecmp(a, b)));
+    assert_int_equal(sign(rt_strncasecmp(a, b, n)), sign(strncasecmp(a, b, n)));
+    assert_int_equal(sign(rt_strcoll(a, b)), sign(strcmp(a, b)));
+    assert_int_equal(rt_strxfrm(got, a, sizeof got), length_a);
+    assert_string_equal(got, a);
+  }
+  char text[] = " one, two,,three ", copy[] = " one, two,,three ", *rest;
+  for (char *token = rt_strtok(text, " ,"), *want = strtok_r(copy, " ,", &rest); token || want;
+       token = rt_strtok(NULL, " ,"), want = strtok_r(NULL, " ,", &rest))
+    assert_string_equal(token, want);
+  assert_string_equal(rt_strerror(ERANGE), "result out of range");
+  assert_string_equal(rt_strerror(12345), "unknown error");
+  host_output_size = 0;
+  rt_errno = EDOM;
+  rt_perror("sqrt");
+  rt_perror("");
+  assert_string_equal(host_output, "sqrt: argument outside of the domain\nargument outside of the domain\n");
+  assert_true(rt_clock() < rt_clock());
+  unsigned seed = 0;
+  rt_srand(0);
+  for (int i = 0; i < 100; i++) /* one sequence, in the caller's word or the thread's own */
+    assert_int_equal(rt_rand(), rt_rand_r(&seed));
+}
+
 static void character_classes(void **state) {
   (void)state;
 #define CHECK(name) assert_int_equal(rt_##name(c) != 0, name(c) != 0);
@@ -244,6 +320,173 @@ static int compare_keys(const void *a, const void *b) {
 }
 
 /* Elements of every size from 1 to 12, so that words and bytes are swapped; the key is the first byte. */
+/* The same bits, end and, where both libraries have to set it, errno. */
+static void check_text_to_double(const char *text) {
+  char *end, *host_end;
+  errno = rt_errno = 0;
+  double want = strtod(text, &host_end), got = rt_strtod(text, &end);
+  if (bits_of(got) != bits_of(want) || end != host_end || (fabs(want) > 1e308 && rt_errno != errno))
+    fail_msg("strtod(\"%.60s\"): %a, %td, errno %d; want %a, %td, %d", text, got, end - text, rt_errno, want,
+             host_end - text, errno);
+  errno = rt_errno = 0;
+  float want_float = strtof(text, &host_end), got_float = rt_strtof(text, &end);
+  if (float_bits_of(got_float) != float_bits_of(want_float) || end != host_end ||
+      (fabsf(want_float) > 1e38f && rt_errno != errno))
+    fail_msg("strtof(\"%.60s\"): %a, %td, errno %d; want %a, %td, %d", text, (double)got_float, end - text, rt_errno,
+             (double)want_float, host_end - text, errno);
+}
+
+/* The number exactly between two doubles (or floats), in all its digits, and its neighbours in the last of them: an x87
+   number has the bits for it. */
+static void check_halfway(long double halfway) {
+  static char text[1300];
+  int size = snprintf(text, sizeof text - 2, "%.*Le", 780, halfway);
+  char *exponent = strchr(text, 'e'), tail[16];
+  strcpy(tail, exponent);
+  check_text_to_double(text);
+  char *last = exponent - 1;
+  while (*last == '0')
+    last--;
+  if (*last == '.')
+    return;
+  (*last)--;
+  check_text_to_double(text);
+  (*last)++;
+  strcpy(exponent, "1");
+  strcat(text, tail); /* a digit far behind */
+  check_text_to_double(text);
+  size = snprintf(text, sizeof text, "%.1100Lf", halfway);
+  if (size < (int)sizeof text)
+    check_text_to_double(text);
+}
+
+static void text_to_double(void **unused) {
+  (void)unused;
+  static const char *const texts[] = {
+      "",
+      " ",
+      "-",
+      ".",
+      "-.",
+      "e5",
+      ".e1",
+      "0",
+      "-0",
+      "+0.0",
+      "0e5",
+      "0e",
+      "0e+",
+      "1e",
+      "1e+",
+      "1e-x",
+      "1.",
+      ".5",
+      "-.5e1",
+      "1..2",
+      " \t\n\v\f\r42.5x",
+      "+-1",
+      "1e400",
+      "-1e400",
+      "1e-400",
+      "-1e-400",
+      "1e99999999999",
+      "1e-99999999999",
+      "0e99999999999",
+      "1.7976931348623157e308",
+      "1.7976931348623158e308",
+      "1.7976931348623159e308",
+      "179769313486231580793e289",
+      "4.9e-324",
+      "2.4703282292062327e-324",
+      "2.4703282292062328e-324",
+      "2.2250738585072011e-308",
+      "2.2250738585072012e-308",
+      "2.2250738585072014e-308",
+      "9007199254740993",
+      "9007199254740993.0000000000000000000000000000001",
+      "9007199254740992.99999999999999999999",
+      "3.4028235e38",
+      "3.40282356779733661637539395458142568447e38",
+      "3.4028235677973366163753939545814256845e38",
+      "3.5e38",
+      "1.17549431e-38",
+      "7.0064923e-46",
+      "7.00649232162408535461864791645e-46",
+      "1e-45",
+      "inf",
+      "INFINITY",
+      "-infinit",
+      "+Inf",
+      "in",
+      "i",
+      "nan",
+      "-NaN",
+      "nan(",
+      "nan()",
+      "nan(12_ab)x",
+      "nan(1-2)",
+      "na",
+      "0x",
+      "0x.",
+      "0x.p1",
+      "0x1",
+      "0x1p",
+      "0x1p+",
+      "0x1p4",
+      "-0X1.8P-1",
+      "0x.8p1",
+      "0x1.fffffffffffff8p0",
+      "0x1.fffffffffffff7p0",
+      "0x1.00000000000008p0",
+      "0x1.000000000000080000000000000000000001p0",
+      "0x1.000000000000180000000000p0",
+      "0x123456789abcdef0123456789p-30",
+      "0x1p1023",
+      "0x1p1024",
+      "0x1.fffffffffffff8p1023",
+      "0x1.fffffffffffff7p1023",
+      "0x1p-1074",
+      "0x1p-1075",
+      "0x1.000001p-1075",
+      "0x0.0000001p-1050",
+      "0x1p-99999999999",
+      "0x0p99999999999",
+      "0x1.000001p0",
+      "0x1.0000018p0",
+      "0x1.000003p0",
+      "0x.00000000000000000000000000000001p128",
+  };
+  for (size_t i = 0; i < COUNT(texts); i++)
+    check_text_to_double(texts[i]);
+  char text[400];
+  for (size_t i = 0; i < COUNT(special_doubles); i++) {
+    snprintf(text, sizeof text, "%.17g", double_of(special_doubles[i]));
+    check_text_to_double(text);
+  }
+  uint64_t state = 15;
+  for (int i = 0; i < 200000; i++) {
+    double x = random_double(&state);
+    snprintf(text, sizeof text, i & 1 ? "%.*e" : "%.*g", (int)(random64(&state) % 40), x);
+    check_text_to_double(text);
+    snprintf(text, sizeof text, "%llu%s%llu%se%d", (unsigned long long)random_integer(&state), i & 2 ? "." : "",
+             (unsigned long long)random_integer(&state), i & 4 ? "000000000" : "", (int)(random64(&state) % 700) - 360);
+    check_text_to_double(text);
+    snprintf(text, sizeof text, "%a", x);
+    check_text_to_double(text);
+    snprintf(text, sizeof text, "0x%llx.%llxp%d", (unsigned long long)random64(&state),
+             (unsigned long long)random64(&state), (int)(random64(&state) % 2300) - 1150);
+    check_text_to_double(text);
+    if (i % 16)
+      continue;
+    x = fabs(x);
+    if (x < 0x1p1023)
+      check_halfway(((long double)x + (long double)nextafter(x, INFINITY)) / 2);
+    float f = fabsf(random_float(&state));
+    if (f < 0x1p127f)
+      check_halfway(((long double)f + (long double)nextafterf(f, INFINITY)) / 2);
+  }
+}
+
 static void sorting(void **unused) {
   (void)unused;
   uint64_t state = 9;
@@ -291,6 +534,11 @@ static void heap(void **unused) {
   char *arena = malloc(SIZE);
   rt___trax_heap = (uintptr_t)arena + 4; /* the runtime aligns */
   rt___trax_heap_end = (uintptr_t)arena + SIZE;
+  char *part = rt_strndup("shortened", 5), *whole = rt_strndup("whole", 9);
+  assert_string_equal(part, "short");
+  assert_string_equal(whole, "whole");
+  rt_free(part);
+  rt_free(whole);
   unsigned char *slot[SLOTS] = {0};
   size_t size[SLOTS] = {0};
   uint64_t state = 10;
@@ -490,9 +738,17 @@ static void standard_output(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(memory_functions),   cmocka_unit_test(string_functions),  cmocka_unit_test(character_classes),
-      cmocka_unit_test(text_to_integer),    cmocka_unit_test(sorting),           cmocka_unit_test(heap),
-      cmocka_unit_test(formatted_integers), cmocka_unit_test(formatted_doubles), cmocka_unit_test(truncated_output),
+      cmocka_unit_test(memory_functions),
+      cmocka_unit_test(string_functions),
+      cmocka_unit_test(more_string_functions),
+      cmocka_unit_test(character_classes),
+      cmocka_unit_test(text_to_integer),
+      cmocka_unit_test(text_to_double),
+      cmocka_unit_test(sorting),
+      cmocka_unit_test(heap),
+      cmocka_unit_test(formatted_integers),
+      cmocka_unit_test(formatted_doubles),
+      cmocka_unit_test(truncated_output),
       cmocka_unit_test(standard_output),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
