@@ -34,6 +34,8 @@ TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRe
       TLOF(std::make_unique<TargetLoweringObjectFileELF>()), Subtarget(TT, CPU.str(), FS.str(), *this) {
   initAsmInfo();
   setCFIFixup(true);
+  setMachineOutliner(true);
+  setSupportsDefaultOutlining(true);
 }
 
 TraxTargetMachine::~TraxTargetMachine() = default;

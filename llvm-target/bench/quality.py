@@ -142,11 +142,44 @@ def compare_compile_time(options, work):
     return ours <= COMPILE_TIME_LIMIT * theirs
 
 
+#--- code size -----------------------------------------------------------------
+
+SIZE_LEVELS = {"-O3": ["-O3"], "-O2": ["-O2"], "-Os": ["-Os"], "-Oz": ["-Oz"],
+               "-Oz, not outlined": ["-Oz", "-mno-outline"]}
+
+
+def code_bytes(machine, flags, sources, work):
+    """Return the size of the sources' text sections together."""
+    total = 0
+    for source in sources:
+        run([*machine.compiler, *flags, "-c", source, "-o", work / "size.o"])
+        listing, _ = run(["llvm-size-19", "-A", work / "size.o"])
+        total += sum(int(line.split()[1]) for line in listing.splitlines() if line.startswith(".text"))
+    return total
+
+
+def compare_code_size(options, work):
+    """Print a row for each level; nothing is required of them."""
+    library = [source for part in ("builtins", "math", "stdio", "stdlib", "string")
+               for source in sorted((ROOT / "runtime" / part).glob("*.c"))]
+    library_flags = ["-std=c17", "-ffreestanding", "-fno-builtin", f"-I{ROOT / 'isa/include'}"]
+    trax, riscv = Trax(options.build, work), Riscv(options.build, work, library=False)
+    print(f"{'bytes of code':18} {'ray tracer':>10} {'rv32':>8} {'library':>10} {'rv32':>8}")
+    for name, flags in SIZE_LEVELS.items():
+        theirs = flags if len(flags) == 1 else ["-Oz", "-mllvm", "-enable-machine-outliner=never"]
+        sizes = [code_bytes(machine, [*level, *extra], sources, work)
+                 for sources, extra in (([RAY_TRACER], [*COMMON, "-Wno-frame-larger-than"]), (library, library_flags))
+                 for machine, level in ((trax, flags), (riscv, theirs))]
+        print(f"{name:18} {sizes[0]:10} {sizes[1]:8} {sizes[2]:10} {sizes[3]:8}")
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("kernels", nargs="*", metavar="KERNEL", help="measure these only (default: all)")
     parser.add_argument("--build", type=Path, required=True, help="the build folder")
     parser.add_argument("--compile-time", action="store_true", help="compare compile times instead")
+    parser.add_argument("--code-size", action="store_true", help="compare code sizes instead")
     parser.add_argument("--runs", type=int, default=15, help="of each compiler, for --compile-time (default: 15)")
     parser.add_argument("--keep", type=Path, metavar="DIRECTORY", help="leave objects and programs there")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="kernels at a time (default: as many as processors)")
@@ -157,7 +190,9 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             work = options.keep or Path(scratch)
             work.mkdir(parents=True, exist_ok=True)
-            good = compare_compile_time(options, work) if options.compile_time else compare_instructions(options, work)
+            compare = (compare_compile_time if options.compile_time else
+                       compare_code_size if options.code_size else compare_instructions)
+            good = compare(options, work)
     except Failure as failure:
         print(f"quality.py: error: {failure}", file=sys.stderr)
         return 1

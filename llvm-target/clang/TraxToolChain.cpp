@@ -90,6 +90,18 @@ void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const Stack
   for (const char *&Given : llvm::drop_begin(Args))
     if (Given && StringRef(Given) == "-nolibc")
       Given = "-nodefaultlibs";
+  // Clang passes these on for the targets that it knows to outline.
+  const char *Outline = nullptr;
+  llvm::erase_if(Args, [&](const char *Given) {
+    const StringRef Option = Given ? Given : "";
+    if (Option == "-moutline")
+      Outline = "-enable-machine-outliner=always";
+    else if (Option == "-mno-outline")
+      Outline = "-enable-machine-outliner=never";
+    else
+      return false;
+    return true;
+  });
 
   bool NoHeaders = false, NoCXXHeaders = false;
   for (const char *Given : llvm::drop_begin(Args)) {
@@ -100,6 +112,8 @@ void trax::insertDefaults(llvm::SmallVectorImpl<const char *> &Args, const Stack
 
   llvm::SmallVector<const char *, 32> Inserted{"--start-no-unused-arguments"};
   Inserted.append(std::begin(Defaults), std::end(Defaults));
+  if (Outline)
+    Inserted.append({"-mllvm", Outline});
   if (Stack.isGlobal())
     for (const char *Part : {"-Xclang", "-target-feature", "-Xclang", "+global-stack"})
       Inserted.push_back(Part);
