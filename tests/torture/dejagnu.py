@@ -25,9 +25,8 @@ LACKING = {
 }
 # Names that a selector may use and that are not true here.
 UNTRUE = set(LACKING) | {
-    "avr_tiny", "freestanding", "hard_float", "ia32", "keeps_null_pointer_checks", "llp64", "lp64", "lra", "newlib_nano_io", "nonpic",
-    "pie", "short_enums", "vxworks_kernel"}
-TRUE = {"nonpic", "ilp32"}
+    "avr_tiny", "freestanding", "hard_float", "ia32", "keeps_null_pointer_checks", "llp64", "lp64", "lra", "newlib_nano_io", "pie",
+    "short_enums", "vxworks_kernel"}
 
 
 class Malformed(Exception):
@@ -90,9 +89,7 @@ def selected(selector):
 
 
 def is_target(name):
-    if "-" in name:
-        return fnmatch.fnmatchcase(TRIPLET, name)
-    return name in TRUE or name not in UNTRUE
+    return fnmatch.fnmatchcase(TRIPLET, name) if "-" in name else name not in UNTRUE
 
 
 @dataclass
