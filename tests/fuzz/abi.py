@@ -34,7 +34,8 @@ static inline void check(int holds, const char *file, int line) {
 
 
 def integer(rng, bits, signed):
-    value = rng.choice([0, 1, rng.getrandbits(bits), rng.getrandbits(bits), rng.getrandbits(max(1, bits // 2)), (1 << bits) - 1, 1 << (bits - 1)])
+    value = rng.choice([0, 1, (1 << bits) - 1, 1 << (bits - 1), rng.getrandbits(bits), rng.getrandbits(bits),
+                        rng.getrandbits(max(1, bits // 2))])
     if signed and value >> (bits - 1):
         value -= 1 << bits
     if value == -(1 << 63):
@@ -52,6 +53,9 @@ def floating(rng, double):
 class Scalar:
     def __init__(self, name, literal, promoted=None):
         self.name, self.literal, self.promoted = name, literal, promoted or name
+
+    def declare(self, name):
+        return f"{self.name} {name}"
 
     def value(self, rng):
         return self.literal(rng)
@@ -111,9 +115,12 @@ class Aggregate:
     def __init__(self, kind, name, fields, attribute):
         self.name, self.promoted = f"{kind} {name}", f"{kind} {name}"
         self.fields = fields
-        members = "".join(f"  {field.declare(f'm{i}') if hasattr(field, 'declare') else f'{field.name} m{i}'};\n" for i, field in enumerate(fields))
+        members = "".join(f"  {field.declare(f'm{i}')};\n" for i, field in enumerate(fields))
         self.definition = f"{kind} {name} {{\n{members}}}{attribute};\n"
         self.counted = fields[:1] if kind == "union" else fields
+
+    def declare(self, name):
+        return f"{self.name} {name}"
 
     def value(self, rng):
         return [field.value(rng) for field in self.counted]
@@ -129,7 +136,8 @@ class Aggregate:
 def scalars():
     types = [Scalar("_Bool", lambda rng: rng.choice("01"), "int"), Scalar("float", lambda rng: floating(rng, False), "double"),
              Scalar("double", lambda rng: floating(rng, True)), Scalar("void *", lambda rng: f"(void *){rng.getrandbits(31)}"),
-             Complex("float _Complex", False), Complex("double _Complex", True), Scalar("enum colour", lambda rng: rng.choice(["RED", "BLUE"]))]
+             Scalar("enum colour", lambda rng: rng.choice(["RED", "BLUE"])),
+             Complex("float _Complex", False), Complex("double _Complex", True)]
     for name, bits in (("char", 8), ("short", 16), ("int", 32), ("long", 32), ("long long", 64)):
         for sign in ("signed", "unsigned"):
             literal = lambda rng, bits=bits, sign=sign: integer(rng, bits, sign == "signed")
@@ -157,7 +165,8 @@ def make_aggregates(rng, types):
     for i in range(10):
         fields = [make_field(rng, types, aggregates) for _ in range(rng.choice([0, 1, 1, 2, 2, 3, 4, 5, 8]))]
         union = rng.random() < 0.2 and fields
-        attribute = rng.choice(["", "", "", "", " __attribute__((packed))", f" __attribute__((aligned({rng.choice([8, 16])})))"])
+        attribute = rng.choice(["", "", "", "", " __attribute__((packed))",
+                                f" __attribute__((aligned({rng.choice([8, 16])})))"])
         aggregates.append(Aggregate("union" if union else "struct", f"{'u' if union else 's'}{i}", fields, attribute))
     return aggregates
 

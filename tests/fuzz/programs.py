@@ -68,10 +68,10 @@ def generate(seed, directory):
     return program
 
 
-def host_compile(program, binary, flags=("-O0",)):
+def host_compile(program, binary, flags=("-O0",), compiler=HOST_COMPILER[0]):
     # Csmith's programs need no C++ library, so no 32-bit one is asked for.
     language = ["-x", "c++", "-nostdinc++"] if program.language == "c++" else ["-x", "c"]
-    return run([*HOST_COMPILER, *language, *flags, *program.flags, program.source, "-o", binary])
+    return run([compiler, *HOST_COMPILER[1:], *language, *flags, *program.flags, program.source, "-o", binary])
 
 
 def expected(program, directory):
@@ -117,9 +117,12 @@ def obtain(seed, cache, directory):
 
 
 def undefined_behaviour(program, directory):
-    """Whether the host's sanitizer finds undefined behaviour in the program."""
-    flags = ("-O1", "-fsanitize=undefined", "-fsanitize-undefined-trap-on-error")
-    if host_compile(program, directory / "host-sanitized", flags).status != 0:
-        return False
-    result = run([directory / "host-sanitized"])
-    return result.status in (-signal.SIGILL, -signal.SIGTRAP)
+    """Whether a sanitizer of the host finds undefined behaviour in the program: gcc's or clang's, which look for different
+    things."""
+    traps = {"gcc": ["-fsanitize-undefined-trap-on-error"], "clang-19": ["-fsanitize-trap=undefined"]}
+    for compiler, trap in traps.items():
+        binary = directory / f"host-{compiler}"
+        built = host_compile(program, binary, ["-O1", "-fno-wrapv", "-fsanitize=undefined", *trap], compiler)
+        if built.status == 0 and run([binary]).status in (-signal.SIGILL, -signal.SIGTRAP):
+            return True
+    return False
