@@ -1,13 +1,19 @@
-/* ar archives, GNU and BSD format. Every member's own symbol table is read; the archive's index is not needed and not
-   trusted, so an archive without one, or with a stale one, links all the same. (libelf's reader is not used: it runs
-   past the end of a damaged index and shortens a truncated member silently.) */
+/* ar archives, GNU (thin ones, too) and BSD format. Every member's own symbol table is read; the archive's index is not
+   needed and not trusted, so an archive without one, or with a stale one, links all the same. (libelf's reader is not
+   used: it runs past the end of a damaged index and shortens a truncated member silently.) */
 #include "ld.h"
 
 #include <ar.h>
 #include <string.h>
 
+#define THIN_MAGIC "!<thin>\n" /* as long as ARMAG: members are files beside the archive */
+
+static bool is_thin(const uint8_t *bytes, size_t size) {
+  return size >= SARMAG && memcmp(bytes, THIN_MAGIC, SARMAG) == 0;
+}
+
 bool ld_is_archive(const uint8_t *bytes, size_t size) {
-  return size >= SARMAG && memcmp(bytes, ARMAG, SARMAG) == 0;
+  return is_thin(bytes, size) || (size >= SARMAG && memcmp(bytes, ARMAG, SARMAG) == 0);
 }
 
 /* A number in a space-padded field. */
@@ -23,14 +29,15 @@ static bool parse_field(const char *field, size_t width, uint64_t *value) {
 }
 
 typedef struct member {
-  const char *name; /* NULL for the index and the table of long names */
-  const uint8_t *bytes;
+  const char *name;     /* NULL for the index and the table of long names */
+  const uint8_t *bytes; /* of a thin archive's member, still in its file */
   size_t size;
 } member;
 
 typedef struct reader {
   ld_context *ctx;
   const char *path;
+  bool is_thin;
   const uint8_t *bytes;
   size_t size, position;
   const char *long_names; /* NULL until its member was read */
@@ -77,7 +84,10 @@ static bool next_member(reader *reader, member *member) {
     return false;
   }
   left -= sizeof *header;
-  if (size > left) {
+  /* A thin archive holds the index and the table of long names only. */
+  bool is_special = header->ar_name[0] == '/' && (header->ar_name[1] < '0' || header->ar_name[1] > '9');
+  bool is_elsewhere = reader->is_thin && !is_special;
+  if (size > left && !is_elsewhere) {
     ld_error(ctx, "%s: archive is truncated: the member at offset %zu has %llu bytes, %zu are left", reader->path,
              start, (unsigned long long)size, left);
     return false;
@@ -85,7 +95,7 @@ static bool next_member(reader *reader, member *member) {
   member->bytes = reader->bytes + start + sizeof *header;
   member->size = (size_t)size;
   member->name = NULL;
-  reader->position = start + sizeof *header + (size_t)size + (size & 1);
+  reader->position = start + sizeof *header + (is_elsewhere ? 0 : (size_t)size + (size & 1));
 
   const char *field = header->ar_name;
   size_t width = sizeof header->ar_name;
@@ -125,11 +135,21 @@ static const uint8_t *aligned(ld_context *ctx, const uint8_t *bytes, size_t size
   return memcpy(ld_alloc(ctx, size), bytes, size);
 }
 
+/* The contents of a thin archive's member, whose name is a path from the archive's directory. */
+static bool read_thin_member(const reader *reader, member *member) {
+  ld_context *ctx = reader->ctx;
+  const char *slash = strrchr(reader->path, '/');
+  int directory = slash && member->name[0] != '/' ? (int)(slash + 1 - reader->path) : 0;
+  return ld_read_file(ctx, ld_format(ctx, "%.*s%s", directory, reader->path, member->name), &member->bytes,
+                      &member->size);
+}
+
 void ld_archive_add(ld_context *ctx, const char *path, const uint8_t *bytes, size_t size, bool whole) {
-  reader reader = {.ctx = ctx, .path = path, .bytes = bytes, .size = size, .position = SARMAG};
+  reader reader = {
+      .ctx = ctx, .path = path, .is_thin = is_thin(bytes, size), .bytes = bytes, .size = size, .position = SARMAG};
   member member;
   while (next_member(&reader, &member)) {
-    if (!member.name)
+    if (!member.name || (reader.is_thin && !read_thin_member(&reader, &member)))
       continue;
     const char *name = ld_format(ctx, "%s(%s)", path, member.name);
     const char *foreign = ld_foreign_format(member.bytes, member.size);

@@ -12,8 +12,6 @@ const char *ld_foreign_format(const uint8_t *bytes, size_t size) {
     return "empty";
   if (size >= 4 && memcmp(bytes, "BC\xC0\xDE", 4) == 0)
     return "LLVM bitcode (link-time optimisation is not supported: compile without -flto)";
-  if (size >= 8 && memcmp(bytes, "!<thin>\n", 8) == 0)
-    return "a thin archive (make a regular one: llvm-ar without T)";
   for (size_t i = 0; i < size && i < 512; i++)
     if (bytes[i] != '\t' && bytes[i] != '\n' && bytes[i] != '\r' && (bytes[i] < ' ' || bytes[i] > '~'))
       return "neither an ELF object nor an archive";
