@@ -93,7 +93,7 @@ static bool read_symbol_table(ld_context *ctx, ld_object *object, size_t index, 
     return false;
   object->raw_symbols = symbol_bytes;
   object->symbol_count = size / sizeof(Elf32_Sym);
-  object->first_global = header->sh_info;
+  object->first_global = object->symbol_count ? header->sh_info : 0;
   object->strings = string_bytes;
   if (object->symbol_count > 0 && (object->first_global == 0 || object->first_global > object->symbol_count)) {
     ld_error(ctx, "%s: first global symbol %zu of %zu", object->name, object->first_global, object->symbol_count);
