@@ -72,7 +72,7 @@ static const option option_table[] = {
     {"library", VALUE, OPT_LIBRARY, "NAME", NULL},
     {"u", JOINED, OPT_UNDEFINED, "SYMBOL", "take and keep the definition of SYMBOL"},
     {"undefined", VALUE, OPT_UNDEFINED, "SYMBOL", NULL},
-    {"defsym", VALUE, OPT_DEFSYM, "NAME=VALUE", "define NAME as a number, SYMBOL, SYMBOL+NUMBER or SYMBOL-NUMBER"},
+    {"defsym", VALUE, OPT_DEFSYM, "NAME=VALUE", "define NAME as a sum of numbers and at most one symbol"},
     {"wrap", VALUE, OPT_WRAP, "SYMBOL", "references to SYMBOL go to __wrap_SYMBOL, those to __real_SYMBOL to SYMBOL"},
     {"allow-multiple-definition", NONE, OPT_ALLOW_MULTIPLE, NULL, "of several definitions of a symbol take the first"},
     {"whole-archive", NONE, OPT_WHOLE_ARCHIVE, NULL, "take every member of the archives that follow"},
@@ -196,21 +196,26 @@ static void add_defsym(ld_context *ctx, const char *text) {
     return;
   }
   ld_defsym defsym = {.name = ld_format(ctx, "%.*s", (int)(equals - text), text)};
-  const char *value = equals + 1;
-  if (isdigit((unsigned char)*value)) {
-    if (!ld_parse_number(value, &defsym.offset)) {
-      ld_error(ctx, "--defsym=%s: '%s' is not a 32-bit number", text, value);
-      return;
-    }
-  } else {
-    size_t length = strcspn(value, "+-");
+  bool negative = false;
+  for (const char *term = equals + 1;; term++) { /* numbers and at most one symbol, with signs between them */
+    const char *spelled = ld_format(ctx, "%.*s", (int)strcspn(term, "+-"), term);
     uint32_t number = 0;
-    if (length == 0 || (value[length] != '\0' && !ld_parse_number(value + length + 1, &number))) {
-      ld_error(ctx, "--defsym=%s: expected a number, SYMBOL, SYMBOL+NUMBER or SYMBOL-NUMBER after '='", text);
+    if (isdigit((unsigned char)*spelled)) {
+      if (!ld_parse_number(spelled, &number)) {
+        ld_error(ctx, "--defsym=%s: '%s' is not a 32-bit number", text, spelled);
+        return;
+      }
+    } else if (*spelled == '\0' || defsym.base || negative) {
+      ld_error(ctx, "--defsym=%s: expected numbers and at most one symbol, added, after '='", text);
       return;
+    } else {
+      defsym.base = spelled;
     }
-    defsym.base = ld_format(ctx, "%.*s", (int)length, value);
-    defsym.offset = value[length] == '-' ? 0 - number : number;
+    defsym.offset += negative ? 0 - number : number;
+    term += strlen(spelled);
+    negative = *term == '-';
+    if (*term == '\0')
+      break;
   }
   ld_push(ctx, &ctx->options.defsyms, defsym);
 }
