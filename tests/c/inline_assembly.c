@@ -54,6 +54,13 @@ negative:
 zero:
   return 0;
 }
+__attribute__((noinline)) static int steps(int a, int *p) { // results on both ways out
+  int r = a;
+  __asm__ goto("addi %0, %0, 1\n\tblt %0, r0, %l[out]\n\tsw %0, %1" : "+r"(r), "=m"(*p) : : : out);
+  return r;
+out:
+  return -r;
+}
 
 int main(void) {
   printf("%x %d %d\n", high_product(0xFFFFFFFF, 0x80000000), add_constant(1000), increment(41));
@@ -61,5 +68,7 @@ int main(void) {
   printf("%d %g %d\n", cells[2], (double)reciprocal_root(16.0f), clobbers(6, 7));
   printf("%x %d %d %d\n", (unsigned)lower_half(0x123456789ABCDEF0), sign(-5), sign(0), sign(7));
   printf("%llx %g\n", (unsigned long long)swapped(0x123456789ABCDEF0), negated(2.5));
+  int cell = 0, up = steps(4, &cell);
+  printf("%d %d %d %d\n", up, cell, steps(-4, &cell), cell);
   return 0;
 }
