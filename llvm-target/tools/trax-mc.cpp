@@ -135,18 +135,18 @@ static bool disassemble(const Target &T, Machine &M, raw_pwrite_stream &OS) {
       Line = Line.drop_front(Token.size());
     }
   }
-  for (uint64_t Index = 0, Size; Good && Index < Bytes.size(); Index += Size) {
+  if (!Good)
+    return false;
+  for (uint64_t Index = 0, Size; Index < Bytes.size(); Index += Size) {
     MCInst Inst;
     if (Decoder->getInstruction(Inst, Size, ArrayRef(Bytes).slice(Index), Index, nulls()) == MCDisassembler::Success) {
       Streamer->emitInstruction(Inst, *M.STI);
       continue;
     }
-    M.Sources.PrintMessage(SMLoc::getFromPointer(Places[Index]), SourceMgr::DK_Warning,
+    M.Sources.PrintMessage(SMLoc::getFromPointer(Places[Index]), SourceMgr::DK_Error,
                            Size < 4 ? "less than an instruction is left" : "illegal instruction");
     Good = false;
     Size = std::max<uint64_t>(Size, 1);
-    if (Index + Size < Bytes.size())
-      Good = true; // go on behind it
   }
   return Good;
 }
