@@ -77,7 +77,7 @@ def main():
 
     hardware = Program("hardware", [program("sweep-hardware")])
     sources = Program("runtime on the host", [program("sweep-runtime")])
-    tp = Program("TP", [program("trax-sim"), "--engine", "fast", "--quiet", "--config", options.machine, program("sweep.elf")], True)
+    tp = Program("TP", [program("trax-sim"), "--engine", "functional", "--quiet", "--config", options.machine, program("sweep.elf")], True)
     failed = False
     for group in [options.group] if options.group else list(GROUPS):
         count = options.count or (500 if group == "functions" else 20000)
