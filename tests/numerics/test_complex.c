@@ -1,0 +1,117 @@
+/* The complex functions, compiled for the host, against the host's in long double.
+
+   The error is the distance in the plane, in units in the last place of the true value's magnitude; newlib's functions
+   lose digits where parts cancel (docs/runtime.md). Exits with status 1 if a function exceeds its bound. */
+#include <complex.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "operands.h"
+
+/* Name, and bounds of double and float. */
+#define FUNCTIONS(X)                                                                                                   \
+  X(cacos, 55, 51)                                                                                                     \
+  X(casin, 68, 64)                                                                                                     \
+  X(catan, 23, 29)                                                                                                     \
+  X(ccos, 2.3, 2.2)                                                                                                    \
+  X(csin, 2.6, 2.5)                                                                                                    \
+  X(ctan, 4.3, 4.1)                                                                                                    \
+  X(cacosh, 3.8, 3.7)                                                                                                  \
+  X(casinh, 75, 77)                                                                                                    \
+  X(catanh, 20, 36)                                                                                                    \
+  X(ccosh, 2, 2)                                                                                                       \
+  X(csinh, 2.2, 2.2)                                                                                                   \
+  X(ctanh, 930, 1290)                                                                                                  \
+  X(cexp, 1.6, 1.5)                                                                                                    \
+  X(clog, 17, 24)                                                                                                      \
+  X(csqrt, 1.6, 1.5)                                                                                                   \
+  X(conj, 0, 0)                                                                                                        \
+  X(cproj, 0, 0)                                                                                                       \
+  X(cabs, 0.9, 0.51)                                                                                                   \
+  X(carg, 1.3, 0.51)                                                                                                   \
+  X(creal, 0, 0)                                                                                                       \
+  X(cimag, 0, 0)
+
+double complex rt_cacos(double complex), rt_casin(double complex), rt_catan(double complex), rt_ccos(double complex),
+    rt_csin(double complex), rt_ctan(double complex), rt_cacosh(double complex), rt_casinh(double complex),
+    rt_catanh(double complex), rt_ccosh(double complex), rt_csinh(double complex), rt_ctanh(double complex),
+    rt_cexp(double complex), rt_clog(double complex), rt_csqrt(double complex), rt_conj(double complex),
+    rt_cproj(double complex), rt_cpow(double complex, double complex);
+float complex rt_cacosf(float complex), rt_casinf(float complex), rt_catanf(float complex), rt_ccosf(float complex),
+    rt_csinf(float complex), rt_ctanf(float complex), rt_cacoshf(float complex), rt_casinhf(float complex),
+    rt_catanhf(float complex), rt_ccoshf(float complex), rt_csinhf(float complex), rt_ctanhf(float complex),
+    rt_cexpf(float complex), rt_clogf(float complex), rt_csqrtf(float complex), rt_conjf(float complex),
+    rt_cprojf(float complex), rt_cpowf(float complex, float complex);
+double rt_cabs(double complex), rt_carg(double complex), rt_creal(double complex), rt_cimag(double complex);
+float rt_cabsf(float complex), rt_cargf(float complex), rt_crealf(float complex), rt_cimagf(float complex);
+
+static bool failed;
+
+static double uniform(uint64_t *state) {
+  return (double)(int64_t)random64(state) * 0x1p-63;
+}
+
+/* Of both signs, from 2^-6 to 2^3 in magnitude. */
+static float part(uint64_t *state) {
+  double x = uniform(state);
+  return (float)ldexp(x < 0 ? x - 1 : x + 1, (int)(random64(state) % 9) - 6);
+}
+
+static double distance(double complex got, long double complex want, int digits) {
+  long double difference = cabsl((long double complex)got - want);
+  return difference == 0 ? 0 : (double)(difference / ldexpl(1, ilogbl(cabsl(want)) - digits));
+}
+
+static void report(const char *name, double worst, double complex at, double bound) {
+  bool bad = !(worst <= bound);
+  failed |= bad;
+  printf("%-8s %9.3f ulp, bound %6.2f, worst at %a, %a%s\n", name, worst, bound, creal(at), cimag(at),
+         bad ? "  FAILED" : "");
+}
+
+#define CHECK(name, bound, bound_f)                                                                                    \
+  {                                                                                                                    \
+    uint64_t state = 31;                                                                                               \
+    double worst = 0, worst_f = 0;                                                                                     \
+    double complex at = 0, at_f = 0;                                                                                   \
+    for (int i = 0; i < 20000; i++) {                                                                                  \
+      float complex z = __builtin_complex(part(&state), part(&state));                                                 \
+      long double complex want = name##l(z);                                                                           \
+      double error = distance(rt_##name(z), want, 52), error_f = distance((double complex)rt_##name##f(z), want, 23);  \
+      if (!(error <= worst)) {                                                                                         \
+        worst = error;                                                                                                 \
+        at = z;                                                                                                        \
+      }                                                                                                                \
+      if (!(error_f <= worst_f)) {                                                                                     \
+        worst_f = error_f;                                                                                             \
+        at_f = z;                                                                                                      \
+      }                                                                                                                \
+    }                                                                                                                  \
+    report(#name, worst, at, bound);                                                                                   \
+    report(#name "f", worst_f, at_f, bound_f);                                                                         \
+  }
+
+int main(void) {
+  FUNCTIONS(CHECK)
+  uint64_t state = 32;
+  double worst = 0, worst_f = 0;
+  double complex at = 0, at_f = 0;
+  for (int i = 0; i < 20000; i++) {
+    float complex x = __builtin_complex(part(&state), part(&state)),
+                  y = __builtin_complex((float)uniform(&state), (float)uniform(&state));
+    long double complex want = cpowl(x, y);
+    double error = distance(rt_cpow(x, y), want, 52), error_f = distance((double complex)rt_cpowf(x, y), want, 23);
+    if (!(error <= worst)) {
+      worst = error;
+      at = x;
+    }
+    if (!(error_f <= worst_f)) {
+      worst_f = error_f;
+      at_f = x;
+    }
+  }
+  report("cpow", worst, at, 6.8);
+  report("cpowf", worst_f, at_f, 7.2);
+  return failed;
+}
