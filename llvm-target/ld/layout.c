@@ -309,15 +309,26 @@ static void place_segments(ld_context *ctx, int class, uint32_t flags, uint64_t 
     *address = memory_end;
 }
 
+static int compare_addresses(const void *left, const void *right) {
+  const ld_output *a = *(ld_output *const *)left, *b = *(ld_output *const *)right;
+  if (a->address != b->address)
+    return a->address < b->address ? -1 : 1;
+  return compare_outputs(left, right);
+}
+
 static void check_overlap(ld_context *ctx) {
+  ld_output **sorted = ld_alloc_array(ctx, ctx->outputs.count + 1, sizeof(ld_output *));
+  size_t count = 0;
   for (size_t i = 0; i < ctx->outputs.count; i++)
-    for (size_t j = 0; ctx->options.section_starts.count && j < i; j++) {
-      const ld_output *a = ctx->outputs.items[i], *b = ctx->outputs.items[j];
-      if (a->rank < 90 && b->rank < 90 && a->size && b->size && a->address < (uint64_t)b->address + b->size &&
-          b->address < (uint64_t)a->address + a->size)
-        ld_error(ctx, "section %s, at 0x%x, overlaps section %s, at 0x%x to 0x%x", a->name, a->address, b->name,
-                 b->address, b->address + b->size);
-    }
+    if (ctx->outputs.items[i]->rank < 90 && ctx->outputs.items[i]->size)
+      sorted[count++] = ctx->outputs.items[i];
+  qsort(sorted, count, sizeof(ld_output *), compare_addresses);
+  for (size_t i = 1; i < count; i++) {
+    const ld_output *before = sorted[i - 1], *after = sorted[i];
+    if (after->address - before->address < before->size)
+      ld_error(ctx, "section %s, at 0x%x, overlaps section %s, at 0x%x to 0x%x", after->name, after->address,
+               before->name, before->address, before->address + before->size);
+  }
 }
 
 /* The initialised data first: the rest of local memory is zero at start. */
@@ -364,10 +375,13 @@ static void set_bounds(ld_context *ctx, uint32_t text_end, uint32_t end) {
   set_range(ctx, ".init_array", end, &bounds->init_array_start, &bounds->init_array_end);
   set_range(ctx, ".fini_array", end, &bounds->fini_array_start, &bounds->fini_array_end);
   bounds->bss_start = bounds->bss_end = end;
-  for (size_t i = ctx->outputs.count; i-- > 0;) {
+  for (size_t i = 0; i < ctx->outputs.count; i++) {
     const ld_output *output = ctx->outputs.items[i];
-    if (output->rank == 23 && output->size)
+    if (output->rank != 23 || !output->size)
+      continue;
+    if (bounds->bss_start == end)
       bounds->bss_start = output->address;
+    bounds->bss_end = output->address + output->size;
   }
 }
 
@@ -450,6 +464,8 @@ bool ld_layout(ld_context *ctx) {
     qsort(ctx->segments.items, ctx->segments.count, sizeof *ctx->segments.items, compare_segments);
   for (size_t i = 0; i < ctx->segments.count; i++) { /* sections with addresses of their own may lie anywhere */
     const ld_segment *segment = &ctx->segments.items[i];
+    if (i > 0 && segment->address - segment[-1].address < segment[-1].memory_size && !ctx->error_count)
+      ld_error(ctx, "the segments at 0x%x and 0x%x overlap", segment[-1].address, segment->address);
     if (segment->address + segment->memory_size > address)
       address = segment->address + segment->memory_size;
   }

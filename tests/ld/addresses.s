@@ -34,7 +34,9 @@
 // MOVED-NEXT: after   PROGBITS 00040044
 // MOVED-NEXT: .data   PROGBITS 00002000
 // MOVED-NEXT: .bss    NOBITS   00002004
-// MOVED: 00040080 0 NOTYPE GLOBAL DEFAULT ABS _end
+// MOVED-DAG: 00040080 0 NOTYPE GLOBAL DEFAULT ABS _end
+// MOVED-DAG: 00002004 0 NOTYPE GLOBAL DEFAULT ABS __bss_start
+// MOVED-DAG: 00002014 0 NOTYPE GLOBAL DEFAULT ABS __bss_end
 
 // The entry may lie in any text.
 // RUN: %trax_ld a.o -o a -e boot --section-start=.boot=0x2000 && llvm-readelf -h a | FileCheck %s --check-prefix=ENTRY
@@ -43,6 +45,9 @@
 // Overlaps and addresses that are none.
 // RUN: not %trax_ld a.o -o no -e f1 -Tdata=0x1000 2>&1 | FileCheck %s --check-prefix=OVERLAP
 // OVERLAP: trax-ld: error: section .data, at 0x1000, overlaps section .text, at 0x1000 to 0x100c
+// RUN: printf '.section .tdata, "awT"\n.space 128\n' > values.s && %trax_mc -filetype=obj values.s -o values.o
+// RUN: not %trax_ld a.o values.o -o no -e f1 --section-start=.rodata=0x2000 -Tdata=0x2040 2>&1 | FileCheck %s --check-prefix=VALUES
+// VALUES: trax-ld: error: the segments at 0x2000 and 0x2040 overlap
 // RUN: not %trax_ld a.o -o no -e f1 -Tbss=0x1001 --section-start=.boot=100 --section-start=.boot --section-start==4 --section-start=x=y 2>&1 | \
 // RUN:   FileCheck %s --check-prefix=WRONG --implicit-check-not=error:
 // WRONG: trax-ld: error: -Tbss=0x1001: must be a multiple of 64 in global memory, 0x1000 or above
@@ -96,6 +101,5 @@ data:
   .bss
 bss:
   .space 16
-  .globl _end
   .section .unloaded
-  .long _end
+  .long _end, __bss_start, __bss_end
