@@ -11,7 +11,15 @@ extern void (*const __init_array_end[])(void);
 extern unsigned __tdata_start[], __tdata_end[];
 extern const unsigned __tdata_load[];
 
-static unsigned done;
+/* What the other threads wait for: constructed, or that thread 0 called exit in a constructor. */
+enum { CONSTRUCTING, CONSTRUCTED, ENDED };
+static unsigned construction;
+void __trax_end_construction(void);
+
+void __trax_end_construction(void) {
+  if (construction == CONSTRUCTING)
+    store_shared(&construction, ENDED);
+}
 
 void __trax_start(void) {
   const unsigned *from = __tdata_load;
@@ -25,10 +33,13 @@ void __trax_start(void) {
   if (trax_thread() == 0) {
     for (unsigned i = 0; i < bytes / sizeof *__init_array_start; i++)
       __init_array_start[i]();
-    store_shared(&done, 1);
+    store_shared(&construction, CONSTRUCTED);
   } else {
-    while (!load_shared(&done))
+    unsigned state;
+    while ((state = load_shared(&construction)) == CONSTRUCTING)
       ;
+    if (state == ENDED)
+      machine_exit(0);
   }
 }
 

@@ -5,10 +5,13 @@
 #include <stdlib.h>
 
 /* Each is there if the program has something for it to do. */
+__attribute__((weak)) void __trax_end_construction(void);
 __attribute__((weak)) void __trax_end_thread(void);
 __attribute__((weak)) void __trax_end_program(void);
 
 void exit(int status) {
+  if (__trax_end_construction)
+    __trax_end_construction();
   if (__trax_end_thread)
     __trax_end_thread();
   if (__trax_end_program)
