@@ -78,10 +78,11 @@ void __shared_weak_count::__release_weak() noexcept {
 }
 
 __shared_weak_count *__shared_weak_count::lock() noexcept {
-  if (__shared_owners_ == -1)
-    return nullptr;
-  __shared_owners_++;
-  return this;
+  long owners = __libcpp_acquire_load(&__shared_owners_);
+  while (owners != -1)
+    if (__atomic_compare_exchange_n(&__shared_owners_, &owners, owners + 1, true, __ATOMIC_SEQ_CST, __ATOMIC_SEQ_CST))
+      return this;
+  return nullptr;
 }
 
 const void *__shared_weak_count::__get_deleter(const type_info &) const noexcept {

@@ -22,7 +22,7 @@
 #define TRAX_NULL_END 0x00001000u   /* first valid global address */
 #define TRAX_LOCAL_BASE 0xFFFFFE00u /* first byte of local memory */
 #define TRAX_LOCAL_SIZE 512u        /* bytes */
-#define TRAX_STACK_GUARD 2048u      /* bytes between two threads' stacks in global memory */
+#define TRAX_STACK_GUARD 2048u      /* between two stacks in global memory; also keeps them off the same cache lines */
 #define TRAX_NUM_REGISTERS 32
 
 /* Special registers: constant, assembler name, number. */
