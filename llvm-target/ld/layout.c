@@ -436,8 +436,9 @@ static void place_in_file(ld_context *ctx) {
     if (output->type != SHT_NOBITS)
       offset += output->size;
   }
-  if (offset > INT32_MAX)
-    ld_error(ctx, "the executable would be larger than 2 GB");
+  if (offset > LD_MAX_FILE)
+    ld_error(ctx, "the executable would have %llu bytes, more than the linker's limit, %u", (unsigned long long)offset,
+             LD_MAX_FILE);
   ctx->image_size = (size_t)offset; /* what follows is output.c's */
 }
 

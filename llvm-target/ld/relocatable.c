@@ -330,8 +330,8 @@ bool ld_build_relocatable(ld_context *ctx) {
   ld_add_string(ctx, &writer.names, ".shstrtab"); /* before the size is taken */
   header = (Elf32_Shdr){.sh_type = SHT_STRTAB, .sh_size = (Elf32_Word)writer.names.size, .sh_addralign = 1};
   add_part(&writer, ".shstrtab", header, writer.names.bytes, ELF_T_BYTE);
-  if (writer.size > INT32_MAX)
-    ld_error(ctx, "the object would be larger than 2 GB");
+  if (writer.size > LD_MAX_FILE)
+    ld_error(ctx, "the object would have %zu bytes, more than the linker's limit, %u", writer.size, LD_MAX_FILE);
   if (ctx->error_count)
     return false;
   put_parts(&writer);
