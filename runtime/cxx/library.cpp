@@ -104,11 +104,12 @@ string from_double(double value) {
   return text;
 }
 
-template <class Number>
-Number to_integer(const string &text, size_t *used, int base, Number (*convert)(const char *, char **, int)) {
+/* The number at the beginning of text; *used receives where it ends. */
+template <class Number, class... Base>
+Number from_text(const string &text, size_t *used, Number (*convert)(const char *, char **, Base...), Base... base) {
   char *end;
   errno = 0;
-  const Number value = convert(text.c_str(), &end, base);
+  const Number value = convert(text.c_str(), &end, base...);
   if (end == text.c_str())
     machine_abort("std::stoi or one of its like: not a number");
   if (errno == ERANGE)
@@ -149,19 +150,28 @@ string to_string(long double value) {
 }
 
 int stoi(const string &text, size_t *used, int base) {
-  return static_cast<int>(to_integer(text, used, base, strtol)); // a long is an int
+  return static_cast<int>(from_text(text, used, strtol, base)); // a long is an int
 }
 long stol(const string &text, size_t *used, int base) {
-  return to_integer(text, used, base, strtol);
+  return from_text(text, used, strtol, base);
 }
 unsigned long stoul(const string &text, size_t *used, int base) {
-  return to_integer(text, used, base, strtoul);
+  return from_text(text, used, strtoul, base);
 }
 long long stoll(const string &text, size_t *used, int base) {
-  return to_integer(text, used, base, strtoll);
+  return from_text(text, used, strtoll, base);
 }
 unsigned long long stoull(const string &text, size_t *used, int base) {
-  return to_integer(text, used, base, strtoull);
+  return from_text(text, used, strtoull, base);
+}
+float stof(const string &text, size_t *used) {
+  return from_text(text, used, strtof);
+}
+double stod(const string &text, size_t *used) {
+  return from_text(text, used, strtod);
+}
+long double stold(const string &text, size_t *used) {
+  return from_text(text, used, strtold);
 }
 
 _LIBCPP_END_NAMESPACE_STD

@@ -116,6 +116,8 @@ int main() {
   std::vector<std::string> words{"pear", "apple", "fig"};
   std::sort(words.begin(), words.end(), [](auto &a, auto &b) { return a.size() < b.size(); });
   std::printf("%g %s %d %s\n", numbers[0], words[0].c_str(), std::stoi("-17"), std::to_string(2.5).c_str());
+  size_t used;
+  std::printf("%g %zu %g\n", std::stod("2.5e3 more", &used), used, static_cast<double>(std::stof("-0.125")));
   std::weak_ptr<D> weak = sp;
   sp.reset();
   sp2.reset();
