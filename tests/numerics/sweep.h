@@ -85,9 +85,12 @@ static inline struct operands double_operands(uint32_t number) {
     o.b = with_exponent(o.b, (int)(o.c >> 6 & 0x3F) + 1023 - 32);
   }
   switch (index & 7) { /* the sum of a multiply-add: cancellation and halfway cases of the product, or anything */
-  case 0:
-    o.c = bits_of(-(double_of(o.a) * double_of(o.b))) + (o.c & 3) - 1;
+  case 0: {
+    double product = double_of(o.a) * double_of(o.b);
+    if (product == product) /* a NaN's bits would be the machine's */
+      o.c = bits_of(-product) + (o.c & 3) - 1;
     break;
+  }
   case 1:
     o.c = with_exponent(o.c & ~(uint64_t)0 << (o.c & 63),
                         (int)((o.a >> 52 & 0x7FF) + (o.b >> 52 & 0x7FF)) - 1023 + (int)(o.c >> 8 & 127) - 64);
