@@ -65,7 +65,8 @@ with tempfile.TemporaryDirectory() as work:
         for flags in (["-O0", "-g"], ["-O2", "-g", "-ffunction-sections", "-fdata-sections", "-fcommon"], ["-Os"],
                       ["-O1", "-gz", "-g"], ["-O1", "-gdwarf-5"]):
             output = os.path.join(work, name[0] + ".o")
-            run(os.path.join(bindir, "clang"), "--target=trax", "-c", *flags, source, "-o", output)
+            run(os.path.join(bindir, "clang"), "--target=trax", "-c", *flags, "-fdebug-compilation-dir=/source",
+                "-ffile-prefix-map=" + work + "=/source", source, "-o", output)
             objects[name[0] + "".join(flags)] = data = read(output)
             for listing in LISTINGS:
                 add("trax-objdump", listing, ("a.o", data))
