@@ -75,3 +75,28 @@ define float @select_float(i32 %c, float %t, float %f) {
   ret float %r
 }
 declare i32 @llvm.smax.i32(i32, i32)
+
+; A choice between constants that differ by a power of two is a shifted comparison; what remains goes into the address.
+; CHECK-LABEL: choose:
+; CHECK: slt [[LESS:r[0-9]+]], r4, r5
+; CHECK-NEXT: slli [[LESS]], [[LESS]], 3
+; CHECK-NEXT: ori r4, [[LESS]], 20
+; CHECK-NEXT: ret
+define i32 @choose(i32 %a, i32 %b) nounwind {
+  %less = icmp slt i32 %a, %b
+  %r = select i1 %less, i32 28, i32 20
+  ret i32 %r
+}
+; CHECK-LABEL: child:
+; CHECK: slt [[LESS:r[0-9]+]], r5, r6
+; CHECK-NEXT: slli [[LESS]], [[LESS]], 2
+; CHECK-NEXT: sub [[AT:r[0-9]+]], r4, [[LESS]]
+; CHECK-NEXT: lw r4, 8([[AT]])
+; CHECK-NEXT: ret
+define i32 @child(ptr %node, i32 %a, i32 %b) nounwind {
+  %less = icmp slt i32 %a, %b
+  %offset = select i1 %less, i32 4, i32 8
+  %address = getelementptr i8, ptr %node, i32 %offset
+  %r = load i32, ptr %address
+  ret i32 %r
+}

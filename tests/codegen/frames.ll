@@ -160,3 +160,26 @@ done:
 }
 declare ptr @llvm.returnaddress(i32)
 declare ptr @llvm.frameaddress.p0(i32)
+
+; What returns early saves nothing: arguments stay where they are until they must survive a call.
+; CHECK-LABEL: early_return:
+; CHECK: blez r4, [[RETURN:.LBB[0-9_]+]]
+; CHECK: addi r2, r2, -
+; CHECK: sw r1,
+; CHECK: call work
+; CHECK: [[RETURN]]:
+; CHECK-NEXT: ret
+define void @early_return(i32 %count) nounwind {
+entry:
+  %none = icmp slt i32 %count, 1
+  br i1 %none, label %end, label %loop
+loop:
+  %i = phi i32 [ %count, %entry ], [ %next, %loop ]
+  call void @work(i32 %i)
+  %next = add i32 %i, -1
+  %done = icmp eq i32 %next, 0
+  br i1 %done, label %end, label %loop
+end:
+  ret void
+}
+declare void @work(i32)
