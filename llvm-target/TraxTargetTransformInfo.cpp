@@ -2,6 +2,7 @@
 #include "TraxTargetTransformInfo.h"
 #include "TraxBuiltins.h"
 #include "llvm/Analysis/LoopInfo.h"
+#include "llvm/Analysis/ScalarEvolutionExpressions.h"
 #include "llvm/IR/Function.h"
 #include "llvm/IR/InstrTypes.h"
 #include "llvm/Support/MathExtras.h"
@@ -16,21 +17,52 @@ bool TraxTTIImpl::isLoweredToCall(const Function *F) const {
   return BaseT::isLoweredToCall(F);
 }
 
+/// Of the loads in the only, innermost loop in this one: how many vary with this one for each that does not; 0 if none
+/// is of the latter kind. Copies of the inner loop, run as one, load these once.
+static unsigned loadsPerSharedLoad(const Loop &Outer, ScalarEvolution &SE) {
+  if (Outer.getSubLoops().size() != 1 || Outer.getSubLoops().front()->getNumBlocks() != 1)
+    return 0;
+  auto RecursIn = [&](const SCEV *Part) {
+    const auto *Recurrence = dyn_cast<SCEVAddRecExpr>(Part);
+    return Recurrence && Recurrence->getLoop() == &Outer;
+  };
+  SmallPtrSet<const SCEV *, 8> Shared, Varying; // copies load from the same address until they are merged
+  for (Instruction &I : *Outer.getSubLoops().front()->getHeader())
+    if (auto *Load = dyn_cast<LoadInst>(&I)) {
+      const SCEV *Address = SE.getSCEV(Load->getPointerOperand());
+      (SCEVExprContains(Address, RecursIn) ? Varying : Shared).insert(Address);
+    }
+  return Shared.empty() ? 0 : Varying.size() / Shared.size();
+}
+
 // The instruction cache holds 1,024 instructions, shared by all: at -O2 unrolling must pay by turning a small array's
-// indices into constants. At -O3 an innermost loop may also save its counting, where a few copies of it stay small.
+// indices into constants. At -O3 a small innermost loop may also save its counting, and a loop around it some of its
+// loads.
 void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::UnrollingPreferences &UP,
                                           OptimizationRemarkEmitter *ORE) {
   // The unroller comes with a larger threshold at -O3; nothing else tells the level.
   bool Aggressive = UP.Threshold > 150;
   BaseT::getUnrollingPreferences(L, SE, UP, ORE);
-  UP.Threshold = Aggressive ? 256 : 120;
+  UP.Threshold = Aggressive ? 350 : 120;
   UP.PartialThreshold = 0;
   UP.OptSizeThreshold = 0;
   UP.PartialOptSizeThreshold = 0;
   UP.Partial = false;
   UP.Runtime = false;
   UP.UpperBound = false;
-  if (!Aggressive || !L->isInnermost() || L->getNumBlocks() > 4 || L->getHeader()->getParent()->hasOptSize())
+  if (!Aggressive || L->getNumBlocks() > 4 || L->getHeader()->getParent()->hasOptSize())
+    return;
+  const unsigned EnoughPerSharedLoad = 4;
+  unsigned PerSharedLoad = loadsPerSharedLoad(*L, SE);
+  UP.UnrollAndJam = PerSharedLoad != 0 && PerSharedLoad < EnoughPerSharedLoad;
+  // Before the loop around it is copied: leave room. Afterwards: the copies count once again.
+  bool IsJammed = false;
+  if (const Loop *Parent = L->getParentLoop(); L->isInnermost() && Parent)
+    if (unsigned OfParent = loadsPerSharedLoad(*Parent, SE)) {
+      UP.Threshold = 80;
+      IsJammed = OfParent >= EnoughPerSharedLoad;
+    }
+  if (!UP.UnrollAndJam && !L->isInnermost())
     return;
   SmallVector<BasicBlock *, 4> Exiting;
   L->getExitingBlocks(Exiting);
@@ -44,11 +76,12 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
           return;
       Cost += getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
     }
-  UP.PartialThreshold = 80;
+  UP.PartialThreshold = UP.UnrollAndJam || IsJammed ? 160 : 80;
+  UP.UnrollAndJamInnerLoopThreshold = 100;
   UP.DefaultUnrollRuntimeCount = 4;
-  UP.MaxCount = 4;
+  UP.MaxCount = UP.UnrollAndJam ? 8 : 4;
   UP.Partial = UP.Runtime = true;
-  UP.Force = Cost < 12;
+  UP.Force = L->isInnermost() && Cost < 12;
 }
 
 void TraxTTIImpl::getPeelingPreferences(Loop *L, ScalarEvolution &SE, TTI::PeelingPreferences &PP) {

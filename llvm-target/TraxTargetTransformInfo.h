@@ -37,6 +37,7 @@ public:
   // Loops: a branch compares two registers, so an end pointer costs no more than a counter that runs to 0.
   bool isLSRCostLess(const TTI::LSRCost &A, const TTI::LSRCost &B) const;
   bool canMacroFuseCmp() const { return true; }
+  bool shouldFoldTerminatingConditionAfterLSR() const { return true; }
 
   TTI::PopcntSupportKind getPopcntSupport(unsigned) { return TTI::PSK_Software; }
 
