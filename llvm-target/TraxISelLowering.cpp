@@ -349,10 +349,11 @@ SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, Selecti
 
 //--- costs --------------------------------------------------------------------
 
-/// A double word is shifted by any amount in nine instructions. A call is fewer, but then all values live elsewhere.
+/// A double word is shifted by any amount in nine instructions. A call is fewer, but then all values live elsewhere, which
+/// takes more again unless nothing but size counts.
 TargetLowering::ShiftLegalizationStrategy
 TraxTargetLowering::preferredShiftLegalizationStrategy(SelectionDAG &DAG, SDNode *N, unsigned ExpansionFactor) const {
-  if (DAG.shouldOptForSize())
+  if (DAG.getMachineFunction().getFunction().hasMinSize())
     return ShiftLegalizationStrategy::LowerToLibcall;
   return TargetLowering::preferredShiftLegalizationStrategy(DAG, N, ExpansionFactor);
 }

@@ -98,7 +98,7 @@ define float @narrow(double %a) {
   %r = fptrunc double %a to float
   ret float %r
 }
-; By any amount, without a call but where size counts.
+; By any amount, without a call unless nothing but size counts.
 ; CHECK-LABEL: shift_left_any:
 ; CHECK-DAG: srli [[HALF:r[0-9]+]], r4, 1
 ; CHECK-DAG: not [[REST:r[0-9]+]], r6
@@ -124,7 +124,7 @@ define i64 @shift_right_any(i64 %a, i64 %n) {
 }
 ; CHECK-LABEL: shift_small:
 ; CHECK: call __lshrdi3
-define i64 @shift_small(i64 %a, i64 %n) optsize {
+define i64 @shift_small(i64 %a, i64 %n) minsize optsize {
   %r = lshr i64 %a, %n
   %s = add i64 %r, 1
   ret i64 %s
