@@ -239,7 +239,7 @@ trax_status trax_functional_run(struct trax_functional *functional, uint64_t lim
                                 bool (*stop)(void *context, uint64_t instructions), void *context) {
   struct trax_chip *chip = functional->chip;
   uint64_t before = 0;
-  for (uint64_t turn = 0; chip->running; turn++) {
+  while (chip->running) {
     uint64_t instructions = 0;
     for (uint32_t i = 0; i < chip->tms; i++) {
       struct trax_tm *tm = &chip->tm[i];
