@@ -48,7 +48,7 @@ static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint
   memcpy(place(tm, tp, address), &value, bytes);
 }
 
-static uint32_t special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t) {
+uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t) {
   switch (number) {
   case TRAX_SR_THREAD:
     return tm->number * tm->tps + tp;
@@ -88,7 +88,7 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
 #define STORE16(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 2)
 #define STORE32(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 4)
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
-#define SPECIAL_REGISTER(NUMBER) special_register(tm, number, NUMBER, t)
+#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, t)
 #define TRAP(VALUE, CODE) alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t)
 #define HALT() trax_tm_end_thread(tm, number, t + 1, 0)
 #define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)

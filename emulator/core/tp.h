@@ -49,6 +49,9 @@ bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes
 /* Whether the access of the TP's instruction is allowed, with its address. */
 trax_fault_kind trax_tp_check_access(const struct trax_tp *tp, const struct trax_space *space, uint32_t address);
 
+/* What rdsr of special register `number` gives TP `tp` in cycle t. */
+uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t);
+
 /* Performs the instruction in cycle t: registers, pc, memory, host. Returns false if it faulted (abort, puts): the
    fault is recorded in the TM. Atomic increments only move on; the controller does the rest. */
 bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t);

@@ -19,20 +19,6 @@ static unsigned data_bank(const struct trax_fast_tm *ftm, uint32_t address) {
   return (banks & (banks - 1)) == 0 ? address / 4 & (banks - 1) : address / 4 % banks;
 }
 
-static uint32_t special_register(const struct trax_tm *tm, unsigned tp, uint32_t number) {
-  switch (number) {
-  case TRAX_SR_THREAD:
-    return tm->number * tm->tps + tp;
-  case TRAX_SR_TM:
-    return tm->number;
-  case TRAX_SR_TP:
-    return tp;
-  case TRAX_SR_THREADS:
-    return tm->config->chip.tms * tm->tps;
-  }
-  return 0; /* those that depend on time end a burst */
-}
-
 unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number, unsigned limit) {
   struct trax_fast_tp *const ftp = &ftm->tp[number];
   struct trax_tp *const tp = &ftm->tm->tp[number];
@@ -97,7 +83,7 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
     goto stop;                                                                                                         \
     0u;                                                                                                                \
   }))
-#define SPECIAL_REGISTER(NUMBER) special_register(ftm->tm, number, NUMBER)
+#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(ftm->tm, number, NUMBER, 0) /* the cycle ends a burst */
 #define TRAP(VALUE, CODE) goto stop
 #define HALT() goto stop
 #define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), config->special.precision_bits)

@@ -41,24 +41,6 @@ static const struct instruction *inst_at(const struct trax_functional *functiona
   return functional->outside;
 }
 
-static uint32_t special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t executed) {
-  switch (number) {
-  case TRAX_SR_THREAD:
-    return tm->number * tm->tps + tp;
-  case TRAX_SR_TM:
-    return tm->number;
-  case TRAX_SR_TP:
-    return tp;
-  case TRAX_SR_THREADS:
-    return tm->config->chip.tms * tm->tps;
-  case TRAX_SR_CYCLE:
-    return (uint32_t)executed;
-  case TRAX_SR_CYCLEH:
-    return (uint32_t)(executed >> 32);
-  }
-  return 0; /* the decoder lets no other pass */
-}
-
 /* Executes the TP's instructions from tp->pc on until its turn is over, or the next one is for execute_slowly. Without
    a TP: *operations receives the places of all operations. */
 static enum stop function(struct trax_functional *functional, const struct trax_tm *tm, struct trax_tp *tp,
@@ -138,7 +120,7 @@ static enum stop function(struct trax_functional *functional, const struct trax_
     goto slow;                                                                                                         \
     0u;                                                                                                                \
   }))
-#define SPECIAL_REGISTER(NUMBER) special_register(tm, number, NUMBER, count + (uint64_t)(inst - begin))
+#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, count + (uint64_t)(inst - begin))
 #define TRAP(VALUE, CODE) goto slow
 #define HALT() goto slow
 #define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)

@@ -1,11 +1,17 @@
-/* Five bodies under gravity, in double precision, which is the library's on both machines. */
+/* Five bodies under gravity, in double precision, which is the library's on both machines; missing/n_body_float.c
+   defines another. */
 #include "../bench.h"
 
-#include <math.h>
+#include <tgmath.h>
 
-enum { BODIES = 5, STEPS = 10 };
+#ifndef REAL
+#define REAL double
+#define STEPS 10
+#endif
+
+enum { BODIES = 5 };
 struct body {
-  double x, y, z, vx, vy, vz, mass;
+  REAL x, y, z, vx, vy, vz, mass;
 };
 static const struct body start[BODIES] = {{0, 0, 0, 0, 0, 0, 39.5},
                                           {4.84, -1.16, -0.10, 0.606, 2.81, -0.02, 0.037},
@@ -16,14 +22,14 @@ static struct body bodies[BODIES];
 
 void kernel_setup(void) {}
 
-static void advance(double dt) {
+static void advance(REAL dt) {
   for (int i = 0; i < BODIES; i++) {
     struct body *a = &bodies[i];
     for (int j = i + 1; j < BODIES; j++) {
       struct body *b = &bodies[j];
-      double dx = a->x - b->x, dy = a->y - b->y, dz = a->z - b->z;
-      double square = dx * dx + dy * dy + dz * dz;
-      double strength = dt / (square * sqrt(square));
+      REAL dx = a->x - b->x, dy = a->y - b->y, dz = a->z - b->z;
+      REAL square = dx * dx + dy * dy + dz * dz;
+      REAL strength = dt / (square * sqrt(square));
       a->vx -= dx * b->mass * strength;
       a->vy -= dy * b->mass * strength;
       a->vz -= dz * b->mass * strength;
@@ -43,9 +49,9 @@ struct result kernel_run(void) {
   for (int i = 0; i < BODIES; i++)
     bodies[i] = start[i];
   for (int i = 0; i < STEPS; i++)
-    advance(0.01);
+    advance((REAL)0.01);
   uint32_t checksum = 0;
-  double sum = 0;
+  REAL sum = 0;
   for (int i = 0; i < BODIES; i++) {
     checksum = mix_float(mix_float(mix_float(checksum, (float)bodies[i].x), (float)bodies[i].y), (float)bodies[i].z);
     sum += bodies[i].x;
