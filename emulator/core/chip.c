@@ -107,6 +107,19 @@ static bool poll_without_time(void *context, uint64_t instructions) {
   return poll_host(it->chip, it->options, &it->poll, 0);
 }
 
+/* Calls those who look at the machine before cycle t. *next receives the cycle in which someone looks again. */
+static trax_status look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
+  trax_status status = TRAX_OK;
+  *next = TRAX_NEVER;
+  for (struct trax_watch *watch = chip->machine->watches; watch && !status; watch = watch->others) {
+    if (watch->next <= t)
+      status = watch->look(watch, chip);
+    if (watch->next < *next)
+      *next = watch->next;
+  }
+  return status;
+}
+
 trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *options, uint64_t *cycles) {
   const uint64_t limit = options->max_cycles ? options->max_cycles : TRAX_NEVER;
   const double begun = host_seconds();
@@ -116,8 +129,15 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
     *cycles = 0;
     return trax_functional_run(chip->functional, limit, poll_without_time, &context);
   }
-  uint64_t t = 0;
+  uint64_t t = 0, watched = chip->machine->watches ? 0 : TRAX_NEVER;
   while (true) {
+    if (t >= watched) {
+      const trax_status status = look(chip, t, &watched);
+      if (status) {
+        *cycles = t;
+        return status;
+      }
+    }
     if (t >= limit) {
       *cycles = limit;
       return TRAX_STUCK;
@@ -150,6 +170,8 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       t++;
       break;
     }
+    if (next > watched)
+      next = watched > t + 1 ? watched : t + 1;
     t = next; /* never TRAX_NEVER: whoever has not ended is awake, in a wheel, or waits for a request */
   }
   const uint64_t idle_from = trax_memory_idle_from(&chip->memory);

@@ -5,6 +5,18 @@
 #include "core/memory.h"
 #include "core/tm.h"
 
+struct trax_chip;
+
+/* Somebody who looks at the machine between cycles: called when all cycles before `next` are over and nothing of `next`
+   has happened, for all TMs alike. Sets `next` anew, to a later cycle or TRAX_NEVER. Anything but TRAX_OK ends the run
+   with that status. */
+struct trax_watch {
+  uint64_t next;
+  trax_status (*look)(struct trax_watch *watch, struct trax_chip *chip);
+  void *context;
+  struct trax_watch *others; /* the next one of the machine's list */
+};
+
 struct trax_chip {
   struct trax_machine *machine;
   struct trax_text text;

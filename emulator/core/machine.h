@@ -12,6 +12,7 @@
 #include <stdarg.h>
 
 struct trax_chip;
+struct trax_watch;
 
 /* One issued instruction, for tracing: handed over after its effect. */
 struct trax_issue {
@@ -32,6 +33,8 @@ struct trax_machine {
   /* Owned by emulator/host: symbols, lines, buffers. Destroyed with the machine if not NULL. */
   void *host;
   void (*host_destroy)(void *host);
+
+  struct trax_watch *watches; /* the first; NULL: none (core/chip.h) */
 
   /* Called for every issued instruction if not NULL. */
   void (*trace)(void *context, const struct trax_issue *issue);
