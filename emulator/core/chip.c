@@ -1,15 +1,10 @@
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "core/chip.h"
 
+#include "core/poll.h"
 #include "fast/engine.h"
 #include "fast/functional.h"
 
 #include <string.h>
-#include <time.h>
-
-/* How often, in simulated events, the host's clock and the interrupt flag are looked at. */
-#define POLL_INTERVAL 4096
-#define PROGRESS_SECONDS 0.1
 
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
                              trax_error *error) {
@@ -43,68 +38,32 @@ void trax_chip_destroy(struct trax_chip *chip) {
 }
 
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
+  for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
+    chip->machine->fault = chip->tm[i].fault;
   if (chip->functional) {
     trax_functional_collect(chip->functional);
     return;
   }
   if (chip->engine)
     chip->engine->settle(chip->fast);
-  for (uint32_t i = 0; i < chip->tms; i++)
-    trax_tm_settle(&chip->tm[i], cycles);
-}
-
-static double host_seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-struct poll {
-  double begun, reported;
-  unsigned countdown;
-};
-
-static void report_progress(const struct trax_chip *chip, const struct trax_run_options *options, struct poll *poll,
-                            uint64_t t) {
-  const double now = host_seconds();
-  if (now - poll->reported < PROGRESS_SECONDS)
-    return;
-  poll->reported = now;
-  if (chip->engine)
-    chip->engine->collect(chip->fast);
-  if (chip->functional)
-    trax_functional_collect(chip->functional);
-  trax_progress progress = {.cycle = t, .total_items = options->total_items, .host_seconds = now - poll->begun};
   for (uint32_t i = 0; i < chip->tms; i++) {
-    progress.items += chip->tm[i].stats->items;
-    for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
-      progress.instructions += chip->tm[i].stats->instructions[op];
+    trax_tm_settle(&chip->tm[i], cycles);
+    chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
   }
-  options->progress(options->progress_context, &progress);
 }
 
-/* True if the run is to stop. */
-static bool poll_host(const struct trax_chip *chip, const struct trax_run_options *options, struct poll *poll,
-                      uint64_t t) {
-  if (--poll->countdown)
-    return false;
-  poll->countdown = POLL_INTERVAL;
-  if (options->progress)
-    report_progress(chip, options, poll, t);
-  return options->interrupt && *options->interrupt;
+static void collect_fast(void *context) {
+  const struct trax_chip *chip = context;
+  chip->engine->collect(chip->fast);
 }
 
-struct functional_poll {
-  const struct trax_chip *chip;
-  const trax_run_options *options;
-  struct poll poll;
-};
+static void collect_functional(void *context) {
+  trax_functional_collect(((const struct trax_chip *)context)->functional);
+}
 
-static bool poll_without_time(void *context, uint64_t instructions) {
-  struct functional_poll *it = context;
+static bool poll_without_time(void *poll, uint64_t instructions) {
   (void)instructions;
-  it->poll.countdown = 1;
-  return poll_host(it->chip, it->options, &it->poll, 0);
+  return trax_poll_now(poll, 0);
 }
 
 /* Calls those who look at the machine before cycle t. *next receives the cycle in which someone looks again. */
@@ -122,12 +81,13 @@ static trax_status look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
 
 trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *options, uint64_t *cycles) {
   const uint64_t limit = options->max_cycles ? options->max_cycles : TRAX_NEVER;
-  const double begun = host_seconds();
-  struct poll poll = {begun, begun, 1};
+  struct trax_poll poll;
+  trax_poll_begin(&poll, chip->machine, options);
+  poll.context = chip;
+  poll.collect = chip->functional ? collect_functional : chip->engine ? collect_fast : NULL;
   if (chip->functional) {
-    struct functional_poll context = {chip, options, poll};
     *cycles = 0;
-    return trax_functional_run(chip->functional, limit, poll_without_time, &context);
+    return trax_functional_run(chip->functional, limit, poll_without_time, &poll);
   }
   uint64_t t = 0, watched = chip->machine->watches ? 0 : TRAX_NEVER;
   while (true) {
@@ -142,7 +102,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       *cycles = limit;
       return TRAX_STUCK;
     }
-    if (poll_host(chip, options, &poll, t)) {
+    if (trax_poll(&poll, t)) {
       *cycles = t;
       return TRAX_INTERRUPTED;
     }
@@ -176,5 +136,9 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
   }
   const uint64_t idle_from = trax_memory_idle_from(&chip->memory);
   *cycles = idle_from > t ? idle_from : t;
+  if (*cycles > limit) {
+    *cycles = limit;
+    return TRAX_STUCK;
+  }
   return TRAX_OK;
 }

@@ -32,7 +32,7 @@ struct trax_chip {
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
                              trax_error *error);
 void trax_chip_destroy(struct trax_chip *chip);
-/* Completes the charges of a run of `cycles` cycles. */
+/* Completes the machine's statistics of a run of `cycles` cycles, and hands it the fault that ended the run. */
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles);
 
 /* Runs from cycle 0 to the end, a fault, an interrupt or the watchdog; *cycles receives the length. */

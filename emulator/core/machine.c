@@ -138,20 +138,18 @@ static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *ter
 }
 
 /* Sums up, and checks the rule of accounting: every thread is charged every cycle once. */
-static trax_status collect(struct trax_machine *machine, struct trax_chip *chip, trax_error *error) {
+static trax_status collect(struct trax_machine *machine, bool timed, trax_error *error) {
   const uint32_t tps = machine->config.chip.tps_per_tm;
-  trax_chip_settle(chip, machine->stats.cycles);
-  for (uint32_t i = 0; i < chip->tms; i++) {
-    struct trax_tm *tm = &chip->tm[i];
-    struct trax_tm_stats *stats = tm->stats;
-    stats->queue_peak = tm->queue.peak;
+  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
+    struct trax_tm_stats *stats = &machine->tm_stats[i];
     count_by_operation(stats);
     count_adder_operations(stats, &machine->config);
     for (uint32_t tp = 0; tp < tps; tp++) {
+      const struct trax_tp_stats *charges = &machine->tp_stats[(size_t)i * tps + tp];
       uint64_t charged = 0;
       for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
-        stats->cycles[cause] += tm->tp_stats[tp].cycles[cause];
-        charged += tm->tp_stats[tp].cycles[cause];
+        stats->cycles[cause] += charges->cycles[cause];
+        charged += charges->cycles[cause];
       }
       if (charged != machine->stats.cycles)
         return trax_fail(error, "internal error: TM %u, TP %u is charged for %" PRIu64 " of %" PRIu64 " cycles", i, tp,
@@ -160,24 +158,22 @@ static trax_status collect(struct trax_machine *machine, struct trax_chip *chip,
     add_stats(&machine->stats.total, stats);
   }
   machine->stats.instructions = machine->stats.total.cycles[TRAX_CAUSE_ISSUED];
-  if (chip->functional) /* which charges nobody */
+  if (!timed) /* nobody is charged */
     for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
       machine->stats.instructions += machine->stats.total.instructions[op];
   return TRAX_OK;
 }
 
-static trax_status report_outcome(struct trax_machine *machine, struct trax_chip *chip, uint64_t limit,
+static trax_status report_outcome(const struct trax_machine *machine, const trax_run_options *options,
                                   trax_error *error) {
   switch (machine->status) {
   case TRAX_FAULT:
-    for (uint32_t i = 0; i < chip->tms && !machine->fault.kind; i++)
-      machine->fault = chip->tm[i].fault;
     trax_fail(error, "%s at pc 0x%08x, thread %u, cycle %" PRIu64, trax_fault_text(machine->fault.kind),
               machine->fault.pc, machine->fault.thread, machine->fault.cycle);
     break;
   case TRAX_STUCK:
-    if (chip->functional)
-      trax_fail(error, "the program has not ended after %" PRIu64 " instructions of a thread", limit);
+    if (options->engine == TRAX_ENGINE_FUNCTIONAL)
+      trax_fail(error, "the program has not ended after %" PRIu64 " instructions of a thread", options->max_cycles);
     else
       trax_fail(error, "the program has not ended after %" PRIu64 " cycles", machine->stats.cycles);
     break;
@@ -188,6 +184,19 @@ static trax_status report_outcome(struct trax_machine *machine, struct trax_chip
     break;
   }
   return machine->status;
+}
+
+static trax_status run_chip(struct trax_machine *machine, const trax_run_options *options, trax_error *error) {
+  struct trax_chip chip;
+  machine->chip = &chip;
+  trax_status status = trax_chip_create(&chip, machine, options, error);
+  if (status == TRAX_OK) {
+    status = trax_chip_run(&chip, options, &machine->stats.cycles);
+    trax_chip_settle(&chip, machine->stats.cycles);
+  }
+  trax_chip_destroy(&chip);
+  machine->chip = NULL;
+  return status;
 }
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error) {
@@ -202,19 +211,12 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
 
   struct timespec begin, end;
   clock_gettime(CLOCK_MONOTONIC, &begin);
-  struct trax_chip chip;
-  machine->chip = &chip;
-  machine->status = trax_chip_create(&chip, machine, options, error);
-  if (machine->status == TRAX_OK) {
-    machine->status = trax_chip_run(&chip, options, &machine->stats.cycles);
-    clock_gettime(CLOCK_MONOTONIC, &end);
-    machine->stats.host_seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
-    if (collect(machine, &chip, error))
-      machine->status = TRAX_ERROR;
-    else
-      report_outcome(machine, &chip, options->max_cycles, error);
-  }
-  trax_chip_destroy(&chip);
-  machine->chip = NULL;
-  return machine->status;
+  machine->status = run_chip(machine, options, error);
+  clock_gettime(CLOCK_MONOTONIC, &end);
+  machine->stats.host_seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
+  if (machine->status == TRAX_ERROR)
+    return TRAX_ERROR;
+  if (collect(machine, options->engine != TRAX_ENGINE_FUNCTIONAL, error))
+    return machine->status = TRAX_ERROR;
+  return report_outcome(machine, options, error);
 }

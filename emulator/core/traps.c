@@ -4,14 +4,11 @@
 
 #include <string.h>
 
-/* The string at a global address or in the TP's own local memory, to the guest's output. */
-static trax_fault_kind put_string(struct trax_tm *tm, unsigned number, uint32_t address) {
-  const struct trax_tp *tp = &tm->tp[number];
-  const struct trax_space *space = &tm->machine->space;
+trax_fault_kind trax_put_string(const struct trax_space *space, const uint8_t *local, uint32_t address, FILE *output) {
   const char *text, *end;
   if (address >= TRAX_LOCAL_BASE) {
-    text = (const char *)tp->local + (address - TRAX_LOCAL_BASE);
-    end = (const char *)tp->local + sizeof tp->local;
+    text = (const char *)local + (address - TRAX_LOCAL_BASE);
+    end = (const char *)local + TRAX_LOCAL_SIZE;
   } else {
     const trax_fault_kind kind = trax_space_check(space, address, 1, false);
     if (kind)
@@ -22,9 +19,9 @@ static trax_fault_kind put_string(struct trax_tm *tm, unsigned number, uint32_t 
   const char *nul = memchr(text, 0, (size_t)(end - text));
   if (!nul)
     return TRAX_FAULT_UNMAPPED;
-  if (tm->output) {
-    fwrite(text, 1, (size_t)(nul - text), tm->output);
-    fflush(tm->output);
+  if (output) {
+    fwrite(text, 1, (size_t)(nul - text), output);
+    fflush(output);
   }
   return TRAX_FAULT_NONE;
 }
@@ -49,7 +46,7 @@ bool trax_trap(struct trax_tm *tm, unsigned tp, uint32_t value, int32_t code, ui
     tm->stats->items += value;
     break;
   case TRAX_TRAP_PUTS:
-    fault = put_string(tm, tp, value);
+    fault = trax_put_string(&tm->machine->space, tm->tp[tp].local, value, tm->output);
     break;
   }
   if (fault)

@@ -218,6 +218,15 @@ static void end_waits_for_the_last_store(void **state) {
   assert_int_equal(bench_cycles(&bench), 782);
   assert_int_equal(bench_charge(&bench, 0, TRAX_CAUSE_HALTED), 39);
   bench_end(&bench);
+
+  const uint32_t program[] = {U(LUI, 1, 1), S(SW, 1, 1, 0), HALT};
+  for (uint64_t limit = 781; limit <= 782; limit++) { /* the run needs all of its length */
+    bench = bench_begin(&config, program, 3);
+    bench_run(&bench, limit);
+    assert_int_equal(bench.status, limit == 782 ? TRAX_OK : TRAX_STUCK);
+    assert_int_equal(bench_cycles(&bench), limit);
+    bench_end(&bench);
+  }
 }
 
 static void watchdog_and_interrupt(void **state) {
