@@ -26,6 +26,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tarfile
 
 import dejagnu
 
@@ -94,9 +95,13 @@ def unpack(build):
         fresh = suite + ".unpacking"
         shutil.rmtree(fresh, ignore_errors=True)
         os.makedirs(fresh)
-        subprocess.run(["tar", "-xJf", archives[0], "-C", fresh, "--strip-components=1", "--wildcards", f"*/{SUITE}/*"], check=True)
-        os.rename(os.path.join(fresh, SUITE), suite)
-        shutil.rmtree(fresh)
+        with tarfile.open(archives[0]) as archive:
+            for member in archive:
+                _, found, path = member.name.partition(f"/{SUITE}/")
+                if found and member.isfile():
+                    member.name = path
+                    archive.extract(member, fresh)
+        os.rename(fresh, suite)
     return folder, suite
 
 
