@@ -16,6 +16,9 @@
 #include <trax.h>
 #endif
 
+#ifndef __trax__
+#include "routines.h"
+#endif
 #include "sweep.h"
 
 #define BLOCK 1024 /* operands that a thread takes at a time */
@@ -27,71 +30,23 @@ static float as_float(uint32_t bits) {
   return float_of(bits);
 }
 
-/* On the host a NaN's bits are what they happen to be; the TP has one NaN. */
-#ifdef __trax__
-#define BITS(x) bits_of(x)
-#define FLOAT_BITS(x) float_bits_of(x)
-#else
-#define BITS(x) canonical(x)
-#define FLOAT_BITS(x) canonical_float(x)
 static inline uint64_t canonical(double x) {
   return x == x ? bits_of(x) : 0x7FF8000000000000u;
 }
 static inline uint32_t canonical_float(float x) {
   return x == x ? float_bits_of(x) : 0x7FC00000u;
 }
+/* On the host a NaN's bits are what they happen to be; the TP's arithmetic gives one NaN. */
+#ifdef __trax__
+#define BITS(x) bits_of(x)
+#define FLOAT_BITS(x) float_bits_of(x)
+#else
+#define BITS(x) canonical(x)
+#define FLOAT_BITS(x) canonical_float(x)
 #endif
 
 #ifdef SWEEP_RUNTIME
 #define RUNTIME(runtime, plain) (runtime)
-double rt___adddf3(double, double);
-double rt___subdf3(double, double);
-double rt___muldf3(double, double);
-double rt___divdf3(double, double);
-double rt___negdf2(double);
-int rt___eqdf2(double, double);
-int rt___nedf2(double, double);
-int rt___ltdf2(double, double);
-int rt___ledf2(double, double);
-int rt___gtdf2(double, double);
-int rt___gedf2(double, double);
-int rt___unorddf2(double, double);
-double rt___extendsfdf2(float);
-float rt___truncdfsf2(double);
-int32_t rt___fixdfsi(double);
-uint32_t rt___fixunsdfsi(double);
-int64_t rt___fixdfdi(double);
-uint64_t rt___fixunsdfdi(double);
-int64_t rt___fixsfdi(float);
-uint64_t rt___fixunssfdi(float);
-double rt___floatsidf(int32_t);
-double rt___floatunsidf(uint32_t);
-double rt___floatdidf(int64_t);
-double rt___floatundidf(uint64_t);
-float rt___floatdisf(int64_t);
-float rt___floatundisf(uint64_t);
-double rt_sqrt(double);
-double rt_fma(double, double, double);
-uint32_t rt___udivsi3(uint32_t, uint32_t);
-uint32_t rt___umodsi3(uint32_t, uint32_t);
-int32_t rt___divsi3(int32_t, int32_t);
-int32_t rt___modsi3(int32_t, int32_t);
-uint64_t rt___udivdi3(uint64_t, uint64_t);
-uint64_t rt___umoddi3(uint64_t, uint64_t);
-int64_t rt___divdi3(int64_t, int64_t);
-int64_t rt___moddi3(int64_t, int64_t);
-uint64_t rt___ashldi3(uint64_t, int);
-uint64_t rt___lshrdi3(uint64_t, int);
-int64_t rt___ashrdi3(int64_t, int);
-uint64_t rt___muldi3(uint64_t, uint64_t);
-int rt___cmpdi2(int64_t, int64_t);
-int rt___ucmpdi2(uint64_t, uint64_t);
-int64_t rt___mulodi4(int64_t, int64_t, int *);
-int rt___clzdi2(uint64_t);
-int rt___ctzdi2(uint64_t);
-int rt___popcountdi2(uint64_t);
-int rt___paritydi2(uint64_t);
-uint64_t rt___bswapdi2(uint64_t);
 #else
 #define RUNTIME(runtime, plain) (plain)
 #endif
@@ -134,7 +89,7 @@ static inline uint32_t integer_comparisons(uint64_t a, uint64_t b) {
   ({                                                                                                                   \
     type wrapped;                                                                                                      \
     uint64_t flag = operation((type)(a), (type)(b), &wrapped);                                                         \
-    (uint64_t) wrapped ^ flag << 62 ^ flag << 17;                                                                      \
+    (uint64_t)wrapped ^ flag << 62 ^ flag << 17;                                                                       \
   })
 
 #ifdef SWEEP_RUNTIME
@@ -208,19 +163,11 @@ static inline int multiply_overflow(int64_t a, int64_t b, int64_t *wrapped) {
   X(sin, 0)                                                                                                            \
   X(cos, 0)                                                                                                            \
   X(tan, 0)                                                                                                            \
-  X(asin, 0) X(acos, 0) X(atan, 0) X(sinh, 0) X(cosh, 0) X(tanh, 0) X(asinh, 0) X(acosh, 0) X(atanh, 0) X(exp, 0)      \
-      X(exp2, 0) X(expm1, 0) X(log, 0) X(log2, 0) X(log10, 0) X(log1p, 0) X(cbrt, 0) X(erf, 0) X(erfc, 0) X(tgamma, 0) \
+  X(asin, 0)                                                                                                           \
+  X(acos, 0) X(atan, 0) X(sinh, 0) X(cosh, 0) X(tanh, 0) X(asinh, 0) X(acosh, 0) X(atanh, 0) X(exp, 0) X(exp2, 0)      \
+      X(expm1, 0) X(log, 0) X(log2, 0) X(log10, 0) X(log1p, 0) X(cbrt, 0) X(erf, 0) X(erfc, 0) X(tgamma, 0)            \
           X(lgamma, 0)
 SIMPLE_FUNCTIONS(DECLARE)
-double rt_pow(double, double);
-double rt_atan2(double, double);
-double rt_hypot(double, double);
-double rt_fmod(double, double);
-double rt_remainder(double, double);
-double rt___powidf2(double, int);
-float rt___powisf2(float, int);
-double _Complex rt___muldc3(double, double, double, double);
-double _Complex rt___divdc3(double, double, double, double);
 #endif
 #ifdef __trax__
 double __powidf2(double, int);
@@ -229,12 +176,13 @@ double _Complex __muldc3(double, double, double, double);
 double _Complex __divdc3(double, double, double, double);
 #endif
 
-/* Both parts of a complex result in one number. */
+/* Functions may hand on the NaN they were given, whose bits nothing promises. Both parts of a complex result in one
+   number. */
 static inline uint64_t complex_bits(double _Complex value) {
-  return BITS(__real__ value) ^ (BITS(__imag__ value) << 1 | BITS(__imag__ value) >> 63);
+  return canonical(__real__ value) ^ (canonical(__imag__ value) << 1 | canonical(__imag__ value) >> 63);
 }
 
-#define FUNCTION(X, name) X(name, BITS(OURS(name)(u)))
+#define FUNCTION(X, name) X(name, canonical(OURS(name)(u)))
 #define FUNCTION_ROUTINES(X)                                                                                           \
   FUNCTION(X, sin)                                                                                                     \
   FUNCTION(X, cos)                                                                                                     \
@@ -260,13 +208,13 @@ static inline uint64_t complex_bits(double _Complex value) {
   FUNCTION(X, erfc)                                                                                                    \
   FUNCTION(X, tgamma)                                                                                                  \
   FUNCTION(X, lgamma)                                                                                                  \
-  X(pow, BITS(OURS(pow)(u, w)))                                                                                        \
-  X(atan2, BITS(OURS(atan2)(u, w)))                                                                                    \
-  X(hypot, BITS(OURS(hypot)(x, y)))                                                                                    \
-  X(fmod, BITS(OURS(fmod)(x, w)))                                                                                      \
-  X(remainder, BITS(OURS(remainder)(u, w)))                                                                            \
-  X(integer_power, BITS(OURS(__powidf2)(x, (int)(c % 141) - 70)))                                                      \
-  X(integer_power_float, FLOAT_BITS(OURS(__powisf2)((float)u, (int)(c % 141) - 70)))                                   \
+  X(pow, canonical(OURS(pow)(u, w)))                                                                                   \
+  X(atan2, canonical(OURS(atan2)(u, w)))                                                                               \
+  X(hypot, canonical(OURS(hypot)(x, y)))                                                                               \
+  X(fmod, canonical(OURS(fmod)(x, w)))                                                                                 \
+  X(remainder, canonical(OURS(remainder)(u, w)))                                                                       \
+  X(integer_power, canonical(OURS(__powidf2)(x, (int)(c % 141) - 70)))                                                 \
+  X(integer_power_float, canonical_float(OURS(__powisf2)((float)u, (int)(c % 141) - 70)))                              \
   X(multiply_complex, complex_bits(OURS(__muldc3)(x, y, z, w)))                                                        \
   X(divide_complex, complex_bits(OURS(__divdc3)(x, y, z, w)))
 
