@@ -1,0 +1,89 @@
+/* The loader under libFuzzer: the first file of a case is the executable. It is opened, asked about its symbols and
+   source lines, loaded and run for a while. The word `functional` in the line of options is for that engine. */
+#include "core/machine.h"
+#include "fuzz_case.h"
+#include "host/host.h"
+#include "host/util.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error);
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
+
+static const fuzz_file *current;
+
+trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error) {
+  (void)limit, (void)error, (void)path;
+  *bytes = malloc(current->size + 1);
+  if (!*bytes)
+    abort();
+  memcpy(*bytes, current->bytes, current->size);
+  (*bytes)[current->size] = 0;
+  *size = current->size;
+  return TRAX_OK;
+}
+
+/* Every string is there to its end. */
+static size_t touch(const char *text) {
+  return text ? strlen(text) : 0;
+}
+
+static size_t ask(trax_image *image) {
+  struct trax_source_line lines[8];
+  size_t count, sum = 0;
+  const struct trax_symbol *symbols = trax_image_symbols(image, &count);
+  for (size_t i = 0; i < count && i < 64; i++) {
+    sum += touch(symbols[i].name);
+    const size_t frames = trax_image_lines(image, symbols[i].address, lines, 8);
+    for (size_t frame = 0; frame < frames; frame++)
+      sum += touch(lines[frame].function) + touch(lines[frame].file);
+    const struct trax_symbol *symbol = trax_image_symbol_at(image, symbols[i].address + 1);
+    sum += symbol ? touch(symbol->name) : 0;
+  }
+  return sum;
+}
+
+static void run(trax_machine *machine, const char *words, FILE *nowhere) {
+  trax_error error = {.message = ""};
+  const trax_run_options options = {.output = nowhere,
+                                    .max_cycles = 2000,
+                                    .engine = strstr(words, "functional") ? TRAX_ENGINE_FUNCTIONAL : TRAX_ENGINE_FAST};
+  const trax_status status = trax_machine_run(machine, &options, &error);
+  if (status == TRAX_FAULT)
+    trax_machine_print_fault(machine, nowhere);
+  if (status == TRAX_ERROR) {
+    fprintf(stderr, "%s\n", error.message);
+    abort();
+  }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
+  static FILE *nowhere;
+  static volatile size_t sum;
+  if (!nowhere && !(nowhere = fopen("/dev/null", "w")))
+    abort();
+  fuzz_case fuzz_case;
+  fuzz_case_read(&fuzz_case, bytes, size);
+  current = fuzz_case.file_count ? &fuzz_case.files[0] : NULL;
+  trax_error error = {.message = ""};
+  trax_config *config = trax_config_create();
+  if (!config || trax_config_set(config, "memory.size_mib", "4", &error))
+    abort();
+  trax_machine *machine = trax_machine_create(config, &error);
+  if (machine && current && trax_machine_load_elf(machine, "program.elf", &error) == TRAX_OK) {
+    sum += ask(trax_host_of(machine)->image);
+    run(machine, fuzz_case.options, nowhere);
+  } else if (machine && current && !error.message[0]) {
+    abort(); /* refused without a reason */
+  }
+  trax_machine_destroy(machine);
+  trax_config_destroy(config);
+  fuzz_case_free(&fuzz_case);
+  return 0;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
+  static const char *const words[] = {"functional", NULL};
+  return fuzz_case_mutate(bytes, size, capacity, seed, words);
+}

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Writes cases to begin with: usage seeds.py BUILD DIRECTORY
+
+BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, one file a case, in the form that fuzz_case.h describes.
+"""
+
+import glob
+import hashlib
+import os
+import subprocess
+import sys
+import tempfile
+
+build, directory = sys.argv[1:]
+bindir = os.path.join(build, "bin")
+
+PROGRAM = """
+static int table[4] = {1, 2}; static _Thread_local int counter;
+static inline __attribute__((always_inline)) int load(const int *p) { return *p; }
+__attribute__((noinline)) static int walk(int *at, int depth) {
+  counter++;
+  return depth ? walk(at, depth - 1) + table[depth & 3] : load(at);
+}
+void _start(void) { walk((int *)8, 5); }
+"""
+
+
+def add(fuzzer, options, *files):
+    """files: pairs of name and bytes."""
+    case = options.encode() + b"\n" + b"".join(f"{name} {len(data)}\n".encode() + data for name, data in files)
+    folder = os.path.join(directory, fuzzer)
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, hashlib.sha1(case).hexdigest()[:12]), "wb") as file:
+        file.write(case)
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def printed(*words):
+    return subprocess.run([os.path.join(bindir, "trax-sim"), *words], check=True, stdout=subprocess.PIPE).stdout
+
+
+with tempfile.TemporaryDirectory() as work:
+    subprocess.run([os.path.join(bindir, "emulator-programs"), work], check=True)
+    source = os.path.join(work, "a.c")
+    with open(source, "w") as file:
+        file.write(PROGRAM)
+    for level in ("-O0", "-O2"):
+        for debug in ((), ("-g",), ("-g", "-gdwarf-4")):
+            elf = os.path.join(work, f"c{level}{''.join(debug)}.elf")
+            subprocess.run([os.path.join(bindir, "clang"), level, *debug, "-nostdlib", "-o", elf, source], check=True)
+    for elf in sorted(glob.glob(os.path.join(work, "*.elf"))):
+        add("trax-sim-elf", "", ("a.elf", read(elf)))
+
+for preset in ("1x32", "8x64"):
+    add("trax-sim-config", "", ("m.cfg", printed("--config", preset, "--print-config")))
+add("trax-sim-config", "memory.bandwidth_gbps=12.8 special.pipelined=true",
+    ("m.cfg", b'preset = "4x32";\n# paper\nmemory: { latency_cycles = 0x10; /* low */ bandwidth_gbps = 1e3; };\n'))
+add("trax-sim-config", "chip.tms=64 dcache.bytes=64 dcache.ways=4 icache.line_bytes=4096")
