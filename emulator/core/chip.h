@@ -32,8 +32,9 @@ struct trax_chip {
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
                              trax_error *error);
 void trax_chip_destroy(struct trax_chip *chip);
-/* Completes the machine's statistics of a run of `cycles` cycles, and hands it the fault that ended the run. */
-void trax_chip_settle(struct trax_chip *chip, uint64_t cycles);
+/* Completes the machine's statistics and charges for the cycles before `t`, which must be over: at the run's end, and
+   for a watch that wants to read them; and hands it the fault that ended the run. */
+void trax_chip_settle(struct trax_chip *chip, uint64_t t);
 
 /* Runs from cycle 0 to the end, a fault, an interrupt or the watchdog; *cycles receives the length. */
 trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options *options, uint64_t *cycles);

@@ -61,12 +61,14 @@ bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned n
   for (uint32_t i = 0; i < dcache->mshr_count; i++)
     if (dcache->mshr[i].line == line) {
       tm->stats->dcache_merged++;
+      tp->outcome = TRAX_OUTCOME_MERGED;
       wait_for_line(dcache, &dcache->mshr[i], tp, number);
       return true;
     }
   if (dcache->mshr_count == dcache->mshr_limit || !trax_queue_has_place(&tm->queue))
     return false;
   tm->stats->dcache_misses++;
+  tp->outcome = TRAX_OUTCOME_MISS;
   trax_tm_request(
       tm, (struct trax_request){.kind = TRAX_REQUEST_DATA_LINE, .line = line, .bytes = tm->config->dcache.line_bytes});
   struct trax_mshr *mshr = &dcache->mshr[dcache->mshr_count++];

@@ -6,6 +6,7 @@
 #include "core/address_space.h"
 #include "core/config.h"
 #include "core/fault.h"
+#include "core/observer.h"
 #include "core/stats.h"
 #include "trax/emulator.h"
 
@@ -13,15 +14,6 @@
 
 struct trax_chip;
 struct trax_watch;
-
-/* One issued instruction, for tracing: handed over after its effect. */
-struct trax_issue {
-  uint64_t cycle;
-  uint32_t tm, tp, pc;
-  uint32_t word;
-  uint32_t result;  /* the destination's new value, if it has one; an atomic increment's is not known yet */
-  uint32_t address; /* of a memory access */
-};
 
 struct trax_machine {
   struct trax_config config; /* a copy */
@@ -36,9 +28,7 @@ struct trax_machine {
 
   struct trax_watch *watches; /* the first; NULL: none (core/chip.h) */
 
-  /* Called for every issued instruction if not NULL. */
-  void (*trace)(void *context, const struct trax_issue *issue);
-  void *trace_context;
+  const struct trax_observer *observer; /* of the run; NULL: nobody (core/observer.h) */
 
   /* The outcome; valid after trax_machine_run. */
   trax_status status; /* of the run */

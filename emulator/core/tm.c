@@ -15,6 +15,7 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_mach
   tm->machine = machine;
   tm->text = text;
   tm->output = output;
+  tm->observer = machine->observer;
   tm->stats = &machine->tm_stats[number];
   tm->tp_stats = &machine->tp_stats[(size_t)number * tps];
   tm->exit_statuses = &machine->exit_statuses[(size_t)number * tps];
@@ -117,6 +118,9 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
     break;
   case TRAX_REQUEST_ATOMIC:
     tm->tp[request->tp].reg[request->rd] = request->value;
+    if (tm->observer && tm->observer->arrival)
+      tm->observer->arrival(tm->observer->context,
+                            &(struct trax_arrival){t, tm->number, request->tp, request->rd, request->value});
     trax_tm_data_arrival(tm, request->tp, request->rd, t);
     break;
   case TRAX_REQUEST_LOAD:
@@ -278,6 +282,7 @@ static bool store_past_cache(struct trax_tm *tm, unsigned number) {
     return request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = end - begin});
   if (trax_tp_combines(tp, begin, tp->inst->bytes)) {
     tm->stats->combined_stores++;
+    tp->outcome = TRAX_OUTCOME_COMBINED;
     tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;
     tp->run_end = end > tp->run_end ? end : tp->run_end;
     return true;
@@ -314,18 +319,20 @@ static bool read_past_cache(struct trax_tm *tm, unsigned number) {
   return true;
 }
 
-static bool count_store(struct trax_tm *tm, const struct trax_tp *tp) {
+static bool count_store(struct trax_tm *tm, struct trax_tp *tp) {
   if (!tp->inst->is_nontemporal) {
-    if (trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address)))
+    if (trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address))) {
       tm->stats->store_hits++;
-    else
+      tp->outcome |= TRAX_OUTCOME_HIT;
+    } else {
       tm->stats->store_misses++;
+    }
   }
   return true;
 }
 
 bool trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
-  const struct trax_tp *tp = &tm->tp[number];
+  struct trax_tp *tp = &tm->tp[number];
   if (tp->inst->ask == TRAX_ASK_END)
     return write_last_run(tm, number);
   if (tp->inst->is_store)
@@ -363,16 +370,31 @@ static void access_local(struct trax_tm *tm, uint64_t local, uint64_t t) {
   }
 }
 
-void trax_tm_trace(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst, uint64_t t) {
-  const struct trax_tp *tp = &tm->tp[number];
-  struct trax_issue issue = {.cycle = t,
+void trax_tm_tell_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
+                        uint32_t next_pc) {
+  struct trax_tp *tp = &tm->tp[number];
+  struct trax_issue issue = {.cycle = tm->now,
                              .tm = tm->number,
                              .tp = number,
                              .pc = pc,
+                             .next_pc = next_pc,
                              .result = tp->reg[inst->rd],
-                             .address = inst->bytes ? tp->address : 0};
+                             .address = inst->bytes ? tp->address : 0,
+                             .outcome = tp->outcome};
+  tp->outcome = 0;
+  if (inst->is_store) {
+    issue.result = tp->reg[inst->rb];
+    if (inst->bytes < 4)
+      issue.result &= (1u << 8 * inst->bytes) - 1;
+  } else if (inst->op == TRAX_OP_TRAP) {
+    issue.result = tp->reg[inst->ra];
+  } else if (inst->bytes && !inst->is_nontemporal && !inst->is_atomic && issue.address < TRAX_LOCAL_BASE &&
+             !issue.outcome) {
+    issue.outcome = TRAX_OUTCOME_HIT;
+  }
   memcpy(&issue.word, tm->machine->space.bytes + pc, sizeof issue.word);
-  tm->machine->trace(tm->machine->trace_context, &issue);
+  if (tm->observer->issue)
+    tm->observer->issue(tm->observer->context, &issue);
 }
 
 /* Step 5. */
@@ -394,8 +416,8 @@ static void issue(struct trax_tm *tm, uint64_t granted, uint64_t t) {
       if (tm->config->tp.branch_bubble_cycles)
         trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + tm->config->tp.branch_bubble_cycles, TRAX_CAUSE_BRANCH);
     }
-    if (tm->machine->trace)
-      trax_tm_trace(tm, number, pc, inst, t);
+    if (tm->observer)
+      trax_tm_tell_issue(tm, number, pc, inst, tp->pc);
   }
 }
 
@@ -414,6 +436,7 @@ uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
 }
 
 void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
+  tm->now = t;
   arrive(tm, t);
   trax_tm_wake_sleepers(tm, t);
   fetch(tm, t);
@@ -432,8 +455,13 @@ void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
   tm->next_cycle = trax_tm_next_cycle(tm, t);
 }
 
-void trax_tm_settle(struct trax_tm *tm, uint64_t cycles) {
-  for (unsigned i = 0; i < tm->tps; i++)
-    if (!(tm->awake >> i & 1))
-      tm->tp_stats[i].cycles[tm->tp[i].asleep_cause] += cycles - tm->tp[i].asleep_since;
+void trax_tm_settle(struct trax_tm *tm, uint64_t t) {
+  for (unsigned i = 0; i < tm->tps; i++) {
+    struct trax_tp *tp = &tm->tp[i];
+    if (tm->awake >> i & 1)
+      continue;
+    tm->tp_stats[i].cycles[tp->asleep_cause] += t - tp->asleep_since;
+    trax_tm_tell(tm, i, (trax_cause)tp->asleep_cause, tp->asleep_since, t - tp->asleep_since);
+    tp->asleep_since = t;
+  }
 }

@@ -16,7 +16,9 @@ struct trax_tm {
   const struct trax_config *config;
   struct trax_machine *machine;
   const struct trax_text *text;
-  FILE *output; /* of the guest; may be NULL */
+  FILE *output;                         /* of the guest; may be NULL */
+  const struct trax_observer *observer; /* NULL: nobody */
+  uint64_t now;                         /* the cycle that is being simulated */
 
   struct trax_tp *tp; /* [tps] */
 
@@ -49,11 +51,20 @@ void trax_tm_destroy(struct trax_tm *tm);
 /* Arrivals and the TM's five steps in cycle t; sets next_cycle. */
 void trax_tm_cycle(struct trax_tm *tm, uint64_t t);
 
-/* Charges sleepers up to `cycles`, the length of the run. */
-void trax_tm_settle(struct trax_tm *tm, uint64_t cycles);
+/* Charges sleepers for the cycles before `t`, which are over. */
+void trax_tm_settle(struct trax_tm *tm, uint64_t t);
 
+/* Tells an observer of what has been charged. */
+static inline void trax_tm_tell(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
+                                uint64_t cycles) {
+  if (__builtin_expect(tm->observer != NULL, false) && tm->observer->charge && cycles && cause != TRAX_CAUSE_ISSUED)
+    tm->observer->charge(tm->observer->context, tm->number, tp, cause, since, cycles);
+}
+
+/* For the current cycle. */
 static inline void trax_tm_charge(struct trax_tm *tm, unsigned tp, trax_cause cause) {
   tm->tp_stats[tp].cycles[cause]++;
+  trax_tm_tell(tm, tp, cause, tm->now, 1);
 }
 
 /* Puts an awake TP to sleep; it is charged to cause from cycle `since` on. Whoever calls sees to its waking. */
@@ -66,6 +77,7 @@ static inline void trax_tm_sleep(struct trax_tm *tm, unsigned tp, uint64_t since
 static inline void trax_tm_wake(struct trax_tm *tm, unsigned tp, uint64_t t) {
   tm->awake |= (uint64_t)1 << tp;
   tm->tp_stats[tp].cycles[tm->tp[tp].asleep_cause] += t - tm->tp[tp].asleep_since;
+  trax_tm_tell(tm, tp, (trax_cause)tm->tp[tp].asleep_cause, tm->tp[tp].asleep_since, t - tm->tp[tp].asleep_since);
 }
 
 /* Ends the thread from cycle `since` on. */
@@ -85,7 +97,9 @@ void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t);
 void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause);
 /* The TP's turn in step 4; its inst and address are set. False if it needs a place and gets none. */
 bool trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
-void trax_tm_trace(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst, uint64_t t);
+/* Tells an observer, which there must be, of what TP `tp` has just issued at pc; it goes on at next_pc. */
+void trax_tm_tell_issue(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst,
+                        uint32_t next_pc);
 uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t);
 
 /* Requests to memory, with their accounting; the queue must have a place. */

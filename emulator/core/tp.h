@@ -13,6 +13,7 @@ struct trax_tp {
   uint32_t pc;
   const struct trax_decoded *inst; /* at pc; whether it is fetched says trax_tm.holding */
   uint32_t address;                /* of the access that is being asked for */
+  uint8_t outcome;                 /* of that access: TRAX_OUTCOME_MISS ..., noted when it is served */
 
   uint64_t usable[TRAX_NUM_REGISTERS + 1];      /* cycle from which the register is usable */
   uint8_t usable_cause[TRAX_NUM_REGISTERS + 1]; /* trax_cause of waiting for it */

@@ -275,8 +275,11 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
   struct trax_fast_tm *ftm = &fast->tm[tm_number];
   struct trax_fast_lost lost = {0};
+  ftm->tm->now = t;
   fetch_and_check(ftm, wake(ftm, t), &lost, t);
   trax_fast_issue(ftm, grant(ftm, &lost, t), t);
   trax_fast_count(&ftm->tally, &lost);
+  if (__builtin_expect(ftm->tm->observer != NULL, false))
+    trax_fast_tell(ftm, &lost);
   ftm->tm->next_cycle = trax_tm_next_cycle(ftm->tm, t);
 }

@@ -19,7 +19,7 @@ struct trax_fast_engine {
   /* Adds the instructions executed since the last call to the TMs' statistics; before the run's end, also those that
      ran ahead. */
   void (*collect)(struct trax_fast *fast);
-  /* Completes statistics and charges at the run's end. */
+  /* Completes statistics and charges for the cycles that are over. */
   void (*settle)(struct trax_fast *fast);
 };
 

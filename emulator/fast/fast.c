@@ -63,7 +63,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
   if (!fast)
     return trax_fail(error, "out of memory");
   fast->chip = chip;
-  fast->burst = machine->trace ? 1 : TRAX_BURST;
+  fast->burst = machine->observer ? 1 : TRAX_BURST;
   const size_t bytes = chip->tms * sizeof *fast->tm;
   fast->tm = aligned_alloc(_Alignof(struct trax_fast_tm), bytes);
   if (!fast->tm)
@@ -116,30 +116,71 @@ static void count_local(struct trax_tm_stats *stats) {
       count[TRAX_OP_SB] + count[TRAX_OP_SH] + count[TRAX_OP_SW] - stats->store_hits - stats->store_misses;
 }
 
+/* In the order of trax_fast_lost and its tally. */
+static const trax_cause loss_causes[] = {TRAX_CAUSE_ICACHE_BANK, TRAX_CAUSE_FP_ADD,  TRAX_CAUSE_FP_MUL,
+                                         TRAX_CAUSE_INT_MUL,     TRAX_CAUSE_SPECIAL, TRAX_CAUSE_DCACHE_BANK};
+
 static void charge_losses(struct trax_fast_tm *ftm) {
-  static const trax_cause causes[] = {TRAX_CAUSE_ICACHE_BANK, TRAX_CAUSE_FP_ADD,  TRAX_CAUSE_FP_MUL,
-                                      TRAX_CAUSE_INT_MUL,     TRAX_CAUSE_SPECIAL, TRAX_CAUSE_DCACHE_BANK};
   for (unsigned bit = 0; bit < 64; bit++)
-    for (unsigned lost = 0; lost < sizeof causes / sizeof *causes; lost++)
+    for (unsigned lost = 0; lost < sizeof loss_causes / sizeof *loss_causes; lost++)
       for (uint64_t tps = ftm->tally.planes[bit][lost / 4][lost % 4]; tps; tps &= tps - 1)
-        ftm->tm->tp_stats[trax_first(tps)].cycles[causes[lost]] += (uint64_t)1 << bit;
+        ftm->tm->tp_stats[trax_first(tps)].cycles[loss_causes[lost]] += (uint64_t)1 << bit;
+  memset(&ftm->tally, 0, sizeof ftm->tally);
+}
+
+void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost *lost) {
+  const uint64_t losers[] = {lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul, lost->special, lost->bank};
+  for (unsigned i = 0; i < sizeof losers / sizeof *losers; i++)
+    for (uint64_t rest = losers[i]; rest; rest &= rest - 1)
+      trax_tm_tell(ftm->tm, trax_first(rest), loss_causes[i], ftm->tm->now, 1);
+}
+
+/* Of the current burst: how much was issued. */
+static unsigned issued_of_burst(const struct trax_fast_tm *ftm, unsigned tp) {
+  const struct trax_fast_step *step = ftm->slot[tp].step;
+  return step == &ftm->tp[tp].only || ftm->tm->ended >> tp & 1 ? 0 : (unsigned)(step - ftm->tp[tp].steps);
+}
+
+static bool is_jump(const struct trax_fast_tp *ftp, const struct trax_fast_step *step) {
+  return (step == ftp->last ? ftp->resume->step.index : step[1].index) != step->index + 1u;
+}
+
+/* Adds the issued part of a burst, and takes it off what its end will add. */
+static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
+  struct trax_fast_tp *ftp = &ftm->tp[tp];
+  const unsigned issued = issued_of_burst(ftm, tp);
+  uint64_t jumps = 0;
+  for (unsigned i = 0; i < issued; i++)
+    jumps += is_jump(ftp, &ftp->steps[i]);
+  ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftp->issued + issued;
+  ftm->tm->stats->taken_branches += ftp->jumps + jumps;
+  ftp->issued = -(uint64_t)issued;
+  ftp->jumps = -jumps;
+}
+
+/* Counts what has run ahead of its issue `sign` times more. */
+static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
+  for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
+    if (ftm->slot[tp].step != &ftm->tp[tp].only && !(ftm->tm->ended >> tp & 1))
+      for (const struct trax_fast_step *step = ftm->slot[tp].step; step <= ftm->tp[tp].last; step++) {
+        ftm->changes[step->index] += sign;
+        ftm->changes[step->index + 1] -= sign;
+      }
 }
 
 static void settle(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
-    for (unsigned tp = 0; tp < ftm->tm->tps; tp++) {
-      struct trax_fast_tp *ftp = &ftm->tp[tp];
-      if (ftm->slot[tp].step != &ftp->only && !(ftm->tm->ended >> tp & 1))
-        trax_fast_close(ftm, tp, (unsigned)(ftm->slot[tp].step - ftp->steps));
-      ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftp->issued;
-      ftm->tm->stats->taken_branches += ftp->jumps;
-    }
+    for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
+      count_burst(ftm, tp);
     charge_losses(ftm);
+    count_ahead(ftm, -1);
   }
   collect(fast);
-  for (uint32_t i = 0; i < fast->chip->tms; i++)
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
     count_local(fast->tm[i].tm->stats);
+    count_ahead(&fast->tm[i], 1);
+  }
 }
 
 #ifdef TRAX_FAST_V3

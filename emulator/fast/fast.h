@@ -24,6 +24,7 @@
 #define trax_fast_show trax_fast_show_v3
 #define trax_fast_close trax_fast_close_v3
 #define trax_fast_line_arrives trax_fast_line_arrives_v3
+#define trax_fast_tell trax_fast_tell_v3
 #define trax_fast_cycle trax_fast_cycle_v3
 #define trax_fast_issue trax_fast_issue_v3
 #define trax_fast_blocks_create trax_fast_blocks_create_v3
@@ -158,7 +159,7 @@ struct trax_fast {
   struct trax_chip *chip;
   struct trax_fast_program program;
   struct trax_fast_tm *tm; /* [tms] */
-  unsigned burst;          /* most instructions of a burst; 1 if issues are traced, so that results are there */
+  unsigned burst;          /* most instructions of a burst; 1 for an observer, so that results are there at issue */
   struct trax_fast_blocks blocks;
 };
 
@@ -192,6 +193,10 @@ void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
 void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned issued);
 /* A line arrives in an instruction cache. */
 void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
+
+/* --- fast.c --- */
+/* Tells an observer who was refused something in the current cycle. */
+void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost *lost);
 
 /* --- cycle.c --- */
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);

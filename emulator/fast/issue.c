@@ -64,8 +64,8 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
       trax_fast_close(ftm, number, (unsigned)(ftp->last - ftp->steps) + 1);
   }
   tm->holding &= ~bit;
-  if (tm->machine->trace)
-    trax_tm_trace(tm, number, pc, inst, t);
+  if (tm->observer)
+    trax_tm_tell_issue(tm, number, pc, inst, ftm->deferred & bit ? tp->pc : ftp->resume_pc);
   if (tm->ended & bit)
     return;
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;

@@ -23,8 +23,17 @@ struct trax_config bench_far(uint32_t tms, uint32_t tps) {
   return config;
 }
 
-static void record(void *context, const struct trax_issue *issue) {
-  struct bench_issues *issues = context;
+static struct bench_told *told(struct bench *bench, uint32_t tm, uint32_t tp) {
+  return &bench->told[tm * bench->machine->config.chip.tps_per_tm + tp];
+}
+
+static void record_issue(void *context, const struct trax_issue *issue) {
+  struct bench *bench = context;
+  struct bench_issues *issues = &bench->issues;
+  struct bench_told *thread = told(bench, issue->tm, issue->tp);
+  assert_int_equal(issue->cycle, thread->until);
+  thread->until++;
+  thread->cycles[TRAX_CAUSE_ISSUED]++;
   if (issues->count == issues->capacity) {
     issues->capacity = issues->capacity ? 2 * issues->capacity : 256;
     issues->issue = realloc(issues->issue, issues->capacity * sizeof *issues->issue);
@@ -33,11 +42,33 @@ static void record(void *context, const struct trax_issue *issue) {
   issues->issue[issues->count++] = *issue;
 }
 
+static void record_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+  struct bench_told *thread = told(context, tm, tp);
+  assert_int_equal(since, thread->until);
+  assert_true(cycles > 0 && cause != TRAX_CAUSE_ISSUED);
+  thread->until += cycles;
+  thread->cycles[cause] += cycles;
+}
+
+void bench_run_observed(struct bench *bench, const trax_run_options *options) {
+  struct trax_machine *machine = bench->machine;
+  const struct trax_observer observer = {.context = bench, .issue = record_issue, .charge = record_charge};
+  machine->observer = &observer;
+  bench->status = trax_machine_run(machine, options, &bench->error);
+  machine->observer = NULL;
+  for (uint64_t i = 0; i < machine->stats.threads; i++) {
+    assert_int_equal(bench->told[i].until, machine->stats.cycles);
+    assert_memory_equal(bench->told[i].cycles, machine->tp_stats[i].cycles, sizeof bench->told[i].cycles);
+  }
+}
+
 struct bench bench_begin(const struct trax_config *config, const uint32_t *words, size_t count) {
   struct bench bench = {0};
   bench.machine = trax_machine_create(config, &bench.error);
   if (!bench.machine)
     fail_msg("%s", bench.error.message);
+  bench.told = calloc(bench.machine->stats.threads, sizeof *bench.told);
+  assert_non_null(bench.told);
   uint8_t *host;
   const unsigned read = TRAX_PERMIT_READ;
   assert_int_equal(trax_machine_map(bench.machine, TEXT, (uint32_t)count * 4, read | TRAX_PERMIT_EXECUTE, &host, NULL),
@@ -54,9 +85,7 @@ void bench_run(struct bench *bench, uint64_t max_cycles) {
   const trax_run_options options = {.max_cycles = max_cycles,
                                     .engine = engine && strcmp(engine, "fast") == 0 ? TRAX_ENGINE_FAST
                                                                                     : TRAX_ENGINE_REFERENCE};
-  bench->machine->trace = record;
-  bench->machine->trace_context = &bench->issues;
-  bench->status = trax_machine_run(bench->machine, &options, &bench->error);
+  bench_run_observed(bench, &options);
 }
 
 struct bench bench_of(const struct trax_config *config, const uint32_t *words, size_t count) {
@@ -70,6 +99,7 @@ struct bench bench_of(const struct trax_config *config, const uint32_t *words, s
 void bench_end(struct bench *bench) {
   trax_machine_destroy(bench->machine);
   free(bench->issues.issue);
+  free(bench->told);
   memset(bench, 0, sizeof *bench);
 }
 

@@ -34,9 +34,16 @@ struct bench_issues {
   size_t count, capacity;
 };
 
+/* What a thread's observer was told. */
+struct bench_told {
+  uint64_t until; /* all cycles before it */
+  uint64_t cycles[TRAX_CAUSE_COUNT];
+};
+
 struct bench {
   struct trax_machine *machine;
   struct bench_issues issues; /* in the order of issue */
+  struct bench_told *told;    /* [threads] */
   trax_error error;
   trax_status status;
 };
@@ -51,6 +58,8 @@ struct trax_config bench_far(uint32_t tms, uint32_t tps);
    looks at bench.machine and calls bench_end. */
 struct bench bench_begin(const struct trax_config *config, const uint32_t *words, size_t count);
 void bench_run(struct bench *bench, uint64_t max_cycles);
+/* Runs with an observer, who must be told of every cycle of every thread once, and in order. */
+void bench_run_observed(struct bench *bench, const trax_run_options *options);
 void bench_end(struct bench *bench);
 
 #define BENCH(CONFIG, ...)                                                                                             \

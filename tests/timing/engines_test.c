@@ -2,25 +2,41 @@
 /* The fast engine against the reference: random programs on random configurations, to the last count and byte.
 
    TRAX_RANDOM_ROUNDS and TRAX_RANDOM_SEED make it longer and different. */
+#include "core/chip.h"
 #include "generate.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+enum { LOOKS = 64, LOOK_EVERY = 61 };
+
 struct run {
   struct bench bench;
   char *output;
   size_t output_bytes;
+  /* All counts as they were between cycles. */
+  struct trax_tm_stats looks[LOOKS]; /* sums over the TMs */
+  unsigned look_count;
 };
 
-static void record(void *context, const struct trax_issue *issue) {
-  struct bench_issues *issues = context;
-  if (issues->count == issues->capacity) {
-    issues->capacity = issues->capacity ? 2 * issues->capacity : 256;
-    issues->issue = realloc(issues->issue, issues->capacity * sizeof *issues->issue);
-    assert_non_null(issues->issue);
+/* The counts between two cycles are complete: every thread is charged for all cycles before. */
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+  struct run *run = watch->context;
+  const struct trax_machine *machine = chip->machine;
+  trax_chip_settle(chip, watch->next);
+  for (uint64_t thread = 0; thread < machine->stats.threads; thread++) {
+    uint64_t charged = 0;
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+      charged += machine->tp_stats[thread].cycles[cause];
+      run->looks[run->look_count].cycles[cause] += machine->tp_stats[thread].cycles[cause];
+    }
+    assert_int_equal(charged, watch->next);
   }
-  issues->issue[issues->count++] = *issue;
+  for (uint32_t tm = 0; tm < chip->tms; tm++)
+    for (size_t i = TRAX_CAUSE_COUNT; i < sizeof *run->looks / sizeof(uint64_t); i++)
+      ((uint64_t *)&run->looks[run->look_count])[i] += ((const uint64_t *)&machine->tm_stats[tm])[i];
+  watch->next = ++run->look_count < LOOKS ? watch->next + LOOK_EVERY : TRAX_NEVER;
+  return TRAX_OK;
 }
 
 static struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
@@ -34,12 +50,14 @@ static struct run run(const struct trax_config *config, const uint32_t *program,
   random_state = saved;
   FILE *output = open_memstream(&run.output, &run.output_bytes);
   assert_non_null(output);
-  if (traced) {
-    machine->trace = record;
-    machine->trace_context = &run.bench.issues;
-  }
+  struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run};
+  machine->watches = &watch;
   const trax_run_options options = {.output = output, .max_cycles = max_cycles, .engine = engine};
-  run.bench.status = trax_machine_run(machine, &options, &run.bench.error);
+  if (traced)
+    bench_run_observed(&run.bench, &options);
+  else
+    run.bench.status = trax_machine_run(machine, &options, &run.bench.error);
+  machine->watches = NULL;
   fclose(output);
   return run;
 }
@@ -49,16 +67,19 @@ static void end(struct run *run) {
   free(run->output);
 }
 
-static bool has_result(uint32_t word) {
+static bool has_value(uint32_t word) {
   const trax_inst inst = trax_decode(word);
-  return trax_op_table[inst.op].flags & TRAX_WRITES_RD && inst.rd;
+  const unsigned flags = trax_op_table[inst.op].flags;
+  return (flags & TRAX_WRITES_RD && inst.rd && !(flags & TRAX_IS_ATOMIC)) || flags & TRAX_IS_STORE ||
+         inst.op == TRAX_OP_TRAP;
 }
 
 static void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b) {
   for (size_t i = 0; i < a->count && i < b->count; i++) {
     const struct trax_issue *x = &a->issue[i], *y = &b->issue[i];
     if (x->cycle != y->cycle || x->tm != y->tm || x->tp != y->tp || x->pc != y->pc || x->word != y->word ||
-        x->address != y->address || (has_result(x->word) && x->result != y->result))
+        x->next_pc != y->next_pc || x->address != y->address || x->outcome != y->outcome ||
+        (has_value(x->word) && x->result != y->result))
       fail_msg("issue %zu: cycle %llu, TM %u, TP %u, pc 0x%x, result 0x%x, but cycle %llu, TM %u, TP %u, pc 0x%x, "
                "result 0x%x",
                i, (unsigned long long)x->cycle, x->tm, x->tp, x->pc, x->result, (unsigned long long)y->cycle, y->tm,
@@ -82,6 +103,8 @@ static void expect_same(const struct run *a, const struct run *b) {
   assert_int_equal(x->stats.instructions, y->stats.instructions);
   assert_memory_equal(x->exit_statuses, y->exit_statuses, threads * sizeof *x->exit_statuses);
   assert_true(memcmp(x->space.bytes, y->space.bytes, x->space.size) == 0);
+  assert_int_equal(a->look_count, b->look_count);
+  assert_memory_equal(a->looks, b->looks, sizeof a->looks);
   assert_int_equal(a->output_bytes, b->output_bytes);
   assert_true(a->output_bytes == 0 || memcmp(a->output, b->output, a->output_bytes) == 0);
 }
