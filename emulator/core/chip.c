@@ -52,6 +52,16 @@ void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
   }
 }
 
+void trax_chip_gather(struct trax_chip *chip) {
+  if (chip->engine)
+    chip->engine->gather(chip->fast);
+}
+
+void trax_chip_scatter(struct trax_chip *chip, uint64_t t) {
+  if (chip->engine)
+    chip->engine->scatter(chip->fast, t);
+}
+
 static void collect_fast(void *context) {
   const struct trax_chip *chip = context;
   chip->engine->collect(chip->fast);

@@ -36,6 +36,11 @@ void trax_chip_destroy(struct trax_chip *chip);
    for a watch that wants to read them; and hands it the fault that ended the run. */
 void trax_chip_settle(struct trax_chip *chip, uint64_t t);
 
+/* Between cycles: brings the fast engine's machine into the core's structures. The run can go on. */
+void trax_chip_gather(struct trax_chip *chip);
+/* Takes up the run before cycle t with what the core's structures hold. */
+void trax_chip_scatter(struct trax_chip *chip, uint64_t t);
+
 /* Runs from cycle 0 to the end, a fault, an interrupt or the watchdog; *cycles receives the length. */
 trax_status trax_chip_run(struct trax_chip *chip, const struct trax_run_options *options, uint64_t *cycles);
 

@@ -56,11 +56,15 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   tp->address = ftp->only.address;
 }
 
+void trax_fast_come_back(struct trax_fast *fast) {
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
+      come_back(fast, &fast->tm[i], tp);
+}
+
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {
   uint8_t *state = &fast->blocks.state[address >> TRAX_BLOCK_SHIFT];
   if (*state == TRAX_BLOCK_LOADED)
-    for (uint32_t i = 0; i < fast->chip->tms; i++)
-      for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
-        come_back(fast, &fast->tm[i], tp);
+    trax_fast_come_back(fast);
   *state = TRAX_BLOCK_WRITTEN;
 }

@@ -29,7 +29,9 @@ static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   const uint64_t woken = tm->awake & ~awake;
   for (uint64_t rest = woken & ~tm->holding; rest; rest &= rest - 1)
     trax_fast_ask_fetch(ftm, trax_first(rest));
-  return woken & tm->holding;
+  const uint64_t taken_up = ftm->taken_up;
+  ftm->taken_up = 0;
+  return (woken & tm->holding) | taken_up;
 }
 
 /* --- step 1 --- */

@@ -21,6 +21,11 @@ struct trax_fast_engine {
   void (*collect)(struct trax_fast *fast);
   /* Completes statistics and charges for the cycles that are over. */
   void (*settle)(struct trax_fast *fast);
+  /* Between cycles: brings every TP back to what it has issued, so that the core's structures hold all that the run
+     depends on. The run can go on. */
+  void (*gather)(struct trax_fast *fast);
+  /* Takes up the run before cycle t with what the core's structures hold. */
+  void (*scatter)(struct trax_fast *fast, uint64_t t);
 };
 
 extern const struct trax_fast_engine trax_fast_engine;

@@ -188,4 +188,4 @@ const struct trax_fast_engine trax_fast_engine_v3
 #else
 const struct trax_fast_engine trax_fast_engine
 #endif
-    = {create, destroy, trax_fast_cycle, collect, settle};
+    = {create, destroy, trax_fast_cycle, collect, settle, trax_fast_gather, trax_fast_scatter};

@@ -30,6 +30,9 @@
 #define trax_fast_blocks_create trax_fast_blocks_create_v3
 #define trax_fast_blocks_destroy trax_fast_blocks_destroy_v3
 #define trax_fast_block_written trax_fast_block_written_v3
+#define trax_fast_come_back trax_fast_come_back_v3
+#define trax_fast_gather trax_fast_gather_v3
+#define trax_fast_scatter trax_fast_scatter_v3
 #endif
 
 enum {
@@ -132,6 +135,7 @@ struct trax_fast_tm {
   uint64_t smooth;  /* the head's operands will be usable in the first cycle in which it can be fetched, and its line is
                        there */
   uint64_t outside; /* the head cannot be fetched */
+  uint64_t taken_up; /* hold an instruction since before the run was taken up: its operands are looked at again */
 
   /* The banks of all instruction caches, one cache's after another's. */
   trax_fast_lanes *asking; /* [banks]: TPs */
@@ -209,5 +213,11 @@ trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t me
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
+/* Every TP goes back to what it has issued, and is deferred. */
+void trax_fast_come_back(struct trax_fast *fast);
+
+/* --- state.c: trax_fast_engine's functions of these names --- */
+void trax_fast_gather(struct trax_fast *fast);
+void trax_fast_scatter(struct trax_fast *fast, uint64_t t);
 
 #endif

@@ -1,0 +1,127 @@
+/* Between cycles, the machine in the core's structures: for those who look at all of it, keep it or change it. The
+   engine has a form of its own for what can run ahead (bursts), for arbiters, and for what can be told from the rest.
+ */
+#include "fast/head.h"
+
+#include <string.h>
+
+/* --- arbiters: the pointer, the latest winner's bit, and the bits behind it say the same (masks.h) --- */
+
+static trax_arbiter pointer_of_winner(uint64_t last) {
+  return (trax_arbiter)(last ? (trax_first(last) + 1) & 63 : 0);
+}
+
+static uint64_t winner_of_pointer(trax_arbiter pointer) {
+  return (uint64_t)1 << ((pointer - 1) & 63);
+}
+
+static void gather_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
+  for (uint32_t i = 0; i < units->groups; i++) {
+    const uint64_t behind = units->behind[kind] & units->group[i];
+    unit->turn[i] = (trax_arbiter)(behind ? trax_first(behind) : 0);
+  }
+}
+
+static void scatter_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
+  uint64_t behind = 0;
+  for (uint32_t i = 0; i < units->groups; i++)
+    if (unit->turn[i])
+      behind |= units->group[i] & ~(uint64_t)0 << unit->turn[i];
+  units->behind[kind] = behind;
+}
+
+static void gather_arbiters(struct trax_fast_tm *ftm) {
+  struct trax_tm *tm = ftm->tm;
+  const uint64_t *last = (const uint64_t *)ftm->last;
+  gather_units(&ftm->fp, 0, &tm->fp_add);
+  gather_units(&ftm->fp, 1, &tm->fp_mul);
+  gather_units(&ftm->int_mul, 0, &tm->int_mul);
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
+      tm->icache[i].bank[bank] = pointer_of_winner(last[i * tm->config->icache.banks + bank]);
+  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
+    tm->dcache.bank[bank] = pointer_of_winner(ftm->data_bank_last[bank]);
+}
+
+static void scatter_arbiters(struct trax_fast_tm *ftm) {
+  const struct trax_tm *tm = ftm->tm;
+  uint64_t *last = (uint64_t *)ftm->last;
+  scatter_units(&ftm->fp, 0, &tm->fp_add);
+  scatter_units(&ftm->fp, 1, &tm->fp_mul);
+  scatter_units(&ftm->int_mul, 0, &tm->int_mul);
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
+      last[i * tm->config->icache.banks + bank] = winner_of_pointer(tm->icache[i].bank[bank]);
+  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
+    ftm->data_bank_last[bank] = winner_of_pointer(tm->dcache.bank[bank]);
+}
+
+void trax_fast_gather(struct trax_fast *fast) {
+  trax_fast_come_back(fast);
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    gather_arbiters(&fast->tm[i]);
+}
+
+/* --- taking up --- */
+
+static void find_resident_lines(struct trax_fast_tm *ftm) {
+  const struct trax_fast_program *program = &ftm->fast->program;
+  memset(ftm->resident, 0, ftm->tm->icaches * sizeof *ftm->resident);
+  for (uint32_t i = 0; i < ftm->tm->icaches; i++) {
+    const struct trax_cache_tags *tags = &ftm->tm->icache[i].tags;
+    for (size_t j = 0; j < program->count; j++) {
+      const struct trax_fast_section *section = &program->sections[j];
+      const uint32_t last_line = (section->begin + section->bytes) >> tags->line_shift;
+      for (uint32_t line = section->first_line, index = section->line; line <= last_line && index < TRAX_FAST_LINES - 1;
+           line++, index++)
+        ftm->resident[i][index] = trax_cache_tags_have(tags, line);
+    }
+  }
+}
+
+static void find_atomics(struct trax_fast_tm *ftm) {
+  const struct trax_queue *queue = &ftm->tm->queue;
+  for (uint32_t i = 0; i < queue->count; i++) {
+    const uint32_t index = queue->oldest + i;
+    const struct trax_request *request = &queue->requests[index < queue->depth ? index : index - queue->depth];
+    if (request->kind == TRAX_REQUEST_ATOMIC)
+      ftm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
+  }
+}
+
+static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  struct trax_fast_slot *slot = &ftm->slot[number];
+  const struct trax_tm *tm = ftm->tm;
+  const struct trax_tp *tp = &tm->tp[number];
+  ftp->resume = trax_fast_inst_at(&ftm->fast->program, tp->pc);
+  ftp->resume_pc = tp->pc;
+  slot->step = ftp->last = &ftp->only;
+  slot->busy = 0;
+  for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
+    if (tp->usable[rd] > t)
+      slot->busy |= trax_fast_register_bit(rd);
+  trax_fast_advance(ftm, number);
+  if (tm->awake & ~tm->holding & bit)
+    trax_fast_ask_fetch(ftm, number);
+}
+
+void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    struct trax_fast_tm *ftm = &fast->tm[i];
+    struct trax_tm *tm = ftm->tm;
+    scatter_arbiters(ftm);
+    find_resident_lines(ftm);
+    memset(ftm->asking, 0, ftm->banks * sizeof(uint64_t));
+    ftm->ready = ftm->smooth = ftm->outside = 0;
+    ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
+    ftm->taken_up = tm->awake & tm->holding;
+    for (unsigned tp = 0; tp < tm->tps; tp++)
+      ftm->tp[tp].atomics = 0;
+    find_atomics(ftm);
+    for (unsigned tp = 0; tp < tm->tps; tp++)
+      if (!(tm->ended >> tp & 1))
+        take_up(ftm, tp, t);
+  }
+}
