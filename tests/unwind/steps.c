@@ -15,8 +15,8 @@ typedef struct stepper {
 
 static void issued(void *context, const struct trax_issue *issue) {
   const stepper *stepper = context;
-  const struct trax_tp *tp = &stepper->machine->chip->tm[0].tp[0];
-  unwind_state state = {.pc = tp->pc,
+  const struct trax_tp *tp = &stepper->machine->chip->tm[0].tp[0]; /* an observed run does not run ahead */
+  unwind_state state = {.pc = issue->next_pc,
                         .registers = tp->reg,
                         .previous_pc = issue->pc,
                         .previous_word = issue->word,
@@ -45,10 +45,11 @@ bool unwind_run(const char *path, void (*step)(void *context, const unwind_state
   bool ok = machine && trax_machine_load_elf(machine, path, &error) == TRAX_OK;
   if (ok) {
     stepper stepper = {machine, step, context};
-    const trax_run_options options = {.max_cycles = 100000000, .engine = TRAX_ENGINE_REFERENCE};
-    machine->trace = issued;
-    machine->trace_context = &stepper;
+    const trax_run_options options = {.max_cycles = 100000000, .engine = TRAX_ENGINE_FAST};
+    const struct trax_observer observer = {.context = &stepper, .issue = issued};
+    machine->observer = &observer;
     ok = trax_machine_run(machine, &options, &error) == TRAX_OK;
+    machine->observer = NULL;
   }
   if (!ok)
     fprintf(stderr, "unwind-test: error: %s\n", error.message);
