@@ -24,8 +24,8 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   return TRAX_OK;
 }
 
-struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
-                       bool traced, uint64_t max_cycles, struct trax_watch *other) {
+static struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+                           bool traced, uint64_t max_cycles, bool looked, struct trax_watch *other) {
   struct run run = {.bench = bench_begin(config, program, count)};
   struct trax_machine *machine = run.bench.machine;
   const uint64_t saved = random_state;
@@ -36,7 +36,8 @@ struct run run_watched(const struct trax_config *config, const uint32_t *program
   FILE *output = open_memstream(&run.output, &run.output_bytes);
   assert_non_null(output);
   struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run, .others = other};
-  machine->watches = &watch;
+  run.looked = looked;
+  machine->watches = looked ? &watch : other;
   const trax_run_options options = {.output = output, .max_cycles = max_cycles, .engine = engine};
   if (traced)
     bench_run_observed(&run.bench, &options);
@@ -45,6 +46,16 @@ struct run run_watched(const struct trax_config *config, const uint32_t *program
   machine->watches = NULL;
   fclose(output);
   return run;
+}
+
+struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+                       bool traced, uint64_t max_cycles, struct trax_watch *other) {
+  return run_with(config, program, count, engine, traced, max_cycles, true, other);
+}
+
+struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+                     uint64_t max_cycles) {
+  return run_with(config, program, count, engine, false, max_cycles, false, NULL);
 }
 
 struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,
@@ -57,6 +68,108 @@ void end(struct run *run) {
   free(run->output);
 }
 
+/* --- differences: a function returns true if it has found and described one --- */
+
+bool differs(struct difference *to, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(to->text, sizeof to->text, format, arguments);
+  va_end(arguments);
+  return true;
+}
+
+bool different_number(struct difference *to, const char *name, uint64_t x, uint64_t y) {
+  return x != y && differs(to, "%s: %llu and %llu", name, (unsigned long long)x, (unsigned long long)y);
+}
+
+bool different_bytes(struct difference *to, const char *name, const void *x, const void *y, size_t size) {
+  for (size_t i = 0; i < size; i++)
+    if (((const uint8_t *)x)[i] != ((const uint8_t *)y)[i])
+      return differs(to, "%s: byte 0x%zx is 0x%02x and 0x%02x", name, i, ((const uint8_t *)x)[i],
+                     ((const uint8_t *)y)[i]);
+  return false;
+}
+
+static bool different_causes(struct difference *to, const char *where, size_t number, const uint64_t *x,
+                             const uint64_t *y) {
+  static const char *const names[] = {
+#define NAME(ID, JSON, MEANING) JSON,
+      TRAX_CAUSES(NAME)
+#undef NAME
+  };
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    if (x[cause] != y[cause])
+      return differs(to, "%s %zu: %s is %llu and %llu", where, number, names[cause], (unsigned long long)x[cause],
+                     (unsigned long long)y[cause]);
+  return false;
+}
+
+static bool different_tm(struct difference *to, size_t number, const struct trax_tm_stats *x,
+                         const struct trax_tm_stats *y) {
+#define COMPARE(ID, NAME, UNIT, MEANING)                                                                               \
+  if (x->ID != y->ID)                                                                                                  \
+    return differs(to, "TM %zu: " NAME " is %llu and %llu", number, (unsigned long long)x->ID,                         \
+                   (unsigned long long)y->ID);
+  TRAX_TM_COUNTERS(COMPARE)
+#undef COMPARE
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+    if (x->instructions[op] != y->instructions[op])
+      return differs(to, "TM %zu: %s was issued %llu and %llu times", number, trax_op_table[op].mnemonic,
+                     (unsigned long long)x->instructions[op], (unsigned long long)y->instructions[op]);
+  return different_causes(to, "TM", number, x->cycles, y->cycles) ||
+         different_bytes(to, "statistics of a TM", x, y, sizeof *x);
+}
+
+static bool different_fault(struct difference *to, const struct trax_fault *x, const struct trax_fault *y) {
+  return different_number(to, "kind of fault", x->kind, y->kind) ||
+         different_number(to, "pc of the fault", x->pc, y->pc) ||
+         different_number(to, "thread of the fault", x->thread, y->thread) ||
+         different_number(to, "cycle of the fault", x->cycle, y->cycle) ||
+         different_number(to, "address of the fault", x->address, y->address) ||
+         different_bytes(to, "registers of the fault", x->registers, y->registers, sizeof x->registers) ||
+         different_bytes(to, "fault", x, y, sizeof *x);
+}
+
+bool different_effects(struct difference *to, const struct run *a, const struct run *b) {
+  const struct trax_machine *x = a->bench.machine, *y = b->bench.machine;
+  return different_number(to, "instructions", x->stats.instructions, y->stats.instructions) ||
+         different_bytes(to, "exit statuses", x->exit_statuses, y->exit_statuses,
+                         x->stats.threads * sizeof *x->exit_statuses) ||
+         (memcmp(x->space.bytes, y->space.bytes, x->space.size) != 0 &&
+          different_bytes(to, "memory", x->space.bytes, y->space.bytes, x->space.size)) ||
+         different_number(to, "bytes of output", a->output_bytes, b->output_bytes) ||
+         different_bytes(to, "output", a->output, b->output, a->output_bytes);
+}
+
+static bool different_looks(struct difference *to, const struct run *a, const struct run *b) {
+  if (!a->looked || !b->looked)
+    return false;
+  for (unsigned i = 0; i < a->look_count && i < b->look_count; i++)
+    if (different_tm(to, i, &a->looks[i], &b->looks[i])) {
+      char what[sizeof to->text];
+      memcpy(what, to->text, sizeof what);
+      return differs(to, "before cycle %u, sums of all TMs for one: %.400s", LOOK_EVERY * (i + 1), what);
+    }
+  return different_number(to, "looks between cycles", a->look_count, b->look_count);
+}
+
+bool different_runs(struct difference *to, const struct run *a, const struct run *b) {
+  const struct trax_machine *x = a->bench.machine, *y = b->bench.machine;
+  if (different_number(to, "status", a->bench.status, b->bench.status) ||
+      (a->bench.status != TRAX_OK && strcmp(a->bench.error.message, b->bench.error.message) != 0 &&
+       differs(to, "message: \"%s\" and \"%s\"", a->bench.error.message, b->bench.error.message)) ||
+      different_number(to, "cycles", x->stats.cycles, y->stats.cycles) || different_fault(to, &x->fault, &y->fault))
+    return true;
+  for (size_t i = 0; i < x->stats.threads; i++)
+    if (different_causes(to, "thread", i, x->tp_stats[i].cycles, y->tp_stats[i].cycles))
+      return true;
+  for (size_t i = 0; i < x->config.chip.tms; i++)
+    if (different_tm(to, i, &x->tm_stats[i], &y->tm_stats[i]))
+      return true;
+  return different_bytes(to, "statistics of the chip", &x->stats.total, &y->stats.total, sizeof x->stats.total) ||
+         different_effects(to, a, b) || different_looks(to, a, b);
+}
+
 static bool has_value(uint32_t word) {
   const trax_inst inst = trax_decode(word);
   const unsigned flags = trax_op_table[inst.op].flags;
@@ -64,40 +177,32 @@ static bool has_value(uint32_t word) {
          inst.op == TRAX_OP_TRAP;
 }
 
-void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b) {
+bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b) {
   for (size_t i = 0; i < a->count && i < b->count; i++) {
     const struct trax_issue *x = &a->issue[i], *y = &b->issue[i];
     if (x->cycle != y->cycle || x->tm != y->tm || x->tp != y->tp || x->pc != y->pc || x->word != y->word ||
         x->next_pc != y->next_pc || x->address != y->address || x->outcome != y->outcome ||
         (has_value(x->word) && x->result != y->result))
-      fail_msg("issue %zu: cycle %llu, TM %u, TP %u, pc 0x%x, result 0x%x, but cycle %llu, TM %u, TP %u, pc 0x%x, "
-               "result 0x%x",
-               i, (unsigned long long)x->cycle, x->tm, x->tp, x->pc, x->result, (unsigned long long)y->cycle, y->tm,
-               y->tp, y->pc, y->result);
+      return differs(to,
+                     "issue %zu: cycle %llu, TM %u, TP %u, pc 0x%x, result 0x%x, and cycle %llu, TM %u, TP %u, "
+                     "pc 0x%x, result 0x%x",
+                     i, (unsigned long long)x->cycle, x->tm, x->tp, x->pc, x->result, (unsigned long long)y->cycle,
+                     y->tm, y->tp, y->pc, y->result);
   }
-  assert_int_equal(a->count, b->count);
+  return different_number(to, "issues", a->count, b->count);
+}
+
+void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b) {
+  struct difference difference;
+  if (different_issues(&difference, a, b))
+    fail_msg("%s", difference.text);
 }
 
 void expect_same(const struct run *a, const struct run *b) {
-  const struct trax_machine *x = a->bench.machine, *y = b->bench.machine;
-  const size_t tms = x->config.chip.tms, threads = x->stats.threads;
-  assert_int_equal(a->bench.status, b->bench.status);
+  struct difference difference;
   assert_int_not_equal(a->bench.status, TRAX_ERROR);
-  if (a->bench.status != TRAX_OK)
-    assert_string_equal(a->bench.error.message, b->bench.error.message);
-  if (x->stats.cycles != y->stats.cycles)
-    fail_msg("%llu cycles, but %llu", (unsigned long long)x->stats.cycles, (unsigned long long)y->stats.cycles);
-  assert_memory_equal(&x->fault, &y->fault, sizeof x->fault);
-  assert_memory_equal(x->tp_stats, y->tp_stats, threads * sizeof *x->tp_stats);
-  assert_memory_equal(x->tm_stats, y->tm_stats, tms * sizeof *x->tm_stats);
-  assert_memory_equal(&x->stats.total, &y->stats.total, sizeof x->stats.total);
-  assert_int_equal(x->stats.instructions, y->stats.instructions);
-  assert_memory_equal(x->exit_statuses, y->exit_statuses, threads * sizeof *x->exit_statuses);
-  assert_true(memcmp(x->space.bytes, y->space.bytes, x->space.size) == 0);
-  assert_int_equal(a->look_count, b->look_count);
-  assert_memory_equal(a->looks, b->looks, sizeof a->looks);
-  assert_int_equal(a->output_bytes, b->output_bytes);
-  assert_true(a->output_bytes == 0 || memcmp(a->output, b->output, a->output_bytes) == 0);
+  if (different_runs(&difference, a, b))
+    fail_msg("%s", difference.text);
 }
 
 unsigned setting(const char *name, unsigned otherwise) {

@@ -14,6 +14,7 @@ struct run {
   /* All counts as they were between cycles. */
   struct trax_tm_stats looks[LOOKS]; /* sums over the TMs */
   unsigned look_count;
+  bool looked; /* or it ran alone */
 };
 
 /* Runs the words on the same random data each time. other may be NULL. */
@@ -21,10 +22,26 @@ struct run run_watched(const struct trax_config *config, const uint32_t *program
                        bool traced, uint64_t max_cycles, struct trax_watch *other);
 struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,
                uint64_t max_cycles);
+/* Nobody looks at it. */
+struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+                     uint64_t max_cycles);
 void end(struct run *run);
 
-void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b);
+/* What differs between two runs, in words. */
+struct difference {
+  char text[512];
+};
+/* Functions return true if they have found and described a difference. */
+__attribute__((format(printf, 2, 3))) bool differs(struct difference *to, const char *format, ...);
+bool different_number(struct difference *to, const char *name, uint64_t x, uint64_t y);
+bool different_bytes(struct difference *to, const char *name, const void *x, const void *y, size_t size);
+bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b);
 /* Outcome, cycles, every count and charge, memory and output. */
+bool different_runs(struct difference *to, const struct run *a, const struct run *b);
+/* Of them what does not depend on time: instructions, exit statuses, memory and output. */
+bool different_effects(struct difference *to, const struct run *a, const struct run *b);
+
+void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b);
 void expect_same(const struct run *a, const struct run *b);
 
 /* A number from the environment. */

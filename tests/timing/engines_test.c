@@ -1,126 +1,184 @@
-/* The fast engine against the reference: random programs on random configurations, to the last count and byte.
+#define _GNU_SOURCE /* getopt_long, fork */
+/* The fast engine against the reference, and the functional mode against both: random programs on random machines, to
+   the last count and byte. A case follows from its seed alone. One that differs is made small and printed.
 
-   TRAX_RANDOM_ROUNDS and TRAX_RANDOM_SEED make it longer and different. */
-#include "compare.h"
+     timing-engines-test --seed 1 --count 2000 --jobs 2
+     timing-engines-test --seed 4711                         that one
 
+   Every case runs in a process of its own, so that a crash or an endless loop of an engine is a finding like others. */
+#include "cases.h"
+#include "minimise.h"
+
+#include <errno.h>
+#include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
 
-static void compare(const struct trax_config *config, const uint32_t *program, size_t count, uint64_t max_cycles) {
-  struct run reference = run(config, program, count, TRAX_ENGINE_REFERENCE, true, max_cycles);
-  struct run ahead = run(config, program, count, TRAX_ENGINE_FAST, false, max_cycles);
-  expect_same(&reference, &ahead);
-  end(&ahead);
-  struct run traced = run(config, program, count, TRAX_ENGINE_FAST, true, max_cycles);
-  expect_same(&reference, &traced);
-  expect_same_issues(&reference.bench.issues, &traced.bench.issues);
-  end(&traced);
-  end(&reference);
+enum { MOST_JOBS = 64, CASE_SECONDS = 120 };
+
+struct options {
+  unsigned seed, count, jobs;
+};
+
+struct tally {
+  unsigned cases[CASE_KINDS], ended[TRAX_STUCK + 1], faults[TRAX_FAULT_COUNT];
+  unsigned different;
+  uint64_t cycles, instructions;
+};
+
+struct job {
+  pid_t pid; /* 0: none */
+  unsigned seed;
+  int result; /* end of a pipe */
+};
+
+static void run_case(unsigned seed, int result) {
+  const struct random_case c = case_of_seed(seed);
+  alarm(CASE_SECONDS);
+  const struct comparison comparison = compare_case(&c);
+  if (write(result, &comparison, sizeof comparison) != sizeof comparison)
+    _exit(2);
+  _exit(0);
 }
 
-static void each(const char *kind, unsigned rounds, size_t (*generate)(uint32_t *), bool plain) {
-  const unsigned seed = setting("TRAX_RANDOM_SEED", 1);
-  rounds = setting("TRAX_RANDOM_ROUNDS", rounds);
-  for (unsigned round = 0; round < rounds; round++) {
-    random_state = 0x9E3779B97F4A7C15u * (seed + round);
-    if (rounds <= 1000 && round % 10 == 0)
-      print_message("%s, TRAX_RANDOM_SEED=%u\n", kind, seed + round);
-    uint32_t program[BODY + 64];
-    const size_t count = generate(program);
-    const uint32_t tms = any(1, 4), tps = any(1, MAX_THREADS / tms > 64 ? 64 : MAX_THREADS / tms);
-    struct trax_config config = any_config(tms, tps);
-    if (plain) { /* near the defaults, so that threads meet more often than they wait */
-      const struct trax_config initial = TRAX_CONFIG_DEFAULT;
-      config = initial;
-      config.chip.tms = tms;
-      config.chip.tps_per_tm = tps;
-      config.memory.latency_cycles = any(0, 100);
-      config.memory.size_mib = 1;
-    }
-    compare(&config, program, count, any(0, 3) ? 0 : any(1, 5000));
+static void begin(struct job *job, unsigned seed) {
+  int ends[2];
+  fflush(NULL);
+  if (pipe(ends) || (job->pid = fork()) < 0) {
+    perror("timing-engines-test");
+    exit(2);
+  }
+  if (job->pid == 0) {
+    close(ends[0]);
+    run_case(seed, ends[1]);
+  }
+  close(ends[1]);
+  job->seed = seed;
+  job->result = ends[0];
+}
+
+static void report(const struct job *job, const char *difference) {
+  const unsigned kind = job->seed % CASE_KINDS;
+  printf("seed %u (%s) differs: %s\n", job->seed, case_kind_names[kind], difference);
+  fflush(stdout);
+  struct random_case c = case_of_seed(job->seed);
+  minimise(&c);
+  print_case(&c, stdout);
+}
+
+static void finish(struct job *job, int status, struct tally *tally) {
+  struct comparison comparison = {.status = TRAX_ERROR};
+  const ssize_t got = read(job->result, &comparison, sizeof comparison);
+  close(job->result);
+  job->pid = 0;
+  if (status != 0 || got != sizeof comparison) {
+    comparison = (struct comparison){.status = TRAX_ERROR};
+    if (WIFSIGNALED(status))
+      snprintf(comparison.difference.text, sizeof comparison.difference.text, "%s",
+               WTERMSIG(status) == SIGALRM ? "it does not end" : strsignal(WTERMSIG(status)));
+    else
+      snprintf(comparison.difference.text, sizeof comparison.difference.text, "exit status %d", WEXITSTATUS(status));
+  }
+  tally->cases[job->seed % CASE_KINDS]++;
+  tally->ended[comparison.status]++;
+  tally->faults[comparison.fault]++;
+  tally->cycles += comparison.cycles;
+  tally->instructions += comparison.instructions;
+  if (comparison.difference.text[0]) {
+    tally->different++;
+    report(job, comparison.difference.text);
   }
 }
 
-static void own_words(void **state) {
-  (void)state;
-  each("own words", 15, any_program, false);
-}
-
-static void races(void **state) {
-  (void)state;
-  each("races", 40, any_racing_program, false);
-}
-
-static void races_near_the_defaults(void **state) {
-  (void)state;
-  each("races near the defaults", 60, any_racing_program, true);
-}
-
-/* Endless loops are possible: every run has a limit. */
-static void random_words(void **state) {
-  (void)state;
-  const unsigned rounds = 10 * setting("TRAX_RANDOM_ROUNDS", 100), seed = setting("TRAX_RANDOM_SEED", 1);
-  for (unsigned round = 0; round < rounds; round++) {
-    random_state = 0xD1B54A32D192ED03u * (seed + round);
-    uint32_t program[32];
-    any_words(program, 32);
-    const struct trax_config config = any_config(any(1, 2), any(1, 4));
-    compare(&config, program, 32, 5000);
+static void run_all(const struct options *options, struct tally *tally) {
+  struct job jobs[MOST_JOBS] = {0};
+  unsigned next = 0, running = 0;
+  while (next < options->count || running) {
+    if (next < options->count && running < options->jobs) {
+      struct job *job = jobs;
+      while (job->pid)
+        job++;
+      begin(job, options->seed + next++);
+      running++;
+      continue;
+    }
+    int status;
+    const pid_t pid = wait(&status);
+    for (struct job *job = jobs; job < jobs + MOST_JOBS; job++)
+      if (pid > 0 && job->pid == pid) {
+        finish(job, status, tally);
+        running--;
+      }
   }
 }
 
-/* What does not depend on time. */
-static void expect_same_effects(const struct run *timed, const struct run *functional) {
-  const struct trax_machine *x = timed->bench.machine, *y = functional->bench.machine;
-  assert_int_equal(timed->bench.status, functional->bench.status);
-  assert_int_equal(y->stats.cycles, 0);
-  assert_int_equal(x->stats.instructions, y->stats.instructions);
-  assert_memory_equal(x->stats.total.instructions, y->stats.total.instructions, sizeof x->stats.total.instructions);
-  assert_int_equal(x->stats.total.rays, y->stats.total.rays);
-  assert_int_equal(x->stats.total.items, y->stats.total.items);
-  assert_memory_equal(x->exit_statuses, y->exit_statuses, x->stats.threads * sizeof *x->exit_statuses);
-  assert_true(memcmp(x->space.bytes, y->space.bytes, x->space.size) == 0);
-  assert_int_equal(x->fault.kind, y->fault.kind);
-  assert_int_equal(x->fault.pc, y->fault.pc);
-  assert_int_equal(x->fault.address, y->fault.address);
-  assert_memory_equal(x->fault.registers, y->fault.registers, sizeof x->fault.registers);
-  assert_int_equal(timed->output_bytes, functional->output_bytes);
-  assert_true(timed->output_bytes == 0 || memcmp(timed->output, functional->output, timed->output_bytes) == 0);
-}
-
-static void functional_mode(void **state) {
-  (void)state;
-  const unsigned rounds = setting("TRAX_RANDOM_ROUNDS", 30), seed = setting("TRAX_RANDOM_SEED", 1);
-  unsigned compared = 0;
-  for (unsigned round = 0; round < 10 * rounds; round++) {
-    random_state = 0xA24BAED4963EE407u * (seed + round);
-    uint32_t program[BODY + 64];
-    size_t count = 32;
-    struct trax_config config;
-    if (round % 10) { /* one thread, anything */
-      any_words(program, count);
-      config = any_config(1, 1);
-    } else { /* many that do not meet */
-      count = any_program(program);
-      config = any_config(any(1, 4), any(1, 32));
-    }
-    struct run timed = run(&config, program, count, TRAX_ENGINE_FAST, false, round % 10 ? 5000 : 0);
-    struct run functional = run(&config, program, count, TRAX_ENGINE_FUNCTIONAL, false, round % 10 ? 5000 : 0);
-    /* Neither counts the time of an endless loop as the other does. */
-    if (timed.bench.status != TRAX_STUCK && functional.bench.status != TRAX_STUCK) {
-      expect_same_effects(&timed, &functional);
-      compared++;
-    }
-    end(&timed);
-    end(&functional);
+static unsigned number(const char *option, const char *text, unsigned least, unsigned most) {
+  char *end;
+  errno = 0;
+  const unsigned long value = strtoul(text, &end, 10);
+  if (errno || end == text || *end || *text == '-' || value < least || value > most) {
+    fprintf(stderr, "timing-engines-test: %s %s: must be a number from %u to %u\n", option, text, least, most);
+    exit(2);
   }
-  assert_true(compared > 5 * rounds);
+  return (unsigned)value;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(functional_mode),         cmocka_unit_test(own_words),    cmocka_unit_test(races),
-      cmocka_unit_test(races_near_the_defaults), cmocka_unit_test(random_words),
+static struct options parse(int argc, char **argv) {
+  static const struct option known[] = {
+      {"seed", required_argument, NULL, 's'},
+      {"count", required_argument, NULL, 'c'},
+      {"jobs", required_argument, NULL, 'j'},
+      {NULL, 0, NULL, 0},
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  struct options options = {1, 1, 1};
+  int option;
+  while ((option = getopt_long(argc, argv, "", known, NULL)) != -1)
+    switch (option) {
+    case 's':
+      options.seed = number("--seed", optarg, 0, UINT32_MAX / 2);
+      break;
+    case 'c':
+      options.count = number("--count", optarg, 1, INT32_MAX);
+      break;
+    case 'j':
+      options.jobs = number("--jobs", optarg, 1, MOST_JOBS);
+      break;
+    default:
+      exit(2);
+    }
+  if (optind < argc) {
+    fprintf(stderr, "timing-engines-test: %s: there are only --seed, --count and --jobs\n", argv[optind]);
+    exit(2);
+  }
+  return options;
+}
+
+/* Whether the cases were of enough kinds to say something. */
+static bool is_rich(const struct tally *tally) {
+  unsigned kinds_of_faults = 0;
+  for (unsigned kind = TRAX_FAULT_NONE + 1; kind < TRAX_FAULT_COUNT; kind++)
+    kinds_of_faults += tally->faults[kind] != 0;
+  return tally->ended[TRAX_OK] && tally->ended[TRAX_FAULT] && tally->ended[TRAX_STUCK] && kinds_of_faults >= 4 &&
+         tally->instructions > 100000;
+}
+
+int main(int argc, char **argv) {
+  const struct options options = parse(argc, argv);
+  struct tally tally = {0};
+  struct timespec from, to;
+  clock_gettime(CLOCK_MONOTONIC, &from);
+  run_all(&options, &tally);
+  clock_gettime(CLOCK_MONOTONIC, &to);
+  const bool rich = options.count < 100 || is_rich(&tally);
+  printf(
+      "seeds %u to %u: %u of %u cases differ; %u ended, %u faulted, %u were stopped; %llu instructions in %llu cycles; "
+      "%.1f s%s\n",
+      options.seed, options.seed + options.count - 1, tally.different, options.count, tally.ended[TRAX_OK],
+      tally.ended[TRAX_FAULT], tally.ended[TRAX_STUCK], (unsigned long long)tally.instructions,
+      (unsigned long long)tally.cycles, (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec),
+      rich ? "" : "; too few kinds of cases to prove anything");
+  return tally.different || !rich;
 }

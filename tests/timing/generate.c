@@ -1,5 +1,8 @@
 #include "generate.h"
 
+#include <math.h>
+#include <string.h>
+
 uint64_t random_state;
 
 uint32_t any(uint32_t least, uint32_t most) { /* xorshift64* */
@@ -149,7 +152,188 @@ void any_words(uint32_t *words, size_t count) {
   }
 }
 
+/* --- programs of every instruction --- */
+
+enum {
+  READ_ONLY = 24, /* register: RODATA */
+  NOWHERE = 25,   /* register: unmapped */
+  RACED = 16      /* the first of four registers: pages of DATA that all threads write */
+};
+
+static bool seldom(unsigned times) { /* one in so many */
+  return any(1, times) == 1;
+}
+
+/* An address of `bytes` bytes that `inst` may access, mostly. */
+static trax_inst with_address(trax_inst inst, int32_t bytes) {
+  const unsigned flags = trax_op_table[inst.op].flags;
+  const bool local = !(flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC));
+  const int32_t within = bytes == 1 ? (int32_t)any(0, 3) : bytes == 2 ? 2 * (int32_t)any(0, 1) : 0;
+  switch (any(0, 9)) {
+  case 0:
+  case 1: /* local memory, or all threads the same word */
+    inst.ra = local ? 0 : SHARED;
+    inst.imm = local ? -4 - 4 * (int32_t)any(0, 127) : 0;
+    break;
+  case 2:
+  case 3:
+    inst.ra = (uint8_t)any(RACED, RACED + 3);
+    inst.imm = 4 * (int32_t)any(0, seldom(4) ? 200 : 3);
+    break;
+  case 4:
+    inst.ra = SHARED;
+    inst.imm = 4 * (int32_t)any(0, 4000);
+    break;
+  default:
+    inst.ra = BASE;
+    inst.imm = 4 * (int32_t)any(0, 31);
+    break;
+  }
+  inst.imm += within;
+  if (seldom(400))
+    inst.imm += 1; /* misaligned, perhaps */
+  else if (seldom(800)) {
+    static const uint8_t bases[] = {0, READ_ONLY, NOWHERE};
+    inst.ra = bases[any(0, 2)];
+    inst.imm = seldom(2) ? 8 : -4 * (int32_t)any(129, 2000); /* below local memory: the stack's overflow */
+  }
+  return inst;
+}
+
+/* Instruction `at` of a body that ends at `end`; jumps go forward within it. */
+static uint32_t any_instruction(unsigned at, unsigned end) {
+  const unsigned left = end - at;
+  trax_inst inst = {(trax_op)any(1, TRAX_OP_COUNT - 1), (uint8_t)any(0, 15), (uint8_t)any(0, 15), (uint8_t)any(0, 15),
+                    (int32_t)any(0, 65535) - 32768};
+  const trax_op_info *info = &trax_op_table[inst.op];
+  const int32_t ahead = 4 * (int32_t)any(1, left < 12 ? left : 12);
+  if (info->access_bytes)
+    return trax_encode(with_address(inst, (int32_t)info->access_bytes));
+  if (info->flags & TRAX_IS_BRANCH) {
+    inst.imm = ahead;
+    if (inst.op == TRAX_OP_JALR) { /* to an address that r0 reaches */
+      inst.ra = 0;
+      inst.imm += (int32_t)TEXT + 4 * (int32_t)at + (seldom(300) ? 2 : seldom(300) ? 0x6000 : 0);
+    }
+    return trax_encode(inst);
+  }
+  switch (inst.op) {
+  case TRAX_OP_RDSR:
+    inst.imm = (int32_t)any(0, seldom(200) ? 31 : TRAX_SR_COUNT - 1);
+    return trax_encode(inst);
+  case TRAX_OP_TRAP:
+    inst.imm = seldom(200) ? (int32_t)any(0, TRAX_TRAP_COUNT)
+               : seldom(3) ? TRAX_TRAP_PUTC
+                           : (int32_t)any(TRAX_TRAP_RAYS, TRAX_TRAP_ITEMS);
+    if (inst.imm == TRAX_TRAP_PUTS && seldom(2)) /* of memory rather than of a random address */
+      inst.ra = SHARED;
+    return trax_encode(inst);
+  case TRAX_OP_HALT:
+    return seldom(40) ? HALT : NOP;
+  default:
+    break;
+  }
+  if (info->format == TRAX_FORMAT_SH)
+    inst.imm &= 31;
+  if (info->format == TRAX_FORMAT_U)
+    inst.imm &= 0xFFFF;
+  return trax_encode(inst);
+}
+
+/* A few stores one beside the other, up or down, such as buffers combine. */
+static size_t any_stores(uint32_t *words, size_t most) {
+  static const trax_op stores[] = {TRAX_OP_SB, TRAX_OP_SH, TRAX_OP_SW, TRAX_OP_SWNT};
+  const trax_op op = stores[any(0, 3)];
+  const int32_t bytes = (int32_t)trax_op_table[op].access_bytes, step = seldom(4) ? -bytes : bytes;
+  const size_t count = any(2, most < 18 ? (uint32_t)most : 18);
+  int32_t offset = bytes * (int32_t)any(18, 40);
+  for (size_t i = 0; i < count; i++, offset += step)
+    words[i] = trax_encode((trax_inst){op, 0, BASE, (uint8_t)any(0, 15), offset});
+  return count;
+}
+
+size_t any_isa_program(uint32_t *words) {
+  size_t n = 0;
+  words[n++] = U(RDSR, BASE, TRAX_SR_THREAD);
+  words[n++] = I(SLLI, BASE, BASE, 8);
+  words[n++] = U(LUI, 1, 1);
+  words[n++] = R(ADD, BASE, BASE, 1);
+  words[n++] = R(ADD, SHARED, 1, 0);
+  words[n++] = I(ADDI, RACED, 1, 0x4000);
+  for (unsigned base = RACED + 1; base < RACED + 4; base++)
+    words[n++] = I(ADDI, base, base - 1, 0x1000);
+  words[n++] = U(LUI, READ_ONLY, RODATA >> 16);
+  words[n++] = U(LUI, NOWHERE, 0x5000);
+  words[n++] = U(RDSR, 3, TRAX_SR_THREAD);
+  for (unsigned reg = 4; reg < 10; reg++)
+    words[n++] = I(LW, reg, BASE, 4 * (int32_t)reg);
+  const uint32_t body = any(4, BODY);
+  words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, seldom(8) ? 40 : 4));
+  const size_t begin = n;
+  while (n < begin + body)
+    if (seldom(30) && begin + body - n >= 2)
+      n += any_stores(words + n, begin + body - n);
+    else {
+      words[n] = any_instruction((unsigned)n, (unsigned)(begin + body));
+      n++;
+    }
+  words[n++] = I(ADDI, LOOP, LOOP, -1);
+  words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
+  n++;
+  for (unsigned reg = 1; reg < 16; reg++)
+    words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
+  words[n++] = any(0, 5) ? HALT : any(0, 2) ? T(1, TRAX_TRAP_EXIT) : NOP; /* what follows the program faults */
+  return n;
+}
+
 /* --- configurations --- */
+
+/* Mostly small, sometimes anything; between least and most. */
+static double any_value(const struct trax_config_key *key) {
+  const double most = strcmp(key->unit, "cycles") == 0 && key->most > 300 ? 300 : key->most;
+  switch (key->kind) {
+  case TRAX_KIND_FLAG:
+    return any(0, 1);
+  case TRAX_KIND_POWER:
+    return any_power((uint32_t)key->least, (uint32_t)(seldom(4) || key->least * 64 > most ? most : key->least * 64));
+  case TRAX_KIND_REAL:
+    return exp2(any(0, 160) / 10.0) / 100; /* 0.01 to 655 */
+  default:
+    return any((uint32_t)key->least, (uint32_t)(seldom(4) || key->least + 20 > most ? most : key->least + 20));
+  }
+}
+
+static void set_value(struct trax_config *config, const struct trax_config_key *key, double value) {
+  void *member = (char *)config + key->offset;
+  if (key->kind == TRAX_KIND_FLAG)
+    *(bool *)member = value != 0;
+  else if (key->kind == TRAX_KIND_REAL)
+    *(double *)member = round(value * 1000) / 1000;
+  else
+    *(uint32_t *)member = (uint32_t)value;
+}
+
+struct trax_config any_machine(uint32_t tms, uint32_t tps) {
+  struct trax_config config = TRAX_CONFIG_DEFAULT;
+  config.chip.tms = tms;
+  config.chip.tps_per_tm = tps;
+  config.memory.size_mib = 1;
+  const unsigned change = any(1, 4); /* so many keys in four have another value than by default */
+  for (size_t i = 0; i < trax_config_key_count; i++) {
+    const struct trax_config_key *key = &trax_config_keys[i];
+    if (any(1, 4) > change || strcmp(key->name, "chip.tms") == 0 || strcmp(key->name, "chip.tps_per_tm") == 0 ||
+        strcmp(key->name, "memory.size_mib") == 0)
+      continue;
+    const struct trax_config before = config;
+    for (unsigned tries = 0; tries < 20; tries++) {
+      set_value(&config, key, any_value(key));
+      if (trax_config_validate(&config, NULL) == TRAX_OK)
+        break;
+      config = before; /* it does not go with the others */
+    }
+  }
+  return config;
+}
 
 struct trax_config any_config(uint32_t tms, uint32_t tps) {
   struct trax_config config = TRAX_CONFIG_DEFAULT;

@@ -26,6 +26,13 @@ size_t any_racing_program(uint32_t *words);
 /* Random words, most of them legal. */
 void any_words(uint32_t *words, size_t count);
 
+/* Every instruction of the ISA, with addresses, branches, calls, runs of stores and, seldom, faults that belong to it.
+   At most BODY + 64 instructions. */
+size_t any_isa_program(uint32_t *words);
+
+/* What naive.h knows of a machine. */
 struct trax_config any_config(uint32_t tms, uint32_t tps);
+/* Any value of every key, but 1 MiB of memory, and latencies of at most 300 cycles. */
+struct trax_config any_machine(uint32_t tms, uint32_t tps);
 
 #endif

@@ -1,0 +1,140 @@
+#include "cases.h"
+
+#include <string.h>
+
+const char *const case_kind_names[CASE_KINDS] = {"any instruction", "races",     "races near the defaults",
+                                                 "own words",       "any words", "functional mode"};
+
+/* --- cases --- */
+
+static struct trax_config near_the_defaults(uint32_t tms, uint32_t tps) {
+  struct trax_config config = TRAX_CONFIG_DEFAULT;
+  config.chip.tms = tms;
+  config.chip.tps_per_tm = tps;
+  config.memory.latency_cycles = any(0, 100);
+  config.memory.size_mib = 1;
+  return config;
+}
+
+struct random_case case_of_seed(unsigned seed) {
+  struct random_case c = {0};
+  random_state = 0x9E3779B97F4A7C15u * (seed + 1);
+  const uint32_t tms = any(1, any(0, 3) ? 4 : 8);
+  const uint32_t most = any(0, 1) ? 12 : MAX_THREADS / tms;
+  const uint32_t tps = any(1, most > 64 ? 64 : most);
+  /* The reference looks at every thread in every cycle; so much time is a second or so. */
+  const uint64_t limit = 4000000 / (tms * tps);
+  c.max_cycles = any(0, 7) ? limit : any(1, 5000);
+  switch ((enum case_kind)(seed % CASE_KINDS)) {
+  case CASE_ISA:
+    c.config = any_machine(tms, tps);
+    c.count = any_isa_program(c.words);
+    break;
+  case CASE_RACES:
+    c.config = any_machine(tms, tps);
+    c.count = any_racing_program(c.words);
+    break;
+  case CASE_RACES_NEAR_DEFAULTS:
+    c.config = near_the_defaults(tms, tps);
+    c.count = any(0, 1) ? any_racing_program(c.words) : any_isa_program(c.words);
+    break;
+  case CASE_OWN_WORDS:
+    c.config = any_machine(tms, tps);
+    c.count = any_program(c.words);
+    break;
+  case CASE_WORDS: /* endless loops are possible */
+    c.config = any_machine(any(1, 2), any(1, 4));
+    any_words(c.words, c.count = 32);
+    c.max_cycles = 5000;
+    break;
+  case CASE_FUNCTIONAL:
+    c.functional_mode = true;
+    if (any(0, 3)) { /* one thread, anything */
+      c.config = any_machine(1, 1);
+      any_words(c.words, c.count = 32);
+      c.max_cycles = 5000;
+    } else { /* many that do not meet */
+      c.config = any_machine(tms, tps);
+      c.count = any_program(c.words);
+      c.max_cycles = 0;
+    }
+    break;
+  case CASE_KINDS:
+    break;
+  }
+  return c;
+}
+
+/* --- comparisons --- */
+
+/* What docs/timing.md says of every run. */
+static bool violates_accounting(struct difference *to, const struct trax_machine *machine) {
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum += machine->stats.total.cycles[cause];
+  return different_number(to, "charges, and threads x cycles", sum, machine->stats.threads * machine->stats.cycles);
+}
+
+static void compare_engines(const struct random_case *c, struct comparison *to) {
+  struct run reference = run(&c->config, c->words, c->count, TRAX_ENGINE_REFERENCE, true, c->max_cycles);
+  const struct trax_machine *machine = reference.bench.machine;
+  to->status = reference.bench.status;
+  to->fault = machine->fault.kind;
+  to->cycles = machine->stats.cycles;
+  to->instructions = machine->stats.instructions;
+  struct difference *difference = &to->difference;
+  if (to->status == TRAX_ERROR)
+    differs(difference, "error: %s", reference.bench.error.message);
+  else if (!violates_accounting(difference, machine)) {
+    struct run ahead = run_alone(&c->config, c->words, c->count, TRAX_ENGINE_FAST, c->max_cycles);
+    bool different = different_runs(difference, &reference, &ahead);
+    end(&ahead);
+    if (!different) {
+      struct run traced = run(&c->config, c->words, c->count, TRAX_ENGINE_FAST, true, c->max_cycles);
+      (void)(different_issues(difference, &reference.bench.issues, &traced.bench.issues) ||
+             different_runs(difference, &reference, &traced));
+      end(&traced);
+    }
+  }
+  end(&reference);
+}
+
+/* What does not depend on time. */
+static void compare_functional_mode(const struct random_case *c, struct comparison *to) {
+  struct run timed = run_alone(&c->config, c->words, c->count, TRAX_ENGINE_FAST, c->max_cycles),
+             functional = run_alone(&c->config, c->words, c->count, TRAX_ENGINE_FUNCTIONAL, c->max_cycles);
+  const struct trax_machine *x = timed.bench.machine, *y = functional.bench.machine;
+  to->status = timed.bench.status;
+  to->fault = x->fault.kind;
+  to->cycles = x->stats.cycles;
+  to->instructions = x->stats.instructions;
+  struct difference *difference = &to->difference;
+  if (to->status == TRAX_ERROR || functional.bench.status == TRAX_ERROR)
+    differs(difference, "error: %s%s", timed.bench.error.message, functional.bench.error.message);
+  else if (to->status == TRAX_STUCK || functional.bench.status == TRAX_STUCK)
+    to->status = TRAX_STUCK; /* neither counts the time of an endless loop as the other does */
+  else
+    (void)(different_number(difference, "status", timed.bench.status, functional.bench.status) ||
+           different_number(difference, "cycles of the functional mode, and", y->stats.cycles, 0) ||
+           different_bytes(difference, "instructions by operation", x->stats.total.instructions,
+                           y->stats.total.instructions, sizeof x->stats.total.instructions) ||
+           different_number(difference, "rays", x->stats.total.rays, y->stats.total.rays) ||
+           different_number(difference, "items", x->stats.total.items, y->stats.total.items) ||
+           different_number(difference, "kind of fault", x->fault.kind, y->fault.kind) ||
+           different_number(difference, "pc of the fault", x->fault.pc, y->fault.pc) ||
+           different_number(difference, "address of the fault", x->fault.address, y->fault.address) ||
+           different_bytes(difference, "registers of the fault", x->fault.registers, y->fault.registers,
+                           sizeof x->fault.registers) ||
+           different_effects(difference, &timed, &functional));
+  end(&timed);
+  end(&functional);
+}
+
+struct comparison compare_case(const struct random_case *c) {
+  struct comparison comparison = {0};
+  if (c->functional_mode)
+    compare_functional_mode(c, &comparison);
+  else
+    compare_engines(c, &comparison);
+  return comparison;
+}

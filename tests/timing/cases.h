@@ -1,0 +1,41 @@
+/* A random case, and the engines' runs of it compared to the last count and byte. */
+#ifndef TRAX_TIMING_CASES_H
+#define TRAX_TIMING_CASES_H
+
+#include "compare.h"
+
+enum { MAX_WORDS = BODY + 64 };
+
+struct random_case {
+  struct trax_config config;
+  uint32_t words[MAX_WORDS];
+  size_t count;
+  uint64_t max_cycles;  /* 0: no limit */
+  bool functional_mode; /* compared with the fast engine; else that with the reference */
+};
+
+/* What the runs have in common, if they are equal. */
+struct comparison {
+  struct difference difference; /* "" if there is none */
+  trax_status status;
+  trax_fault_kind fault;
+  uint64_t cycles, instructions;
+};
+
+/* Kinds of cases, chosen by seed % CASE_KINDS: any instruction with what belongs to it, races, races on machines near
+   the defaults, threads with words of their own, words of any bits, the functional mode. */
+enum case_kind {
+  CASE_ISA,
+  CASE_RACES,
+  CASE_RACES_NEAR_DEFAULTS,
+  CASE_OWN_WORDS,
+  CASE_WORDS,
+  CASE_FUNCTIONAL,
+  CASE_KINDS
+};
+extern const char *const case_kind_names[CASE_KINDS];
+
+struct random_case case_of_seed(unsigned seed);
+struct comparison compare_case(const struct random_case *random_case);
+
+#endif
