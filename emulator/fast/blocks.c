@@ -50,7 +50,8 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   ftp->only = *slot->step;
   ftp->only.asks |= TRAX_ASKS_SLOWLY;
   slot->step = ftp->last = &ftp->only;
-  ftm->deferred |= bit; /* what it asks for stays */
+  ftm->deferred |= bit;
+  ftm->asks[number] |= TRAX_ASKS_SLOWLY; /* what it asks for stays */
   tp->inst = ftp->resume->decoded;
   tp->pc = ftp->resume_pc;
   tp->address = ftp->only.address;

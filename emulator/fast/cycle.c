@@ -44,34 +44,43 @@ static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
   }
 }
 
-/* Grants the instruction caches' banks; returns the losers, who go on asking. */
-static uint64_t lose_fetches(struct trax_fast_tm *ftm) {
-  const uint32_t ports = ftm->tm->config->icache.ports_per_bank;
-  uint64_t *const asking = (uint64_t *)ftm->asking, *const last = (uint64_t *)ftm->last;
+/* Grants the banks of instruction caches that more than 16 TPs share, or that let more than one TP into a bank. */
+static uint64_t lose_fetches_somehow(struct trax_fast_tm *ftm) {
+  const struct trax_tm *tm = ftm->tm;
+  const uint32_t ports = tm->config->icache.ports_per_bank, vectors = ftm->vectors;
   uint64_t losers = 0;
-  for (uint32_t base = 0; base < ftm->banks; base += 64) {
-    const uint32_t end = base + 64 < ftm->banks ? base + 64 : ftm->banks;
-    uint64_t contended = 0;
-    for (uint32_t bank = base; bank < end; bank += TRAX_FAST_LANES) {
-      trax_fast_lanes *const asks = &ftm->asking[bank / TRAX_FAST_LANES];
-      const trax_fast_lanes all = *asks;
-      contended |= (uint64_t)trax_fast_contended(asks) << (bank - base);
-      const trax_fast_lanes single = all ^ *asks;
-      trax_fast_lanes *const latest = &ftm->last[bank / TRAX_FAST_LANES];
-      *latest = single | (*latest & (trax_fast_lanes)(single == 0));
+  for (uint32_t icache = 0; icache < tm->icaches; icache++) {
+    trax_fast_lanes lost = {0};
+    for (uint32_t i = icache * vectors; i < (icache + 1) * vectors; i++) {
+      for (uint32_t port = 0; port < ports; port++)
+        if (ftm->narrow) {
+          trax_fast_lanes16 winners;
+          TRAX_FAST_ARBITRATE(trax_fast_lanes16, &ftm->behind16[i], ftm->asking16[i], &winners);
+          ftm->asking16[i] ^= winners;
+        } else {
+          trax_fast_lanes winners;
+          TRAX_FAST_ARBITRATE(trax_fast_lanes, &ftm->behind[i], ftm->asking[i], &winners);
+          ftm->asking[i] ^= winners;
+        }
+      lost |= ftm->narrow ? (trax_fast_lanes)ftm->asking16[i] : ftm->asking[i];
     }
-    for (; contended; contended &= contended - 1) {
-      const unsigned bank = base + trax_first(contended);
-      uint64_t askers = asking[bank], latest = last[bank];
-      uint32_t port = 0;
-      do {
-        latest = trax_fast_first_after(latest, askers);
-        askers ^= latest;
-      } while (__builtin_expect(++port < ports, false) && askers);
-      last[bank] = latest;
-      asking[bank] = askers;
-      losers |= askers;
-    }
+    losers |= ftm->narrow ? trax_fast_any16(&lost) << icache * tm->config->icache.tps_per_cache : trax_fast_any(&lost);
+  }
+  return losers;
+}
+
+/* Grants the instruction caches' banks; returns the losers, who go on asking. */
+static inline uint64_t lose_fetches(struct trax_fast_tm *ftm) {
+  if (!ftm->simple_fetch)
+    return lose_fetches_somehow(ftm);
+  uint64_t losers = 0;
+  for (uint32_t i = 0, icaches = ftm->tm->icaches, shift = 0; i < icaches; i++, shift += ftm->tps_per_icache) {
+    const trax_fast_lanes16 askers = ftm->asking16[i];
+    trax_fast_lanes16 winners;
+    TRAX_FAST_ARBITRATE(trax_fast_lanes16, &ftm->behind16[i], askers, &winners);
+    const trax_fast_lanes16 rest = askers ^ winners;
+    ftm->asking16[i] = rest;
+    losers |= trax_fast_any16((const trax_fast_lanes *)&rest) << shift;
   }
   return losers;
 }
@@ -122,7 +131,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
       ftm->tp[number].only.address = tp->address;
     }
   }
-  ftm->asks[number] = asks;
+  ftm->asks[number] = asks | TRAX_ASKS_SLOWLY;
   return true;
 }
 
@@ -177,24 +186,27 @@ static void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, struct tra
 static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, const struct trax_fast_planes *asks,
                                    uint64_t *hits) {
   const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
-  uint64_t asking[TRAX_MAX_TPS_PER_TM];
-  asking[0] = askers;
-  for (unsigned bit = 0; bit < ftm->data_bank_bits; bit++)
-    for (unsigned bank = 0; bank < 1u << bit; bank++) {
-      asking[bank | 1u << bit] = asking[bank] & asks->bit[TRAX_ASKS_BANK_SHIFT + bit];
-      asking[bank] &= ~asks->bit[TRAX_ASKS_BANK_SHIFT + bit];
+  const uint64_t *const bit = &asks->bit[TRAX_ASKS_BANK_SHIFT];
+  const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
+                        lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
+  /* Of the banks that are handled together, by the lowest two bits of their numbers. */
+  const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
+  uint64_t winners = 0, there = 0;
+  for (uint32_t first = 0; first < ftm->data_banks; first += TRAX_FAST_LANES) {
+    uint64_t asking = askers;
+    for (uint32_t k = 2; k < ftm->data_bank_bits; k++)
+      asking &= first >> k & 1 ? bit[k] : ~bit[k];
+    trax_fast_lanes winner;
+    TRAX_FAST_ARBITRATE(trax_fast_lanes, &ftm->data_bank_behind[first / TRAX_FAST_LANES], by_low_bits & (none + asking),
+                        &winner);
+    winners |= trax_fast_any(&winner);
+    for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
+      const uint32_t line = trax_line_of(tags, ftm->slot[trax_first(winner[i] | (uint64_t)1 << 63)].step->address);
+      const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
+      there |= winner[i] & -(uint64_t)is_there;
     }
-  uint64_t winners = 0;
-  *hits = 0;
-  for (uint32_t bank = 0; bank < ftm->data_banks; bank++) { /* without branches: who asks is hard to predict */
-    const uint64_t winner = trax_fast_first_after(ftm->data_bank_last[bank], asking[bank]);
-    ftm->data_bank_last[bank] = winner ? winner : ftm->data_bank_last[bank];
-    winners |= winner;
-    const uint32_t line = trax_line_of(tags, ftm->slot[trax_first(winner | (uint64_t)1 << 63)].step->address);
-    const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
-    *hits |= winner & -(uint64_t)is_there;
   }
-  *hits &= ~ftm->deferred;
+  *hits = there & ~ftm->deferred;
   return winners;
 }
 
@@ -236,8 +248,8 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
   return granted;
 }
 
-/* Steps 3 and 4: those who are granted all they ask for. */
-static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t t) {
+/* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do. */
+static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t *slow, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_fast_planes asks;
   trax_fast_transpose(ftm->asks, tm->tps, ftm->data_bank_bits, &asks);
@@ -271,7 +283,33 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
   if (queue_askers)
     granted |= grant_queue(ftm, queue_askers, t);
   ftm->ready &= ~granted;
+  *slow = asks.bit[0];
   return granted;
+}
+
+void trax_fast_count_log(struct trax_fast_tally *tally) {
+  trax_fast_lanes sum[4][2] = {0};
+  for (unsigned i = 0; i < tally->logged; i++) {
+    trax_fast_lanes first = tally->log[i][0], second = tally->log[i][1];
+    for (unsigned bit = 0; bit < 4; bit++) {
+      const trax_fast_lanes carry = sum[bit][0] & first, other_carry = sum[bit][1] & second;
+      sum[bit][0] ^= first;
+      sum[bit][1] ^= second;
+      first = carry;
+      second = other_carry;
+    }
+  }
+  tally->logged = 0;
+  for (unsigned half = 0; half < 2; half++) {
+    trax_fast_lanes carry = {0};
+    for (unsigned bit = 0; bit < 64 && (bit < 4 || trax_fast_any(&carry)); bit++) {
+      trax_fast_lanes *const plane = &tally->planes[bit][half];
+      const trax_fast_lanes term = bit < 4 ? sum[bit][half] : (trax_fast_lanes){0}, either = *plane ^ term;
+      const trax_fast_lanes next = (*plane & term) | (either & carry);
+      *plane = either ^ carry;
+      carry = next;
+    }
+  }
 }
 
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
@@ -279,7 +317,9 @@ void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
   struct trax_fast_lost lost = {0};
   ftm->tm->now = t;
   fetch_and_check(ftm, wake(ftm, t), &lost, t);
-  trax_fast_issue(ftm, grant(ftm, &lost, t), t);
+  uint64_t slow;
+  const uint64_t granted = grant(ftm, &lost, &slow, t);
+  trax_fast_issue(ftm, granted & ~slow, granted & slow, t);
   trax_fast_count(&ftm->tally, &lost);
   if (__builtin_expect(ftm->tm->observer != NULL, false))
     trax_fast_tell(ftm, &lost);

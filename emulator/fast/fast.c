@@ -15,17 +15,41 @@ static void create_unit(struct trax_fast_units *unit, const struct trax_shared_u
   unit->below_top = ~unit->top;
 }
 
+static void *create_vectors(size_t count) {
+  const size_t bytes = count * sizeof(trax_fast_lanes);
+  void *vectors = aligned_alloc(sizeof(trax_fast_lanes), bytes);
+  return vectors ? memset(vectors, 0, bytes) : NULL;
+}
+
 static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
-  const uint32_t vectors = (tm->icaches * tm->config->icache.banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
-  const size_t bytes = vectors * sizeof *ftm->asking;
-  ftm->banks = vectors * TRAX_FAST_LANES;
-  ftm->asking = aligned_alloc(sizeof *ftm->asking, bytes);
-  ftm->last = aligned_alloc(sizeof *ftm->last, bytes);
+  const uint32_t tps = tm->config->icache.tps_per_cache, banks = tm->config->icache.banks;
+  ftm->narrow = tps <= TRAX_FAST_LANES16;
+  const uint32_t lanes = ftm->narrow ? TRAX_FAST_LANES16 : TRAX_FAST_LANES;
+  ftm->vectors = (banks + lanes - 1) / lanes;
+  ftm->simple_fetch = ftm->narrow && ftm->vectors == 1 && tm->config->icache.ports_per_bank == 1;
+  ftm->tps_per_icache = tps;
+  const size_t count = (size_t)tm->icaches * ftm->vectors;
+  if (ftm->narrow) {
+    ftm->asking16 = create_vectors(count);
+    ftm->behind16 = create_vectors(count);
+  } else {
+    ftm->asking = create_vectors(count);
+    ftm->behind = create_vectors(count);
+  }
   ftm->resident = calloc(tm->icaches, sizeof *ftm->resident);
-  if (!ftm->asking || !ftm->last || !ftm->resident)
+  if (!(ftm->narrow ? ftm->asking16 && ftm->behind16 : ftm->asking && ftm->behind) || !ftm->resident)
     return false;
-  memset(ftm->asking, 0, bytes);
-  memset(ftm->last, 0, bytes);
+  for (unsigned i = 0; i < tm->tps; i++) {
+    const uint32_t icache = i / tps;
+    struct trax_fast_slot *slot = &ftm->slot[i];
+    ftm->icache_of[i] = (uint8_t)icache;
+    slot->resident = ftm->resident[icache];
+    slot->bit16 = (uint16_t)(1u << i % tps % TRAX_FAST_LANES16);
+    if (ftm->narrow)
+      slot->asking16 = (uint16_t *)(ftm->asking16 + icache * ftm->vectors);
+    else
+      slot->asking = (uint64_t *)(ftm->asking + icache * ftm->vectors);
+  }
   return true;
 }
 
@@ -44,10 +68,6 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++)
     ftm->slot[i].step = &ftm->tp[0].only; /* those that do not exist are looked at in place of nobody */
   for (unsigned i = 0; i < tm->tps; i++) {
-    const uint32_t icache = i / tm->config->icache.tps_per_cache;
-    ftm->icache_of[i] = (uint8_t)icache;
-    ftm->slot[i].resident = ftm->resident[icache];
-    ftm->slot[i].asking = (uint64_t *)ftm->asking + icache * tm->config->icache.banks;
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
     ftm->slot[i].step = ftm->tp[i].last = &ftm->tp[i].only;
@@ -85,7 +105,9 @@ static void destroy(struct trax_fast *fast) {
     free(fast->tm[i].tp);
     free(fast->tm[i].changes);
     free(fast->tm[i].asking);
-    free(fast->tm[i].last);
+    free(fast->tm[i].behind);
+    free(fast->tm[i].asking16);
+    free(fast->tm[i].behind16);
     free(fast->tm[i].resident);
   }
   free(fast->tm);
@@ -121,6 +143,7 @@ static const trax_cause loss_causes[] = {TRAX_CAUSE_ICACHE_BANK, TRAX_CAUSE_FP_A
                                          TRAX_CAUSE_INT_MUL,     TRAX_CAUSE_SPECIAL, TRAX_CAUSE_DCACHE_BANK};
 
 static void charge_losses(struct trax_fast_tm *ftm) {
+  trax_fast_count_log(&ftm->tally);
   for (unsigned bit = 0; bit < 64; bit++)
     for (unsigned lost = 0; lost < sizeof loss_causes / sizeof *loss_causes; lost++)
       for (uint64_t tps = ftm->tally.planes[bit][lost / 4][lost % 4]; tps; tps &= tps - 1)

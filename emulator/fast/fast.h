@@ -11,10 +11,6 @@
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
 
-#include "core/chip.h"
-#include "fast/engine.h"
-#include "fast/masks.h"
-
 #ifdef TRAX_FAST_V3 /* the second of two compilations (engine.h) */
 #define trax_fast_program_create trax_fast_program_create_v3
 #define trax_fast_program_destroy trax_fast_program_destroy_v3
@@ -26,6 +22,7 @@
 #define trax_fast_line_arrives trax_fast_line_arrives_v3
 #define trax_fast_tell trax_fast_tell_v3
 #define trax_fast_cycle trax_fast_cycle_v3
+#define trax_fast_count_log trax_fast_count_log_v3
 #define trax_fast_issue trax_fast_issue_v3
 #define trax_fast_blocks_create trax_fast_blocks_create_v3
 #define trax_fast_blocks_destroy trax_fast_blocks_destroy_v3
@@ -34,6 +31,10 @@
 #define trax_fast_gather trax_fast_gather_v3
 #define trax_fast_scatter trax_fast_scatter_v3
 #endif
+
+#include "core/chip.h"
+#include "fast/engine.h"
+#include "fast/masks.h"
 
 enum {
   TRAX_BURST = 64,       /* most instructions of a burst */
@@ -94,10 +95,15 @@ struct trax_fast_undo {
 struct trax_fast_slot {
   const struct trax_fast_step *step; /* the head: one of trax_fast_tp.steps, or its `only` if it is deferred */
   const uint8_t *resident;           /* [TRAX_FAST_LINES]: lines of the program that its instruction cache holds */
-  uint64_t *asking;                  /* the banks of its instruction cache, in trax_fast_tm.asking */
+  /* The banks of its instruction cache, in trax_fast_tm.asking or asking16, and its bit there. */
+  union {
+    uint64_t *asking;
+    uint16_t *asking16;
+  };
   /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
      it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
   uint32_t busy;
+  uint16_t bit16;
 };
 
 struct trax_fast_tp {
@@ -137,17 +143,22 @@ struct trax_fast_tm {
   uint64_t outside; /* the head cannot be fetched */
   uint64_t taken_up; /* hold an instruction since before the run was taken up: its operands are looked at again */
 
-  /* The banks of all instruction caches, one cache's after another's. */
-  trax_fast_lanes *asking; /* [banks]: TPs */
-  trax_fast_lanes *last;   /* [banks]: latest winner */
-  uint32_t banks;          /* rounded up to whole vectors */
+  /* The banks of all instruction caches, one cache's after another's, each beginning a vector: the TPs that ask, and
+     those behind the latest winner. If no more than 16 TPs share a cache, the arrays of 16 bits are used, and a bit is
+     a TP of the cache. */
+  bool narrow;
+  bool simple_fetch; /* that, and one vector to a cache, one fetch of a bank in a cycle */
+  uint32_t vectors;  /* of a cache */
+  uint32_t tps_per_icache;
+  trax_fast_lanes *asking, *behind;
+  trax_fast_lanes16 *asking16, *behind16;
   uint32_t data_banks, data_bank_bits;
   uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches] */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 
-  struct trax_fast_units fp;                    /* adders, multipliers */
-  struct trax_fast_units int_mul;               /* integer multipliers, nothing */
-  uint64_t data_bank_last[TRAX_MAX_TPS_PER_TM]; /* latest winners */
+  struct trax_fast_units fp;      /* adders, multipliers */
+  struct trax_fast_units int_mul; /* integer multipliers, nothing */
+  trax_fast_lanes data_bank_behind[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_fast_tally tally;
 };
 
@@ -206,7 +217,8 @@ void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost 
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
 
 /* --- issue.c --- */
-void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t);
+/* Step 5; the heads of the `slow` ones are marked with TRAX_ASKS_SLOWLY. */
+void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error);

@@ -11,6 +11,8 @@ static inline void trax_fast_ask_fetch(struct trax_fast_tm *ftm, unsigned number
   const struct trax_fast_inst *inst = &ftm->fast->program.inst[slot->step->index];
   if (inst->decoded->ask == TRAX_ASK_OUTSIDE)
     ftm->outside |= (uint64_t)1 << number;
+  else if (ftm->narrow)
+    slot->asking16[slot->step->bank] |= slot->bit16;
   else
     slot->asking[slot->step->bank] |= (uint64_t)1 << number;
 }

@@ -75,23 +75,47 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
     trax_fast_ask_fetch(ftm, number);
 }
 
-void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t granted, uint64_t t) {
-  uint64_t quick = 0, smooth = 0;
-  for (uint64_t rest = granted; rest; rest &= rest - 1) {
+/* The next steps of those that do nothing else: they become the heads and ask for their banks. */
+static inline void issue_alike(struct trax_fast_tm *ftm, uint64_t quick, bool narrow) {
+  uint64_t smooth = 0;
+  for (uint64_t rest = quick; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     struct trax_fast_slot *const slot = &ftm->slot[number];
-    const struct trax_fast_step *const step = slot->step, *const next = step + 1;
-    if (__builtin_expect(step->asks & TRAX_ASKS_SLOWLY, false)) {
-      issue_slowly(ftm, number, t);
-      continue;
-    }
-    const uint64_t bit = (uint64_t)1 << number;
+    const struct trax_fast_step *const next = slot->step + 1;
     slot->step = next;
     ftm->asks[number] = next->asks;
-    quick |= bit;
     smooth |= (uint64_t)trax_fast_is_smooth(slot, next) << number;
-    slot->asking[next->bank] |= bit; /* what has been executed can be fetched */
+    if (narrow) /* what has been executed can be fetched */
+      slot->asking16[next->bank] |= slot->bit16;
+    else
+      slot->asking[next->bank] |= rest & -rest;
   }
   ftm->smooth = (ftm->smooth & ~quick) | smooth;
   ftm->tm->holding &= ~quick;
+}
+
+static inline void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
+  if (ftm->narrow)
+    issue_alike(ftm, quick, true);
+  else
+    issue_alike(ftm, quick, false);
+}
+
+void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t) {
+  /* What others see or change happens in the TPs' order: those before such an effect have issued, and those behind it
+     have not, so that they may come back and be deferred (blocks.c). */
+  uint64_t effects;
+  while (__builtin_expect((effects = slow & ftm->deferred) != 0, false)) {
+    const uint64_t up_to = effects ^ (effects - 1);
+    issue_quickly(ftm, quick & up_to);
+    quick &= ~up_to;
+    for (uint64_t rest = slow & up_to; rest; rest &= rest - 1)
+      issue_slowly(ftm, trax_first(rest), t);
+    const uint64_t back = quick & ftm->deferred;
+    quick ^= back;
+    slow = (slow & ~up_to) | back;
+  }
+  issue_quickly(ftm, quick);
+  for (; slow; slow &= slow - 1)
+    issue_slowly(ftm, trax_first(slow), t);
 }

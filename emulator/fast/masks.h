@@ -9,9 +9,31 @@
 #include <immintrin.h>
 #endif
 
-/* Words that are handled together. */
-enum { TRAX_FAST_LANES = 4 };
+/* Masks that are handled together: of a whole TM's TPs, or of the at most 16 TPs of an instruction cache. */
+enum { TRAX_FAST_LANES = 4, TRAX_FAST_LANES16 = 16 };
 typedef uint64_t trax_fast_lanes __attribute__((vector_size(8 * TRAX_FAST_LANES), may_alias));
+typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(2 * TRAX_FAST_LANES16), may_alias));
+
+/* Vectors are passed by address: how they are passed by value depends on what they are compiled for. */
+static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
+  return (*lanes)[0] | (*lanes)[1] | (*lanes)[2] | (*lanes)[3];
+}
+
+static inline uint64_t trax_fast_any16(const trax_fast_lanes *lanes) {
+  uint64_t any = trax_fast_any(lanes);
+  any |= any >> 32;
+  return (any | any >> 16) & 0xFFFF;
+}
+
+/* Arbiters, one in each lane. `behind` has the bits behind the latest winner, which says what the reference's pointer
+   says. The first of the askers among them, or else the first of all, wins; 0 of 0. */
+#define TRAX_FAST_ARBITRATE(LANES, BEHIND, ASKERS, WINNERS)                                                            \
+  do {                                                                                                                 \
+    const LANES preferred_ = (ASKERS) & *(BEHIND);                                                                     \
+    const LANES among_ = preferred_ | ((ASKERS) & (LANES)(preferred_ == 0));                                           \
+    *(WINNERS) = among_ & -among_;                                                                                     \
+    *(BEHIND) = ~(*(WINNERS) | (*(WINNERS)-1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                               \
+  } while (0)
 
 /* The TPs that were refused something in a cycle, by what it was. */
 struct trax_fast_lost {
@@ -19,35 +41,24 @@ struct trax_fast_lost {
 };
 
 /* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
-   charged to all TPs at once. */
+   charged to all TPs at once; several cycles together, since carries cost most. */
+enum { TRAX_FAST_LOG = 15 }; /* cycles; their sums have 4 bits */
+
 struct trax_fast_tally {
   trax_fast_lanes planes[64][2]; /* fetch, fp_add, fp_mul, int_mul; special, bank */
+  trax_fast_lanes log[TRAX_FAST_LOG][2];
+  uint32_t logged;
 };
 
-static inline void trax_fast_count(struct trax_fast_tally *tally, const struct trax_fast_lost *lost) {
-  trax_fast_lanes often = {lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul};
-  trax_fast_lanes seldom = {lost->special, lost->bank};
-  trax_fast_lanes(*plane)[2] = tally->planes;
-  uint64_t any;
-  do {
-    for (unsigned round = 0; round < 4; round++, plane++) { /* mostly enough; the end of a loop is hard to predict */
-      const trax_fast_lanes carry = (*plane)[0] & often, other_carry = (*plane)[1] & seldom;
-      (*plane)[0] ^= often;
-      (*plane)[1] ^= seldom;
-      often = carry;
-      seldom = other_carry;
-    }
-    const trax_fast_lanes rest = often | seldom;
-    any = rest[0] | rest[1] | rest[2] | rest[3];
-  } while (__builtin_expect(any != 0, false));
-}
+/* Adds the log to the planes. */
+void trax_fast_count_log(struct trax_fast_tally *tally);
 
-/* An arbiter of masks: `last` is the bit of the latest winner, which says what the reference's pointer says. Takes the
-   first of the askers behind it, or else the first of all; 0 of 0. */
-static inline uint64_t trax_fast_first_after(uint64_t last, uint64_t askers) {
-  const uint64_t behind = askers & ~((last << 1) - 1);
-  const uint64_t among = behind ? behind : askers;
-  return among & -among;
+static inline void trax_fast_count(struct trax_fast_tally *tally, const struct trax_fast_lost *lost) {
+  trax_fast_lanes(*const log)[2] = &tally->log[tally->logged];
+  (*log)[0] = (trax_fast_lanes){lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul};
+  (*log)[1] = (trax_fast_lanes){lost->special, lost->bank};
+  if (++tally->logged == TRAX_FAST_LOG)
+    trax_fast_count_log(tally);
 }
 
 /* Shared units, one to a group of neighbours; of two kinds that are grouped alike. */
@@ -98,26 +109,12 @@ static inline trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units
   return winners;
 }
 
-/* The lanes that have more than one bit; the others' bits are set to 0. */
-static inline unsigned trax_fast_contended(trax_fast_lanes *lanes) {
-  const trax_fast_lanes several = (trax_fast_lanes)((*lanes & (*lanes - 1)) != 0);
-  *lanes &= several;
-#ifdef __AVX2__
-  return (unsigned)_mm256_movemask_pd((__m256d)several);
-#else
-  unsigned mask = 0;
-  for (unsigned i = 0; i < TRAX_FAST_LANES; i++)
-    mask |= (unsigned)(several[i] & 1u << i);
-  return mask;
-#endif
-}
-
 /* What the heads ask for, turned into masks of TPs. */
 struct trax_fast_planes {
   uint64_t bit[16];
 };
 
-/* Bits 1 to 6 and, of the data-cache bank, the first `bank_bits`, of each of `count` TPs' words. */
+/* Bits 0 to 6 and, of the data-cache bank, the first `bank_bits`, of each of `count` TPs' words. */
 static inline void trax_fast_transpose(const uint16_t *words, unsigned count, unsigned bank_bits,
                                        struct trax_fast_planes *planes) {
 #if defined(__AVX2__) || defined(__SSE2__)
@@ -144,6 +141,7 @@ static inline void trax_fast_transpose(const uint16_t *words, unsigned count, un
 #define MASK(OF, K) ((HALF(OF[0], K) | HALF(OF[1], K) << 16) << i)
 #endif
 #define PLANE(OF, K, BIT) planes->bit[BIT] = (i ? planes->bit[BIT] : 0) | MASK(OF, K)
+    PLANE(low, 0, 0);
     PLANE(low, 1, 1);
     PLANE(low, 2, 2);
     PLANE(low, 3, 3);

@@ -5,21 +5,32 @@
 
 #include <string.h>
 
-/* --- arbiters: the pointer, the latest winner's bit, and the bits behind it say the same (masks.h) --- */
+/* --- arbiters: the pointer, and the bits from it on, which are those behind the latest winner (masks.h) --- */
 
-static trax_arbiter pointer_of_winner(uint64_t last) {
-  return (trax_arbiter)(last ? (trax_first(last) + 1) & 63 : 0);
+static trax_arbiter pointer_of(uint64_t behind) {
+  return (trax_arbiter)(behind ? trax_first(behind) : 0);
 }
 
-static uint64_t winner_of_pointer(trax_arbiter pointer) {
-  return (uint64_t)1 << ((pointer - 1) & 63);
+static uint64_t behind_of(trax_arbiter pointer) {
+  return pointer ? ~(uint64_t)0 << pointer : 0;
+}
+
+static uint64_t get_fetch_turn(const struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
+  if (ftm->narrow)
+    return (uint64_t)((const uint16_t *)(ftm->behind16 + icache * ftm->vectors))[bank] << icache * ftm->tps_per_icache;
+  return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
+}
+
+static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
+  if (ftm->narrow)
+    ((uint16_t *)(ftm->behind16 + icache * ftm->vectors))[bank] = (uint16_t)(behind >> icache * ftm->tps_per_icache);
+  else
+    ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
 }
 
 static void gather_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
-  for (uint32_t i = 0; i < units->groups; i++) {
-    const uint64_t behind = units->behind[kind] & units->group[i];
-    unit->turn[i] = (trax_arbiter)(behind ? trax_first(behind) : 0);
-  }
+  for (uint32_t i = 0; i < units->groups; i++)
+    unit->turn[i] = pointer_of(units->behind[kind] & units->group[i]);
 }
 
 static void scatter_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
@@ -32,28 +43,26 @@ static void scatter_units(struct trax_fast_units *units, unsigned kind, const st
 
 static void gather_arbiters(struct trax_fast_tm *ftm) {
   struct trax_tm *tm = ftm->tm;
-  const uint64_t *last = (const uint64_t *)ftm->last;
   gather_units(&ftm->fp, 0, &tm->fp_add);
   gather_units(&ftm->fp, 1, &tm->fp_mul);
   gather_units(&ftm->int_mul, 0, &tm->int_mul);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      tm->icache[i].bank[bank] = pointer_of_winner(last[i * tm->config->icache.banks + bank]);
+      tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
   for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    tm->dcache.bank[bank] = pointer_of_winner(ftm->data_bank_last[bank]);
+    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_behind)[bank]);
 }
 
 static void scatter_arbiters(struct trax_fast_tm *ftm) {
   const struct trax_tm *tm = ftm->tm;
-  uint64_t *last = (uint64_t *)ftm->last;
   scatter_units(&ftm->fp, 0, &tm->fp_add);
   scatter_units(&ftm->fp, 1, &tm->fp_mul);
   scatter_units(&ftm->int_mul, 0, &tm->int_mul);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      last[i * tm->config->icache.banks + bank] = winner_of_pointer(tm->icache[i].bank[bank]);
+      set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));
   for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    ftm->data_bank_last[bank] = winner_of_pointer(tm->dcache.bank[bank]);
+    ((uint64_t *)ftm->data_bank_behind)[bank] = behind_of(tm->dcache.bank[bank]);
 }
 
 void trax_fast_gather(struct trax_fast *fast) {
@@ -113,7 +122,7 @@ void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
     struct trax_tm *tm = ftm->tm;
     scatter_arbiters(ftm);
     find_resident_lines(ftm);
-    memset(ftm->asking, 0, ftm->banks * sizeof(uint64_t));
+    memset(ftm->narrow ? (void *)ftm->asking16 : ftm->asking, 0, tm->icaches * ftm->vectors * sizeof(trax_fast_lanes));
     ftm->ready = ftm->smooth = ftm->outside = 0;
     ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
     ftm->taken_up = tm->awake & tm->holding;
