@@ -178,7 +178,7 @@ int main(int count, char **arguments) {
   const struct bench_case *cases = count > 1 ? &program : builtin;
   const size_t case_count = count > 1 ? 1 : sizeof builtin / sizeof *builtin;
   bool same = true;
-  printf("%-6s %-10s %14s %10s %10s %10s %10s\n", "chip", "case", "instructions", "reference", "fast", "functional",
+  printf("%-6s %-10s %14s %10s %10s %10s %10s\n", "chip", "case", "instructions", "fast", "reference", "functional",
          "fast/ref.");
   for (size_t i = 0; i < sizeof configs / sizeof *configs; i++)
     for (size_t j = 0; j < case_count; j++)

@@ -23,8 +23,8 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
       return TRAX_ERROR;
   if (options->engine == TRAX_ENGINE_FUNCTIONAL)
     return trax_functional_create(chip, error);
-  chip->engine = options->engine == TRAX_ENGINE_FAST ? trax_fast_best_engine() : NULL;
-  return chip->engine ? chip->engine->create(chip, error) : TRAX_OK;
+  chip->engine = trax_fast_best_engine();
+  return chip->engine->create(chip, error);
 }
 
 void trax_chip_destroy(struct trax_chip *chip) {
@@ -38,6 +38,8 @@ void trax_chip_destroy(struct trax_chip *chip) {
 }
 
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
+  if (!chip->tm)
+    return; /* the reference engine charges at once */
   for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
     chip->machine->fault = chip->tm[i].fault;
   if (chip->functional) {
@@ -76,8 +78,7 @@ static bool poll_without_time(void *poll, uint64_t instructions) {
   return trax_poll_now(poll, 0);
 }
 
-/* Calls those who look at the machine before cycle t. *next receives the cycle in which someone looks again. */
-static trax_status look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
+trax_status trax_chip_look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
   trax_status status = TRAX_OK;
   *next = TRAX_NEVER;
   for (struct trax_watch *watch = chip->machine->watches; watch && !status; watch = watch->others) {
@@ -94,15 +95,15 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
   struct trax_poll poll;
   trax_poll_begin(&poll, chip->machine, options);
   poll.context = chip;
-  poll.collect = chip->functional ? collect_functional : chip->engine ? collect_fast : NULL;
+  poll.collect = chip->functional ? collect_functional : collect_fast;
   if (chip->functional) {
     *cycles = 0;
     return trax_functional_run(chip->functional, limit, poll_without_time, &poll);
   }
-  uint64_t t = 0, watched = chip->machine->watches ? 0 : TRAX_NEVER;
+  uint64_t t = 0, watched = 0;
   while (true) {
     if (t >= watched) {
-      const trax_status status = look(chip, t, &watched);
+      const trax_status status = trax_chip_look(chip, t, &watched);
       if (status) {
         *cycles = t;
         return status;
@@ -120,10 +121,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
     bool faulted = false;
     for (uint32_t i = 0; i < chip->tms; i++)
       if (chip->tm[i].next_cycle <= t) {
-        if (chip->engine)
-          chip->engine->cycle(chip->fast, i, t);
-        else
-          trax_tm_cycle(&chip->tm[i], t);
+        chip->engine->cycle(chip->fast, i, t);
         faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
       }
     trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, t);
@@ -142,13 +140,18 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
     }
     if (next > watched)
       next = watched > t + 1 ? watched : t + 1;
+    if (next > limit)
+      next = limit;
     t = next; /* never TRAX_NEVER: whoever has not ended is awake, in a wheel, or waits for a request */
   }
-  const uint64_t idle_from = trax_memory_idle_from(&chip->memory);
-  *cycles = idle_from > t ? idle_from : t;
-  if (*cycles > limit) {
-    *cycles = limit;
-    return TRAX_STUCK;
+  const uint64_t idle_from = trax_memory_idle_from(&chip->memory), end = idle_from > t ? idle_from : t;
+  for (uint64_t now = watched > t ? watched : t; now < end && now <= limit; now = watched > now ? watched : now + 1) {
+    const trax_status status = trax_chip_look(chip, now, &watched); /* nothing happens any more */
+    if (status) {
+      *cycles = now;
+      return status;
+    }
   }
-  return TRAX_OK;
+  *cycles = end < limit ? end : limit;
+  return end > limit ? TRAX_STUCK : TRAX_OK;
 }

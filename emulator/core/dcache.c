@@ -20,26 +20,6 @@ void trax_dcache_destroy(struct trax_dcache *dcache) {
   free(dcache->next_waiter);
 }
 
-uint64_t trax_dcache_grant_banks(struct trax_dcache *dcache, struct trax_tm *tm, uint64_t askers) {
-  uint64_t bank_askers[TRAX_MAX_TPS_PER_TM]; /* set where banks_asked says so */
-  uint64_t banks_asked = 0;
-  for (uint64_t rest = askers; rest; rest &= rest - 1) {
-    const unsigned bank = tm->tp[trax_first(rest)].address / 4 % dcache->banks;
-    const uint64_t bank_bit = (uint64_t)1 << bank;
-    bank_askers[bank] = (banks_asked & bank_bit ? bank_askers[bank] : 0) | (rest & -rest);
-    banks_asked |= bank_bit;
-  }
-
-  uint64_t winners = 0;
-  for (; banks_asked; banks_asked &= banks_asked - 1) {
-    const unsigned bank = trax_first(banks_asked);
-    winners |= trax_arbiter_grant(&dcache->bank[bank], bank_askers[bank], 1);
-  }
-  for (uint64_t losers = askers & ~winners; losers; losers &= losers - 1)
-    trax_tm_charge(tm, trax_first(losers), TRAX_CAUSE_DCACHE_BANK);
-  return winners;
-}
-
 static void wait_for_line(struct trax_dcache *dcache, struct trax_mshr *mshr, struct trax_tp *tp, unsigned number) {
   const unsigned rd = tp->inst->rd;
   if (rd == TRAX_NO_REGISTER)

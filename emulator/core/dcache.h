@@ -26,9 +26,6 @@ struct trax_dcache {
 bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm);
 void trax_dcache_destroy(struct trax_dcache *dcache);
 
-/* Step 3 for TPs with a cached access to global memory: who may use the banks; the others are charged. */
-uint64_t trax_dcache_grant_banks(struct trax_dcache *dcache, struct trax_tm *tm, uint64_t askers);
-
 /* Step 4 of a load in cycle t: a hit, merged, a miss (true), or refused for want of a place or a miss register (false).
  */
 bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned tp, uint64_t t);

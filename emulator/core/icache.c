@@ -44,29 +44,6 @@ void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigne
   trax_tm_sleep(tm, tp, t, TRAX_CAUSE_ICACHE_MISS);
 }
 
-void trax_icache_fetch(struct trax_icache *icache, struct trax_tm *tm, uint64_t askers, uint64_t t) {
-  uint64_t bank_askers[64]; /* set where banks_asked says so */
-  uint64_t banks_asked = 0;
-  for (uint64_t rest = askers; rest; rest &= rest - 1) {
-    const unsigned tp = trax_first(rest);
-    const unsigned bank = tm->tp[tp].inst->bank;
-    const uint64_t bank_bit = (uint64_t)1 << bank;
-    bank_askers[bank] = (banks_asked & bank_bit ? bank_askers[bank] : 0) | (rest & -rest);
-    banks_asked |= bank_bit;
-  }
-
-  uint64_t winners = 0;
-  for (; banks_asked; banks_asked &= banks_asked - 1) {
-    const unsigned bank = trax_first(banks_asked);
-    winners |= trax_arbiter_grant(&icache->bank[bank], bank_askers[bank], tm->config->icache.ports_per_bank);
-  }
-
-  for (uint64_t losers = askers & ~winners; losers; losers &= losers - 1)
-    trax_tm_charge(tm, trax_first(losers), TRAX_CAUSE_ICACHE_BANK);
-  for (; winners; winners &= winners - 1)
-    trax_icache_look_up(icache, tm, trax_first(winners), t);
-}
-
 void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t) {
   trax_cache_tags_install(&icache->tags, line);
   for (uint32_t i = 0; i < icache->pending_count; i++)

@@ -23,10 +23,6 @@ struct trax_icache {
 bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);
 void trax_icache_destroy(struct trax_icache *icache);
 
-/* Step 1 of cycle t for `askers`, all with an instruction inside the text. Those served hold their instructions after
-   it; the others are charged. */
-void trax_icache_fetch(struct trax_icache *icache, struct trax_tm *tm, uint64_t askers, uint64_t t);
-
 /* The TP's bank has let it look up the line of its pc: it holds its instruction, sleeps, or was refused. */
 void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t);
 

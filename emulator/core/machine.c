@@ -2,6 +2,7 @@
 #include "core/machine.h"
 
 #include "core/chip.h"
+#include "reference/run.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -211,7 +212,9 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
 
   struct timespec begin, end;
   clock_gettime(CLOCK_MONOTONIC, &begin);
-  machine->status = run_chip(machine, options, error);
+  machine->status = options->engine == TRAX_ENGINE_REFERENCE
+                        ? trax_reference_run(machine, options, &machine->stats.cycles, error)
+                        : run_chip(machine, options, error);
   clock_gettime(CLOCK_MONOTONIC, &end);
   machine->stats.host_seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
   if (machine->status == TRAX_ERROR)

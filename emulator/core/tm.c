@@ -118,7 +118,7 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
     break;
   case TRAX_REQUEST_ATOMIC:
     tm->tp[request->tp].reg[request->rd] = request->value;
-    if (tm->observer && tm->observer->arrival)
+    if (tm->observer && tm->observer->arrival && request->rd != TRAX_NO_REGISTER)
       tm->observer->arrival(tm->observer->context,
                             &(struct trax_arrival){t, tm->number, request->tp, request->rd, request->value});
     trax_tm_data_arrival(tm, request->tp, request->rd, t);
@@ -128,15 +128,6 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
     break;
   case TRAX_REQUEST_WRITE:
     break;
-  }
-}
-
-static void arrive(struct trax_tm *tm, uint64_t t) {
-  struct trax_queue *queue = &tm->queue;
-  while (queue->started && trax_queue_oldest(queue)->completion <= t) {
-    const struct trax_request request = *trax_queue_oldest(queue);
-    trax_queue_pop(queue);
-    trax_tm_complete(tm, &request, t);
   }
 }
 
@@ -152,89 +143,6 @@ void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t) {
     else
       trax_tm_wake(tm, tp, t);
   }
-}
-
-/* --- the five steps --- */
-
-static void fetch(struct trax_tm *tm, uint64_t t) {
-  uint64_t askers = tm->awake & ~tm->holding;
-  for (uint64_t rest = askers; rest; rest &= rest - 1) {
-    const unsigned tp = trax_first(rest);
-    if (tm->tp[tp].inst->ask == TRAX_ASK_OUTSIDE) {
-      trax_tm_fault(tm, tp, t, tm->tp[tp].pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE, tm->tp[tp].pc);
-      askers &= ~(rest & -rest);
-    }
-  }
-  for (uint32_t i = 0; askers && i < tm->icaches; i++) {
-    const uint64_t group = trax_group_mask(i, tm->config->icache.tps_per_cache);
-    if (askers & group)
-      trax_icache_fetch(&tm->icache[i], tm, askers & group, t);
-  }
-}
-
-/* What the TPs that passed step 2 ask for. */
-struct asks {
-  uint64_t by_ask[TRAX_ASK_COUNT];
-  uint64_t local, bank; /* memory instructions, by address; the others past the cache stay in TRAX_ASK_MEMORY */
-};
-
-static void check_memory_operand(struct trax_tm *tm, unsigned number, uint64_t t, struct asks *asks) {
-  struct trax_tp *tp = &tm->tp[number];
-  const uint64_t bit = (uint64_t)1 << number;
-  tp->address = tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm;
-  const trax_fault_kind kind = trax_tp_check_access(tp, &tm->machine->space, tp->address);
-  if (kind)
-    trax_tm_fault(tm, number, t, kind, tp->address);
-  else if (tp->address >= TRAX_LOCAL_BASE)
-    asks->local |= bit;
-  else if (tp->inst->is_nontemporal || tp->inst->is_atomic)
-    asks->by_ask[TRAX_ASK_MEMORY] |= bit;
-  else
-    asks->bank |= bit;
-}
-
-static struct asks check_operands(struct trax_tm *tm, uint64_t t) {
-  struct asks asks = {0};
-  for (uint64_t rest = tm->awake & tm->holding; rest; rest &= rest - 1) {
-    const unsigned number = trax_first(rest);
-    const struct trax_tp *tp = &tm->tp[number];
-    if (!trax_tp_operands_usable(tp, t) && tp->inst->ask != TRAX_ASK_ILLEGAL) {
-      uint64_t until = 0;
-      const trax_cause cause = trax_tp_wait(tp, t, &until);
-      if (until == TRAX_NEVER) {
-        trax_tm_sleep(tm, number, t, cause);
-        tm->awaiting |= rest & -rest;
-      } else
-        trax_tm_sleep_until(tm, number, t, t, until, cause);
-    } else if (tp->inst->ask == TRAX_ASK_MEMORY)
-      check_memory_operand(tm, number, t, &asks);
-    else if (tp->inst->ask == TRAX_ASK_ILLEGAL)
-      trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
-    else
-      asks.by_ask[tp->inst->ask] |= rest & -rest;
-  }
-  return asks;
-}
-
-/* Charges those who were refused and returns the others. */
-static uint64_t refuse(struct trax_tm *tm, uint64_t askers, uint64_t winners, trax_cause cause) {
-  for (uint64_t losers = askers & ~winners; losers; losers &= losers - 1)
-    trax_tm_charge(tm, trax_first(losers), cause);
-  return winners;
-}
-
-static uint64_t grant_units(struct trax_tm *tm, const uint64_t by_ask[TRAX_ASK_COUNT], uint64_t t) {
-  uint64_t granted = by_ask[TRAX_ASK_NOTHING];
-  uint64_t askers;
-  if ((askers = by_ask[TRAX_ASK_FP_ADD]))
-    granted |= refuse(tm, askers, trax_shared_unit_grant(&tm->fp_add, askers), TRAX_CAUSE_FP_ADD);
-  if ((askers = by_ask[TRAX_ASK_FP_MUL]))
-    granted |= refuse(tm, askers, trax_shared_unit_grant(&tm->fp_mul, askers), TRAX_CAUSE_FP_MUL);
-  if ((askers = by_ask[TRAX_ASK_INT_MUL]))
-    granted |= refuse(tm, askers, trax_shared_unit_grant(&tm->int_mul, askers), TRAX_CAUSE_INT_MUL);
-  if ((askers = by_ask[TRAX_ASK_SPECIAL]))
-    granted |= refuse(tm, askers, trax_special_unit_grant(&tm->special, askers, t), TRAX_CAUSE_SPECIAL);
-  return granted;
 }
 
 /* --- the memory queue --- */
@@ -342,34 +250,6 @@ bool trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   return trax_dcache_load(&tm->dcache, tm, number, t);
 }
 
-/* Step 4. askers: global memory accesses that have their banks, and ends of threads. */
-static uint64_t grant_queue(struct trax_tm *tm, uint64_t askers, uint64_t t) {
-  const uint64_t at_or_after = ~(uint64_t)0 << tm->queue_turn;
-  const uint64_t round[2] = {askers & at_or_after, askers & ~at_or_after};
-  uint64_t granted = 0;
-  for (unsigned half = 0; half < 2; half++)
-    for (uint64_t rest = round[half]; rest; rest &= rest - 1) {
-      const unsigned number = trax_first(rest);
-      if (trax_tm_serve(tm, number, t))
-        granted |= rest & -rest;
-      else
-        trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
-    }
-  return granted;
-}
-
-static void access_local(struct trax_tm *tm, uint64_t local, uint64_t t) {
-  for (; local; local &= local - 1) {
-    struct trax_tp *tp = &tm->tp[trax_first(local)];
-    if (tp->inst->is_store) {
-      tm->stats->local_stores++;
-      continue;
-    }
-    tm->stats->local_loads++;
-    trax_tp_set_usable(tp, tp->inst->rd, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
-  }
-}
-
 void trax_tm_tell_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
                         uint32_t next_pc) {
   struct trax_tp *tp = &tm->tp[number];
@@ -397,30 +277,6 @@ void trax_tm_tell_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const 
     tm->observer->issue(tm->observer->context, &issue);
 }
 
-/* Step 5. */
-static void issue(struct trax_tm *tm, uint64_t granted, uint64_t t) {
-  for (; granted; granted &= granted - 1) {
-    const unsigned number = trax_first(granted);
-    struct trax_tp *tp = &tm->tp[number];
-    const struct trax_decoded *inst = tp->inst;
-    const uint32_t pc = tp->pc;
-    if (!trax_tp_execute(tm, number, t))
-      continue;
-    tm->holding &= ~(granted & -granted);
-    tm->stats->instructions[inst->op]++;
-    trax_tm_charge(tm, number, TRAX_CAUSE_ISSUED);
-    if (inst->ask != TRAX_ASK_MEMORY)
-      trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
-    if (tp->pc != pc + 4) {
-      tm->stats->taken_branches++;
-      if (tm->config->tp.branch_bubble_cycles)
-        trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + tm->config->tp.branch_bubble_cycles, TRAX_CAUSE_BRANCH);
-    }
-    if (tm->observer)
-      trax_tm_tell_issue(tm, number, pc, inst, tp->pc);
-  }
-}
-
 uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
   if (tm->awake)
     return t + 1;
@@ -433,26 +289,6 @@ uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
   if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion < next)
     next = trax_queue_oldest(&tm->queue)->completion;
   return next;
-}
-
-void trax_tm_cycle(struct trax_tm *tm, uint64_t t) {
-  tm->now = t;
-  arrive(tm, t);
-  trax_tm_wake_sleepers(tm, t);
-  fetch(tm, t);
-  struct asks asks = check_operands(tm, t);
-  uint64_t granted = grant_units(tm, asks.by_ask, t);
-  if (asks.local) {
-    access_local(tm, asks.local, t);
-    granted |= asks.local;
-  }
-  uint64_t queue_askers = asks.by_ask[TRAX_ASK_MEMORY] | asks.by_ask[TRAX_ASK_END];
-  if (asks.bank)
-    queue_askers |= trax_dcache_grant_banks(&tm->dcache, tm, asks.bank);
-  if (queue_askers)
-    granted |= grant_queue(tm, queue_askers, t);
-  issue(tm, granted, t);
-  tm->next_cycle = trax_tm_next_cycle(tm, t);
 }
 
 void trax_tm_settle(struct trax_tm *tm, uint64_t t) {

@@ -1,4 +1,4 @@
-/* A thread multiprocessor: TPs, what they share, and the steps of its cycle. */
+/* A thread multiprocessor: TPs, what they share, and the rare parts of its cycle; emulator/fast has the others. */
 #ifndef TRAX_CORE_TM_H
 #define TRAX_CORE_TM_H
 
@@ -48,9 +48,6 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_mach
                            const struct trax_text *text, FILE *output, trax_error *error);
 void trax_tm_destroy(struct trax_tm *tm);
 
-/* Arrivals and the TM's five steps in cycle t; sets next_cycle. */
-void trax_tm_cycle(struct trax_tm *tm, uint64_t t);
-
 /* Charges sleepers for the cycles before `t`, which are over. */
 void trax_tm_settle(struct trax_tm *tm, uint64_t t);
 
@@ -89,7 +86,7 @@ void trax_tm_fault(struct trax_tm *tm, unsigned tp, uint64_t t, trax_fault_kind 
 /* What TP `tp` loads into register rd is there in cycle t. */
 void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t);
 
-/* The parts of a cycle that both engines use (emulator/fast has its own of the others). */
+/* The rare parts of a cycle. */
 /* A request's completion is t: what it was for. */
 void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, uint64_t t);
 void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t);

@@ -8,13 +8,6 @@ void trax_shared_unit_create(struct trax_shared_unit *unit, uint32_t group_size,
   unit->groups = (tps + group_size - 1) / group_size;
 }
 
-uint64_t trax_shared_unit_grant(struct trax_shared_unit *unit, uint64_t askers) {
-  uint64_t winners = 0;
-  for (uint32_t group = 0; group < unit->groups; group++)
-    winners |= trax_arbiter_grant(&unit->turn[group], askers & trax_group_mask(group, unit->group_size), 1);
-  return winners;
-}
-
 void trax_special_unit_create(struct trax_special_unit *unit, uint32_t units, uint32_t interval) {
   memset(unit, 0, sizeof *unit);
   unit->units = units;

@@ -15,9 +15,6 @@ struct trax_shared_unit {
 };
 
 void trax_shared_unit_create(struct trax_shared_unit *unit, uint32_t group_size, uint32_t tps);
-/* The winners of all groups. */
-uint64_t trax_shared_unit_grant(struct trax_shared_unit *unit, uint64_t askers);
-
 /* FPDIV/iSQRT: alike, with one arbiter; each is taken for `interval` cycles by an instruction. */
 struct trax_special_unit {
   uint32_t units, interval;

@@ -7,7 +7,7 @@ static inline unsigned count_bits(uint64_t mask) {
 
 /* --- arrivals and alarms --- */
 
-/* The reference's arrivals, but lines of instructions are noted. */
+/* Arrivals; lines of instructions are noted. */
 static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   while (tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t) {

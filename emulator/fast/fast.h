@@ -1,12 +1,12 @@
-/* The fast engine: the same machine as emulator/core, to the cycle, the count and the byte (docs/timing.md).
+/* The fast engine: the machine of docs/timing.md, and of emulator/reference, to the cycle, the count and the byte.
 
    It differs in two ways. Function runs ahead of time: a TP executes a burst of instructions at once, up to the first
    whose effect or value depends on time, and timing then consumes them one by one (burst.c, head.c). Timing works on
    masks of a TM's TPs: what will be asked for is noted when an instruction becomes its TP's next one, the head, and
    stays until it is granted (cycle.c, issue.c).
 
-   Everything rare is the reference's: arrivals, misses, requests, faults, traps, and the execution of instructions that
-   must not run ahead, in the reference's own structures. A TM touches nothing of another one but through blocks.c and
+   Everything rare is the core's: arrivals, misses, requests, faults, traps, and the execution of instructions that
+   must not run ahead, in the core's own structures. A TM touches nothing of another one but through blocks.c and
    the memory controller. */
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
@@ -137,7 +137,7 @@ struct trax_fast_tm {
 
   /* Masks of TPs. */
   uint64_t ready;    /* have an instruction and usable operands and lack a unit, a bank or a place */
-  uint64_t deferred; /* the head executes at issue, as the reference would */
+  uint64_t deferred; /* the head executes at issue */
   uint64_t smooth;  /* the head's operands will be usable in the first cycle in which it can be fetched, and its line is
                        there */
   uint64_t outside; /* the head cannot be fetched */
@@ -202,7 +202,7 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
 /* --- head.c --- */
 /* All steps are used up: the next burst. If nothing can run ahead, the head is deferred. */
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
-/* The reference's view of the head: inst, pc, address. */
+/* The core's view of the head: inst, pc, address. */
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
 /* The first `issued` steps of the TP's burst are over, and no others will be. */
 void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned issued);

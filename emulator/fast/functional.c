@@ -161,7 +161,7 @@ jumped:
   return inst == functional->outside ? STOP_SLOW : STOP_TURN;
 }
 
-/* --- what function() leaves to the reference --- */
+/* --- what function() leaves to the core --- */
 
 static void increment(struct trax_functional *functional, struct trax_tp *tp) {
   uint8_t *const place = functional->chip->machine->space.bytes + tp->address;

@@ -41,7 +41,7 @@ static const struct {
     [OPTION_REPORT] = {"report", "FILE", "statistics as text; - is standard output"},
     [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
-    [OPTION_ENGINE] = {"engine", "NAME", "reference (default), fast (the same, sooner) or functional (no time)"},
+    [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -152,7 +152,7 @@ static trax_status set_engine(struct trax_options *options, const char *value, t
   else if (strcmp(value, "functional") == 0)
     options->engine = TRAX_ENGINE_FUNCTIONAL;
   else
-    return trax_fail(error, "--engine: \"%s\" is none of reference, fast and functional", value);
+    return trax_fail(error, "--engine: \"%s\" is none of fast, reference and functional", value);
   return TRAX_OK;
 }
 

@@ -46,7 +46,7 @@ def main():
         for scene, files, paper in SCENES:
             report = pathlib.Path(scratch) / "stats.json"
             subprocess.run([options.render, *(find(options.scenes, name) for name in files), "--view", scene,
-                            "--config", options.config, "--size", options.size, "--engine", "fast", "--quiet", "--stats", str(report),
+                            "--config", options.config, "--size", options.size, "--quiet", "--stats", str(report),
                             "-o", str(pathlib.Path(scratch) / "picture.png")], check=True)
             run = json.loads(report.read_text())
             published = paper.get(options.config)

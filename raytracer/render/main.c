@@ -214,7 +214,7 @@ static trax_status run_emulator(struct trax_picture *picture, const struct optio
                             .progress = show_run,
                             .progress_context = progress,
                             .interrupt = (const volatile int *)&interrupted,
-                            .engine = options->engine == ENGINE_FAST ? TRAX_ENGINE_FAST : TRAX_ENGINE_REFERENCE};
+                            .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST};
     status = trax_render_simulated(picture, frame, machine, program, &run, error);
     progress_clear(progress);
     if (status == TRAX_FAULT)
@@ -303,9 +303,10 @@ static trax_status render(const struct options *options, struct progress *progre
   if (status == TRAX_OK)
     status = trax_frame_init(&frame, &scene, &view, &options->frame, error);
   if (status == TRAX_OK)
-    status = options->engine <= ENGINE_FAST ? run_emulator(&picture, options, &frame, progress, error)
-                                            : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads,
-                                                          &frame, progress, options->quiet, error);
+    status = options->engine <= ENGINE_REFERENCE
+                 ? run_emulator(&picture, options, &frame, progress, error)
+                 : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
+                               options->quiet, error);
   if (status == TRAX_OK)
     status = trax_picture_write(&picture, options->output, error);
   if (status == TRAX_OK && !options->quiet) {

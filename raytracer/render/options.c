@@ -23,9 +23,8 @@ static const char usage[] =
     "      --config CHIP|FILE  the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)\n"
     "      --set KEY=VALUE     changes one value of the configuration (trax-sim --help-config lists them)\n"
     "      --stats FILE.json   writes every statistic of the run\n"
-    "      --engine WHICH      emulator (default): the emulator's reference engine; fast: its fast engine, the same\n"
-    "                          cycles sooner; native: the same program compiled for this computer; embree:\n"
-    "                          the reference picture\n"
+    "      --engine WHICH      fast (default): the emulator; reference: its reference engine, the same cycles, slowly;\n"
+    "                          native: the same program compiled for this computer; embree: the reference picture\n"
     "      --threads N         host threads of the native engine (default: all processors)\n"
     "      --compare           renders the reference and the native twin too and prints the differences;\n"
     "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
@@ -109,7 +108,7 @@ static bool parse_fraction(const char *text, float *value) {
 }
 
 static bool parse_engine(const char *text, enum engine *engine) {
-  static const char *const names[] = {"emulator", "fast", "native", "embree"};
+  static const char *const names[] = {"fast", "reference", "native", "embree"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++)
     if (strcmp(text, names[i]) == 0) {
       *engine = (enum engine)i;
@@ -167,7 +166,7 @@ static trax_status take_option(struct options *options, int which, const char *v
     return TRAX_OK;
   case OPT_ENGINE:
     if (!parse_engine(value, &options->engine))
-      return trax_fail(error, "--engine %s: expected emulator, fast, native or embree", value);
+      return trax_fail(error, "--engine %s: expected fast, reference, native or embree", value);
     return TRAX_OK;
   case OPT_THREADS:
     if (!parse_number(&value, 4096, &options->threads) || *value != '\0' || options->threads == 0)
@@ -206,7 +205,7 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "no mesh given; trax-render --help shows how");
   if (!options->output)
     return trax_fail(error, "no picture given: -o PICTURE.png");
-  if (options->engine > ENGINE_FAST) {
+  if (options->engine > ENGINE_REFERENCE) {
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
     if (options->keep || options->program || options->config || options->setting_count)

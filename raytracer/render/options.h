@@ -5,7 +5,7 @@
 #include "render.h"
 
 /* The first two simulate the machine, to the same cycle. */
-enum engine { ENGINE_EMULATOR, ENGINE_FAST, ENGINE_NATIVE, ENGINE_EMBREE };
+enum engine { ENGINE_FAST, ENGINE_REFERENCE, ENGINE_NATIVE, ENGINE_EMBREE };
 
 struct setting {
   const char *key;

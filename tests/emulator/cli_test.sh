@@ -160,7 +160,7 @@ refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: FILE is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse '--engine: "slow" is none of reference, fast and functional' --engine slow hello.elf
+refuse '--engine: "slow" is none of fast, reference and functional' --engine slow hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
 refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
 refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf

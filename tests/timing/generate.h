@@ -30,7 +30,7 @@ void any_words(uint32_t *words, size_t count);
    At most BODY + 64 instructions. */
 size_t any_isa_program(uint32_t *words);
 
-/* What naive.h knows of a machine. */
+/* Not every key. */
 struct trax_config any_config(uint32_t tms, uint32_t tps);
 /* Any value of every key, but 1 MiB of memory, and latencies of at most 300 cycles. */
 struct trax_config any_machine(uint32_t tms, uint32_t tps);

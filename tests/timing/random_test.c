@@ -2,10 +2,8 @@
 
    A thread touches only its own words, and others' only through atomic increments of its own counter; so the values at
    the end must not depend on the configuration. The trace of issues must respect every unit's capacity and every
-   latency, and a second, naive implementation of docs/timing.md (naive.h) must agree on every issue cycle and every
-   charge. */
+   latency. */
 #include "generate.h"
-#include "naive.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,39 +129,6 @@ static void check_counts(const struct bench *bench) {
   assert_true(stats->total.queue_peak <= (uint64_t)config->memory.queue_depth * config->chip.tms);
 }
 
-static void check_against_naive(const struct bench *bench) {
-  const struct trax_config *config = &bench->machine->config;
-  const uint32_t count = config->chip.tms * config->chip.tps_per_tm;
-  static struct naive_thread threads[MAX_THREADS];
-  uint64_t *cycles = malloc(bench->issues.count * sizeof *cycles); /* of the engine, thread by thread */
-  uint64_t *issued = malloc(bench->issues.count * sizeof *issued);
-  struct naive_step *steps = malloc(bench->issues.count * sizeof *steps);
-  assert_true(cycles && issued && steps);
-  size_t n = 0;
-  for (uint32_t thread = 0; thread < count; thread++) {
-    threads[thread] = (struct naive_thread){.steps = steps + n, .issued = issued + n};
-    for (size_t i = 0; i < bench->issues.count; i++) {
-      const struct trax_issue *issue = &bench->issues.issue[i];
-      if (issue->tm * config->chip.tps_per_tm + issue->tp != thread)
-        continue;
-      steps[n] = (struct naive_step){issue->pc, issue->word, issue->address};
-      cycles[n++] = issue->cycle;
-      threads[thread].count++;
-    }
-  }
-  uint64_t bytes = 0;
-  const uint64_t length = naive_run(config, threads, &bytes);
-  assert_memory_equal(cycles, issued, n * sizeof *cycles);
-  assert_int_equal(length, bench_cycles(bench));
-  for (uint32_t thread = 0; thread < count; thread++)
-    assert_memory_equal(threads[thread].charged, bench->machine->tp_stats[thread].cycles,
-                        sizeof threads[thread].charged);
-  assert_int_equal(bytes, (uint64_t)TRAX_MEMORY_BYTES(&bench->machine->stats));
-  free(cycles);
-  free(issued);
-  free(steps);
-}
-
 static struct bench run(const struct trax_config *config, const uint32_t *program, size_t count) {
   struct bench bench = bench_begin(config, program, count);
   uint64_t saved = random_state;
@@ -196,7 +161,6 @@ static void random_programs(void **state) {
       check_dependences(&bench);
       check_units(&bench);
       check_counts(&bench);
-      check_against_naive(&bench);
       if (!expected) {
         expected = malloc(DATA_BYTES);
         assert_non_null(expected);

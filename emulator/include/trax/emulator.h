@@ -77,9 +77,9 @@ typedef struct trax_progress {
 /* The first two give the same: every cycle, every count, every byte. The third knows no time: its cycles are 0, and
    max_cycles limits the instructions of a thread. */
 typedef enum trax_engine {
-  TRAX_ENGINE_REFERENCE = 0, /* written to be read: emulator/core */
-  TRAX_ENGINE_FAST,          /* emulator/fast */
-  TRAX_ENGINE_FUNCTIONAL     /* emulator/fast/functional.c */
+  TRAX_ENGINE_FAST = 0,  /* emulator/fast */
+  TRAX_ENGINE_REFERENCE, /* written to be read beside docs/timing.md, many times slower: emulator/reference */
+  TRAX_ENGINE_FUNCTIONAL /* emulator/fast/functional.c */
 } trax_engine;
 
 typedef struct trax_run_options {

@@ -1,0 +1,33 @@
+/* docs/timing.md, "Accounting", and the arbiter of "Words". */
+#include "reference/reference.h"
+
+#include <assert.h>
+
+int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n) {
+  for (uint32_t i = 0; i < n; i++) {
+    const uint32_t position = (*turn + i) % n;
+    if (asks[position]) {
+      *turn = (position + 1) % n;
+      return (int)position;
+    }
+  }
+  return -1;
+}
+
+void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+  assert(!tp->charged);
+  tp->charged = true;
+  tm->machine->tp_stats[tm->number * tm->tps + tp->number].cycles[cause]++;
+  trax_ref_tell_charge(tm, tp, t, cause);
+}
+
+void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t) {
+  for (uint32_t i = 0; i < tm->tps; i++) {
+    struct trax_ref_tp *tp = &tm->tp[i];
+    tp->charged = false;
+    if (tp->ended)
+      trax_ref_charge(tm, tp, t, TRAX_CAUSE_HALTED);
+    else if (t < tp->bubble_ends)
+      trax_ref_charge(tm, tp, t, TRAX_CAUSE_BRANCH);
+  }
+}

@@ -1,0 +1,63 @@
+/* docs/timing.md, "Data cache". */
+#include "reference/reference.h"
+
+/* Cached loads and stores of global memory. */
+static bool asks_for_bank(const struct trax_ref_tp *tp) {
+  return trax_ref_active(tp) && trax_ref_accesses_memory(tp) && !trax_ref_accesses_local(tp) &&
+         !trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);
+}
+
+void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t) {
+  const uint32_t per_bank = tm->config->dcache.tps_per_bank, banks = (tm->tps + per_bank - 1) / per_bank;
+  for (uint32_t bank = 0; bank < banks; bank++) {
+    bool asks[MOST] = {false};
+    for (uint32_t i = 0; i < tm->tps; i++)
+      asks[i] = asks_for_bank(&tm->tp[i]) && tm->tp[i].address / 4 % banks == bank;
+    const int winner = trax_ref_pick(&tm->dcache_bank[bank], asks, tm->tps);
+    for (uint32_t i = 0; i < tm->tps; i++)
+      if (asks[i] && (int)i != winner)
+        trax_ref_charge(tm, &tm->tp[i], t, TRAX_CAUSE_DCACHE_BANK);
+  }
+}
+
+static void wait_for_line(struct trax_ref_tp *tp, uint32_t line) {
+  trax_ref_result(tp, UNKNOWN, TRAX_CAUSE_DATA_MISS);
+  tp->scoreboard[tp->inst.rd].awaits_line = tp->inst.rd != 0;
+  tp->scoreboard[tp->inst.rd].line = line;
+}
+
+bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  const uint32_t line = tp->address / tm->config->dcache.line_bytes;
+  if (trax_ref_lines_have(&tm->dcache, line)) {
+    tm->stats->dcache_hits++;
+    tp->outcome |= TRAX_OUTCOME_HIT;
+    trax_ref_result(tp, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
+    return true;
+  }
+  if (trax_ref_on_its_way(tm, DATA_LINE, 0, line)) {
+    tm->stats->dcache_merged++;
+    tp->outcome |= TRAX_OUTCOME_MERGED;
+    wait_for_line(tp, line);
+    return true;
+  }
+  if (trax_ref_lines_on_their_way(tm, DATA_LINE) == tm->config->dcache.mshrs ||
+      !trax_ref_request(
+          tm, (struct trax_ref_request){.kind = DATA_LINE, .line = line, .bytes = tm->config->dcache.line_bytes}))
+    return false;
+  tm->stats->dcache_misses++;
+  tp->outcome |= TRAX_OUTCOME_MISS;
+  wait_for_line(tp, line);
+  return true;
+}
+
+void trax_ref_data_arrives(struct trax_ref_tm *tm, uint32_t line, uint64_t t) {
+  trax_ref_lines_take(&tm->dcache, line);
+  for (uint32_t i = 0; i < tm->tps; i++)
+    for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++) {
+      struct trax_ref_register *reg = &tm->tp[i].scoreboard[rd];
+      if (reg->awaits_line && reg->line == line) {
+        reg->awaits_line = false;
+        reg->usable = t;
+      }
+    }
+}

@@ -1,0 +1,169 @@
+/* Step 5 of docs/timing.md, "A cycle": the effects of the instructions that were granted all they asked for. */
+#include "reference/reference.h"
+
+#include "core/traps.h"
+#include "trax/semantics.h"
+
+#include <string.h>
+
+static uint8_t *place(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t address) {
+  return address >= TRAX_LOCAL_BASE ? tp->local + (address - TRAX_LOCAL_BASE) : tm->machine->space.bytes + address;
+}
+
+static uint32_t load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t address, unsigned bytes) {
+  uint32_t value = 0;
+  memcpy(&value, place(tm, tp, address), bytes);
+  return value;
+}
+
+static void store(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
+  memcpy(place(tm, tp, address), &value, bytes);
+}
+
+static uint32_t special_register(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t number,
+                                 uint64_t t) {
+  switch (number) {
+  case TRAX_SR_THREAD:
+    return tm->number * tm->tps + tp->number;
+  case TRAX_SR_TM:
+    return tm->number;
+  case TRAX_SR_TP:
+    return tp->number;
+  case TRAX_SR_THREADS:
+    return tm->config->chip.tms * tm->tps;
+  case TRAX_SR_CYCLE:
+    return (uint32_t)t;
+  default: /* TRAX_SR_CYCLEH; others are illegal */
+    return (uint32_t)(t >> 32);
+  }
+}
+
+static void end(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t status) {
+  tp->ended = true;
+  tm->machine->exit_statuses[tm->number * tm->tps + tp->number] = (int32_t)status;
+}
+
+static trax_fault_kind trap(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t value, uint32_t code) {
+  switch (code) {
+  case TRAX_TRAP_EXIT:
+    end(tm, tp, value);
+    break;
+  case TRAX_TRAP_PUTC:
+    if (tm->output)
+      fputc((int)(value & 0xFF), tm->output);
+    break;
+  case TRAX_TRAP_ABORT:
+    return TRAX_FAULT_ABORT;
+  case TRAX_TRAP_RAYS:
+    tm->stats->rays += value;
+    break;
+  case TRAX_TRAP_ITEMS:
+    tm->stats->items += value;
+    break;
+  case TRAX_TRAP_PUTS:
+    return trax_put_string(&tm->machine->space, tp->local, value, tm->output);
+  }
+  return TRAX_FAULT_NONE;
+}
+
+/* Registers, memory, pc and the outside world. Gives the fault of a trap, which then had no effect. */
+static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  const trax_inst inst = tp->inst;
+  const unsigned bits = tm->config->special.precision_bits;
+  uint32_t next_pc = tp->pc + 4;
+  trax_fault_kind fault = TRAX_FAULT_NONE;
+
+/* What the instructions' semantics are written in (isa/TraxInstructions.td). */
+#define RD tp->reg[inst.rd]
+#define RA tp->reg[inst.ra]
+#define RB tp->reg[inst.rb]
+#define IMM ((uint32_t)inst.imm)
+#define PC tp->pc
+#define NEXT_PC next_pc
+#define LOAD8(ADDRESS) load(tm, tp, ADDRESS, 1)
+#define LOAD16(ADDRESS) load(tm, tp, ADDRESS, 2)
+#define LOAD32(ADDRESS) load(tm, tp, ADDRESS, 4)
+#define STORE8(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 1)
+#define STORE16(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 2)
+#define STORE32(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 4)
+#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
+#define SPECIAL_REGISTER(NUMBER) special_register(tm, tp, NUMBER, t)
+#define TRAP(VALUE, CODE) fault = trap(tm, tp, VALUE, CODE)
+#define HALT() end(tm, tp, 0)
+#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)
+#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), bits)
+  switch (inst.op) {
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  case TRAX_OP_##NAME:                                                                                                 \
+    __VA_ARGS__                                                                                                        \
+    break;
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+  case TRAX_OP_ILLEGAL: /* faulted before */
+  case TRAX_OP_COUNT:
+    break;
+  }
+#undef RD
+#undef RA
+#undef RB
+#undef IMM
+#undef PC
+#undef NEXT_PC
+#undef LOAD8
+#undef LOAD16
+#undef LOAD32
+#undef STORE8
+#undef STORE16
+#undef STORE32
+#undef ATOMIC_INC
+#undef SPECIAL_REGISTER
+#undef TRAP
+#undef HALT
+#undef FPDIV
+#undef ISQRT
+
+  tp->reg[0] = 0;
+  if (!fault)
+    tp->pc = next_pc;
+  return fault;
+}
+
+/* When the result can be used; the memory queue's step has seen to loads from elsewhere. */
+static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  if (trax_ref_accesses_local(tp))
+    trax_ref_result(tp, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
+  else if (!trax_ref_accesses_memory(tp))
+    trax_ref_result(tp, t + trax_ref_latency(tp, tm->config),
+                    trax_ref_info(tp)->unit == TRAX_UNIT_SPECIAL ? TRAX_CAUSE_DATA_SPECIAL : TRAX_CAUSE_DATA_OTHER);
+}
+
+static void count(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  tm->stats->instructions[tp->inst.op]++;
+  if (trax_ref_accesses_local(tp))
+    ++*(trax_ref_is(tp, TRAX_IS_STORE) ? &tm->stats->local_stores : &tm->stats->local_loads);
+}
+
+static void issue(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  const uint32_t pc = tp->pc;
+  const trax_fault_kind kind = execute(tm, tp, t);
+  if (kind) {
+    trax_ref_fault(tm, tp, t, kind, tp->reg[tp->inst.ra]);
+    return;
+  }
+  trax_ref_charge(tm, tp, t, TRAX_CAUSE_ISSUED);
+  count(tm, tp);
+  note_result(tm, tp, t);
+  tp->holds = false;
+  if (tp->pc != pc + 4) {
+    tm->stats->taken_branches++;
+    tp->bubble_ends = t + 1 + tm->config->tp.branch_bubble_cycles;
+  }
+  trax_ref_tell_issue(tm, tp, pc, t);
+  tp->outcome = 0;
+}
+
+void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t) {
+  for (uint32_t i = 0; i < tm->tps; i++)
+    if (trax_ref_active(&tm->tp[i]))
+      issue(tm, &tm->tp[i], t);
+}

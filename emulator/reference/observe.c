@@ -1,0 +1,42 @@
+/* What an observer of the run is told (core/observer.h). */
+#include "reference/reference.h"
+
+void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+  const struct trax_observer *observer = tm->machine->observer;
+  if (observer && observer->charge && cause != TRAX_CAUSE_ISSUED)
+    observer->charge(observer->context, tm->number, tp->number, cause, t, 1);
+}
+
+/* The value that an instruction gave its register, or memory, or the host. */
+static uint32_t result_of(const struct trax_ref_tp *tp) {
+  if (trax_ref_is(tp, TRAX_IS_STORE)) {
+    const uint32_t bits = 8 * trax_ref_info(tp)->access_bytes, value = tp->reg[tp->inst.rb];
+    return bits < 32 ? value & ((1u << bits) - 1) : value;
+  }
+  if (tp->inst.op == TRAX_OP_TRAP)
+    return tp->reg[tp->inst.ra];
+  return trax_ref_is(tp, TRAX_WRITES_RD) ? tp->reg[tp->inst.rd] : 0;
+}
+
+void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t) {
+  const struct trax_observer *observer = tm->machine->observer;
+  if (!observer || !observer->issue)
+    return;
+  struct trax_issue issue = {.cycle = t,
+                             .tm = tm->number,
+                             .tp = tp->number,
+                             .pc = pc,
+                             .next_pc = tp->pc,
+                             .result = result_of(tp),
+                             .address = trax_ref_accesses_memory(tp) ? tp->address : 0,
+                             .outcome = tp->outcome};
+  trax_ref_text(tm, pc, &issue.word);
+  observer->issue(observer->context, &issue);
+}
+
+void trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t) {
+  const struct trax_observer *observer = tm->machine->observer;
+  if (observer && observer->arrival)
+    observer->arrival(observer->context,
+                      &(struct trax_arrival){t, tm->number, atomic->tp, atomic->rd, atomic->old_value});
+}

@@ -1,0 +1,40 @@
+/* docs/timing.md, "Operands": step 2. */
+#include "reference/reference.h"
+
+void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
+  if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0) /* r0 is always usable */
+    tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
+}
+
+/* Charges a TP for the first register that it has to wait for. */
+static void wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  const struct {
+    bool needed;
+    unsigned number;
+  } registers[] = {{trax_ref_is(tp, TRAX_READS_RA), tp->inst.ra},
+                   {trax_ref_is(tp, TRAX_READS_RB), tp->inst.rb},
+                   {trax_ref_is(tp, TRAX_READS_RD | TRAX_WRITES_RD), tp->inst.rd}};
+  for (unsigned i = 0; i < 3; i++) {
+    const struct trax_ref_register *reg = &tp->scoreboard[registers[i].number];
+    if (registers[i].needed && reg->usable > t) {
+      trax_ref_charge(tm, tp, t, reg->cause);
+      return;
+    }
+  }
+}
+
+void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
+  for (uint32_t i = 0; i < tm->tps; i++) {
+    struct trax_ref_tp *tp = &tm->tp[i];
+    if (trax_ref_active(tp) && tp->inst.op == TRAX_OP_ILLEGAL)
+      trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
+    if (trax_ref_active(tp))
+      wait_for_registers(tm, tp, t);
+    if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {
+      tp->address = tp->reg[tp->inst.ra] + (uint32_t)tp->inst.imm;
+      const trax_fault_kind kind = trax_ref_check_access(tm, tp);
+      if (kind)
+        trax_ref_fault(tm, tp, t, kind, tp->address);
+    }
+  }
+}

@@ -1,0 +1,208 @@
+/* The machine of docs/timing.md. Each chapter of that page is a file of this folder, and its nouns are the names here.
+
+   Every TP is looked at in every step of every cycle and charged in the step that refuses it; nobody sleeps, no cycle
+   is skipped, nothing is kept that could be looked up. TPs, TMs, banks and units are numbers from 0; cycles are
+   uint64_t and called t. Shared with the other engines are what the page does not speak of: the configuration, the
+   instructions' semantics, global memory and its permissions, the record of a fault, the names of the statistics. */
+#ifndef TRAX_REFERENCE_H
+#define TRAX_REFERENCE_H
+
+#include "core/machine.h"
+#include "trax/isa.h"
+
+enum { MOST = 64 }; /* TMs, TPs of a TM, banks, units: the configuration allows no more */
+
+#define UNKNOWN UINT64_MAX /* the cycle of an arrival */
+
+/* --- Words --- */
+
+/* The pointer of an arbiter. */
+typedef uint32_t trax_ref_turn;
+
+/* Round robin over positions 0..n-1: the winner of those who ask, which goes to the back. -1: nobody asks. */
+int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n);
+
+/* --- The machine --- */
+
+/* The lines a cache holds (Fetch). */
+struct trax_ref_lines {
+  uint32_t line_bytes, ways, sets;
+  struct trax_ref_line {
+    bool present;
+    uint32_t number;
+  } *line;           /* [sets][ways] */
+  uint32_t *pointer; /* [sets]: the place of the next line */
+};
+
+struct trax_ref_icache {
+  struct trax_ref_lines lines;
+  trax_ref_turn bank[MOST]; /* over the cache's TPs */
+};
+
+typedef enum trax_ref_kind { INSTRUCTION_LINE, DATA_LINE, LOAD_PAST_CACHE, WRITE, ATOMIC } trax_ref_kind;
+
+struct trax_ref_request {
+  trax_ref_kind kind;
+  uint32_t bytes;
+  uint32_t icache, line;       /* lines; icache of INSTRUCTION_LINE only */
+  uint32_t tp, rd;             /* LOAD_PAST_CACHE, ATOMIC: who waits, in which register */
+  uint32_t address, old_value; /* ATOMIC */
+  bool started;                /* its transfer; before that it waits */
+  uint64_t completion;         /* once started */
+};
+
+/* A register in the scoreboard (Operands). */
+struct trax_ref_register {
+  uint64_t usable;  /* the cycle from which it is; UNKNOWN until the arrival */
+  trax_cause cause; /* of waiting for it */
+  bool awaits_line; /* of the data cache */
+  uint32_t line;
+};
+
+struct trax_ref_tp {
+  uint32_t number;
+  uint32_t pc, reg[TRAX_NUM_REGISTERS];
+  struct trax_ref_register scoreboard[TRAX_NUM_REGISTERS];
+  uint8_t local[TRAX_LOCAL_SIZE];
+  uint32_t run_begin, run_end; /* of the write-combining buffer; equal: empty */
+
+  bool holds; /* an instruction: */
+  trax_inst inst;
+  uint32_t address; /* of its memory access, from step 2 on */
+  uint8_t outcome;  /* of that access, for an observer: TRAX_OUTCOME_... */
+
+  bool ended;
+  bool awaits_line;     /* of its instruction cache */
+  uint64_t bubble_ends; /* the first cycle after the latest branch bubble */
+
+  bool charged; /* for this cycle: it does nothing in the later steps */
+};
+
+struct trax_ref_tm {
+  uint32_t number, tps;
+  const struct trax_config *config;
+  struct trax_machine *machine;
+  FILE *output; /* the guest's, or NULL */
+  struct trax_ref_tp tp[MOST];
+  struct trax_ref_icache icache[MOST];
+  trax_ref_turn fp_add[MOST], fp_mul[MOST], int_mul[MOST]; /* by group */
+  trax_ref_turn special;
+  uint64_t special_free[MOST]; /* the cycle from which the unit is */
+  struct trax_ref_lines dcache;
+  trax_ref_turn dcache_bank[MOST];
+  struct trax_ref_request *queue; /* [places], the oldest first */
+  uint32_t places;                /* taken */
+  trax_ref_turn queue_turn;
+  struct trax_tm_stats *stats;
+};
+
+/* Bus time is counted in units: a cycle has units_per_cycle of them, a byte takes units_per_byte. */
+struct trax_ref_controller {
+  uint64_t units_per_cycle, units_per_byte;
+  uint64_t free_from; /* f, in units */
+  trax_ref_turn turn; /* over the TMs */
+};
+
+struct trax_ref_chip {
+  struct trax_machine *machine;
+  struct trax_ref_tm *tm; /* [tms] */
+  uint32_t tms;
+  struct trax_ref_controller controller;
+};
+
+/* --- What an instruction is --- */
+
+static inline const trax_op_info *trax_ref_info(const struct trax_ref_tp *tp) {
+  return &trax_op_table[tp->inst.op];
+}
+
+static inline bool trax_ref_is(const struct trax_ref_tp *tp, unsigned flag) {
+  return (trax_ref_info(tp)->flags & flag) != 0;
+}
+
+/* Whether the TP still has something to do in this cycle with the instruction it holds. */
+static inline bool trax_ref_active(const struct trax_ref_tp *tp) {
+  return tp->holds && !tp->charged;
+}
+
+static inline bool trax_ref_accesses_memory(const struct trax_ref_tp *tp) {
+  return trax_ref_info(tp)->unit == TRAX_UNIT_MEMORY;
+}
+
+/* An access to local memory; its address is known. lwnt, swnt and ainc have no business there. */
+static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
+  return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE &&
+         !trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);
+}
+
+/* halt and the exit trap. */
+static inline bool trax_ref_ends_thread(const struct trax_ref_tp *tp) {
+  return tp->inst.op == TRAX_OP_HALT || (tp->inst.op == TRAX_OP_TRAP && tp->inst.imm == TRAX_TRAP_EXIT);
+}
+
+/* --- Fetch: fetch.c, lines.c --- */
+void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
+void trax_ref_instruction_arrives(struct trax_ref_tm *tm, uint32_t icache, uint32_t line);
+
+bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways);
+void trax_ref_lines_destroy(struct trax_ref_lines *lines);
+bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line);
+void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line);
+
+/* --- Operands: operands.c --- */
+void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
+/* The TP's instruction writes its register, which is usable from `cycle` on. */
+void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
+
+/* --- Units: units.c --- */
+void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
+/* Of an instruction that does not access memory: the cycles to its result. */
+uint32_t trax_ref_latency(const struct trax_ref_tp *tp, const struct trax_config *config);
+
+/* --- Data cache: data_cache.c --- */
+void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);
+/* A load's turn in step 4. False: it needs a place or a miss register and gets none. */
+bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
+void trax_ref_data_arrives(struct trax_ref_tm *tm, uint32_t line, uint64_t t);
+
+/* --- Stores and write combining: stores.c. False: it needs a place and gets none. --- */
+bool trax_ref_store(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
+bool trax_ref_write_last_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
+
+/* --- Memory queue: queue.c --- */
+void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t);
+void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t);
+/* Takes a place for the request. False: there is none. */
+bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request);
+/* How many lines of that kind are on their way, and whether one of them is this. */
+uint32_t trax_ref_lines_on_their_way(const struct trax_ref_tm *tm, trax_ref_kind kind);
+bool trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache, uint32_t line);
+
+/* --- Memory controller: controller.c --- */
+void trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config);
+void trax_ref_controller_cycle(struct trax_ref_chip *chip, uint64_t t);
+
+/* --- Issue, step 5: issue.c --- */
+void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t);
+
+/* --- Faults: faults.c --- */
+/* Ends the thread in cycle t with a fault, which is recorded if it is the cycle's first in (TM, TP) order. */
+void trax_ref_fault(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_fault_kind kind, uint32_t address);
+/* What is wrong with the access of the TP's instruction to its address. */
+trax_fault_kind trax_ref_check_access(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
+/* The word at pc if it is text, else the fault of fetching it. */
+trax_fault_kind trax_ref_text(const struct trax_ref_tm *tm, uint32_t pc, uint32_t *word);
+
+/* --- For an observer (core/observer.h): observe.c --- */
+void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
+/* The TP has issued the instruction at pc. */
+void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
+void trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
+
+/* --- Accounting: accounting.c --- */
+/* Charges the TP's cycle t, once. */
+void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
+/* Charges those who are idle for a reason that is known before the cycle begins. */
+void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t);
+
+#endif
