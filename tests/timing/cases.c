@@ -50,6 +50,7 @@ struct random_case case_of_seed(unsigned seed) {
   case CASE_FUNCTIONAL:
     c.functional_mode = true;
     if (any(0, 3)) { /* one thread, anything */
+      c.one_thread = true;
       c.config = any_machine(1, 1);
       any_words(c.words, c.count = 32);
       c.max_cycles = 5000;

@@ -11,6 +11,7 @@ struct random_case {
   uint32_t words[MAX_WORDS];
   size_t count;
   uint64_t max_cycles;  /* 0: no limit */
+  bool one_thread;      /* others would get in its way */
   bool functional_mode; /* compared with the fast engine; else that with the reference */
 };
 

@@ -4,6 +4,7 @@
 
      timing-engines-test --seed 1 --count 2000 --jobs 2
      timing-engines-test --seed 4711                         that one
+     timing-engines-test --set memory.queue_depth=1 ...      on machines with that
 
    Every case runs in a process of its own, so that a crash or an endless loop of an engine is a finding like others. */
 #include "cases.h"
@@ -17,10 +18,12 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MOST_JOBS = 64, CASE_SECONDS = 120 };
+enum { MOST_JOBS = 64, MOST_KEYS = 64, CASE_SECONDS = 120 };
 
 struct options {
   unsigned seed, count, jobs;
+  const char *set[MOST_KEYS]; /* "key=value": of every case */
+  unsigned set_count;
 };
 
 struct tally {
@@ -35,8 +38,43 @@ struct job {
   int result; /* end of a pipe */
 };
 
-static void run_case(unsigned seed, int result) {
-  const struct random_case c = case_of_seed(seed);
+static void set_keys(const struct options *options, struct trax_config *config) {
+  for (unsigned i = 0; i < options->set_count; i++) {
+    const char *equals = strchr(options->set[i], '=');
+    char key[64];
+    trax_error error;
+    snprintf(key, sizeof key, "%.*s", equals ? (int)(equals - options->set[i]) : 0, options->set[i]);
+    if (!equals || trax_config_set(config, key, equals + 1, &error)) {
+      fprintf(stderr, "timing-engines-test: --set %s: %s\n", options->set[i], equals ? error.message : "no value");
+      exit(2);
+    }
+  }
+}
+
+static struct random_case prepare(const struct options *options, unsigned seed) {
+  struct random_case c = case_of_seed(seed);
+  const struct trax_config initial = TRAX_CONFIG_DEFAULT;
+  trax_error error;
+  set_keys(options, &c.config);
+  if (trax_config_validate(&c.config, NULL)) { /* other values of the case do not go with them */
+    const uint32_t tms = c.config.chip.tms, tps = c.config.chip.tps_per_tm;
+    c.config = initial;
+    c.config.chip.tms = tms;
+    c.config.chip.tps_per_tm = tps;
+    c.config.memory.size_mib = 1;
+    set_keys(options, &c.config);
+  }
+  if (c.one_thread)
+    c.config.chip.tms = c.config.chip.tps_per_tm = 1;
+  if (trax_config_validate(&c.config, &error)) {
+    fprintf(stderr, "timing-engines-test: %s\n", error.message);
+    exit(2);
+  }
+  return c;
+}
+
+static void run_case(const struct options *options, unsigned seed, int result) {
+  const struct random_case c = prepare(options, seed);
   alarm(CASE_SECONDS);
   const struct comparison comparison = compare_case(&c);
   if (write(result, &comparison, sizeof comparison) != sizeof comparison)
@@ -44,7 +82,7 @@ static void run_case(unsigned seed, int result) {
   _exit(0);
 }
 
-static void begin(struct job *job, unsigned seed) {
+static void begin(const struct options *options, struct job *job, unsigned seed) {
   int ends[2];
   fflush(NULL);
   if (pipe(ends) || (job->pid = fork()) < 0) {
@@ -53,23 +91,23 @@ static void begin(struct job *job, unsigned seed) {
   }
   if (job->pid == 0) {
     close(ends[0]);
-    run_case(seed, ends[1]);
+    run_case(options, seed, ends[1]);
   }
   close(ends[1]);
   job->seed = seed;
   job->result = ends[0];
 }
 
-static void report(const struct job *job, const char *difference) {
+static void report(const struct options *options, const struct job *job, const char *difference) {
   const unsigned kind = job->seed % CASE_KINDS;
   printf("seed %u (%s) differs: %s\n", job->seed, case_kind_names[kind], difference);
   fflush(stdout);
-  struct random_case c = case_of_seed(job->seed);
+  struct random_case c = prepare(options, job->seed);
   minimise(&c);
   print_case(&c, stdout);
 }
 
-static void finish(struct job *job, int status, struct tally *tally) {
+static void finish(const struct options *options, struct job *job, int status, struct tally *tally) {
   struct comparison comparison = {.status = TRAX_ERROR};
   const ssize_t got = read(job->result, &comparison, sizeof comparison);
   close(job->result);
@@ -89,7 +127,7 @@ static void finish(struct job *job, int status, struct tally *tally) {
   tally->instructions += comparison.instructions;
   if (comparison.difference.text[0]) {
     tally->different++;
-    report(job, comparison.difference.text);
+    report(options, job, comparison.difference.text);
   }
 }
 
@@ -101,7 +139,7 @@ static void run_all(const struct options *options, struct tally *tally) {
       struct job *job = jobs;
       while (job->pid)
         job++;
-      begin(job, options->seed + next++);
+      begin(options, job, options->seed + next++);
       running++;
       continue;
     }
@@ -109,7 +147,7 @@ static void run_all(const struct options *options, struct tally *tally) {
     const pid_t pid = wait(&status);
     for (struct job *job = jobs; job < jobs + MOST_JOBS; job++)
       if (pid > 0 && job->pid == pid) {
-        finish(job, status, tally);
+        finish(options, job, status, tally);
         running--;
       }
   }
@@ -131,9 +169,10 @@ static struct options parse(int argc, char **argv) {
       {"seed", required_argument, NULL, 's'},
       {"count", required_argument, NULL, 'c'},
       {"jobs", required_argument, NULL, 'j'},
+      {"set", required_argument, NULL, 'k'},
       {NULL, 0, NULL, 0},
   };
-  struct options options = {1, 1, 1};
+  struct options options = {.seed = 1, .count = 1, .jobs = 1};
   int option;
   while ((option = getopt_long(argc, argv, "", known, NULL)) != -1)
     switch (option) {
@@ -146,11 +185,19 @@ static struct options parse(int argc, char **argv) {
     case 'j':
       options.jobs = number("--jobs", optarg, 1, MOST_JOBS);
       break;
+    case 'k':
+      if (options.set_count == MOST_KEYS) {
+        fprintf(stderr, "timing-engines-test: at most %d --set\n", MOST_KEYS);
+        exit(2);
+      }
+      options.set[options.set_count++] = optarg;
+      break;
     default:
       exit(2);
     }
+  prepare(&options, options.seed); /* or its message */
   if (optind < argc) {
-    fprintf(stderr, "timing-engines-test: %s: there are only --seed, --count and --jobs\n", argv[optind]);
+    fprintf(stderr, "timing-engines-test: %s: there are only options\n", argv[optind]);
     exit(2);
   }
   return options;
@@ -172,7 +219,7 @@ int main(int argc, char **argv) {
   clock_gettime(CLOCK_MONOTONIC, &from);
   run_all(&options, &tally);
   clock_gettime(CLOCK_MONOTONIC, &to);
-  const bool rich = options.count < 100 || is_rich(&tally);
+  const bool rich = options.count < 100 || options.set_count || is_rich(&tally);
   printf(
       "seeds %u to %u: %u of %u cases differ; %u ended, %u faulted, %u were stopped; %llu instructions in %llu cycles; "
       "%.1f s%s\n",
