@@ -57,7 +57,7 @@ struct random_case case_of_seed(unsigned seed) {
     } else { /* many that do not meet */
       c.config = any_machine(tms, tps);
       c.count = any_program(c.words);
-      c.max_cycles = 0;
+      c.max_cycles = 10 * limit;
     }
     break;
   case CASE_KINDS:
