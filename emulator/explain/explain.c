@@ -1,0 +1,189 @@
+#include "explain/places.h"
+#include "explain/step.h"
+#include "explain/table.h"
+
+#include <string.h>
+
+const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
+#define NAME(ID, NAME, MEANING) NAME,
+    TRAX_CAUSES(NAME)
+#undef NAME
+};
+
+/* What a thread was charged since its latest issue. */
+struct trax_steps {
+  struct trax_stretch *stretches;
+  size_t count, capacity;
+  uint64_t begin;
+  uint32_t pc, previous_pc;
+};
+
+static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+  struct trax_explain *explain = context;
+  struct trax_steps *steps = &explain->steps[tm * explain->machine->config.chip.tps_per_tm + tp];
+  if (steps->count && steps->stretches[steps->count - 1].cause == cause) {
+    steps->stretches[steps->count - 1].cycles += cycles;
+    return;
+  }
+  if (!trax_grow((void **)&steps->stretches, steps->count, &steps->capacity, sizeof *steps->stretches)) {
+    explain->out_of_memory = true;
+    return;
+  }
+  steps->stretches[steps->count++] = (struct trax_stretch){cause, since, cycles};
+}
+
+static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
+  const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
+  struct trax_steps *steps = &explain->steps[thread];
+  const struct trax_step step = {.tm = tm,
+                                 .tp = tp,
+                                 .thread = thread,
+                                 .pc = steps->pc,
+                                 .previous_pc = steps->previous_pc,
+                                 .begin = steps->begin,
+                                 .stretches = steps->stretches,
+                                 .count = steps->count,
+                                 .issue = issue,
+                                 .inst = issue ? trax_decode(issue->word) : (trax_inst){0}};
+  for (unsigned i = 0; i < explain->reader_count; i++)
+    explain->readers[i].step(explain->readers[i].self, &step);
+  steps->count = 0;
+  if (issue) {
+    steps->begin = issue->cycle + 1;
+    steps->previous_pc = issue->pc;
+    steps->pc = issue->next_pc;
+  }
+}
+
+static void add_issue(void *context, const struct trax_issue *issue) {
+  tell_step(context, issue->tm, issue->tp, issue);
+}
+
+static void add_arrival(void *context, const struct trax_arrival *arrival) {
+  const struct trax_explain *explain = context;
+  for (unsigned i = 0; i < explain->reader_count; i++)
+    if (explain->readers[i].arrival)
+      explain->readers[i].arrival(explain->readers[i].self, arrival);
+}
+
+bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, uint32_t tp, uint64_t begin,
+                     uint64_t end) {
+  return begin < (options->window_end ? options->window_end : UINT64_MAX) && end > options->window_begin &&
+         (!options->window_tms || options->window_tms >> tm & 1) &&
+         (!options->window_tps || options->window_tps >> tp & 1);
+}
+
+/* --- beginning and ending --- */
+
+static const struct {
+  size_t file, other_file, third_file; /* offsets in the options; any of them is a reason for it */
+  trax_status (*create)(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
+} kinds[] = {
+#define FILE_OF(MEMBER) offsetof(struct trax_explain_options, MEMBER)
+    {FILE_OF(profile), FILE_OF(folded), FILE_OF(annotate), trax_profile_create},
+    {FILE_OF(trace), FILE_OF(trace), FILE_OF(trace), trax_trace_create},
+    {FILE_OF(konata), FILE_OF(konata), FILE_OF(konata), trax_konata_create},
+    {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), trax_perfetto_create},
+    {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), trax_heat_create},
+    {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), trax_items_create},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static const char *file_at(const struct trax_explain_options *options, size_t offset) {
+  return *(const char *const *)((const char *)options + offset);
+}
+
+static bool is_wanted(const struct trax_explain_options *options, unsigned kind) {
+  return file_at(options, kinds[kind].file) || file_at(options, kinds[kind].other_file) ||
+         file_at(options, kinds[kind].third_file);
+}
+
+bool trax_explain_wanted(const struct trax_explain_options *options) {
+  bool wanted = options->series != NULL;
+  for (unsigned i = 0; i < KINDS; i++)
+    wanted |= is_wanted(options, i);
+  return wanted;
+}
+
+trax_status trax_explain_check(const struct trax_explain_options *options, trax_error *error) {
+  const char *const files[] = {options->profile,  options->folded, options->annotate,   options->trace, options->konata,
+                               options->perfetto, options->heat,   options->heat_lines, options->items, options->series};
+  for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+    if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
+      return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+static trax_status create(struct trax_explain *explain, trax_error *error) {
+  const size_t threads = explain->machine->stats.threads;
+  explain->steps = calloc(threads, sizeof *explain->steps);
+  explain->places = trax_places_create(explain->machine);
+  if (!explain->steps || !explain->places)
+    return trax_fail(error, "out of memory for what is to be told of %zu threads", threads);
+  for (size_t i = 0; i < threads; i++)
+    explain->steps[i].pc = explain->steps[i].previous_pc = explain->machine->entry;
+  for (unsigned i = 0; i < KINDS; i++)
+    if (is_wanted(&explain->options, i)) {
+      struct trax_reader *reader = &explain->readers[explain->reader_count];
+      if (kinds[i].create(explain, reader, error) != TRAX_OK)
+        return TRAX_ERROR;
+      explain->reader_count++;
+    }
+  if (explain->options.series && trax_series_create(explain, error) != TRAX_OK)
+    return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machine,
+                               const struct trax_explain_options *options, trax_error *error) {
+  *result = NULL;
+  if (!trax_explain_wanted(options))
+    return TRAX_OK;
+  struct trax_explain *explain = calloc(1, sizeof *explain);
+  if (!explain)
+    return trax_fail(error, "out of memory");
+  explain->machine = machine;
+  explain->options = *options;
+  if (create(explain, error) != TRAX_OK) {
+    trax_explain_discard(explain);
+    return TRAX_ERROR;
+  }
+  explain->observer =
+      (struct trax_observer){.context = explain, .issue = add_issue, .charge = add_charge, .arrival = add_arrival};
+  if (explain->reader_count) /* series alone need no observer */
+    machine->observer = &explain->observer;
+  *result = explain;
+  return TRAX_OK;
+}
+
+trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
+  if (!explain)
+    return TRAX_OK;
+  const trax_machine *machine = explain->machine;
+  const uint32_t tps = machine->config.chip.tps_per_tm;
+  trax_status status = TRAX_OK;
+  for (uint32_t thread = 0; explain->reader_count && thread < machine->stats.threads; thread++)
+    tell_step(explain, thread / tps, thread % tps, NULL);
+  if (explain->out_of_memory)
+    status = trax_fail(error, "out of memory: what was to be explained is not complete and not written");
+  for (unsigned i = 0; i < explain->reader_count && status == TRAX_OK; i++)
+    status = explain->readers[i].finish(explain->readers[i].self, error);
+  if (explain->series && status == TRAX_OK)
+    status = trax_series_finish(explain, error);
+  trax_explain_discard(explain);
+  return status;
+}
+
+void trax_explain_discard(struct trax_explain *explain) {
+  if (!explain)
+    return;
+  explain->machine->observer = NULL;
+  for (unsigned i = 0; i < explain->reader_count; i++)
+    explain->readers[i].destroy(explain->readers[i].self);
+  trax_series_destroy(explain);
+  for (uint64_t i = 0; explain->steps && i < explain->machine->stats.threads; i++)
+    free(explain->steps[i].stretches);
+  free(explain->steps);
+  trax_places_destroy(explain->places);
+  free(explain);
+}

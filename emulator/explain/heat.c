@@ -1,0 +1,199 @@
+/* Memory heat: accesses by object, and by 64 bytes of global memory. */
+#include "explain/step.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+enum { LINE_SHIFT = 6, PAGE_SHIFT = 16, PAGES = 1 << (32 - PAGE_SHIFT), LINES_PER_PAGE = 1 << (PAGE_SHIFT - LINE_SHIFT) };
+
+struct heat_counts {
+  uint64_t loads, stores, atomics;
+  uint64_t load_bytes, store_bytes;
+  uint64_t hits, misses, merged; /* of loads through the data cache */
+  uint64_t combined;             /* of stores */
+};
+
+struct object {
+  const char *name;
+  uint64_t begin, end;
+  struct heat_counts counts;
+};
+
+struct heat {
+  struct trax_explain *explain;
+  struct object *objects; /* by address, not overlapping */
+  size_t object_count;
+  struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
+  bool out_of_memory;
+};
+
+static int by_address(const void *a, const void *b) {
+  const struct object *x = a, *y = b;
+  if (x->begin != y->begin)
+    return x->begin < y->begin ? -1 : 1;
+  if (x->end != y->end)
+    return x->end > y->end ? -1 : 1;
+  return strcmp(x->name, y->name);
+}
+
+static void add_object(struct heat *heat, const char *name, uint64_t begin, uint64_t end) {
+  if (end > begin)
+    heat->objects[heat->object_count++] = (struct object){.name = name, .begin = begin, .end = end};
+}
+
+/* Symbols, bound buffers, and what is behind them. Where objects overlap, the first keeps the place. */
+static bool list_objects(struct heat *heat) {
+  const struct trax_machine *machine = heat->explain->machine;
+  const struct trax_host *host = trax_host_of(machine);
+  size_t symbol_count = 0;
+  const struct trax_symbol *symbols = host ? trax_image_symbols(host->image, &symbol_count) : NULL;
+  heat->objects = calloc(symbol_count + (host ? host->buffer_count : 0) + 3, sizeof *heat->objects);
+  if (!heat->objects)
+    return false;
+  for (size_t i = 0; i < symbol_count; i++)
+    if (!symbols[i].absolute && symbols[i].bytes &&
+        (symbols[i].type == TRAX_SYMBOL_OBJECT || symbols[i].type == TRAX_SYMBOL_FUNCTION))
+      add_object(heat, symbols[i].name, symbols[i].address, (uint64_t)symbols[i].address + symbols[i].bytes);
+  if (host) {
+    for (size_t i = 0; i < host->buffer_count; i++)
+      add_object(heat, host->buffers[i].symbol, host->buffers[i].address,
+                 (uint64_t)host->buffers[i].address + host->buffers[i].bytes);
+    add_object(heat, "(heap)", host->free_address, host->memory_end);
+    add_object(heat, "(stacks)", host->memory_end, machine->space.size);
+  }
+  add_object(heat, "(local memory)", TRAX_LOCAL_BASE, (uint64_t)1 << 32);
+  qsort(heat->objects, heat->object_count, sizeof *heat->objects, by_address);
+  size_t kept = 0;
+  for (size_t i = 0; i < heat->object_count; i++)
+    if (!kept || heat->objects[i].begin >= heat->objects[kept - 1].end)
+      heat->objects[kept++] = heat->objects[i];
+  heat->object_count = kept;
+  add_object(heat, "(other)", 0, 1); /* the last, for all other addresses */
+  return true;
+}
+
+static struct object *object_at(const struct heat *heat, uint32_t address) {
+  size_t low = 0, high = heat->object_count - 1;
+  while (low < high) { /* the first that ends behind the address */
+    const size_t middle = (low + high) / 2;
+    if (heat->objects[middle].end <= address)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < heat->object_count - 1 && heat->objects[low].begin <= address
+             ? &heat->objects[low]
+             : &heat->objects[heat->object_count - 1];
+}
+
+static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
+  struct heat_counts **page = &heat->pages[address >> PAGE_SHIFT];
+  if (!*page && !(*page = calloc(LINES_PER_PAGE, sizeof **page))) {
+    heat->out_of_memory = true;
+    return NULL;
+  }
+  return &(*page)[address >> LINE_SHIFT & (LINES_PER_PAGE - 1)];
+}
+
+static void count(struct heat_counts *counts, unsigned flags, unsigned bytes, unsigned outcome) {
+  if (flags & TRAX_IS_ATOMIC) {
+    counts->atomics++;
+  } else if (flags & TRAX_IS_STORE) {
+    counts->stores++;
+    counts->store_bytes += bytes;
+    counts->combined += (outcome & TRAX_OUTCOME_COMBINED) != 0;
+  } else {
+    counts->loads++;
+    counts->load_bytes += bytes;
+    counts->hits += (outcome & TRAX_OUTCOME_HIT) != 0;
+    counts->misses += (outcome & TRAX_OUTCOME_MISS) != 0;
+    counts->merged += (outcome & TRAX_OUTCOME_MERGED) != 0;
+  }
+}
+
+static void take(void *self, const struct trax_step *step) {
+  struct heat *heat = self;
+  const trax_op_info *op = &trax_op_table[step->inst.op];
+  if (!step->issue || !op->access_bytes)
+    return;
+  const uint32_t address = step->issue->address;
+  count(&object_at(heat, address)->counts, op->flags, op->access_bytes, step->issue->outcome);
+  struct heat_counts *line = heat->explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
+  if (line)
+    count(line, op->flags, op->access_bytes, step->issue->outcome);
+}
+
+static void put_counts(FILE *out, const struct heat_counts *counts) {
+  fprintf(out, "%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64,
+          counts->loads, counts->stores, counts->atomics, counts->load_bytes, counts->store_bytes, counts->hits,
+          counts->misses, counts->merged, counts->combined);
+}
+
+#define COLUMNS "loads,stores,atomics,load_bytes,store_bytes,hits,misses,merged,combined"
+
+static trax_status write_objects(const struct heat *heat, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, heat->explain->options.heat, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fprintf(output.file, "object,address,bytes," COLUMNS "\n");
+  for (size_t i = 0; i < heat->object_count; i++) {
+    const struct object *object = &heat->objects[i];
+    if (!object->counts.loads && !object->counts.stores && !object->counts.atomics)
+      continue;
+    fprintf(output.file, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin, object->end - object->begin);
+    put_counts(output.file, &object->counts);
+    fputc('\n', output.file);
+  }
+  return trax_output_commit(&output, error);
+}
+
+static trax_status write_lines(const struct heat *heat, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, heat->explain->options.heat_lines, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fprintf(output.file, "address,object,offset," COLUMNS "\n");
+  for (uint32_t page = 0; page < PAGES; page++)
+    for (uint32_t i = 0; heat->pages[page] && i < LINES_PER_PAGE; i++) {
+      const struct heat_counts *counts = &heat->pages[page][i];
+      if (!counts->loads && !counts->stores && !counts->atomics)
+        continue;
+      const uint32_t address = page << PAGE_SHIFT | i << LINE_SHIFT;
+      const struct object *object = object_at(heat, address); /* its first byte's */
+      fprintf(output.file, "0x%08x,\"%s\",%" PRIu64 ",", address, object->name,
+              object == &heat->objects[heat->object_count - 1] ? address : address - object->begin);
+      put_counts(output.file, counts);
+      fputc('\n', output.file);
+    }
+  return trax_output_commit(&output, error);
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  const struct heat *heat = self;
+  if (heat->out_of_memory)
+    return trax_fail(error, "out of memory for the memory heat");
+  trax_status status = heat->explain->options.heat ? write_objects(heat, error) : TRAX_OK;
+  if (status == TRAX_OK && heat->explain->options.heat_lines)
+    status = write_lines(heat, error);
+  return status;
+}
+
+static void destroy(void *self) {
+  struct heat *heat = self;
+  for (uint32_t page = 0; page < PAGES; page++)
+    free(heat->pages[page]);
+  free(heat->objects);
+  free(heat);
+}
+
+trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  struct heat *heat = calloc(1, sizeof *heat);
+  if (!heat)
+    return trax_fail(error, "out of memory");
+  heat->explain = explain;
+  if (!list_objects(heat)) {
+    destroy(heat);
+    return trax_fail(error, "out of memory for the memory heat");
+  }
+  *reader = (struct trax_reader){.self = heat, .step = take, .finish = finish, .destroy = destroy};
+  return TRAX_OK;
+}

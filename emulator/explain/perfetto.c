@@ -1,0 +1,217 @@
+/* The window as JSON trace events for Perfetto: TMs are processes; each TP has a thread that shows what its cycles went
+   to and one that shows the functions it was in. A cycle is shown as a microsecond. */
+#include "explain/places.h"
+#include "explain/step.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <string.h>
+
+enum { MAX_FRAMES = 64, COUNTERS_IN_WINDOW = 1000 };
+
+struct thread {
+  trax_cause cause; /* of the slice that is open */
+  uint64_t since, until;
+  uint32_t frames[MAX_FRAMES]; /* names of the functions that are open, outermost first */
+  uint32_t frame_count;
+};
+
+struct counters {
+  uint64_t issued, misses; /* in the present interval */
+};
+
+struct perfetto {
+  struct trax_explain *explain;
+  trax_output output;
+  struct thread *threads; /* [threads] */
+  struct counters *tms;   /* [tms] */
+  uint64_t interval, counted_from;
+  bool any; /* event was written */
+};
+
+static uint64_t clip(const struct trax_explain_options *options, uint64_t cycle) {
+  if (cycle < options->window_begin)
+    return options->window_begin;
+  return cycle < options->window_end ? cycle : options->window_end;
+}
+
+/* The beginning of an event; the caller goes on behind its name. */
+static FILE *begin_event(struct perfetto *perfetto, const char *phase, uint32_t tm, uint32_t thread, uint64_t cycle,
+                         const char *name) {
+  FILE *out = perfetto->output.file;
+  char *quoted = NULL;
+  json_t *string = json_stringn_nocheck(name, strlen(name));
+  quoted = string ? json_dumps(string, JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
+  fprintf(out, "%s\n{\"ph\":\"%s\",\"pid\":%u,\"tid\":%u,\"ts\":%" PRIu64 ",\"name\":%s", perfetto->any ? "," : "", phase,
+          tm, thread, cycle, quoted ? quoted : "\"?\""); /* names need not be UTF-8 */
+  perfetto->any = true;
+  free(quoted);
+  json_decref(string);
+  return out;
+}
+
+static void close_slice(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread) {
+  if (thread->until > thread->since)
+    fprintf(begin_event(perfetto, "X", tm, 2 * tp, thread->since, trax_cause_names[thread->cause]),
+            ",\"dur\":%" PRIu64 "}", thread->until - thread->since);
+  thread->since = thread->until;
+}
+
+static void add_stretch(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, trax_cause cause,
+                        uint64_t since, uint64_t cycles) {
+  const struct trax_explain_options *options = &perfetto->explain->options;
+  const uint64_t begin = clip(options, since), end = clip(options, since + cycles);
+  if (begin == end)
+    return;
+  if (cause != thread->cause || begin != thread->until) {
+    close_slice(perfetto, tm, tp, thread);
+    thread->cause = cause;
+    thread->since = begin;
+  }
+  thread->until = end;
+}
+
+static void leave_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, uint32_t keep,
+                         uint64_t cycle) {
+  while (thread->frame_count > keep) {
+    const uint32_t name = thread->frames[--thread->frame_count];
+    fputc('}', begin_event(perfetto, "E", tm, 2 * tp + 1, cycle, trax_places_name(perfetto->explain->places, name)));
+  }
+}
+
+/* From `cycle` on the TP is at the instruction `index`. */
+static void enter_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, uint32_t index,
+                         uint64_t cycle) {
+  struct trax_places *places = perfetto->explain->places;
+  const struct trax_place *place = trax_places_at(places, index);
+  const uint32_t count = place->frame_count < MAX_FRAMES ? place->frame_count : MAX_FRAMES;
+  uint32_t common = 0;
+  while (common < count && common < thread->frame_count &&
+         thread->frames[common] == place->frames[place->frame_count - 1 - common].function)
+    common++;
+  leave_frames(perfetto, tm, tp, thread, common, cycle);
+  for (; thread->frame_count < count; thread->frame_count++) {
+    const uint32_t name = place->frames[place->frame_count - 1 - thread->frame_count].function;
+    thread->frames[thread->frame_count] = name;
+    fputc('}', begin_event(perfetto, "B", tm, 2 * tp + 1, cycle, trax_places_name(places, name)));
+  }
+}
+
+static void put_counters(struct perfetto *perfetto, uint64_t end) {
+  for (uint32_t tm = 0; tm < perfetto->explain->machine->config.chip.tms; tm++) {
+    struct counters *counters = &perfetto->tms[tm];
+    const double cycles = (double)(end - perfetto->counted_from);
+    fprintf(begin_event(perfetto, "C", tm, 0, perfetto->counted_from, "instructions per cycle"),
+            ",\"args\":{\"value\":%.6g}}", (double)counters->issued / cycles);
+    fprintf(begin_event(perfetto, "C", tm, 0, perfetto->counted_from, "data-cache misses per cycle"),
+            ",\"args\":{\"value\":%.6g}}", (double)counters->misses / cycles);
+    *counters = (struct counters){0};
+  }
+  perfetto->counted_from = end;
+}
+
+static void count(struct perfetto *perfetto, const struct trax_issue *issue) {
+  const struct trax_explain_options *options = &perfetto->explain->options;
+  while (issue->cycle >= perfetto->counted_from + perfetto->interval && perfetto->counted_from < options->window_end)
+    put_counters(perfetto, clip(options, perfetto->counted_from + perfetto->interval));
+  if (issue->cycle < options->window_begin || issue->cycle >= options->window_end)
+    return;
+  perfetto->tms[issue->tm].issued++;
+  perfetto->tms[issue->tm].misses += (issue->outcome & TRAX_OUTCOME_MISS) != 0;
+}
+
+static void take(void *self, const struct trax_step *step) {
+  struct perfetto *perfetto = self;
+  const struct trax_explain_options *options = &perfetto->explain->options;
+  struct trax_places *places = perfetto->explain->places;
+  struct thread *thread = &perfetto->threads[step->thread];
+  if (step->issue)
+    count(perfetto, step->issue);
+  const uint64_t end = step->issue ? step->issue->cycle + 1 : perfetto->explain->machine->stats.cycles;
+  if (!trax_window_has(options, step->tm, step->tp, step->begin, end))
+    return;
+  const bool halts = step->count && step->stretches[step->count - 1].cause == TRAX_CAUSE_HALTED;
+  const bool bubble = step->count && step->stretches[0].cause == TRAX_CAUSE_BRANCH; /* it is the branch's */
+  const uint64_t entered = step->begin + (bubble ? step->stretches[0].cycles : 0);
+  if (entered < options->window_end && !(halts && step->count == 1))
+    enter_frames(perfetto, step->tm, step->tp, thread, trax_places_index(places, step->pc), clip(options, entered));
+  for (size_t i = 0; i < step->count; i++)
+    add_stretch(perfetto, step->tm, step->tp, thread, step->stretches[i].cause, step->stretches[i].since,
+                step->stretches[i].cycles);
+  if (step->issue)
+    add_stretch(perfetto, step->tm, step->tp, thread, TRAX_CAUSE_ISSUED, step->issue->cycle, 1);
+  if (halts)
+    leave_frames(perfetto, step->tm, step->tp, thread, 0, clip(options, step->stretches[step->count - 1].since));
+}
+
+static void put_names(struct perfetto *perfetto) {
+  const struct trax_config *config = &perfetto->explain->machine->config;
+  const struct trax_explain_options *options = &perfetto->explain->options;
+  for (uint32_t tm = 0; tm < config->chip.tms; tm++) {
+    if (options->window_tms && !(options->window_tms >> tm & 1))
+      continue;
+    fprintf(begin_event(perfetto, "M", tm, 0, 0, "process_name"), ",\"args\":{\"name\":\"TM %u\"}}", tm);
+    for (uint32_t tp = 0; tp < config->chip.tps_per_tm; tp++) {
+      if (options->window_tps && !(options->window_tps >> tp & 1))
+        continue;
+      fprintf(begin_event(perfetto, "M", tm, 2 * tp, 0, "thread_name"), ",\"args\":{\"name\":\"TP %u\"}}", tp);
+      fprintf(begin_event(perfetto, "M", tm, 2 * tp + 1, 0, "thread_name"),
+              ",\"args\":{\"name\":\"TP %u functions\"}}", tp);
+    }
+  }
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  struct perfetto *perfetto = self;
+  const trax_machine *machine = perfetto->explain->machine;
+  const uint64_t cycles = machine->stats.cycles;
+  const uint64_t end = clip(&perfetto->explain->options, cycles);
+  while (perfetto->counted_from < end && cycles > perfetto->counted_from)
+    put_counters(perfetto, end < perfetto->counted_from + perfetto->interval ? end
+                                                                             : perfetto->counted_from + perfetto->interval);
+  for (uint32_t i = 0; i < machine->stats.threads; i++) {
+    const uint32_t tm = i / machine->config.chip.tps_per_tm, tp = i % machine->config.chip.tps_per_tm;
+    struct thread *thread = &perfetto->threads[i];
+    close_slice(perfetto, tm, tp, thread);
+    leave_frames(perfetto, tm, tp, thread, 0, thread->until);
+  }
+  fprintf(perfetto->output.file, "\n]}\n");
+  return trax_output_commit(&perfetto->output, error);
+}
+
+static void destroy(void *self) {
+  struct perfetto *perfetto = self;
+  trax_output_discard(&perfetto->output);
+  free(perfetto->threads);
+  free(perfetto->tms);
+  free(perfetto);
+}
+
+trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  const struct trax_explain_options *options = &explain->options;
+  if (!options->window_end)
+    return trax_fail(error, "a time line for Perfetto needs a window of cycles");
+  struct perfetto *perfetto = calloc(1, sizeof *perfetto);
+  if (!perfetto)
+    return trax_fail(error, "out of memory");
+  perfetto->explain = explain;
+  perfetto->threads = calloc(explain->machine->stats.threads, sizeof *perfetto->threads);
+  perfetto->tms = calloc(explain->machine->config.chip.tms, sizeof *perfetto->tms);
+  perfetto->counted_from = options->window_begin;
+  perfetto->interval = (options->window_end - options->window_begin + COUNTERS_IN_WINDOW - 1) / COUNTERS_IN_WINDOW;
+  if (perfetto->interval < 16)
+    perfetto->interval = 16;
+  if (!perfetto->threads || !perfetto->tms)
+    trax_fail(error, "out of memory for the time line");
+  if (!perfetto->threads || !perfetto->tms || trax_output_open(&perfetto->output, options->perfetto, error) != TRAX_OK) {
+    destroy(perfetto);
+    return TRAX_ERROR;
+  }
+  fprintf(perfetto->output.file,
+          "{\"displayTimeUnit\":\"ns\",\"otherData\":{\"time\":\"a cycle is shown as a microsecond\",\"clock_mhz\":%u},"
+          "\"traceEvents\":[",
+          explain->machine->config.chip.clock_mhz);
+  put_names(perfetto);
+  *reader = (struct trax_reader){.self = perfetto, .step = take, .finish = finish, .destroy = destroy};
+  return TRAX_OK;
+}

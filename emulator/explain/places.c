@@ -1,0 +1,187 @@
+#define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
+#include "explain/places.h"
+
+#include "explain/table.h"
+#include "host/host.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_FRAMES = 64 };
+
+struct range {
+  uint32_t address, count; /* instructions */
+  uint32_t first;          /* its index */
+};
+
+struct trax_places {
+  const trax_machine *machine;
+  struct range *ranges;
+  size_t range_count;
+  uint32_t count;
+  struct trax_place *place; /* [count + 2]; frames are NULL until it is looked up */
+
+  char **names; /* [name] */
+  size_t name_count, name_capacity;
+  struct trax_table by_hash; /* of names; equal hashes are told apart by adding 1 */
+};
+
+struct trax_places *trax_places_create(const trax_machine *machine) {
+  struct trax_places *places = calloc(1, sizeof *places);
+  if (!places)
+    return NULL;
+  places->machine = machine;
+  places->ranges = calloc(machine->space.segment_count + 1, sizeof *places->ranges);
+  for (size_t i = 0; places->ranges && i < machine->space.segment_count; i++) {
+    const struct trax_segment *segment = &machine->space.segments[i];
+    if (!(segment->permissions & TRAX_PERMIT_EXECUTE))
+      continue;
+    places->ranges[places->range_count++] = (struct range){segment->address, segment->bytes / 4, places->count};
+    places->count += segment->bytes / 4;
+  }
+  places->place = calloc((size_t)places->count + 2, sizeof *places->place);
+  if (!places->ranges || !places->place) {
+    trax_places_destroy(places);
+    return NULL;
+  }
+  return places;
+}
+
+void trax_places_destroy(struct trax_places *places) {
+  if (!places)
+    return;
+  for (uint32_t i = 0; places->place && i < places->count + 2; i++)
+    free((void *)places->place[i].frames);
+  for (size_t i = 0; i < places->name_count; i++)
+    free(places->names[i]);
+  free(places->names);
+  free(places->ranges);
+  free(places->place);
+  trax_table_free(&places->by_hash);
+  free(places);
+}
+
+uint32_t trax_places_count(const struct trax_places *places) {
+  return places->count;
+}
+
+uint32_t trax_places_index(const struct trax_places *places, uint32_t pc) {
+  for (size_t i = 0; i < places->range_count; i++)
+    if ((pc - places->ranges[i].address) / 4 < places->ranges[i].count)
+      return places->ranges[i].first + (pc - places->ranges[i].address) / 4;
+  return places->count + 1;
+}
+
+uint32_t trax_places_pc(const struct trax_places *places, uint32_t index) {
+  for (size_t i = 0; i < places->range_count; i++)
+    if (index - places->ranges[i].first < places->ranges[i].count)
+      return places->ranges[i].address + 4 * (index - places->ranges[i].first);
+  return 0;
+}
+
+/* --- names --- */
+
+const char *trax_places_name(const struct trax_places *places, uint32_t name) {
+  return name ? places->names[name - 1] : "";
+}
+
+uint32_t trax_places_names(const struct trax_places *places) {
+  return (uint32_t)places->name_count;
+}
+
+static uint64_t hash_of(const char *text) {
+  uint64_t hash = 0xCBF29CE484222325u;
+  for (; *text; text++)
+    hash = (hash ^ (unsigned char)*text) * 0x100000001B3u;
+  return hash;
+}
+
+/* 0 if there is no memory for it. */
+static uint32_t intern(struct trax_places *places, const char *text) {
+  for (uint64_t hash = hash_of(text);; hash++) {
+    uint32_t name;
+    if (!trax_table_find(&places->by_hash, hash, (uint32_t)places->name_count, &name))
+      return 0;
+    if (name < places->name_count) {
+      if (strcmp(places->names[name], text) == 0)
+        return name + 1;
+      continue;
+    }
+    if (!trax_grow((void **)&places->names, places->name_count, &places->name_capacity, sizeof *places->names) ||
+        !(places->names[name] = strdup(text)))
+      return 0;
+    places->name_count++;
+    return name + 1;
+  }
+}
+
+static uint32_t intern_line(struct trax_places *places, const struct trax_source_line *line) {
+  if (!line->file || !line->line)
+    return 0;
+  char text[1024];
+  snprintf(text, sizeof text, "%s:%d", line->file, line->line);
+  return intern(places, text);
+}
+
+/* --- looking up --- */
+
+static uint32_t function_name(struct trax_places *places, uint32_t pc, const struct trax_symbol *symbol,
+                              const struct trax_source_line *line) {
+  char text[32];
+  if (line && line->function)
+    return intern(places, line->function);
+  if (symbol)
+    return intern(places, symbol->name);
+  snprintf(text, sizeof text, "0x%08x", pc & ~0xFFFu); /* no function, but near others of the page */
+  return intern(places, text);
+}
+
+static void look_up(struct trax_places *places, uint32_t index, struct trax_place *place) {
+  const struct trax_host *host = trax_host_of(places->machine);
+  struct trax_source_line lines[MAX_FRAMES];
+  struct trax_frame_place *frames;
+  size_t count = 0;
+  if (index >= places->count) {
+    if (!(frames = malloc(sizeof *frames)))
+      return;
+    *frames = (struct trax_frame_place){intern(places, index == places->count ? "(halted)" : "(outside)"), 0};
+    place->frames = frames;
+    return;
+  }
+  const uint32_t pc = trax_places_pc(places, index);
+  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, pc) : NULL;
+  if (symbol) {
+    place->symbol = symbol->name;
+    place->offset = pc - symbol->address;
+  }
+  if (host)
+    count = trax_image_lines(host->image, pc, lines, MAX_FRAMES);
+  if (!(frames = calloc(count ? count : 1, sizeof *frames)))
+    return;
+  for (size_t i = 0; i < count; i++)
+    frames[i] = (struct trax_frame_place){function_name(places, pc, symbol, &lines[i]), intern_line(places, &lines[i])};
+  if (!count)
+    frames[0].function = function_name(places, pc, symbol, NULL);
+  place->frames = frames;
+  place->frame_count = count ? (uint32_t)count : 1;
+}
+
+const struct trax_place *trax_places_at(struct trax_places *places, uint32_t index) {
+  static const struct trax_frame_place nowhere = {0, 0};
+  static const struct trax_place unknown = {.frames = &nowhere, .frame_count = 1}; /* no memory to look it up */
+  struct trax_place *place = &places->place[index < places->count + 2 ? index : places->count + 1];
+  if (!place->frames)
+    look_up(places, index, place);
+  return place->frames ? place : &unknown;
+}
+
+const char *trax_places_symbol(struct trax_places *places, uint32_t pc, char *text, size_t size) {
+  const struct trax_place *place = trax_places_at(places, trax_places_index(places, pc));
+  if (!place->symbol)
+    snprintf(text, size, "0x%08x", pc);
+  else if (place->offset)
+    snprintf(text, size, "%s+0x%x", place->symbol, place->offset);
+  else
+    snprintf(text, size, "%s", place->symbol);
+  return text;
+}

@@ -1,0 +1,168 @@
+/* Counting for profiles. A call stack is kept for each thread: jal and jalr that write a register call, a jump through a
+   register to where a call returns to returns. A tail call needs nothing: the caller's frame stays, the code is another
+   function's. After a longjmp the frames that are gone are those whose stack pointer was below the present one. */
+#include "explain/profile.h"
+
+enum { STACK_POINTER = 2, MAX_DEPTH = 512 };
+
+struct call {
+  uint32_t return_pc, stack_pointer, context; /* the callee's */
+};
+
+struct trax_profile_thread {
+  uint32_t context, stack_pointer;
+  uint32_t latest; /* record of the latest issue; UINT32_MAX: none */
+  struct call *calls;
+  size_t depth, capacity;
+};
+
+static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint32_t context, uint32_t index,
+                                             uint32_t *record) {
+  static struct trax_profile_counts nobodys;
+  if (!trax_table_find(&profile->record_of, (uint64_t)context << 32 | index, (uint32_t)profile->record_count, record) ||
+      !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
+                 sizeof *profile->records)) {
+    profile->out_of_memory = true;
+    *record = UINT32_MAX;
+    return &nobodys;
+  }
+  if (*record == profile->record_count)
+    profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
+  return &profile->records[*record].counts;
+}
+
+/* --- the call stack --- */
+
+static bool is_below(uint32_t stack_pointer, uint32_t other) { /* the local stack begins at 0 and goes down from there */
+  return stack_pointer - 1 < other - 1;
+}
+
+static void call(struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t index, uint32_t return_pc) {
+  uint32_t context;
+  if (thread->depth == MAX_DEPTH)
+    return;
+  if (!trax_table_find(&profile->context_of, (uint64_t)thread->context << 32 | index, (uint32_t)profile->context_count,
+                       &context) ||
+      !trax_grow((void **)&profile->contexts, profile->context_count, &profile->context_capacity,
+                 sizeof *profile->contexts) ||
+      !trax_grow((void **)&thread->calls, thread->depth, &thread->capacity, sizeof *thread->calls)) {
+    profile->out_of_memory = true;
+    return;
+  }
+  if (context == profile->context_count)
+    profile->contexts[profile->context_count++] = (struct trax_profile_context){thread->context, index};
+  thread->calls[thread->depth++] = (struct call){return_pc, thread->stack_pointer, context};
+  thread->context = context;
+}
+
+static void jump_through_register(struct trax_profile_thread *thread, uint32_t pc) {
+  while (thread->depth && is_below(thread->calls[thread->depth - 1].stack_pointer, thread->stack_pointer))
+    thread->depth--;
+  if (thread->depth && thread->calls[thread->depth - 1].return_pc == pc)
+    thread->depth--;
+  thread->context = thread->depth ? thread->calls[thread->depth - 1].context : 0;
+}
+
+static void follow(struct trax_profile *profile, struct trax_profile_thread *thread, const struct trax_step *step,
+                   uint32_t index) {
+  const trax_inst inst = step->inst;
+  if (inst.op == TRAX_OP_JAL || inst.op == TRAX_OP_JALR) {
+    if (inst.rd)
+      call(profile, thread, index, step->pc + 4);
+    else if (inst.op == TRAX_OP_JALR)
+      jump_through_register(thread, step->issue->next_pc);
+  } else if (inst.rd == STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
+    thread->stack_pointer = step->issue->result;
+  }
+}
+
+/* --- the reader --- */
+
+static void take(void *self, const struct trax_step *step) {
+  struct trax_profile *profile = self;
+  struct trax_profile_thread *thread = &profile->threads[step->thread];
+  const struct trax_places *places = profile->explain->places;
+  const uint32_t index = trax_places_index(places, step->pc), previous = thread->latest;
+  struct trax_profile_counts *counts = NULL; /* made only if it counts something */
+  if (step->issue) {
+    counts = counts_of(profile, thread->context, index, &thread->latest);
+    counts->cycles[TRAX_CAUSE_ISSUED]++;
+    if (step->issue->outcome && trax_op_table[step->inst.op].flags & TRAX_IS_LOAD) {
+      counts->loads++;
+      counts->hits += step->issue->outcome & TRAX_OUTCOME_HIT;
+    }
+  }
+  for (size_t i = 0; i < step->count; i++) {
+    const struct trax_stretch *stretch = &step->stretches[i];
+    uint32_t record;
+    if (stretch->cause == TRAX_CAUSE_BRANCH && previous != UINT32_MAX)
+      profile->records[previous].counts.cycles[TRAX_CAUSE_BRANCH] += stretch->cycles;
+    else if (stretch->cause == TRAX_CAUSE_HALTED)
+      counts_of(profile, 0, trax_places_halted(places), &record)->cycles[TRAX_CAUSE_HALTED] += stretch->cycles;
+    else if (counts)
+      counts->cycles[stretch->cause] += stretch->cycles;
+    else
+      counts_of(profile, thread->context, index, &record)->cycles[stretch->cause] += stretch->cycles;
+  }
+  if (step->issue)
+    follow(profile, thread, step, index);
+}
+
+static trax_status write_file(const struct trax_profile *profile, const char *path,
+                              trax_status (*write)(const struct trax_profile *profile, FILE *out, trax_error *error),
+                              trax_error *error) {
+  trax_output output;
+  if (!path)
+    return TRAX_OK;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (write(profile, output.file, error) != TRAX_OK) {
+    trax_output_discard(&output);
+    return TRAX_ERROR;
+  }
+  return trax_output_commit(&output, error);
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  struct trax_profile *profile = self;
+  const struct trax_explain_options *options = &profile->explain->options;
+  if (profile->out_of_memory)
+    return trax_fail(error, "out of memory for the profile");
+  trax_status status = write_file(profile, options->profile, trax_profile_write, error);
+  if (status == TRAX_OK)
+    status = write_file(profile, options->folded, trax_profile_write_folded, error);
+  if (status == TRAX_OK)
+    status = write_file(profile, options->annotate, trax_profile_write_annotated, error);
+  return status;
+}
+
+static void destroy(void *self) {
+  struct trax_profile *profile = self;
+  for (uint64_t i = 0; profile->threads && i < profile->explain->machine->stats.threads; i++)
+    free(profile->threads[i].calls);
+  free(profile->threads);
+  free(profile->contexts);
+  free(profile->records);
+  trax_table_free(&profile->context_of);
+  trax_table_free(&profile->record_of);
+  free(profile);
+}
+
+trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  struct trax_profile *profile = calloc(1, sizeof *profile);
+  const uint64_t threads = explain->machine->stats.threads;
+  if (!profile)
+    return trax_fail(error, "out of memory");
+  profile->explain = explain;
+  profile->threads = calloc(threads, sizeof *profile->threads);
+  if (!profile->threads ||
+      !trax_grow((void **)&profile->contexts, 0, &profile->context_capacity, sizeof *profile->contexts)) {
+    destroy(profile);
+    return trax_fail(error, "out of memory");
+  }
+  profile->contexts[profile->context_count++] = (struct trax_profile_context){0, 0};
+  for (uint64_t i = 0; i < threads; i++)
+    profile->threads[i].latest = UINT32_MAX;
+  *reader = (struct trax_reader){.self = profile, .step = take, .finish = finish, .destroy = destroy};
+  return TRAX_OK;
+}

@@ -1,0 +1,58 @@
+/* What a profile counts, between profile.c (counting) and profile_text.c (writing). */
+#ifndef TRAX_EXPLAIN_PROFILE_H
+#define TRAX_EXPLAIN_PROFILE_H
+
+#include "explain/places.h"
+#include "explain/step.h"
+#include "explain/table.h"
+
+/* Of one instruction in one context, or sums of that. */
+struct trax_profile_counts {
+  uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles; those issued are the instructions */
+  uint64_t loads, hits;              /* through the data cache */
+};
+
+struct trax_profile_record {
+  uint32_t context, index; /* the instruction's, of trax_places */
+  struct trax_profile_counts counts;
+};
+
+/* How a function was come to: by the call at `index` in the context `parent`. Context 0 is the beginning. */
+struct trax_profile_context {
+  uint32_t parent, index;
+};
+
+struct trax_profile {
+  struct trax_explain *explain;
+  struct trax_profile_thread *threads; /* [threads] */
+
+  struct trax_profile_context *contexts;
+  size_t context_count, context_capacity;
+  struct trax_table context_of; /* (parent, index) */
+
+  struct trax_profile_record *records;
+  size_t record_count, record_capacity;
+  struct trax_table record_of; /* (context, index) */
+  bool out_of_memory;
+};
+
+static inline uint64_t trax_profile_cycles(const struct trax_profile_counts *counts) {
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum += counts->cycles[cause];
+  return sum;
+}
+
+static inline void trax_profile_add(struct trax_profile_counts *sum, const struct trax_profile_counts *counts) {
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum->cycles[cause] += counts->cycles[cause];
+  sum->loads += counts->loads;
+  sum->hits += counts->hits;
+}
+
+/* --- profile_text.c --- */
+trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, trax_error *error);
+trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *out, trax_error *error);
+trax_status trax_profile_write_annotated(const struct trax_profile *profile, FILE *out, trax_error *error);
+
+#endif

@@ -1,0 +1,293 @@
+#define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
+/* Profiles as text: tables by function and line, folded stacks, annotated instructions. */
+#include "explain/profile.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* Heads of the columns, as short as they can be understood. */
+static const char *const cause_heads[TRAX_CAUSE_COUNT] = {
+    [TRAX_CAUSE_ISSUED] = "issued",    [TRAX_CAUSE_ICACHE_BANK] = "i-bank", [TRAX_CAUSE_ICACHE_MISS] = "i-miss",
+    [TRAX_CAUSE_DATA_LOCAL] = "local", [TRAX_CAUSE_DATA_HIT] = "d-hit",     [TRAX_CAUSE_DATA_MISS] = "memory",
+    [TRAX_CAUSE_DATA_SPECIAL] = "div", [TRAX_CAUSE_DATA_ATOMIC] = "atomic", [TRAX_CAUSE_DATA_OTHER] = "other",
+    [TRAX_CAUSE_FP_ADD] = "add-c",     [TRAX_CAUSE_FP_MUL] = "mul-c",       [TRAX_CAUSE_INT_MUL] = "imul-c",
+    [TRAX_CAUSE_SPECIAL] = "div-c",    [TRAX_CAUSE_DCACHE_BANK] = "d-bank", [TRAX_CAUSE_MEMORY_QUEUE] = "queue",
+    [TRAX_CAUSE_BRANCH] = "bubble",    [TRAX_CAUSE_HALTED] = "halted"};
+
+/* A row of a table. */
+struct row {
+  uint32_t name;
+  struct trax_profile_counts own; /* of the instructions themselves */
+  uint64_t own_cycles, all_cycles; /* all: of those inlined or called, too */
+};
+
+struct tables {
+  const struct trax_profile *profile;
+  struct trax_profile_counts total;
+  struct row *functions, *lines; /* [names + 1] */
+  uint32_t *seen;                /* [names + 1]: the last record + 1 that had the name, as a function or a line */
+  size_t names;
+};
+
+static double percent(uint64_t part, uint64_t whole) {
+  return whole ? 100 * (double)part / (double)whole : 0;
+}
+
+/* The frames of a place count once for each record, however often the function is in the stack. */
+static void add_frames(struct tables *tables, uint32_t index, uint32_t stamp, uint64_t cycles) {
+  const struct trax_place *place = trax_places_at(tables->profile->explain->places, index);
+  for (uint32_t i = 0; i < place->frame_count; i++) {
+    const struct trax_frame_place *frame = &place->frames[i];
+    if (tables->seen[frame->function] != stamp) {
+      tables->seen[frame->function] = stamp;
+      tables->functions[frame->function].all_cycles += cycles;
+    }
+    if (frame->line && tables->seen[frame->line] != stamp) {
+      tables->seen[frame->line] = stamp;
+      tables->lines[frame->line].all_cycles += cycles;
+    }
+  }
+}
+
+static void add_record(struct tables *tables, size_t number) {
+  const struct trax_profile *profile = tables->profile;
+  const struct trax_profile_record *record = &profile->records[number];
+  const struct trax_frame_place *innermost = trax_places_at(profile->explain->places, record->index)->frames;
+  const uint64_t cycles = trax_profile_cycles(&record->counts);
+  trax_profile_add(&tables->total, &record->counts);
+  trax_profile_add(&tables->functions[innermost->function].own, &record->counts);
+  trax_profile_add(&tables->lines[innermost->line].own, &record->counts);
+  add_frames(tables, record->index, (uint32_t)number + 1, cycles);
+  for (uint32_t context = record->context; context; context = profile->contexts[context].parent)
+    add_frames(tables, profile->contexts[context].index, (uint32_t)number + 1, cycles);
+}
+
+static int by_own(const void *a, const void *b) { /* then by name: they are numbered as they are met */
+  const struct row *x = a, *y = b;
+  if (x->own_cycles != y->own_cycles)
+    return x->own_cycles < y->own_cycles ? 1 : -1;
+  if (x->all_cycles != y->all_cycles)
+    return x->all_cycles < y->all_cycles ? 1 : -1;
+  return (x->name > y->name) - (x->name < y->name);
+}
+
+static void print_head(FILE *out, const struct trax_profile_counts *total) {
+  fprintf(out, "%15s %6s %6s %14s %7s", "thread-cycles", "own %", "all %", "instructions", "load-h%");
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    if (total->cycles[cause])
+      fprintf(out, " %6s", cause_heads[cause]);
+  fprintf(out, "\n");
+}
+
+static void print_counts(FILE *out, const struct trax_profile_counts *counts, uint64_t cycles, uint64_t all_cycles,
+                         const struct trax_profile_counts *total) {
+  const uint64_t total_cycles = trax_profile_cycles(total);
+  fprintf(out, "%15" PRIu64 " %6.2f ", cycles, percent(cycles, total_cycles));
+  if (all_cycles)
+    fprintf(out, "%6.2f", percent(all_cycles, total_cycles));
+  else
+    fprintf(out, "%6s", "");
+  fprintf(out, " %14" PRIu64 " ", counts->cycles[TRAX_CAUSE_ISSUED]);
+  if (counts->loads)
+    fprintf(out, "%7.2f", percent(counts->hits, counts->loads));
+  else
+    fprintf(out, "%7s", "");
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    if (total->cycles[cause] && counts->cycles[cause])
+      fprintf(out, " %6.2f", percent(counts->cycles[cause], cycles));
+    else if (total->cycles[cause])
+      fprintf(out, " %6s", "");
+}
+
+static void print_table(const struct tables *tables, FILE *out, struct row *rows, const char *title) {
+  const struct trax_places *places = tables->profile->explain->places;
+  const uint64_t total_cycles = trax_profile_cycles(&tables->total);
+  for (size_t i = 0; i <= tables->names; i++) {
+    rows[i].name = (uint32_t)i;
+    rows[i].own_cycles = trax_profile_cycles(&rows[i].own);
+  }
+  qsort(rows, tables->names + 1, sizeof *rows, by_own);
+  fprintf(out, "\n%s\n", title);
+  print_head(out, &tables->total);
+  for (size_t i = 0; i <= tables->names; i++) {
+    const struct row *row = &rows[i];
+    if (!row->own_cycles && !row->all_cycles)
+      continue;
+    print_counts(out, &row->own, row->own_cycles, row->all_cycles, &tables->total);
+    fprintf(out, "  %s\n", row->name ? trax_places_name(places, row->name) : "(unknown)");
+  }
+  print_counts(out, &tables->total, total_cycles, total_cycles, &tables->total);
+  fprintf(out, "  total\n");
+}
+
+static void look_up_all(const struct trax_profile *profile) { /* so that all names are there */
+  for (size_t i = 0; i < profile->record_count; i++)
+    trax_places_at(profile->explain->places, profile->records[i].index);
+  for (size_t i = 1; i < profile->context_count; i++)
+    trax_places_at(profile->explain->places, profile->contexts[i].index);
+}
+
+trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, trax_error *error) {
+  struct trax_places *places = profile->explain->places;
+  const trax_machine *machine = profile->explain->machine;
+  const struct trax_host *host = trax_host_of(machine);
+  look_up_all(profile);
+  struct tables tables = {.profile = profile, .names = trax_places_names(places)};
+  tables.functions = calloc(tables.names + 1, sizeof *tables.functions);
+  tables.lines = calloc(tables.names + 1, sizeof *tables.lines);
+  tables.seen = calloc(tables.names + 1, sizeof *tables.seen);
+  const bool complete = tables.functions && tables.lines && tables.seen;
+  if (complete) {
+    for (size_t i = 0; i < profile->record_count; i++)
+      add_record(&tables, i);
+    fprintf(out,
+            "profile of %s on %ux%u: %" PRIu64 " cycles, %" PRIu64 " thread-cycles, %" PRIu64 " instructions\n\n"
+            "A thread's cycle belongs to the instruction that it issues or that is kept from issuing; a branch bubble\n"
+            "to the branch. own: of the function or line itself; all: of what it calls, too, and of what is inlined\n"
+            "into it. load-h%%: loads through the data cache that hit. Causes are per cent of the row's own cycles; -c\n"
+            "is a conflict at the shared unit. What never occurs has no column.\n",
+            host ? trax_image_path(host->image) : "a program", machine->config.chip.tms,
+            machine->config.chip.tps_per_tm, machine->stats.cycles, machine->stats.threads * machine->stats.cycles,
+            machine->stats.instructions);
+    print_table(&tables, out, tables.functions, "Functions");
+    print_table(&tables, out, tables.lines, "Lines");
+  }
+  free(tables.functions);
+  free(tables.lines);
+  free(tables.seen);
+  return complete ? TRAX_OK : trax_fail(error, "out of memory for the profile");
+}
+
+/* --- by instruction --- */
+
+trax_status trax_profile_write_annotated(const struct trax_profile *profile, FILE *out, trax_error *error) {
+  struct trax_places *places = profile->explain->places;
+  const uint32_t count = trax_places_count(places);
+  struct trax_profile_counts *counts = calloc((size_t)count + 2, sizeof *counts), total = {0};
+  if (!counts)
+    return trax_fail(error, "out of memory for the profile");
+  for (size_t i = 0; i < profile->record_count; i++) {
+    trax_profile_add(&counts[profile->records[i].index], &profile->records[i].counts);
+    trax_profile_add(&total, &profile->records[i].counts);
+  }
+  fprintf(out, "Columns as in the profile. Instructions that no thread came to are left out.\n\n");
+  print_head(out, &total);
+  const char *symbol = NULL;
+  const struct trax_frame_place *latest = NULL;
+  for (uint32_t i = 0; i < count + 2; i++) {
+    const struct trax_place *place = trax_places_at(places, i);
+    const uint64_t cycles = trax_profile_cycles(&counts[i]);
+    if (!cycles)
+      continue;
+    if (place->symbol != symbol)
+      fprintf(out, "\n%s:\n", place->symbol ? place->symbol : "(no symbol)");
+    symbol = place->symbol;
+    if (!latest || latest->line != place->frames->line || latest->function != place->frames->function)
+      fprintf(out, "%*s; %s%s%s\n", 60, "", trax_places_name(places, place->frames->function),
+              place->frames->line ? " at " : "", trax_places_name(places, place->frames->line));
+    latest = place->frames;
+    print_counts(out, &counts[i], cycles, 0, &total);
+    if (i < count) {
+      const uint32_t pc = trax_places_pc(places, i);
+      uint32_t word;
+      char text[128];
+      memcpy(&word, profile->explain->machine->space.bytes + pc, sizeof word);
+      trax_disassemble(word, pc, text, sizeof text);
+      fprintf(out, "  %08x  %s\n", pc, text);
+    } else {
+      fprintf(out, "\n");
+    }
+  }
+  fprintf(out, "\n");
+  print_counts(out, &total, trax_profile_cycles(&total), 0, &total);
+  fprintf(out, "  total\n");
+  free(counts);
+  return TRAX_OK;
+}
+
+/* --- folded stacks --- */
+
+struct stack {
+  char *text;
+  uint64_t cycles;
+};
+
+static int by_text(const void *a, const void *b) {
+  return strcmp(((const struct stack *)a)->text, ((const struct stack *)b)->text);
+}
+
+/* A frame of the stack: what separates frames must not be in it. */
+static void put_frame(FILE *out, const char *name) {
+  for (; *name; name++)
+    fputc(*name == ';' || *name == '\n' ? ':' : *name, out);
+  fputc(';', out);
+}
+
+/* From the outermost call inwards. */
+static void put_calls(const struct trax_profile *profile, uint32_t context, FILE *out) {
+  struct trax_places *places = profile->explain->places;
+  uint32_t path[1024], depth = 0; /* deeper than the stacks that are kept */
+  for (; context && depth < sizeof path / sizeof *path; context = profile->contexts[context].parent)
+    path[depth++] = profile->contexts[context].index;
+  while (depth) {
+    const struct trax_place *place = trax_places_at(places, path[--depth]);
+    for (uint32_t i = place->frame_count; i--;)
+      put_frame(out, trax_places_name(places, place->frames[i].function));
+  }
+}
+
+static char *stack_text(const struct trax_profile *profile, const struct trax_profile_record *record) {
+  struct trax_places *places = profile->explain->places;
+  const struct trax_place *place = trax_places_at(places, record->index);
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    return NULL;
+  put_calls(profile, record->context, out);
+  for (uint32_t i = place->frame_count; i--;)
+    put_frame(out, trax_places_name(places, place->frames[i].function));
+  if (place->frames->line) {
+    const char *line = trax_places_name(places, place->frames->line), *slash = strrchr(line, '/');
+    put_frame(out, slash ? slash + 1 : line);
+  }
+  if (fclose(out) != 0) {
+    free(text);
+    return NULL;
+  }
+  return text;
+}
+
+trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *out, trax_error *error) {
+  struct stack *stacks = calloc(profile->record_count * TRAX_CAUSE_COUNT + 1, sizeof *stacks);
+  size_t count = 0;
+  bool complete = stacks != NULL;
+  for (size_t i = 0; complete && i < profile->record_count; i++) {
+    char *text = stack_text(profile, &profile->records[i]);
+    complete = text != NULL;
+    for (unsigned cause = 0; complete && cause < TRAX_CAUSE_COUNT; cause++)
+      if (profile->records[i].counts.cycles[cause]) {
+        const size_t size = strlen(text) + strlen(trax_cause_names[cause]) + 1;
+        complete = (stacks[count].text = malloc(size)) != NULL;
+        if (!complete)
+          break;
+        snprintf(stacks[count].text, size, "%s%s", text, trax_cause_names[cause]);
+        stacks[count++].cycles = profile->records[i].counts.cycles[cause];
+      }
+    free(text);
+  }
+  if (complete) {
+    qsort(stacks, count, sizeof *stacks, by_text);
+    for (size_t i = 0; i < count;) { /* instructions of one line are one stack */
+      uint64_t cycles = 0;
+      size_t first = i;
+      for (; i < count && strcmp(stacks[i].text, stacks[first].text) == 0; i++)
+        cycles += stacks[i].cycles;
+      fprintf(out, "%s %" PRIu64 "\n", stacks[first].text, cycles);
+    }
+  }
+  for (size_t i = 0; i < count; i++)
+    free(stacks[i].text);
+  free(stacks);
+  return complete ? TRAX_OK : trax_fail(error, "out of memory for the folded profile");
+}

@@ -1,0 +1,141 @@
+/* Every so many cycles a row of what has been counted since the row before: for the chip and for each TM. */
+#include "explain/step.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+struct series {
+  struct trax_watch watch;
+  struct trax_explain *explain;
+  trax_output output;
+  uint64_t begin;                 /* of the next row */
+  struct trax_tm_stats *previous; /* [tms] */
+  struct trax_watch **link;       /* where the machine's list refers to the watch */
+};
+
+static void put_row(struct series *series, const char *tm, uint64_t end, const struct trax_tm_stats *stats, uint32_t queue) {
+  FILE *out = series->output.file;
+  fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s", series->begin, end, tm);
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    fprintf(out, ",%" PRIu64, stats->cycles[cause]);
+#define COUNT(ID, NAME, UNIT, MEANING)                                                                                 \
+  if (strcmp(NAME, "memory.queue_peak") != 0)                                                                          \
+    fprintf(out, ",%" PRIu64, stats->ID);
+  TRAX_TM_COUNTERS(COUNT)
+#undef COUNT
+  fprintf(out, ",%u\n", queue);
+}
+
+static void put_head(FILE *out) {
+  fprintf(out, "begin,end,tm");
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    fprintf(out, ",%s", trax_cause_names[cause]);
+#define HEAD(ID, NAME, UNIT, MEANING)                                                                                  \
+  if (strcmp(NAME, "memory.queue_peak") != 0)                                                                          \
+    fprintf(out, "," NAME);
+  TRAX_TM_COUNTERS(HEAD)
+#undef HEAD
+  fprintf(out, ",memory.queue\n");
+}
+
+/* All counts of a TM so far, those that follow from others included. */
+static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32_t tm) {
+  struct trax_tm_stats stats = machine->tm_stats[tm];
+  const uint32_t tps = machine->config.chip.tps_per_tm;
+  memset(stats.cycles, 0, sizeof stats.cycles);
+  for (uint32_t tp = 0; tp < tps; tp++)
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      stats.cycles[cause] += machine->tp_stats[(size_t)tm * tps + tp].cycles[cause];
+  return stats;
+}
+
+static void subtract(struct trax_tm_stats *from, const struct trax_tm_stats *stats) {
+  uint64_t *to = (uint64_t *)from;
+  const uint64_t *terms = (const uint64_t *)stats;
+  for (size_t i = 0; i < sizeof *from / sizeof *to; i++)
+    to[i] -= terms[i];
+}
+
+static void put_rows(struct series *series, const struct trax_chip *chip, uint64_t end) {
+  const struct trax_machine *machine = series->explain->machine;
+  struct trax_tm_stats total = {0}, *rows = calloc(machine->config.chip.tms, sizeof *rows);
+  uint32_t queued = 0;
+  if (!rows) {
+    series->explain->out_of_memory = true;
+    return;
+  }
+  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
+    const struct trax_tm_stats now = counts_of(machine, tm);
+    rows[tm] = now;
+    if (chip) /* after the run they are there */
+      trax_stats_derive(&rows[tm], &machine->config);
+    const struct trax_tm_stats counted = rows[tm];
+    subtract(&rows[tm], &series->previous[tm]);
+    series->previous[tm] = counted;
+    for (size_t i = 0; i < sizeof total / sizeof(uint64_t); i++)
+      ((uint64_t *)&total)[i] += ((const uint64_t *)&rows[tm])[i];
+    queued += chip ? chip->tm[tm].queue.count : 0;
+  }
+  put_row(series, "all", end, &total, queued);
+  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
+    char name[16];
+    snprintf(name, sizeof name, "%u", tm);
+    put_row(series, name, end, &rows[tm], chip ? chip->tm[tm].queue.count : 0);
+  }
+  series->begin = end;
+  free(rows);
+}
+
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+  struct series *series = watch->context;
+  trax_chip_settle(chip, watch->next);
+  put_rows(series, chip, watch->next);
+  watch->next += series->explain->options.series_interval;
+  return TRAX_OK;
+}
+
+trax_status trax_series_create(struct trax_explain *explain, trax_error *error) {
+  struct series *series = calloc(1, sizeof *series);
+  if (!series)
+    return trax_fail(error, "out of memory");
+  explain->series = &series->watch;
+  if (!explain->options.series_interval)
+    explain->options.series_interval = TRAX_SERIES_INTERVAL;
+  series->explain = explain;
+  series->previous = calloc(explain->machine->config.chip.tms, sizeof *series->previous);
+  if (!series->previous)
+    return trax_fail(error, "out of memory for the series");
+  if (trax_output_open(&series->output, explain->options.series, error) != TRAX_OK)
+    return TRAX_ERROR;
+  put_head(series->output.file);
+  series->watch = (struct trax_watch){.next = explain->options.series_interval,
+                                      .look = look,
+                                      .context = series,
+                                      .others = explain->machine->watches};
+  explain->machine->watches = &series->watch;
+  return TRAX_OK;
+}
+
+trax_status trax_series_finish(struct trax_explain *explain, trax_error *error) {
+  struct series *series = (struct series *)explain->series;
+  if (explain->machine->stats.cycles > series->begin)
+    put_rows(series, NULL, explain->machine->stats.cycles);
+  if (explain->out_of_memory)
+    return trax_fail(error, "out of memory for the series");
+  return trax_output_commit(&series->output, error);
+}
+
+void trax_series_destroy(struct trax_explain *explain) {
+  struct series *series = (struct series *)explain->series;
+  if (!series)
+    return;
+  for (struct trax_watch **link = &explain->machine->watches; *link; link = &(*link)->others)
+    if (*link == &series->watch) {
+      *link = series->watch.others;
+      break;
+    }
+  trax_output_discard(&series->output);
+  free(series->previous);
+  free(series);
+  explain->series = NULL;
+}

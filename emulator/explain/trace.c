@@ -1,0 +1,102 @@
+/* The instruction trace: a line for each issue in the window. */
+#define _POSIX_C_SOURCE 200809L /* strdup */
+#include "explain/places.h"
+#include "explain/step.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+struct trace {
+  struct trax_explain *explain;
+  trax_output output;
+  char **text; /* [places]: symbol, word and disassembly; NULL until needed */
+};
+
+static const char *text_of(struct trace *trace, uint32_t pc, uint32_t word) {
+  struct trax_places *places = trace->explain->places;
+  char **text = &trace->text[trax_places_index(places, pc)];
+  if (!*text) {
+    char symbol[256], disassembly[128], line[512];
+    trax_disassemble(word, pc, disassembly, sizeof disassembly);
+    snprintf(line, sizeof line, "%-24s %08x  %-24s", trax_places_symbol(places, pc, symbol, sizeof symbol), word,
+             disassembly);
+    *text = strdup(line);
+  }
+  return *text ? *text : "";
+}
+
+static void put_place(const struct trace *trace, uint64_t cycle, uint32_t tm, uint32_t tp) {
+  fprintf(trace->output.file, "%10" PRIu64 " %4u %2u.%-2u ", cycle, tm * trace->explain->machine->config.chip.tps_per_tm + tp,
+          tm, tp);
+}
+
+static void put_outcome(FILE *out, unsigned outcome) {
+  static const char *const names[] = {"hit", "miss", "merged", "combined"};
+  for (unsigned i = 0; i < sizeof names / sizeof *names; i++)
+    if (outcome >> i & 1)
+      fprintf(out, " %s", names[i]);
+}
+
+static void take(void *self, const struct trax_step *step) {
+  struct trace *trace = self;
+  const struct trax_issue *issue = step->issue;
+  FILE *out = trace->output.file;
+  if (!issue || !trax_window_has(&trace->explain->options, step->tm, step->tp, issue->cycle, issue->cycle + 1))
+    return;
+  const unsigned flags = trax_op_table[step->inst.op].flags;
+  put_place(trace, issue->cycle, step->tm, step->tp);
+  fprintf(out, "%08x  %s", issue->pc, text_of(trace, issue->pc, issue->word));
+  if (flags & TRAX_WRITES_RD && step->inst.rd && !(flags & TRAX_IS_ATOMIC))
+    fprintf(out, "  r%u=%08x", step->inst.rd, issue->result);
+  else if (flags & TRAX_IS_STORE || step->inst.op == TRAX_OP_TRAP)
+    fprintf(out, "  %08x", issue->result);
+  if (flags & (TRAX_IS_LOAD | TRAX_IS_STORE))
+    fprintf(out, " [%08x]", issue->address);
+  put_outcome(out, issue->outcome);
+  if (flags & TRAX_IS_BRANCH && issue->next_pc != issue->pc + 4)
+    fprintf(out, "  to %08x", issue->next_pc);
+  fputc('\n', out);
+}
+
+static void take_arrival(void *self, const struct trax_arrival *arrival) {
+  struct trace *trace = self;
+  if (!arrival->rd || arrival->rd >= TRAX_NUM_REGISTERS ||
+      !trax_window_has(&trace->explain->options, arrival->tm, arrival->tp, arrival->cycle, arrival->cycle + 1))
+    return;
+  put_place(trace, arrival->cycle, arrival->tm, arrival->tp);
+  fprintf(trace->output.file, "arrival   r%u=%08x\n", arrival->rd, arrival->value);
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  struct trace *trace = self;
+  return trax_output_commit(&trace->output, error);
+}
+
+static void destroy(void *self) {
+  struct trace *trace = self;
+  for (uint32_t i = 0; trace->text && i < trax_places_count(trace->explain->places) + 2; i++)
+    free(trace->text[i]);
+  free(trace->text);
+  trax_output_discard(&trace->output);
+  free(trace);
+}
+
+trax_status trax_trace_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  struct trace *trace = calloc(1, sizeof *trace);
+  if (!trace)
+    return trax_fail(error, "out of memory");
+  trace->explain = explain;
+  trace->text = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *trace->text);
+  if (!trace->text || trax_output_open(&trace->output, explain->options.trace, error) != TRAX_OK) {
+    if (!trace->text)
+      trax_fail(error, "out of memory for the trace");
+    destroy(trace);
+    return TRAX_ERROR;
+  }
+  fprintf(trace->output.file,
+          "#    cycle thread TM.TP pc     symbol                 word      instruction               result or value, "
+          "address, cache, jump\n");
+  *reader =
+      (struct trax_reader){.self = trace, .step = take, .arrival = take_arrival, .finish = finish, .destroy = destroy};
+  return TRAX_OK;
+}
