@@ -3,6 +3,7 @@
 #include "core/poll.h"
 #include "fast/engine.h"
 #include "fast/functional.h"
+#include "reference/run.h"
 
 #include <string.h>
 
@@ -35,6 +36,10 @@ void trax_chip_destroy(struct trax_chip *chip) {
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
   trax_text_destroy(&chip->text);
+}
+
+uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm) {
+  return chip->reference ? trax_reference_queued(chip->reference, tm) : chip->tm[tm].queue.count;
 }
 
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {

@@ -17,8 +17,8 @@ struct trax_watch {
   struct trax_watch *others; /* the next one of the machine's list */
 };
 
-/* With the reference engine, which has structures of its own, only machine and tms are set: a watch may read the
-   machine's statistics and memory. */
+/* With the reference engine, which has structures of its own, only machine, tms and reference are set: a watch may read
+   the machine's statistics and memory. */
 struct trax_chip {
   struct trax_machine *machine;
   struct trax_text text;
@@ -26,9 +26,10 @@ struct trax_chip {
   uint32_t tms;
   struct trax_memory memory;
   const struct trax_fast_engine *engine;
-  struct trax_fast *fast;             /* the engine's */
-  struct trax_functional *functional; /* instead of an engine, where time is not wanted; else NULL */
-  uint32_t running;                   /* threads that have not ended */
+  struct trax_fast *fast;                /* the engine's */
+  struct trax_functional *functional;    /* instead of an engine, where time is not wanted; else NULL */
+  const struct trax_ref_chip *reference; /* the reference engine's; else NULL */
+  uint32_t running;                      /* threads that have not ended */
 };
 
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
@@ -37,6 +38,9 @@ void trax_chip_destroy(struct trax_chip *chip);
 /* Completes the machine's statistics and charges for the cycles before `t`, which must be over: at the run's end, and
    for a watch that wants to read them; and hands it the fault that ended the run. */
 void trax_chip_settle(struct trax_chip *chip, uint64_t t);
+
+/* How many places of a TM's memory queue are taken. */
+uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm);
 
 /* Calls those whose time it is to look at the machine before cycle t. *next receives the cycle in which someone looks
    again. */

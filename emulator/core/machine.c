@@ -128,6 +128,11 @@ static void count_adder_operations(struct trax_tm_stats *stats, const struct tra
       stats->fp_add_ops += stats->instructions[op];
 }
 
+void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config) {
+  count_by_operation(stats);
+  count_adder_operations(stats, config);
+}
+
 static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *term) {
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
     sum->cycles[cause] += term->cycles[cause];
@@ -143,8 +148,7 @@ static trax_status collect(struct trax_machine *machine, bool timed, trax_error 
   const uint32_t tps = machine->config.chip.tps_per_tm;
   for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
     struct trax_tm_stats *stats = &machine->tm_stats[i];
-    count_by_operation(stats);
-    count_adder_operations(stats, &machine->config);
+    trax_stats_derive(stats, &machine->config);
     for (uint32_t tp = 0; tp < tps; tp++) {
       const struct trax_tp_stats *charges = &machine->tp_stats[(size_t)i * tps + tp];
       uint64_t charged = 0;

@@ -48,6 +48,9 @@ trax_status trax_machine_map(struct trax_machine *machine, uint32_t address, uin
 /* Where all threads start: inside an executable segment, a multiple of 4. */
 trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry, trax_error *error);
 
+/* Adds the counts that follow from the operations issued; done once, at the run's end. */
+void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config);
+
 /* The fault that ended the run; its kind is TRAX_FAULT_NONE if none did. */
 const struct trax_fault *trax_machine_fault(const struct trax_machine *machine);
 

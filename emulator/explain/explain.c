@@ -106,8 +106,9 @@ bool trax_explain_wanted(const struct trax_explain_options *options) {
 }
 
 trax_status trax_explain_check(const struct trax_explain_options *options, trax_error *error) {
-  const char *const files[] = {options->profile,  options->folded, options->annotate,   options->trace, options->konata,
-                               options->perfetto, options->heat,   options->heat_lines, options->items, options->series};
+  const char *const files[] = {options->profile, options->folded,   options->annotate, options->trace,
+                               options->konata,  options->perfetto, options->heat,     options->heat_lines,
+                               options->items,   options->series};
   for (size_t i = 0; i < sizeof files / sizeof *files; i++)
     if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -134,6 +135,17 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   return TRAX_OK;
 }
 
+static trax_status check_window(const struct trax_explain *explain, trax_error *error) {
+  const struct trax_explain_options *options = &explain->options;
+  const uint32_t tms = explain->machine->config.chip.tms, tps = explain->machine->config.chip.tps_per_tm;
+  if (tms < 64 && options->window_tms >> tms)
+    return trax_fail(error, "the window has TM %d, but the chip has %u", 63 - __builtin_clzll(options->window_tms),
+                     tms);
+  if (tps < 64 && options->window_tps >> tps)
+    return trax_fail(error, "the window has TP %d, but a TM has %u", 63 - __builtin_clzll(options->window_tps), tps);
+  return TRAX_OK;
+}
+
 trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machine,
                                const struct trax_explain_options *options, trax_error *error) {
   *result = NULL;
@@ -144,7 +156,7 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
     return trax_fail(error, "out of memory");
   explain->machine = machine;
   explain->options = *options;
-  if (create(explain, error) != TRAX_OK) {
+  if (check_window(explain, error) != TRAX_OK || create(explain, error) != TRAX_OK) {
     trax_explain_discard(explain);
     return TRAX_ERROR;
   }

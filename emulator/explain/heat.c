@@ -4,7 +4,12 @@
 #include <inttypes.h>
 #include <string.h>
 
-enum { LINE_SHIFT = 6, PAGE_SHIFT = 16, PAGES = 1 << (32 - PAGE_SHIFT), LINES_PER_PAGE = 1 << (PAGE_SHIFT - LINE_SHIFT) };
+enum {
+  LINE_SHIFT = 6,
+  PAGE_SHIFT = 16,
+  PAGES = 1 << (32 - PAGE_SHIFT),
+  LINES_PER_PAGE = 1 << (PAGE_SHIFT - LINE_SHIFT)
+};
 
 struct heat_counts {
   uint64_t loads, stores, atomics;
@@ -81,9 +86,8 @@ static struct object *object_at(const struct heat *heat, uint32_t address) {
     else
       high = middle;
   }
-  return low < heat->object_count - 1 && heat->objects[low].begin <= address
-             ? &heat->objects[low]
-             : &heat->objects[heat->object_count - 1];
+  return low < heat->object_count - 1 && heat->objects[low].begin <= address ? &heat->objects[low]
+                                                                             : &heat->objects[heat->object_count - 1];
 }
 
 static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
@@ -118,13 +122,15 @@ static void take(void *self, const struct trax_step *step) {
     return;
   const uint32_t address = step->issue->address;
   count(&object_at(heat, address)->counts, op->flags, op->access_bytes, step->issue->outcome);
-  struct heat_counts *line = heat->explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
+  struct heat_counts *line =
+      heat->explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
   if (line)
     count(line, op->flags, op->access_bytes, step->issue->outcome);
 }
 
 static void put_counts(FILE *out, const struct heat_counts *counts) {
-  fprintf(out, "%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64,
+  fprintf(out,
+          "%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64,
           counts->loads, counts->stores, counts->atomics, counts->load_bytes, counts->store_bytes, counts->hits,
           counts->misses, counts->merged, counts->combined);
 }
@@ -140,7 +146,8 @@ static trax_status write_objects(const struct heat *heat, trax_error *error) {
     const struct object *object = &heat->objects[i];
     if (!object->counts.loads && !object->counts.stores && !object->counts.atomics)
       continue;
-    fprintf(output.file, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin, object->end - object->begin);
+    fprintf(output.file, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin,
+            object->end - object->begin);
     put_counts(output.file, &object->counts);
     fputc('\n', output.file);
   }

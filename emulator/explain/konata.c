@@ -9,7 +9,8 @@
 #include <string.h>
 
 enum stage { FETCH, WAIT, UNIT, QUEUE, EXECUTE, RETIRE, STAGES };
-static const char *const stage_names[STAGES] = {[FETCH] = "F", [WAIT] = "W", [UNIT] = "U", [QUEUE] = "Q", [EXECUTE] = "X"};
+static const char *const stage_names[STAGES] = {
+    [FETCH] = "F", [WAIT] = "W", [UNIT] = "U", [QUEUE] = "Q", [EXECUTE] = "X"};
 
 struct event {
   uint64_t cycle;
@@ -82,11 +83,8 @@ static void take(void *self, const struct trax_step *step) {
   }
   add_event(konata, issue->cycle, EXECUTE, &first);
   add_event(konata, issue->cycle + 1, RETIRE, &first);
-  konata->instructions[konata->instruction_count++] = (struct instruction){.pc = issue->pc,
-                                                                           .word = issue->word,
-                                                                           .result = issue->result,
-                                                                           .address = issue->address,
-                                                                           .thread = step->thread};
+  konata->instructions[konata->instruction_count++] = (struct instruction){
+      .pc = issue->pc, .word = issue->word, .result = issue->result, .address = issue->address, .thread = step->thread};
 }
 
 static int by_cycle(const void *a, const void *b) {

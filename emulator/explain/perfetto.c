@@ -42,8 +42,8 @@ static FILE *begin_event(struct perfetto *perfetto, const char *phase, uint32_t 
   char *quoted = NULL;
   json_t *string = json_stringn_nocheck(name, strlen(name));
   quoted = string ? json_dumps(string, JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
-  fprintf(out, "%s\n{\"ph\":\"%s\",\"pid\":%u,\"tid\":%u,\"ts\":%" PRIu64 ",\"name\":%s", perfetto->any ? "," : "", phase,
-          tm, thread, cycle, quoted ? quoted : "\"?\""); /* names need not be UTF-8 */
+  fprintf(out, "%s\n{\"ph\":\"%s\",\"pid\":%u,\"tid\":%u,\"ts\":%" PRIu64 ",\"name\":%s", perfetto->any ? "," : "",
+          phase, tm, thread, cycle, quoted ? quoted : "\"?\""); /* names need not be UTF-8 */
   perfetto->any = true;
   free(quoted);
   json_decref(string);
@@ -155,8 +155,8 @@ static void put_names(struct perfetto *perfetto) {
       if (options->window_tps && !(options->window_tps >> tp & 1))
         continue;
       fprintf(begin_event(perfetto, "M", tm, 2 * tp, 0, "thread_name"), ",\"args\":{\"name\":\"TP %u\"}}", tp);
-      fprintf(begin_event(perfetto, "M", tm, 2 * tp + 1, 0, "thread_name"),
-              ",\"args\":{\"name\":\"TP %u functions\"}}", tp);
+      fprintf(begin_event(perfetto, "M", tm, 2 * tp + 1, 0, "thread_name"), ",\"args\":{\"name\":\"TP %u functions\"}}",
+              tp);
     }
   }
 }
@@ -167,8 +167,8 @@ static trax_status finish(void *self, trax_error *error) {
   const uint64_t cycles = machine->stats.cycles;
   const uint64_t end = clip(&perfetto->explain->options, cycles);
   while (perfetto->counted_from < end && cycles > perfetto->counted_from)
-    put_counters(perfetto, end < perfetto->counted_from + perfetto->interval ? end
-                                                                             : perfetto->counted_from + perfetto->interval);
+    put_counters(perfetto,
+                 end < perfetto->counted_from + perfetto->interval ? end : perfetto->counted_from + perfetto->interval);
   for (uint32_t i = 0; i < machine->stats.threads; i++) {
     const uint32_t tm = i / machine->config.chip.tps_per_tm, tp = i % machine->config.chip.tps_per_tm;
     struct thread *thread = &perfetto->threads[i];
@@ -203,7 +203,8 @@ trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reade
     perfetto->interval = 16;
   if (!perfetto->threads || !perfetto->tms)
     trax_fail(error, "out of memory for the time line");
-  if (!perfetto->threads || !perfetto->tms || trax_output_open(&perfetto->output, options->perfetto, error) != TRAX_OK) {
+  if (!perfetto->threads || !perfetto->tms ||
+      trax_output_open(&perfetto->output, options->perfetto, error) != TRAX_OK) {
     destroy(perfetto);
     return TRAX_ERROR;
   }

@@ -146,6 +146,7 @@ static void look_up(struct trax_places *places, uint32_t index, struct trax_plac
       return;
     *frames = (struct trax_frame_place){intern(places, index == places->count ? "(halted)" : "(outside)"), 0};
     place->frames = frames;
+    place->frame_count = 1;
     return;
   }
   const uint32_t pc = trax_places_pc(places, index);

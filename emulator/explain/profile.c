@@ -1,6 +1,7 @@
-/* Counting for profiles. A call stack is kept for each thread: jal and jalr that write a register call, a jump through a
-   register to where a call returns to returns. A tail call needs nothing: the caller's frame stays, the code is another
-   function's. After a longjmp the frames that are gone are those whose stack pointer was below the present one. */
+/* Counting for profiles. A call stack is kept for each thread: jal and jalr that write a register call, a jump through
+   a register to where a call returns to returns. A tail call needs nothing: the caller's frame stays, the code is
+   another function's. A longjmp ends the calls that were made with the stack pointer below the present one, and
+   that of the function it returns to. */
 #include "explain/profile.h"
 
 enum { STACK_POINTER = 2, MAX_DEPTH = 512 };
@@ -33,7 +34,8 @@ static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint3
 
 /* --- the call stack --- */
 
-static bool is_below(uint32_t stack_pointer, uint32_t other) { /* the local stack begins at 0 and goes down from there */
+static bool is_below(uint32_t stack_pointer,
+                     uint32_t other) { /* the local stack begins at 0 and goes down from there */
   return stack_pointer - 1 < other - 1;
 }
 
@@ -55,8 +57,19 @@ static void call(struct trax_profile *profile, struct trax_profile_thread *threa
   thread->context = context;
 }
 
-static void jump_through_register(struct trax_profile_thread *thread, uint32_t pc) {
-  while (thread->depth && is_below(thread->calls[thread->depth - 1].stack_pointer, thread->stack_pointer))
+/* Whether the jump goes back into the middle of the function that made the latest call, without its returning. */
+static bool leaves_call(const struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t pc) {
+  struct trax_places *places = profile->explain->places;
+  const struct call *latest = &thread->calls[thread->depth - 1];
+  const struct trax_place *from = trax_places_at(places, trax_places_index(places, latest->return_pc - 4));
+  const struct trax_place *to = trax_places_at(places, trax_places_index(places, pc));
+  return latest->return_pc != pc && latest->stack_pointer == thread->stack_pointer && to->offset &&
+         to->symbol == from->symbol;
+}
+
+static void jump_through_register(const struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t pc) {
+  while (thread->depth && (is_below(thread->calls[thread->depth - 1].stack_pointer, thread->stack_pointer) ||
+                           leaves_call(profile, thread, pc)))
     thread->depth--;
   if (thread->depth && thread->calls[thread->depth - 1].return_pc == pc)
     thread->depth--;
@@ -67,10 +80,10 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
                    uint32_t index) {
   const trax_inst inst = step->inst;
   if (inst.op == TRAX_OP_JAL || inst.op == TRAX_OP_JALR) {
-    if (inst.rd)
+    if (inst.rd && step->issue->next_pc != step->pc + 4) /* else a call of nothing: a weak function that is not there */
       call(profile, thread, index, step->pc + 4);
-    else if (inst.op == TRAX_OP_JALR)
-      jump_through_register(thread, step->issue->next_pc);
+    else if (!inst.rd && inst.op == TRAX_OP_JALR)
+      jump_through_register(profile, thread, step->issue->next_pc);
   } else if (inst.rd == STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
     thread->stack_pointer = step->issue->result;
   }

@@ -17,7 +17,7 @@ static const char *const cause_heads[TRAX_CAUSE_COUNT] = {
 /* A row of a table. */
 struct row {
   uint32_t name;
-  struct trax_profile_counts own; /* of the instructions themselves */
+  struct trax_profile_counts own;  /* of the instructions themselves */
   uint64_t own_cycles, all_cycles; /* all: of those inlined or called, too */
 };
 
@@ -114,7 +114,7 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
     if (!row->own_cycles && !row->all_cycles)
       continue;
     print_counts(out, &row->own, row->own_cycles, row->all_cycles, &tables->total);
-    fprintf(out, "  %s\n", row->name ? trax_places_name(places, row->name) : "(unknown)");
+    fprintf(out, "  %s\n", row->name ? trax_places_name(places, row->name) : "(no line)");
   }
   print_counts(out, &tables->total, total_cycles, total_cycles, &tables->total);
   fprintf(out, "  total\n");
@@ -140,15 +140,15 @@ trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, tr
   if (complete) {
     for (size_t i = 0; i < profile->record_count; i++)
       add_record(&tables, i);
-    fprintf(out,
-            "profile of %s on %ux%u: %" PRIu64 " cycles, %" PRIu64 " thread-cycles, %" PRIu64 " instructions\n\n"
-            "A thread's cycle belongs to the instruction that it issues or that is kept from issuing; a branch bubble\n"
-            "to the branch. own: of the function or line itself; all: of what it calls, too, and of what is inlined\n"
-            "into it. load-h%%: loads through the data cache that hit. Causes are per cent of the row's own cycles; -c\n"
-            "is a conflict at the shared unit. What never occurs has no column.\n",
-            host ? trax_image_path(host->image) : "a program", machine->config.chip.tms,
-            machine->config.chip.tps_per_tm, machine->stats.cycles, machine->stats.threads * machine->stats.cycles,
-            machine->stats.instructions);
+    fprintf(
+        out,
+        "profile of %s on %ux%u: %" PRIu64 " cycles, %" PRIu64 " thread-cycles, %" PRIu64 " instructions\n\n"
+        "A thread's cycle belongs to the instruction that it issues or that is kept from issuing; a branch bubble\n"
+        "to the branch. own: of the function or line itself; all: of what it calls, too, and of what is inlined\n"
+        "into it. load-h%%: loads through the data cache that hit. Causes are per cent of the row's own cycles; -c\n"
+        "is a conflict at the shared unit. What never occurs has no column.\n",
+        host ? trax_image_path(host->image) : "a program", machine->config.chip.tms, machine->config.chip.tps_per_tm,
+        machine->stats.cycles, machine->stats.threads * machine->stats.cycles, machine->stats.instructions);
     print_table(&tables, out, tables.functions, "Functions");
     print_table(&tables, out, tables.lines, "Lines");
   }

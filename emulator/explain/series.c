@@ -10,10 +10,10 @@ struct series {
   trax_output output;
   uint64_t begin;                 /* of the next row */
   struct trax_tm_stats *previous; /* [tms] */
-  struct trax_watch **link;       /* where the machine's list refers to the watch */
 };
 
-static void put_row(struct series *series, const char *tm, uint64_t end, const struct trax_tm_stats *stats, uint32_t queue) {
+static void put_row(struct series *series, const char *tm, uint64_t end, const struct trax_tm_stats *stats,
+                    uint32_t queue) {
   FILE *out = series->output.file;
   fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s", series->begin, end, tm);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -74,13 +74,13 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
     series->previous[tm] = counted;
     for (size_t i = 0; i < sizeof total / sizeof(uint64_t); i++)
       ((uint64_t *)&total)[i] += ((const uint64_t *)&rows[tm])[i];
-    queued += chip ? chip->tm[tm].queue.count : 0;
+    queued += chip ? trax_chip_queued(chip, tm) : 0;
   }
   put_row(series, "all", end, &total, queued);
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
     char name[16];
     snprintf(name, sizeof name, "%u", tm);
-    put_row(series, name, end, &rows[tm], chip ? chip->tm[tm].queue.count : 0);
+    put_row(series, name, end, &rows[tm], chip ? trax_chip_queued(chip, tm) : 0);
   }
   series->begin = end;
   free(rows);
@@ -108,10 +108,8 @@ trax_status trax_series_create(struct trax_explain *explain, trax_error *error) 
   if (trax_output_open(&series->output, explain->options.series, error) != TRAX_OK)
     return TRAX_ERROR;
   put_head(series->output.file);
-  series->watch = (struct trax_watch){.next = explain->options.series_interval,
-                                      .look = look,
-                                      .context = series,
-                                      .others = explain->machine->watches};
+  series->watch = (struct trax_watch){
+      .next = explain->options.series_interval, .look = look, .context = series, .others = explain->machine->watches};
   explain->machine->watches = &series->watch;
   return TRAX_OK;
 }

@@ -26,8 +26,8 @@ static const char *text_of(struct trace *trace, uint32_t pc, uint32_t word) {
 }
 
 static void put_place(const struct trace *trace, uint64_t cycle, uint32_t tm, uint32_t tp) {
-  fprintf(trace->output.file, "%10" PRIu64 " %4u %2u.%-2u ", cycle, tm * trace->explain->machine->config.chip.tps_per_tm + tp,
-          tm, tp);
+  fprintf(trace->output.file, "%10" PRIu64 " %4u %2u.%-2u ", cycle,
+          tm * trace->explain->machine->config.chip.tps_per_tm + tp, tm, tp);
 }
 
 static void put_outcome(FILE *out, unsigned outcome) {

@@ -56,7 +56,7 @@ static trax_status check_outputs(const struct trax_options *options, trax_error 
     if (options->assignments[i].kind == TRAX_ASSIGN_DUMP &&
         trax_output_check(options->assignments[i].value, error) != TRAX_OK)
       return TRAX_ERROR;
-  return TRAX_OK;
+  return trax_explain_check(&options->explain, error);
 }
 
 static trax_status load(trax_machine *machine, const struct trax_options *options, trax_error *error) {
@@ -146,7 +146,10 @@ static int simulate(const trax_config *config, const struct trax_options *option
   trax_machine *machine = trax_machine_create(config, &error);
   if (!machine)
     return complain(&error);
+  struct trax_explain *explain = NULL;
   trax_status status = load(machine, options, &error);
+  if (status == TRAX_OK)
+    status = trax_explain_begin(&explain, machine, &options->explain, &error);
   if (status != TRAX_OK) {
     trax_machine_destroy(machine);
     return complain(&error);
@@ -171,6 +174,10 @@ static int simulate(const trax_config *config, const struct trax_options *option
     result = complain(&error);
     break;
   }
+  if (status == TRAX_ERROR)
+    trax_explain_discard(explain);
+  else if (trax_explain_end(explain, &write_error) != TRAX_OK)
+    result = complain(&write_error);
   if (status != TRAX_ERROR && write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
     result = complain(&write_error);
   trax_machine_destroy(machine);

@@ -16,6 +16,21 @@ enum option_id {
   OPTION_DUMP,
   OPTION_STATS,
   OPTION_REPORT,
+  OPTION_PROFILE,
+  OPTION_PROFILE_FOLDED,
+  OPTION_ANNOTATE,
+  OPTION_HEAT,
+  OPTION_HEAT_LINES,
+  OPTION_ITEMS,
+  OPTION_ITEM_BUFFER,
+  OPTION_SERIES,
+  OPTION_SERIES_INTERVAL,
+  OPTION_TRACE,
+  OPTION_PERFETTO,
+  OPTION_KONATA,
+  OPTION_WINDOW,
+  OPTION_WINDOW_TMS,
+  OPTION_WINDOW_TPS,
   OPTION_MAX_CYCLES,
   OPTION_PROGRESS_TOTAL,
   OPTION_ENGINE,
@@ -39,6 +54,21 @@ static const struct {
     [OPTION_DUMP] = {"dump", "SYMBOL=FILE", "write the buffer SYMBOL to a file after the run"},
     [OPTION_STATS] = {"stats", "FILE", "statistics as JSON; - is standard output"},
     [OPTION_REPORT] = {"report", "FILE", "statistics as text; - is standard output"},
+    [OPTION_PROFILE] = {"profile", "FILE", "thread-cycles by function and by source line"},
+    [OPTION_PROFILE_FOLDED] = {"profile-folded", "FILE", "thread-cycles by call stack, for flame graphs"},
+    [OPTION_ANNOTATE] = {"annotate", "FILE", "thread-cycles by instruction"},
+    [OPTION_HEAT] = {"heat", "FILE", "accesses to memory by object, as CSV"},
+    [OPTION_HEAT_LINES] = {"heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV"},
+    [OPTION_ITEMS] = {"items", "FILE", "what each item (pixel) cost, as CSV"},
+    [OPTION_ITEM_BUFFER] = {"item-buffer", "SYMBOL", "the buffer of words that items store to, for their places"},
+    [OPTION_SERIES] = {"series", "FILE", "what was counted in every interval, as CSV"},
+    [OPTION_SERIES_INTERVAL] = {"series-interval", "N", "cycles of an interval; default 10000"},
+    [OPTION_TRACE] = {"trace", "FILE", "every instruction issued in the window, with values"},
+    [OPTION_PERFETTO] = {"perfetto", "FILE", "the window as a time line, as JSON trace events"},
+    [OPTION_KONATA] = {"konata", "FILE", "the window as a pipeline, for Konata"},
+    [OPTION_WINDOW] = {"window", "BEGIN:END", "cycles of the window, BEGIN <= cycle < END; default all"},
+    [OPTION_WINDOW_TMS] = {"window-tms", "LIST", "its TMs, as in 0,2-3; default all"},
+    [OPTION_WINDOW_TPS] = {"window-tps", "LIST", "its TPs in each of these TMs; default all"},
     [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
     [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
@@ -156,6 +186,36 @@ static trax_status set_engine(struct trax_options *options, const char *value, t
   return TRAX_OK;
 }
 
+static trax_status set_window(struct trax_options *options, const char *value, trax_error *error) {
+  struct trax_explain_options *explain = &options->explain;
+  const char *colon = strchr(value, ':');
+  char begin[32];
+  if (!colon || colon - value >= (int)sizeof begin)
+    return trax_fail(error, "--window: \"%s\" is not of the form BEGIN:END", value);
+  snprintf(begin, sizeof begin, "%.*s", (int)(colon - value), value);
+  if (parse_number("window", begin, 0, UINT64_MAX / 2, &explain->window_begin, error) != TRAX_OK)
+    return TRAX_ERROR;
+  return parse_number("window", colon + 1, explain->window_begin + 1, UINT64_MAX / 2, &explain->window_end, error);
+}
+
+/* Numbers from 0 to 63 and ranges of them: 0,2-3. */
+static trax_status set_mask(enum option_id id, uint64_t *mask, const char *value, trax_error *error) {
+  *mask = 0;
+  for (const char *text = value;; text++) {
+    char *end = NULL;
+    unsigned long first = isdigit((unsigned char)*text) ? strtoul(text, &end, 10) : 64, last = first;
+    if (end && *end == '-' && isdigit((unsigned char)end[1]))
+      last = strtoul(end + 1, &end, 10);
+    if (!end || first > last || last > 63 || (*end && *end != ','))
+      return trax_fail(error, "--%s: \"%s\" is no list of numbers from 0 to 63 as in 0,2-3", table[id].name, value);
+    for (; first <= last; first++)
+      *mask |= (uint64_t)1 << first;
+    if (!*end)
+      return TRAX_OK;
+    text = end;
+  }
+}
+
 static trax_status apply(struct trax_options *options, enum option_id id, const char *value, trax_error *error) {
   switch (id) {
   case OPTION_CONFIG:
@@ -164,6 +224,36 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return set_once(id, &options->stats, value, error);
   case OPTION_REPORT:
     return set_once(id, &options->report, value, error);
+  case OPTION_PROFILE:
+    return set_once(id, &options->explain.profile, value, error);
+  case OPTION_PROFILE_FOLDED:
+    return set_once(id, &options->explain.folded, value, error);
+  case OPTION_ANNOTATE:
+    return set_once(id, &options->explain.annotate, value, error);
+  case OPTION_HEAT:
+    return set_once(id, &options->explain.heat, value, error);
+  case OPTION_HEAT_LINES:
+    return set_once(id, &options->explain.heat_lines, value, error);
+  case OPTION_ITEMS:
+    return set_once(id, &options->explain.items, value, error);
+  case OPTION_ITEM_BUFFER:
+    return set_once(id, &options->explain.item_buffer, value, error);
+  case OPTION_SERIES:
+    return set_once(id, &options->explain.series, value, error);
+  case OPTION_SERIES_INTERVAL:
+    return parse_number(table[id].name, value, 1, UINT64_MAX / 2, &options->explain.series_interval, error);
+  case OPTION_TRACE:
+    return set_once(id, &options->explain.trace, value, error);
+  case OPTION_PERFETTO:
+    return set_once(id, &options->explain.perfetto, value, error);
+  case OPTION_KONATA:
+    return set_once(id, &options->explain.konata, value, error);
+  case OPTION_WINDOW:
+    return set_window(options, value, error);
+  case OPTION_WINDOW_TMS:
+    return set_mask(id, &options->explain.window_tms, value, error);
+  case OPTION_WINDOW_TPS:
+    return set_mask(id, &options->explain.window_tps, value, error);
   case OPTION_SET:
   case OPTION_BIND:
   case OPTION_ALLOC:
@@ -214,6 +304,23 @@ static trax_status parse_option(struct trax_options *options, char **arguments, 
   return apply(options, id, arguments[++*i], error);
 }
 
+/* What explains a run, and what it needs. */
+static trax_status check_explain(const struct trax_options *options, trax_error *error) {
+  const struct trax_explain_options *explain = &options->explain;
+  const bool windowed = explain->trace || explain->perfetto || explain->konata;
+  if (options->engine == TRAX_ENGINE_FUNCTIONAL && trax_explain_wanted(explain))
+    return trax_fail(error, "--engine functional knows no time: nothing can be explained");
+  if ((explain->perfetto || explain->konata) && !explain->window_end)
+    return trax_fail(error, "--%s needs --window", explain->perfetto ? "perfetto" : "konata");
+  if (!windowed && (explain->window_end || explain->window_tms || explain->window_tps))
+    return trax_fail(error, "--window without --trace, --perfetto or --konata");
+  if (explain->series_interval && !explain->series)
+    return trax_fail(error, "--series-interval without --series");
+  if (explain->item_buffer && !explain->items)
+    return trax_fail(error, "--item-buffer without --items");
+  return TRAX_OK;
+}
+
 trax_status trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
   *options = (struct trax_options){0};
   bool only_names = false;
@@ -234,7 +341,7 @@ trax_status trax_options_parse(struct trax_options *options, int count, char **a
   }
   if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
     return trax_fail(error, "no program is given");
-  return TRAX_OK;
+  return check_explain(options, error);
 }
 
 void trax_options_free(struct trax_options *options) {

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "explain/explain.h"
 #include "trax/emulator.h"
 
 /* NAME=VALUE of --set, --bind, --alloc, --dump. */
@@ -22,6 +23,7 @@ struct trax_options {
   struct trax_assignment *assignments;           /* in the order of the command line */
   size_t assignment_count;
   uint64_t max_cycles, total_items; /* 0: not given */
+  struct trax_explain_options explain;
   trax_engine engine;
   bool quiet;
   bool print_config;

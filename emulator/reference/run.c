@@ -78,7 +78,7 @@ static void cycle(struct trax_ref_chip *chip, uint64_t t) {
 }
 
 static trax_status run(struct trax_ref_chip *chip, const trax_run_options *options, uint64_t *t) {
-  struct trax_chip shown = {.machine = chip->machine, .tms = chip->tms}; /* to watches */
+  struct trax_chip shown = {.machine = chip->machine, .tms = chip->tms, .reference = chip}; /* to watches */
   uint64_t watched = 0;
   struct trax_poll poll;
   trax_poll_begin(&poll, chip->machine, options);
@@ -97,6 +97,10 @@ static trax_status run(struct trax_ref_chip *chip, const trax_run_options *optio
     }
   }
   return TRAX_OK;
+}
+
+uint32_t trax_reference_queued(const struct trax_ref_chip *chip, uint32_t tm) {
+  return chip->tm[tm].places;
 }
 
 trax_status trax_reference_run(struct trax_machine *machine, const trax_run_options *options, uint64_t *cycles,

@@ -9,4 +9,8 @@
 trax_status trax_reference_run(struct trax_machine *machine, const trax_run_options *options, uint64_t *cycles,
                                trax_error *error);
 
+struct trax_ref_chip;
+/* How many places of a TM's memory queue are taken. */
+uint32_t trax_reference_queued(const struct trax_ref_chip *chip, uint32_t tm);
+
 #endif

@@ -205,7 +205,8 @@ for option in help help-config help-stats version; do
   [ -s out ] || fail "--$option prints nothing"
 done
 run 0 --help
-for option in config set bind scene alloc dump stats report max-cycles progress-total engine quiet print-config; do
+for option in profile profile-folded annotate heat heat-lines items item-buffer series series-interval trace perfetto konata \
+  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine quiet print-config; do
   prints "--$option"
 done
 

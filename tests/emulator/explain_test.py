@@ -1,0 +1,329 @@
+#!/usr/bin/env python3
+"""explain_test.py TRAX_SIM PROGRAM: what explains a run, on both engines: the same bytes, formats that their readers
+accept, and sums that equal the run's statistics."""
+import collections
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SIM, PROGRAM = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:3])
+FILES = ["profile", "profile-folded", "annotate", "heat", "heat-lines", "items", "series", "trace", "perfetto", "konata"]
+RESULTS = 400  # words
+failures = 0
+
+
+def check(condition, *message):
+    global failures
+    if not condition:
+        failures += 1
+        print("FAILED:", *message)
+
+
+def equal(a, b, *what):
+    check(a == b, *what, a, "is not", b)
+
+
+def run(directory, engine, *options, files=FILES, expected=0):
+    directory.mkdir(exist_ok=True)
+    command = [SIM, "--quiet", "--engine", engine, "--alloc", f"results={RESULTS * 4}", "--stats", "stats.json"]
+    for name in files:
+        command += [f"--{name}", name]
+    command += [*options, PROGRAM]
+    result = subprocess.run(command, cwd=directory, capture_output=True, text=True, timeout=120)
+    equal(result.returncode, expected, "status of", " ".join(command), result.stderr)
+    return result.stderr
+
+
+def read(directory, name):
+    return (directory / name).read_text()
+
+
+def rows(directory, name):
+    return list(csv.DictReader((directory / name).open()))
+
+
+def numbers(row, names):
+    return {name: int(row[name]) for name in names}
+
+
+def figure(stats, name):
+    for part in name.split("."):
+        stats = stats[part]
+    return stats
+
+
+# --- each output against the statistics ---
+
+
+def check_profile(directory, stats):
+    sections = re.split(r"\n(Functions|Lines)\n", read(directory, "profile"))
+    for title, text in zip(sections[1::2], sections[2::2]):
+        table = [line.split() for line in text.strip().split("\n")[1:]]
+        equal(sum(int(row[0]) for row in table[:-1]), stats["thread_cycles"], title, "thread-cycles")
+        equal(int(table[-1][0]), stats["thread_cycles"], title, "total")
+        own = [int(row[0]) for row in table[:-1]]
+        equal(own, sorted(own, reverse=True), title, "order")
+    named = {line.split()[-1]: line.split() for line in sections[2].strip().split("\n")}
+    check(float(named["main"][2]) > 80, "main has most of the thread-cycles below it:", named["main"])
+    check(float(named["inlined"][1]) > 0, "the inlined function has some of its own")
+    check("calls.c:" in sections[4], "lines name their file")
+
+
+def check_folded(directory, stats):
+    by_cause, stacks = collections.Counter(), set()
+    for line in read(directory, "profile-folded").splitlines():
+        stack, count = line.rsplit(" ", 1)
+        frames = stack.split(";")
+        by_cause[frames[-1]] += int(count)
+        stacks.add(";".join(frame for frame in frames[:-1] if ":" not in frame))
+    equal(dict(by_cause), {k: v for k, v in stats["causes"].items() if v}, "folded causes")
+    recursive = sorted(stack for stack in stacks if stack.endswith("recursive"))
+    equal(recursive[0], "_start;main;recursive")
+    check("_start;main;recursive;recursive" in recursive, "recursion is deeper:", recursive)
+    equal({stack for stack in stacks if "recursive" not in stack},
+          {"_start", "_start;main", "_start;main;trax_atomic_inc", "_start;main;trax_store_nt",
+           "_start;main;trax_count_items", "_start;main;tail", "_start;main;last",  # by a tail call: main called it
+           "_start;main;last;leaf", "_start;main;last;inlined", "_start;main;divide", "_start;main;catcher",
+           "_start;main;catcher;setjmp", "_start;main;catcher;thrower", "_start;main;catcher;thrower;leaf",
+           "_start;main;catcher;thrower;longjmp", "_start;main;catcher;leaf",  # after the longjmp
+           "(halted)"}, "stacks")
+
+
+def check_trace_and_annotation(directory, stats):
+    issued, instructions, registers = collections.Counter(), 0, {}
+    previous = (-1, -1)
+    for line in read(directory, "trace").splitlines()[1:]:
+        match = re.match(r" *(\d+) +(\d+) +(\d+)\.(\d+) +(\w+) ", line)
+        cycle, thread, tm, tp = (int(match[i]) for i in range(1, 5))
+        equal(thread, tm * 8 + tp, "thread of", line)
+        state = registers.setdefault(thread, collections.defaultdict(int))
+        value = re.search(r"  r(\d+)=(\w{8})| r(\d+)=(\w{8})$", line)
+        if match[5] == "arrival":
+            state[int(value[3] or value[1])] = int(value[4] or value[2], 16)
+            continue
+        check((cycle, thread) > previous, "order at", line)
+        previous = (cycle, thread)
+        issued[match[5]] += 1
+        instructions += 1
+        addi = re.search(r"  addi r(\d+), r(\d+), (-?\d+) ", line)
+        if addi and addi[1] != "0":
+            equal(int(value[2], 16), state[int(addi[2])] + int(addi[3]) & 0xFFFFFFFF, "value in", line)
+        store = re.search(r"  sw r(\d+), .*  (\w{8}) \[", line)
+        if store:
+            equal(int(store[2], 16), state[int(store[1])], "value in", line)
+        if value:
+            state[int(value[1])] = int(value[2], 16)
+    equal(instructions, stats["instructions"], "lines of the trace")
+    annotated = {}
+    for line in read(directory, "annotate").splitlines():
+        match = re.match(r" *(\d+) +[\d.]+ +(\d+) .*  (\w{8})  \S", line)
+        if match:
+            annotated[match[3]] = int(match[2])
+    equal({pc: count for pc, count in annotated.items() if count}, dict(issued), "instructions by pc")
+    total = [line for line in read(directory, "annotate").splitlines() if line.endswith("  total")]
+    equal(int(total[0].split()[0]), stats["thread_cycles"], "annotated total")
+
+
+def check_heat(directory, stats):
+    columns = ["loads", "stores", "atomics", "load_bytes", "store_bytes", "hits", "misses", "merged", "combined"]
+    total, lines, local = collections.Counter(), collections.Counter(), collections.Counter()
+    for row in rows(directory, "heat"):
+        (local if row["object"] == "(local memory)" else total).update(numbers(row, columns))
+    for row in rows(directory, "heat-lines"):
+        lines.update(numbers(row, columns))
+    equal(+lines, +total, "heat by line and by object")
+    equal([total["hits"], total["misses"], total["merged"], total["atomics"], total["combined"]],
+          [figure(stats, name) for name in
+           ("dcache.hits", "dcache.misses", "dcache.merged", "atomics", "stores.combined")], "heat")
+    equal([local["loads"], local["stores"]], [figure(stats, "local.loads"), figure(stats, "local.stores")], "local heat")
+    equal(total["loads"], total["hits"] + total["misses"] + total["merged"] + figure(stats, "nontemporal.loads"))
+    equal(total["stores"], figure(stats, "dcache.store_hits") + figure(stats, "dcache.store_misses") +
+          figure(stats, "nontemporal.stores"))
+    objects = {row["object"]: row for row in rows(directory, "heat") if row["stores"] != "0"}
+    equal(int(objects["results"]["store_bytes"]), RESULTS * 4, "bytes stored to the buffer")
+    check("table" in objects, "the table is stored to")
+
+
+def check_items(directory, stats):
+    causes, places, ends = collections.Counter(), [], {}
+    for row in rows(directory, "items"):
+        cost = numbers(row, [name for name in stats["causes"] if name != "issued"])
+        causes.update(cost)
+        causes["issued"] += int(row["instructions"])
+        equal(int(row["end"]) - int(row["begin"]), sum(cost.values()) + int(row["instructions"]), "length of", row)
+        equal(int(row["begin"]), ends.get(row["thread"], 0), "begin of", row)
+        ends[row["thread"]] = int(row["end"])
+        if row["kind"] == "item":
+            places.append(int(row["place"]))
+    equal(sorted(places), list(range(RESULTS)), "places of items")
+    equal(dict(+causes), {k: v for k, v in stats["causes"].items() if v}, "causes of items")
+    equal(set(ends.values()), {stats["cycles"]}, "ends of threads")
+
+
+def check_series(directory, stats):
+    series = rows(directory, "series")
+    names = list(series[0])[3:-1]
+    for tm in ["all", "0", "1"]:
+        of_tm = [row for row in series if row["tm"] == tm]
+        equal([int(row["end"]) - int(row["begin"]) for row in of_tm[:-1]], [500] * (len(of_tm) - 1), "intervals")
+        equal(int(of_tm[-1]["end"]), stats["cycles"], "the end of the series")
+        whole = stats if tm == "all" else stats["tms"][int(tm)]
+        for name in names:
+            key = f"causes.{name}" if name in stats["causes"] else name
+            equal(sum(int(row[name]) for row in of_tm), figure(whole, key), "series of", name, "in TM", tm)
+        for row in of_tm:
+            threads = 16 if tm == "all" else 8
+            equal(sum(int(row[name]) for name in stats["causes"]),
+                  threads * (int(row["end"]) - int(row["begin"])), "causes in", row["begin"])
+
+
+def check_perfetto(directory, stats, begin, end):
+    """Complete events of a track do not overlap; begins and ends are nested and in the order of time."""
+    events = json.loads(read(directory, "perfetto"))["traceEvents"]
+    causes, until, open_frames, last = collections.Counter(), {}, collections.defaultdict(list), {}
+    names = {"process_name": set(), "thread_name": set()}
+    for event in events:
+        check(set(event) >= {"ph", "pid", "tid", "ts", "name"}, "members of", event)
+        track = (event["pid"], event["tid"])
+        if event["ph"] == "M":
+            names[event["name"]].add(track)
+            continue
+        check(begin <= event["ts"] <= end, "time of", event)
+        if event["ph"] == "X":
+            check(event["ts"] >= until.get(track, begin) and event["dur"] > 0, "overlap at", event)
+            until[track] = event["ts"] + event["dur"]
+            causes[event["name"]] += event["dur"]
+        elif event["ph"] in "BE":
+            check(event["ts"] >= last.get(track, begin), "order at", event)
+            last[track] = event["ts"]
+            if event["ph"] == "B":
+                open_frames[track].append(event["name"])
+            else:
+                equal(open_frames[track].pop(), event["name"], "nesting at", event)
+        else:
+            equal(event["ph"], "C")
+            check(isinstance(event["args"]["value"], (int, float)), "counter", event)
+    check(not any(open_frames.values()), "functions left open", open_frames)
+    check(set(until) <= names["thread_name"], "tracks without names")
+    equal(len(names["process_name"]), 2, "processes")
+    return causes
+
+
+def check_konata(directory):
+    """The commands' arguments, ids in the order of appearance, and each instruction begun, staged, and retired once."""
+    lines = read(directory, "konata").splitlines()
+    equal(lines[0], "Kanata\t0004")
+    check(re.fullmatch(r"C=\t\d+", lines[1]), "the first cycle", lines[1])
+    alive, count, retired = {}, 0, 0
+    for line in lines[2:]:
+        command, *arguments = line.split("\t")
+        if command == "C":
+            check(len(arguments) == 1 and int(arguments[0]) > 0, line)
+        elif command == "I":
+            equal(int(arguments[0]), count, "id in", line)
+            check(len(arguments) == 3, line)
+            alive[count] = []
+            count += 1
+        elif command == "L":
+            check(len(arguments) == 3 and int(arguments[0]) in alive and arguments[1] in "01", line)
+        elif command == "S":
+            check(len(arguments) == 3 and arguments[1] == "0" and arguments[2] in "FWUQX", line)
+            alive[int(arguments[0])].append(arguments[2])
+        else:
+            equal(command, "R", line)
+            stages = alive.pop(int(arguments[0]))
+            equal(stages[-1], "X", "the last stage before", line)
+            equal([int(arguments[1]), arguments[2]], [retired, "0"], line)
+            retired += 1
+    check(not alive, "instructions that are not retired", alive)
+    return retired
+
+
+def main():
+    directory = pathlib.Path(tempfile.mkdtemp())
+    machine = ["--config", "2x32", "--set", "chip.tps_per_tm=8", "--set", "tp.branch_bubble_cycles=1",
+               "--set", "memory.queue_depth=4"]
+    whole = ["--item-buffer", "results", "--series-interval", "500"]
+    far = 1 << 40
+    for engine in ["reference", "fast"]:
+        run(directory / engine, engine, *machine, *whole, "--window", f"0:{far}")
+    run(directory / "again", "fast", *machine, *whole, "--window", f"0:{far}")
+    for name in FILES:
+        equal((directory / "fast" / name).read_bytes(), (directory / "reference" / name).read_bytes(), "engines:", name)
+        equal((directory / "fast" / name).read_bytes(), (directory / "again" / name).read_bytes(), "two runs:", name)
+    run(directory / "plain", "fast", *machine, files=[])
+    stats = json.loads(read(directory / "fast", "stats.json"))
+    plain = json.loads(read(directory / "plain", "stats.json"))
+    for each in stats, plain:
+        for key in "host_seconds", "instructions_per_host_second":
+            del each[key]
+    equal(stats, plain, "statistics with and without explanation")
+    check(all(stats["causes"][name] for name in
+              ("icache_miss", "wait_memory", "wait_special", "wait_atomic", "memory_queue_full", "branch_bubble")),
+          "the program is too tame:", stats["causes"])
+
+    here = directory / "fast"
+    check_profile(here, stats)
+    check_folded(here, stats)
+    check_trace_and_annotation(here, stats)
+    check_heat(here, stats)
+    check_items(here, stats)
+    check_series(here, stats)
+    causes = check_perfetto(here, stats, 0, stats["cycles"])
+    equal(dict(causes), {k: v for k, v in stats["causes"].items() if v}, "causes on the time line")
+    equal(check_konata(here), stats["instructions"], "instructions of the pipeline")
+
+    # A window in the middle, of some TPs.
+    window = directory / "window"
+    run(window, "fast", *machine, "--window", "2000:3000", "--window-tms", "1", "--window-tps", "0,2-4",
+        files=["trace", "perfetto", "konata"])
+    chosen = [line for line in read(here, "trace").splitlines()
+              if re.match(r" +2\d\d\d +\d+ +1\.[0234] ", line)]
+    equal(read(window, "trace").splitlines()[1:], chosen, "trace of the window")
+    events = json.loads(read(window, "perfetto"))["traceEvents"]
+    equal({(e["pid"], e["tid"] // 2) for e in events if e["ph"] == "X"}, {(1, tp) for tp in (0, 2, 3, 4)}, "window")
+    equal(sum(e["dur"] for e in events if e["ph"] == "X"), 4 * 1000, "cycles of the window")
+    equal(check_konata(window), sum(" arrival " not in line for line in chosen), "instructions of the window")
+
+    # A run that does not finish is explained as far as it came.
+    for engine in ["reference", "fast"]:
+        run(directory / f"cut-{engine}", engine, *machine, "--max-cycles", "2222", "--window", f"0:{far}", expected=124)
+    for name in FILES:
+        equal(read(directory / "cut-fast", name), read(directory / "cut-reference", name), "engines, cut:", name)
+    cut = json.loads(read(directory / "cut-fast", "stats.json"))
+    equal(dict(check_perfetto(directory / "cut-fast", cut, 0, 2222)), {k: v for k, v in cut["causes"].items() if v})
+    check_series_end = rows(directory / "cut-fast", "series")[-1]["end"]
+    equal(check_series_end, "2222", "the end of a cut series")
+
+    # What cannot be.
+    def refuse(message, *options, files=()):
+        said = run(directory / "refused", "fast", *machine, *options, files=list(files), expected=1)
+        check(message in said and said.count("\n") == 1, f'"{message}" is not what is said of {options}:', said)
+        check(not list((directory / "refused").iterdir()), "something is left by", options)
+
+    refuse("--konata needs --window", files=["konata"])
+    refuse("--perfetto needs --window", files=["perfetto"])
+    refuse("--window without --trace, --perfetto or --konata", "--window", "1:2")
+    refuse('--window: "5" is not of the form BEGIN:END', "--window", "5", files=["trace"])
+    refuse('--window: "5" is not a whole number from 10', "--window", "9:5", files=["trace"])
+    refuse('--window-tps: "1-" is no list', "--window-tps", "1-", files=["trace"])
+    refuse('--window-tms: "64" is no list', "--window-tms", "64", files=["trace"])
+    refuse("the window has TM 2, but the chip has 2", "--window-tms", "2", files=["trace"])
+    refuse("the window has TP 9, but a TM has 8", "--window-tps", "9", files=["trace"])
+    refuse("--series-interval without --series", "--series-interval", "5")
+    refuse("--item-buffer without --items", "--item-buffer", "results")
+    refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
+    refuse("--engine functional knows no time", "--engine", "functional", "--profile", "x")
+    for name in FILES:
+        refuse("none/x: cannot be written", f"--{name}", "none/x", "--window", "0:9", "--trace=t" if name != "trace" else
+               "--profile=t")
+        refuse(f"--{name} is given twice", f"--{name}=a", f"--{name}=b")
+    print(f"{failures} failures" if failures else "all hold")
+    sys.exit(failures != 0)
+
+
+main()
