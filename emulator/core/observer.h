@@ -9,7 +9,8 @@
      issue come before it, those after it later. One stretch may come in several pieces. All that happened before cycle
      t has been told when trax_chip_settle(chip, t) returns, hence at the run's end.
    - The charges of different TPs come in any order; who wants the same from every engine acts on issues.
-   - arrival comes when an atomic increment's old value is written to its register, before the issues of its cycle.
+   - arrival comes when an atomic increment's old value is written to its register: in the order of (cycle, TM), and
+     before the issues of its cycle in its TM.
    - All calls come from the thread that called trax_machine_run.
 
    A run that nobody observes pays nothing for this; one that is observed does not run ahead. */

@@ -55,15 +55,34 @@ static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, co
   }
 }
 
+/* Those whose turn comes before the issues of a TM in a cycle. */
+static void tell_arrivals(struct trax_explain *explain, uint64_t cycle, uint32_t tm) {
+  size_t told = 0;
+  for (; told < explain->arrival_count; told++) {
+    const struct trax_arrival *arrival = &explain->arrivals[told];
+    if (arrival->cycle > cycle || (arrival->cycle == cycle && arrival->tm > tm))
+      break;
+    for (unsigned i = 0; i < explain->reader_count; i++)
+      if (explain->readers[i].arrival)
+        explain->readers[i].arrival(explain->readers[i].self, arrival);
+  }
+  explain->arrival_count -= told;
+  if (told)
+    memmove(explain->arrivals, explain->arrivals + told, explain->arrival_count * sizeof *explain->arrivals);
+}
+
 static void add_issue(void *context, const struct trax_issue *issue) {
+  tell_arrivals(context, issue->cycle, issue->tm);
   tell_step(context, issue->tm, issue->tp, issue);
 }
 
 static void add_arrival(void *context, const struct trax_arrival *arrival) {
-  const struct trax_explain *explain = context;
-  for (unsigned i = 0; i < explain->reader_count; i++)
-    if (explain->readers[i].arrival)
-      explain->readers[i].arrival(explain->readers[i].self, arrival);
+  struct trax_explain *explain = context;
+  if (!trax_grow((void **)&explain->arrivals, explain->arrival_count, &explain->arrival_capacity,
+                 sizeof *explain->arrivals))
+    explain->out_of_memory = true;
+  else
+    explain->arrivals[explain->arrival_count++] = *arrival;
 }
 
 bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, uint32_t tp, uint64_t begin,
@@ -174,6 +193,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   const trax_machine *machine = explain->machine;
   const uint32_t tps = machine->config.chip.tps_per_tm;
   trax_status status = TRAX_OK;
+  tell_arrivals(explain, UINT64_MAX, 0);
   for (uint32_t thread = 0; explain->reader_count && thread < machine->stats.threads; thread++)
     tell_step(explain, thread / tps, thread % tps, NULL);
   if (explain->out_of_memory)
@@ -196,6 +216,7 @@ void trax_explain_discard(struct trax_explain *explain) {
   for (uint64_t i = 0; explain->steps && i < explain->machine->stats.threads; i++)
     free(explain->steps[i].stretches);
   free(explain->steps);
+  free(explain->arrivals);
   trax_places_destroy(explain->places);
   free(explain);
 }

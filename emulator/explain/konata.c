@@ -98,7 +98,8 @@ static int by_cycle(const void *a, const void *b) {
 
 static void put_event(struct konata *konata, const struct event *event, uint32_t *ids, uint32_t *retired, FILE *out) {
   struct instruction *instruction = &konata->instructions[event->instruction];
-  const trax_op_info *op = &trax_op_table[trax_decode(instruction->word).op];
+  const trax_inst inst = trax_decode(instruction->word);
+  const trax_op_info *op = &trax_op_table[inst.op];
   if (event->first) {
     char disassembly[128], symbol[256];
     instruction->id = (*ids)++;
@@ -107,7 +108,7 @@ static void put_event(struct konata *konata, const struct event *event, uint32_t
     fprintf(out, "L\t%u\t0\t%08x: %s\n", instruction->id, instruction->pc, disassembly);
     fprintf(out, "L\t%u\t1\t%s", instruction->id,
             trax_places_symbol(konata->explain->places, instruction->pc, symbol, sizeof symbol));
-    if (op->flags & TRAX_WRITES_RD && !(op->flags & TRAX_IS_ATOMIC))
+    if (op->flags & TRAX_WRITES_RD && inst.rd && !(op->flags & TRAX_IS_ATOMIC))
       fprintf(out, ", result %08x", instruction->result);
     if (op->flags & (TRAX_IS_LOAD | TRAX_IS_STORE))
       fprintf(out, ", address %08x", instruction->address);

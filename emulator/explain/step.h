@@ -27,7 +27,8 @@ struct trax_step {
 struct trax_reader {
   void *self;
   void (*step)(void *self, const struct trax_step *step);
-  void (*arrival)(void *self, const struct trax_arrival *arrival); /* may be NULL */
+  /* In the order of (cycle, TM) with the issues, before those of its cycle in its TM; may be NULL. */
+  void (*arrival)(void *self, const struct trax_arrival *arrival);
   /* After the last step: writes its files. */
   trax_status (*finish)(void *self, trax_error *error);
   void (*destroy)(void *self);
@@ -41,6 +42,8 @@ struct trax_explain {
   struct trax_places *places;
   struct trax_reader readers[8];
   unsigned reader_count;
+  struct trax_arrival *arrivals; /* that came before issues of other TMs, and wait for their turn */
+  size_t arrival_count, arrival_capacity;
   struct trax_watch *series; /* NULL: none */
   bool out_of_memory;        /* some of what was told could not be kept */
 };
