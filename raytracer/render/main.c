@@ -196,6 +196,18 @@ static void print_machine(const trax_machine *machine) {
   printf("rays        %.0f, %.2f million per second\n", statistic(machine, "rays"), statistic(machine, "mrps"));
 }
 
+static trax_status write_costs(const struct trax_costs *costs, const struct options *options, trax_error *error) {
+  struct trax_cost_summary summary;
+  trax_status status = trax_costs_summarise(costs, &summary, error);
+  if (status == TRAX_OK && options->cost_picture)
+    status = trax_costs_write_picture(costs, &summary, options->cost_picture, error);
+  if (status == TRAX_OK && options->cost_values)
+    status = trax_costs_write(costs, options->cost_values, error);
+  if (status == TRAX_OK && !options->quiet)
+    trax_costs_print(costs, &summary, stdout);
+  return status;
+}
+
 static trax_status run_emulator(struct trax_picture *picture, const struct options *options,
                                 const struct trax_frame *frame, struct progress *progress, trax_error *error) {
   char program[PATH_MAX];
@@ -209,13 +221,23 @@ static trax_status run_emulator(struct trax_picture *picture, const struct optio
   if (status == TRAX_OK && !machine)
     status = TRAX_ERROR;
   if (status == TRAX_OK) {
-    trax_run_options run = {.output = stderr,
-                            .total_items = (uint64_t)frame->params->width * frame->params->height,
-                            .progress = show_run,
-                            .progress_context = progress,
-                            .interrupt = (const volatile int *)&interrupted,
-                            .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST};
-    status = trax_render_simulated(picture, frame, machine, program, &run, error);
+    struct trax_costs costs = {0};
+    struct trax_simulated_options run = {
+        .program = program,
+        .explain = &options->explain,
+        .run = {.output = stderr,
+                .total_items = (uint64_t)frame->params->width * frame->params->height,
+                .progress = show_run,
+                .progress_context = progress,
+                .interrupt = (const volatile int *)&interrupted,
+                .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST}};
+    if (options->cost_picture || options->cost_values) {
+      run.costs = &costs;
+      status = trax_costs_init(&costs, frame->params->width, frame->params->height,
+                               options->cost ? options->cost : "cycles", error);
+    }
+    if (status == TRAX_OK)
+      status = trax_render_simulated(picture, frame, machine, &run, error);
     progress_clear(progress);
     if (status == TRAX_FAULT)
       trax_machine_print_fault(machine, stderr);
@@ -223,6 +245,9 @@ static trax_status run_emulator(struct trax_picture *picture, const struct optio
       print_machine(machine);
     if (status == TRAX_OK && options->stats)
       status = trax_stats_write_json(machine, options->stats, error);
+    if (status == TRAX_OK && run.costs)
+      status = write_costs(&costs, options, error);
+    trax_costs_release(&costs);
   }
   trax_machine_destroy(machine);
   trax_config_destroy(config);
@@ -294,6 +319,12 @@ static trax_status render(const struct options *options, struct progress *progre
   trax_status status = trax_output_check(options->output, error);
   if (status == TRAX_OK && options->stats)
     status = trax_output_check(options->stats, error);
+  if (status == TRAX_OK && options->cost_picture)
+    status = trax_output_check(options->cost_picture, error);
+  if (status == TRAX_OK && options->cost_values)
+    status = trax_output_check(options->cost_values, error);
+  if (status == TRAX_OK)
+    status = trax_explain_check(&options->explain, error);
   if (status == TRAX_OK)
     status = load_scene(&scene, options, progress, error);
   if (status == TRAX_OK)

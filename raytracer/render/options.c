@@ -23,7 +23,13 @@ static const char usage[] =
     "      --config CHIP|FILE  the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)\n"
     "      --set KEY=VALUE     changes one value of the configuration (trax-sim --help-config lists them)\n"
     "      --stats FILE.json   writes every statistic of the run\n"
-    "      --engine WHICH      fast (default): the emulator; reference: its reference engine, the same cycles, slowly;\n"
+    "      --profile FILE      writes thread-cycles by function and by source line\n"
+    "      --profile-folded FILE  writes thread-cycles by call stack, for flame graphs\n"
+    "      --cost-picture FILE.png  what each pixel cost, in false colours\n"
+    "      --cost-values FILE  the same in numbers: PFM for FILE.pfm, else CSV\n"
+    "      --cost WHAT         what costs: cycles (default), instructions, or one cause (trax-sim --help-stats)\n"
+    "      --engine WHICH      fast (default): the emulator; reference: its reference engine, the same cycles, "
+    "slowly;\n"
     "                          native: the same program compiled for this computer; embree: the reference picture\n"
     "      --threads N         host threads of the native engine (default: all processors)\n"
     "      --compare           renders the reference and the native twin too and prints the differences;\n"
@@ -43,6 +49,11 @@ enum {
   OPT_CONFIG,
   OPT_SET,
   OPT_STATS,
+  OPT_PROFILE,
+  OPT_PROFILE_FOLDED,
+  OPT_COST_PICTURE,
+  OPT_COST_VALUES,
+  OPT_COST,
   OPT_ENGINE,
   OPT_THREADS,
   OPT_COMPARE,
@@ -59,6 +70,11 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"config", required_argument, NULL, OPT_CONFIG},
                                              {"set", required_argument, NULL, OPT_SET},
                                              {"stats", required_argument, NULL, OPT_STATS},
+                                             {"profile", required_argument, NULL, OPT_PROFILE},
+                                             {"profile-folded", required_argument, NULL, OPT_PROFILE_FOLDED},
+                                             {"cost-picture", required_argument, NULL, OPT_COST_PICTURE},
+                                             {"cost-values", required_argument, NULL, OPT_COST_VALUES},
+                                             {"cost", required_argument, NULL, OPT_COST},
                                              {"engine", required_argument, NULL, OPT_ENGINE},
                                              {"threads", required_argument, NULL, OPT_THREADS},
                                              {"compare", no_argument, NULL, OPT_COMPARE},
@@ -164,6 +180,23 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_STATS:
     options->stats = value;
     return TRAX_OK;
+  case OPT_PROFILE:
+    options->explain.profile = value;
+    return TRAX_OK;
+  case OPT_PROFILE_FOLDED:
+    options->explain.folded = value;
+    return TRAX_OK;
+  case OPT_COST_PICTURE:
+    options->cost_picture = value;
+    return TRAX_OK;
+  case OPT_COST_VALUES:
+    options->cost_values = value;
+    return TRAX_OK;
+  case OPT_COST: {
+    unsigned what;
+    options->cost = value;
+    return trax_cost_find(value, &what, error);
+  }
   case OPT_ENGINE:
     if (!parse_engine(value, &options->engine))
       return trax_fail(error, "--engine %s: expected fast, reference, native or embree", value);
@@ -208,9 +241,13 @@ static trax_status check(const struct options *options, trax_error *error) {
   if (options->engine > ENGINE_REFERENCE) {
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
+    if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
+      return trax_fail(error, "--profile, --profile-folded, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
       return trax_fail(error, "--config, --set, --program and --keep need the emulator");
   }
+  if (options->cost && !options->cost_picture && !options->cost_values)
+    return trax_fail(error, "--cost without --cost-picture or --cost-values");
   if (options->threads && options->engine != ENGINE_NATIVE)
     return trax_fail(error, "--threads is for --engine native");
   return TRAX_OK;

@@ -2,6 +2,7 @@
 #ifndef TRAX_RENDER_OPTIONS_H
 #define TRAX_RENDER_OPTIONS_H
 
+#include "explain/explain.h"
 #include "render.h"
 
 /* The first two simulate the machine, to the same cycle. */
@@ -19,6 +20,9 @@ struct options {
   const char *config;
   const char *view; /* NULL: framed automatically */
   const char *stats, *keep, *program;
+  const char *cost; /* what --cost-picture and --cost-values show */
+  const char *cost_picture, *cost_values;
+  struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */
   size_t setting_count;
   struct trax_frame_options frame;

@@ -88,8 +88,49 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
 trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
                                   struct trax_render_run *run, trax_error *error);
 
+/* --- cost.c: what each pixel cost its thread, from the item before to this one --- */
+
+struct trax_item_cost;
+
+struct trax_costs {
+  const char *name; /* what is counted: cycles, instructions, or a cause of trax-sim --help-stats */
+  unsigned what;
+  uint32_t width, height;
+  uint64_t *values;   /* of the pixels, row by row from the top left */
+  uint64_t elsewhere; /* of no pixel: before the first and behind the last one of a thread */
+};
+
+struct trax_cost_summary {
+  uint64_t least, median, most, sum; /* of the pixels */
+  uint64_t white;                    /* one in a hundred costs more; what the picture shows white */
+};
+
+/* What a name counts; an error if it counts nothing. */
+trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error);
+trax_status trax_costs_init(struct trax_costs *costs, uint32_t width, uint32_t height, const char *name,
+                            trax_error *error);
+void trax_costs_release(struct trax_costs *costs);
+/* For trax_explain_items; context is a trax_costs. */
+void trax_costs_add(void *context, const struct trax_item_cost *cost, bool last);
+trax_status trax_costs_summarise(const struct trax_costs *costs, struct trax_cost_summary *summary, trax_error *error);
+/* Numbers: PFM if the path ends so, else CSV (x, y, value). */
+trax_status trax_costs_write(const struct trax_costs *costs, const char *path, trax_error *error);
+/* False colours, as a PNG. */
+trax_status trax_costs_write_picture(const struct trax_costs *costs, const struct trax_cost_summary *summary,
+                                     const char *path, trax_error *error);
+void trax_costs_print(const struct trax_costs *costs, const struct trax_cost_summary *summary, FILE *out);
+
 /* simulated.c: the program on a machine made by the caller, which keeps it for its statistics. */
+struct trax_explain_options;
+
+struct trax_simulated_options {
+  const char *program;
+  trax_run_options run;
+  const struct trax_explain_options *explain; /* NULL: nothing is explained */
+  struct trax_costs *costs;                   /* to fill; NULL: not wanted */
+};
+
 trax_status trax_render_simulated(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
-                                  const char *program, const trax_run_options *options, trax_error *error);
+                                  const struct trax_simulated_options *options, trax_error *error);
 
 #endif

@@ -58,11 +58,18 @@ refuse '--set bandwidth: expected KEY=VALUE' "$render" "$box" -o x.png --set ban
 refuse '--threads' "$render" "$box" -o x.png --engine native --threads 0
 refuse '--stats needs the emulator' "$render" "$box" -o x.png --engine native --stats s.json
 refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --config 4x32
+refuse 'need the emulator' "$render" "$box" -o x.png --engine native --cost-picture c.png
+refuse 'need the emulator' "$render" "$box" -o x.png --engine native --profile p.txt
+refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
+refuse '--cost without' "$render" "$box" -o x.png --cost cycles
 
 # --- files
 refuse 'missing.obj' "$render" missing.obj -o x.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.png
 refuse 'nowhere' "$render" "$box" -o x.png --stats nowhere/s.json
+for option in profile profile-folded cost-picture cost-values; do
+  refuse 'nowhere' "$render" "$box" -o x.png --$option nowhere/x
+done
 refuse 'missing.view' "$render" "$box" -o x.png --view missing.view
 printf 'eye = [0, 0];\n' >bad.view
 refuse 'bad.view:1' "$render" "$box" -o x.png --view bad.view

@@ -57,6 +57,34 @@ same "$source/box.obj" $view --size 64x36 --engine reference --stats reference.j
 for file in a reference; do grep -v host_second $file.json >$file.figures; done
 cmp -s a.figures reference.figures || fail "the reference engine's statistics differ: $(diff a.figures reference.figures | head -n 4)"
 
+# What a pixel cost: with what belongs to no pixel, that is all there is; the same from both engines, in both formats.
+thread_cycles=$(sed -n 's/^  "thread_cycles": \([0-9]*\).*/\1/p' a.json)
+instructions=$(sed -n 's/^  "instructions": \([0-9]*\).*/\1/p' a.json)
+for engine in fast reference; do
+  for what in cycles instructions wait_memory; do
+    "$bin/trax-render" "$source/box.obj" $view --size 64x36 --engine $engine -o x.png --cost $what \
+      --cost-picture $engine-$what.png --cost-values $engine-$what.csv --profile $engine.profile \
+      --profile-folded $engine.folded >.out 2>.err || fail "--cost $what: $(cat .err)"
+    elsewhere=$(sed -n 's/^cost .* and \([0-9]*\) for no pixel$/\1/p' .out)
+    sum=$(awk -F, 'NR > 1 { sum += $3 } END { printf "%d", sum }' $engine-$what.csv)
+    grep -q " of a pixel: .* sum $sum, and" .out || fail "--cost-values sums to $sum, not: $(cat .out)"
+    echo "$((sum + elsewhere))" >$engine-$what.total
+    [ "$(wc -l <$engine-$what.csv)" -eq 2305 ] || fail "not every pixel has a value"
+    "$bin/trax-compare" -q x.png box.png || fail "the picture changes when it is explained"
+  done
+done
+[ "$(cat fast-cycles.total)" -eq "$thread_cycles" ] || fail "cost $(cat fast-cycles.total), not $thread_cycles thread-cycles"
+[ "$(cat fast-instructions.total)" -eq "$instructions" ] || fail "cost $(cat fast-instructions.total), not $instructions instructions"
+grep -q "^ *$thread_cycles 100.00 100.00 *$instructions .* total$" fast.profile || fail "the profile's total"
+[ "$(awk '{ sum += $NF } END { printf "%d", sum }' fast.folded)" -eq "$thread_cycles" ] || fail "the folded profile's total"
+for what in -cycles.png -cycles.csv -instructions.csv -wait_memory.png .profile .folded; do
+  cmp -s fast$what reference$what || fail "the engines differ in $what"
+done
+"$bin/trax-render" "$source/box.obj" $view --size 64x36 -o x.png --cost-values x.pfm >.out 2>.err || fail "$(cat .err)"
+tail -c 9216 x.pfm | od -An -v -tf4 -w256 | tac | tr -s ' ' '\n' | grep . | awk '{ printf "%.0f\n", $1 }' >pfm.values
+sed 1d fast-cycles.csv | cut -d, -f3 | awk '{ printf "%.0f\n", $1 }' | cmp -s - pfm.values || fail "PFM and CSV differ"
+head -n 2 x.pfm | tr '\n' ' ' | grep -qx 'Pf 64 36 ' || fail "x.pfm begins with $(head -n 2 x.pfm)"
+
 # What --keep writes runs by itself to the same picture.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept
 TRAX_SIM=$bin/trax-sim sh kept/run.sh >.out 2>.err || fail "run.sh: $(cat .err)"
