@@ -28,14 +28,14 @@ MACHINES = [
     ("1 x 64", (1, 64), []),
     ("64 x 1", (64, 1), []),
     ("64 x 64", (64, 64), []),
-    ("0.001 GB/s", (1, 4), ["memory.bandwidth_gbps=0.001"]),
+    ("0.001 GB/s", (1, 2), ["memory.bandwidth_gbps=0.001"]),
     ("0.01 GB/s", (2, 16), ["memory.bandwidth_gbps=0.01"]),
     ("1000 GB/s", (2, 16), ["memory.bandwidth_gbps=1000"]),
     ("1,000,000 GB/s", (2, 16), ["memory.bandwidth_gbps=1000000"]),
     ("latency 0", (2, 16), ["memory.latency_cycles=0"]),
     ("latency 0, 1000 GB/s", (2, 16), ["memory.latency_cycles=0", "memory.bandwidth_gbps=1000"]),
     ("latency 10,000", (2, 16), ["memory.latency_cycles=10000"]),
-    ("latency 100,000", (1, 8), ["memory.latency_cycles=100000"]),
+    ("latency 100,000", (1, 4), ["memory.latency_cycles=100000"]),
     ("caches of one line", (2, 16), ONE_LINE),
     ("one line, 1 x 1", (1, 1), ONE_LINE),
     ("lines of 4 bytes", (2, 16), ["icache.bytes=64", "icache.line_bytes=4", "dcache.bytes=64", "dcache.line_bytes=4"]),
@@ -49,7 +49,7 @@ MACHINES = [
     ("latencies 1000, pipelined", (2, 8), [f"{key}=1000" for key in LATENCIES] + ["special.pipelined=true"]),
     ("1 miss register", (2, 16), ["dcache.mshrs=1"]),
     ("queue of 1", (2, 16), ["memory.queue_depth=1"]),
-    ("queue of 1, latency 10,000", (1, 8), ["memory.queue_depth=1", "memory.latency_cycles=10000"]),
+    ("queue of 1, latency 10,000", (1, 4), ["memory.queue_depth=1", "memory.latency_cycles=10000"]),
     ("queue of 4096", (2, 16), ["memory.queue_depth=4096", "dcache.mshrs=1024"]),
     ("transfers of 4096 bytes", (2, 16), ["memory.min_transfer_bytes=4096", "memory.atomic_bytes=4096"]),
     ("1 MHz", (2, 16), ["chip.clock_mhz=1"]),
@@ -57,8 +57,8 @@ MACHINES = [
 ]
 
 # Name, and macros of extremes.c or the text.
-C_PROGRAMS = [("everything", ["EVERYTHING", "ROUNDS=6"]), ("one address", ["ONE_ADDRESS", "ROUNDS=20"]), ("one atomic", ["ONE_ATOMIC", "ROUNDS=4"]),
-              ("stores", ["STREAM", "ROUNDS=8"])]
+C_PROGRAMS = [("everything", ["EVERYTHING", "ROUNDS=4"]), ("one address", ["ONE_ADDRESS", "ROUNDS=10"]), ("one atomic", ["ONE_ATOMIC", "ROUNDS=3"]),
+              ("stores", ["STREAM", "ROUNDS=6"])]
 FAULTING = ("fault", "fault later", "illegal", "runs off")
 ASSEMBLY = [("empty", "halt"), ("fault", "lw r4, 8(r0)"), ("fault later", "rdsr r4, cycle\n  slli r4, r4, 2\n  sw r4, -2048(r0)\n  halt"),
             ("illegal", ".long 0"), ("runs off", "nop")]
