@@ -64,10 +64,12 @@ ASSEMBLY = [("empty", "halt"), ("fault", "lw r4, 8(r0)"), ("fault later", "rdsr 
             ("illegal", ".long 0"), ("runs off", "nop")]
 
 
-def build(binaries, folder):
-    """Compile the programs; return their names and paths."""
+def build(binaries, folder, rounds=None):
+    """Compile the programs, with so many rounds of the C programs; return their names and paths."""
     paths = []
+    os.makedirs(folder, exist_ok=True)
     for name, macros in C_PROGRAMS:
+        macros = [macros[0], f"ROUNDS={rounds}"] if rounds else macros
         path = os.path.join(folder, name.replace(" ", "_") + ".elf")
         subprocess.run([os.path.join(binaries, "clang"), "--target=trax", "-O2", *(f"-D{macro}" for macro in macros), os.path.join(HERE, "extremes.c"),
                         "-o", path], check=True)
@@ -100,11 +102,12 @@ def main():
     options.bin = os.path.abspath(options.bin)
     begin, failures, runs = time.monotonic(), [], 0
     with tempfile.TemporaryDirectory() as folder:
-        programs = build(options.bin, folder)
+        programs = build(options.bin, os.path.join(folder, "programs"))
+        short = build(options.bin, os.path.join(folder, "short"), rounds=1)
         print(f"{'machine':<27}" + "".join(f"{name:>13}" for name, _ in programs) + f"{'random':>8}")
         for machine, chip, keys in MACHINES:
             cells = []
-            for name, path in programs:
+            for name, path in short if chip[0] * chip[1] > 1000 else programs:
                 command = [os.path.join(options.bin, "trax-sim"), path, "--quiet"]
                 for key in [f"chip.tms={chip[0]}", f"chip.tps_per_tm={chip[1]}", "memory.size_mib=4", *keys]:
                     command += ["--set", key]
