@@ -3,6 +3,7 @@
 #include "core/poll.h"
 #include "fast/engine.h"
 #include "fast/functional.h"
+#include "fast/windows.h"
 #include "reference/run.h"
 
 #include <string.h>
@@ -12,7 +13,6 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   memset(chip, 0, sizeof *chip);
   chip->machine = machine;
   chip->tms = machine->config.chip.tms;
-  chip->running = chip->tms * machine->config.chip.tps_per_tm;
   trax_memory_create(&chip->memory, &machine->config);
   if (trax_text_create(&chip->text, &machine->space, &machine->config, error))
     return TRAX_ERROR;
@@ -25,10 +25,13 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   if (options->engine == TRAX_ENGINE_FUNCTIONAL)
     return trax_functional_create(chip, error);
   chip->engine = trax_fast_best_engine();
-  return chip->engine->create(chip, error);
+  if (chip->engine->create(chip, error))
+    return TRAX_ERROR;
+  return trax_windows_create(chip, options->host_threads, error);
 }
 
 void trax_chip_destroy(struct trax_chip *chip) {
+  trax_windows_destroy(chip->windows);
   if (chip->engine)
     chip->engine->destroy(chip->fast);
   trax_functional_destroy(chip->functional);
@@ -109,6 +112,8 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
   while (true) {
     if (t >= watched) {
       const trax_status status = trax_chip_look(chip, t, &watched);
+      if (chip->windows)
+        trax_windows_forget(chip->windows);
       if (status) {
         *cycles = t;
         return status;
@@ -122,6 +127,8 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       *cycles = t;
       return TRAX_INTERRUPTED;
     }
+    if (chip->windows && trax_windows_advance(chip->windows, &t, limit < watched ? limit : watched))
+      continue;
 
     bool faulted = false;
     for (uint32_t i = 0; i < chip->tms; i++)
@@ -139,7 +146,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
     for (uint32_t i = 0; i < chip->tms; i++)
       if (chip->tm[i].next_cycle < next)
         next = chip->tm[i].next_cycle;
-    if (!chip->running && !chip->memory.waiting_tms) {
+    if (!trax_chip_running(chip) && !chip->memory.waiting_tms) {
       t++;
       break;
     }

@@ -23,10 +23,17 @@ static uint64_t cycle_from(const struct trax_memory *memory, uint64_t units) { /
   return (units + memory->units_per_cycle - 1) / memory->units_per_cycle;
 }
 
-static void increment(struct trax_request *request, struct trax_space *space) {
+static void increment(const struct trax_memory *memory, struct trax_request *request, struct trax_space *space) {
+  if (memory->before_increment)
+    memory->before_increment(memory->context, request->address);
   memcpy(&request->value, space->bytes + request->address, sizeof request->value);
   const uint32_t incremented = request->value + 1;
   memcpy(space->bytes + request->address, &incremented, sizeof incremented);
+}
+
+void trax_memory_show(struct trax_memory *memory, struct trax_tm *tm) {
+  tm->queue.shown++;
+  memory->waiting_tms |= (uint64_t)1 << tm->number;
 }
 
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
@@ -35,7 +42,7 @@ void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct t
     trax_arbiter_to_back(&memory->turn, number);
     struct trax_tm *tm = &tms[number];
     struct trax_request *request = trax_queue_first_waiting(&tm->queue);
-    if (++tm->queue.started == tm->queue.count)
+    if (++tm->queue.started == tm->queue.shown)
       memory->waiting_tms &= ~((uint64_t)1 << number);
 
     const uint64_t now = t * memory->units_per_cycle;
@@ -45,7 +52,7 @@ void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct t
     if (request->completion < tm->next_cycle)
       tm->next_cycle = request->completion;
     if (request->kind == TRAX_REQUEST_ATOMIC)
-      increment(request, space);
+      increment(memory, request, space);
   }
 }
 

@@ -17,14 +17,14 @@ struct trax_memory {
   uint32_t latency;
   uint64_t waiting_tms; /* mask: TMs whose queues hold waiting requests */
   trax_arbiter turn;
+  void (*before_increment)(void *context, uint32_t address); /* of a word; may be NULL */
+  void *context;
 };
 
 void trax_memory_create(struct trax_memory *memory, const struct trax_config *config);
 
-/* The TM has a waiting request. */
-static inline void trax_memory_notice(struct trax_memory *memory, unsigned tm) {
-  memory->waiting_tms |= (uint64_t)1 << tm;
-}
+/* The controller learns of the TM's oldest request that it does not know of. */
+void trax_memory_show(struct trax_memory *memory, struct trax_tm *tm);
 
 /* Step 3 of cycle t: starts transfers. Lowers tm[].next_cycle where a completion comes sooner. */
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t);

@@ -30,7 +30,8 @@ struct trax_request {
 struct trax_queue {
   struct trax_request *requests; /* ring of `depth` */
   uint32_t depth, oldest, count, started;
-  uint32_t peak; /* largest count */
+  uint32_t shown; /* of `count`, how many the controller knows of: all, unless the TM runs ahead (core/ahead.h) */
+  uint32_t peak;  /* largest count */
 };
 
 static inline bool trax_queue_has_place(const struct trax_queue *queue) {
@@ -56,6 +57,7 @@ static inline struct trax_request *trax_queue_first_waiting(const struct trax_qu
 static inline void trax_queue_pop(struct trax_queue *queue) {
   queue->oldest = queue->oldest + 1 < queue->depth ? queue->oldest + 1 : 0;
   queue->count--;
+  queue->shown--;
   queue->started--;
 }
 

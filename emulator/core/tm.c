@@ -1,5 +1,6 @@
 #include "core/tm.h"
 
+#include "core/ahead.h"
 #include "core/chip.h"
 
 #include <string.h>
@@ -41,6 +42,7 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_mach
     tm->tp[i].inst = trax_text_at(text, machine->entry);
   }
   tm->awake = trax_group_mask(0, tps);
+  tm->running = tps;
   return TRAX_OK;
 }
 
@@ -73,7 +75,7 @@ void trax_tm_end_thread(struct trax_tm *tm, unsigned tp, uint64_t since, int32_t
   trax_tm_sleep(tm, tp, since, TRAX_CAUSE_HALTED);
   tm->ended |= (uint64_t)1 << tp;
   tm->exit_statuses[tp] = status;
-  tm->machine->chip->running--;
+  tm->running--;
 }
 
 void trax_tm_fault(struct trax_tm *tm, unsigned number, uint64_t t, trax_fault_kind kind, uint32_t address) {
@@ -171,7 +173,10 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   }
   stats->memory_requests++;
   trax_queue_push(&tm->queue, request);
-  trax_memory_notice(&tm->machine->chip->memory, tm->number);
+  if (tm->ahead)
+    trax_ahead_request(tm->ahead, tm->now);
+  else
+    trax_memory_show(&tm->machine->chip->memory, tm);
 }
 
 static bool request_in_turn(struct trax_tm *tm, unsigned tp, struct trax_request request) {

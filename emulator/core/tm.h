@@ -18,7 +18,9 @@ struct trax_tm {
   const struct trax_text *text;
   FILE *output;                         /* of the guest; may be NULL */
   const struct trax_observer *observer; /* NULL: nobody */
+  struct trax_ahead *ahead;             /* while it runs ahead of the other TMs; else NULL */
   uint64_t now;                         /* the cycle that is being simulated */
+  uint32_t running;                     /* threads that have not ended */
 
   struct trax_tp *tp; /* [tps] */
 

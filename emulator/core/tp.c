@@ -1,5 +1,6 @@
 #include "core/tp.h"
 
+#include "core/ahead.h"
 #include "core/tm.h"
 #include "core/traps.h"
 #include "trax/semantics.h"
@@ -40,12 +41,17 @@ static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) 
 
 static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
+  if (tm->ahead && address < TRAX_LOCAL_BASE)
+    return trax_ahead_load(tm->ahead, &tm->machine->space, address, bytes);
   memcpy(&value, place(tm, tp, address), bytes);
   return value;
 }
 
 static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
-  memcpy(place(tm, tp, address), &value, bytes);
+  if (tm->ahead && address < TRAX_LOCAL_BASE)
+    trax_ahead_store(tm->ahead, tm->now, address, value, bytes);
+  else
+    memcpy(place(tm, tp, address), &value, bytes);
 }
 
 uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t) {

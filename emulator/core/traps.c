@@ -1,5 +1,6 @@
 #include "core/traps.h"
 
+#include "core/ahead.h"
 #include "core/tm.h"
 
 #include <string.h>
@@ -28,6 +29,10 @@ trax_fault_kind trax_put_string(const struct trax_space *space, const uint8_t *l
 
 bool trax_trap(struct trax_tm *tm, unsigned tp, uint32_t value, int32_t code, uint64_t t) {
   trax_fault_kind fault = TRAX_FAULT_NONE;
+  if (tm->ahead && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS)) {
+    tm->ahead->stop = true; /* output is in the order of all threads */
+    return true;
+  }
   switch (code) {
   case TRAX_TRAP_EXIT:
     trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);

@@ -11,7 +11,7 @@
 static bool may_load_ahead(const struct trax_fast *fast, const struct trax_space *space, uint32_t address,
                            uint32_t bytes) {
   return address - TRAX_NULL_END < space->size - TRAX_NULL_END && !(address & (bytes - 1)) &&
-         fast->blocks.state[address >> TRAX_BLOCK_SHIFT] != TRAX_BLOCK_WRITTEN;
+         trax_fast_block_state(fast, address) != TRAX_BLOCK_WRITTEN;
 }
 
 static unsigned data_bank(const struct trax_fast_tm *ftm, uint32_t address) {
@@ -53,7 +53,7 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
       step->asks = slow_local;                                                                                         \
     } else if (may_load_ahead(fast, space, address, BYTES)) {                                                          \
       memcpy(&word, space->bytes + address, BYTES);                                                                    \
-      fast->blocks.state[address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_LOADED;                                             \
+      trax_fast_block_loaded(fast, address);                                                                           \
       step->asks = (uint16_t)(step->asks | data_bank(ftm, address) << TRAX_ASKS_BANK_SHIFT);                           \
     } else {                                                                                                           \
       goto stop;                                                                                                       \

@@ -221,6 +221,16 @@ void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
+/* Several TMs may note what they have loaded at the same time; what is written is noted when none of them runs. */
+static inline uint8_t trax_fast_block_state(const struct trax_fast *fast, uint32_t address) {
+  return __atomic_load_n(&fast->blocks.state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED);
+}
+
+static inline void trax_fast_block_loaded(struct trax_fast *fast, uint32_t address) {
+  if (trax_fast_block_state(fast, address) != TRAX_BLOCK_LOADED)
+    __atomic_store_n(&fast->blocks.state[address >> TRAX_BLOCK_SHIFT], TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);
+}
+
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error);
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */

@@ -221,7 +221,7 @@ trax_status trax_functional_run(struct trax_functional *functional, uint64_t lim
                                 bool (*stop)(void *context, uint64_t instructions), void *context) {
   struct trax_chip *chip = functional->chip;
   uint64_t before = 0;
-  while (chip->running) {
+  while (trax_chip_running(chip)) {
     uint64_t instructions = 0;
     for (uint32_t i = 0; i < chip->tms; i++) {
       struct trax_tm *tm = &chip->tm[i];
@@ -291,7 +291,7 @@ trax_status trax_functional_create(struct trax_chip *chip, trax_error *error) {
   if (!functional)
     return trax_fail(error, "out of memory");
   functional->chip = chip;
-  functional->executed = calloc(chip->running, sizeof *functional->executed);
+  functional->executed = calloc((size_t)chip->tms * chip->tm[0].tps, sizeof *functional->executed);
   if (!functional->executed)
     return trax_fail(error, "out of memory");
   return predecode(functional, &chip->text, error);

@@ -83,7 +83,8 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
                                   .max_cycles = options->max_cycles,
                                   .total_items = options->total_items,
                                   .interrupt = &interrupted,
-                                  .engine = options->engine};
+                                  .engine = options->engine,
+                                  .host_threads = options->host_threads};
   if (!options->quiet && isatty(STDERR_FILENO)) {
     run_options.progress = trax_progress_show;
     run_options.progress_context = &line;

@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include "core/config_keys.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -34,6 +36,7 @@ enum option_id {
   OPTION_MAX_CYCLES,
   OPTION_PROGRESS_TOTAL,
   OPTION_ENGINE,
+  OPTION_HOST_THREADS,
   OPTION_QUIET,
   OPTION_PRINT_CONFIG,
   OPTION_HELP_CONFIG,
@@ -72,6 +75,7 @@ static const struct {
     [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
     [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
+    [OPTION_HOST_THREADS] = {"host-threads", "N", "threads of the host for the fast engine; default one for each core"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -217,6 +221,7 @@ static trax_status set_mask(enum option_id id, uint64_t *mask, const char *value
 }
 
 static trax_status apply(struct trax_options *options, enum option_id id, const char *value, trax_error *error) {
+  uint64_t number;
   switch (id) {
   case OPTION_CONFIG:
     return set_once(id, &options->config, value, error);
@@ -267,6 +272,11 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->total_items, error);
   case OPTION_ENGINE:
     return set_engine(options, value, error);
+  case OPTION_HOST_THREADS:
+    if (parse_number(table[id].name, value, 1, TRAX_MAX_TMS, &number, error))
+      return TRAX_ERROR;
+    options->host_threads = (unsigned)number;
+    break;
   case OPTION_QUIET:
     options->quiet = true;
     break;

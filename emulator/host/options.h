@@ -25,6 +25,7 @@ struct trax_options {
   uint64_t max_cycles, total_items; /* 0: not given */
   struct trax_explain_options explain;
   trax_engine engine;
+  unsigned host_threads; /* 0: not given */
   bool quiet;
   bool print_config;
   enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;

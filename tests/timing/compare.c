@@ -24,6 +24,11 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   return TRAX_OK;
 }
 
+static unsigned host_threads(void) {
+  const char *text = getenv("TRAX_HOST_THREADS");
+  return text ? (unsigned)strtoul(text, NULL, 10) : 1;
+}
+
 static struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
                            bool traced, uint64_t max_cycles, bool looked, struct trax_watch *other) {
   struct run run = {.bench = bench_begin(config, program, count)};
@@ -38,7 +43,7 @@ static struct run run_with(const struct trax_config *config, const uint32_t *pro
   struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run, .others = other};
   run.looked = looked;
   machine->watches = looked ? &watch : other;
-  const trax_run_options options = {.output = output, .max_cycles = max_cycles, .engine = engine};
+  const trax_run_options options = {.output = output, .max_cycles = max_cycles, .engine = engine, .host_threads = host_threads()};
   if (traced)
     bench_run_observed(&run.bench, &options);
   else

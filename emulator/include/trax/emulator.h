@@ -90,6 +90,7 @@ typedef struct trax_run_options {
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
   trax_engine engine;
+  unsigned host_threads; /* of the fast engine, whose results they do not change; 0: one for each processor */
 } trax_run_options;
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);

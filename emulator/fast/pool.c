@@ -1,0 +1,144 @@
+#define _GNU_SOURCE
+#include "fast/pool.h"
+
+#include "core/machine.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+/* A round lasts some 10 microseconds: who waits looks again for about as long before it lets others have the processor,
+   and sleeps if nothing comes for long. */
+enum { LOOKS = 2000, YIELDS = 200 };
+
+struct worker {
+  struct trax_pool *pool;
+  pthread_t thread;
+  unsigned number;
+};
+
+struct trax_pool {
+  void (*work)(void *context, uint32_t item);
+  void *context;
+  uint32_t items;
+  unsigned threads;      /* with the owner */
+  unsigned running;      /* workers that were started */
+  unsigned target;       /* of `done` in the current round */
+  struct worker *worker; /* [threads - 1] */
+
+  _Alignas(64) atomic_uint round; /* even numbers; odd: the end */
+  _Alignas(64) atomic_uint done;  /* items of all rounds */
+  _Atomic(unsigned) *taken;       /* [items]: the round that took it */
+
+  atomic_uint sleepers;
+  pthread_mutex_t mutex;
+  pthread_cond_t wakened;
+};
+
+static void pause_briefly(void) {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+static void take_part(struct trax_pool *pool, unsigned number, unsigned round) {
+  const uint32_t first = (uint32_t)((uint64_t)pool->items * number / pool->threads);
+  for (uint32_t i = 0; i < pool->items; i++) {
+    const uint32_t item = first + i < pool->items ? first + i : first + i - pool->items;
+    unsigned before = round - 2;
+    if (atomic_load_explicit(&pool->taken[item], memory_order_relaxed) == before &&
+        atomic_compare_exchange_strong(&pool->taken[item], &before, round)) {
+      pool->work(pool->context, item);
+      atomic_fetch_add(&pool->done, 1);
+    }
+  }
+}
+
+static unsigned wait_for_round(struct trax_pool *pool, unsigned last) {
+  unsigned round;
+  for (unsigned i = 0; i < LOOKS + YIELDS; i++) {
+    if ((round = atomic_load(&pool->round)) != last)
+      return round;
+    if (i < LOOKS)
+      pause_briefly();
+    else
+      sched_yield();
+  }
+  pthread_mutex_lock(&pool->mutex);
+  atomic_fetch_add(&pool->sleepers, 1);
+  while ((round = atomic_load(&pool->round)) == last)
+    pthread_cond_wait(&pool->wakened, &pool->mutex);
+  atomic_fetch_sub(&pool->sleepers, 1);
+  pthread_mutex_unlock(&pool->mutex);
+  return round;
+}
+
+static void begin_round(struct trax_pool *pool, unsigned round) {
+  atomic_store(&pool->round, round);
+  if (atomic_load(&pool->sleepers)) {
+    pthread_mutex_lock(&pool->mutex);
+    pthread_cond_broadcast(&pool->wakened);
+    pthread_mutex_unlock(&pool->mutex);
+  }
+}
+
+static void *run_worker(void *argument) {
+  const struct worker *worker = argument;
+  unsigned round = 0;
+  while (!((round = wait_for_round(worker->pool, round)) & 1))
+    take_part(worker->pool, worker->number, round);
+  return NULL;
+}
+
+void trax_pool_run(struct trax_pool *pool) {
+  const unsigned round = atomic_load(&pool->round) + 2;
+  pool->target += pool->items;
+  begin_round(pool, round);
+  take_part(pool, 0, round);
+  for (unsigned i = 0; atomic_load(&pool->done) != pool->target; i++)
+    if (i < LOOKS)
+      pause_briefly();
+    else
+      sched_yield();
+}
+
+struct trax_pool *trax_pool_create(unsigned threads, uint32_t items, void (*work)(void *context, uint32_t item),
+                                   void *context, trax_error *error) {
+  struct trax_pool *pool = aligned_alloc(64, sizeof *pool);
+  if (pool)
+    *pool = (struct trax_pool){.work = work, .context = context, .items = items, .threads = threads};
+  if (!pool || !(pool->worker = calloc(threads, sizeof *pool->worker)) ||
+      !(pool->taken = calloc(items, sizeof *pool->taken))) {
+    trax_fail(error, "out of memory");
+    if (pool)
+      free(pool->worker);
+    free(pool);
+    return NULL;
+  }
+  pthread_mutex_init(&pool->mutex, NULL);
+  pthread_cond_init(&pool->wakened, NULL);
+  for (; pool->running + 1 < threads; pool->running++) {
+    struct worker *worker = &pool->worker[pool->running];
+    *worker = (struct worker){.pool = pool, .number = pool->running + 1};
+    if (pthread_create(&worker->thread, NULL, run_worker, worker)) {
+      trax_fail(error, "cannot start a thread of the host");
+      trax_pool_destroy(pool);
+      return NULL;
+    }
+  }
+  return pool;
+}
+
+void trax_pool_destroy(struct trax_pool *pool) {
+  if (!pool)
+    return;
+  begin_round(pool, atomic_load(&pool->round) + 1);
+  for (unsigned i = 0; i < pool->running; i++)
+    pthread_join(pool->worker[i].thread, NULL);
+  pthread_cond_destroy(&pool->wakened);
+  pthread_mutex_destroy(&pool->mutex);
+  free((void *)pool->taken);
+  free(pool->worker);
+  free(pool);
+}
