@@ -1,0 +1,303 @@
+#include "rules.h"
+
+#define LOCKSTEP "icache.ports_per_bank=64 icache.tps_per_cache=64"
+
+/* chapter, rule, base, settings, cycles, fault, issues, charges, words */
+#define RULE(CHAPTER, NAME, BASE, SET, CYCLES, FAULT, ISSUES, CHARGES, ...)                                            \
+  rules[n++] = (struct rule) {                                                                                         \
+    CHAPTER, NAME, BASE, SET, CYCLES, TRAX_FAULT_##FAULT, ISSUES, CHARGES, sizeof((uint32_t[]){__VA_ARGS__}) / 4, {    \
+      __VA_ARGS__                                                                                                      \
+    }                                                                                                                  \
+  }
+
+/* bench_near: the only instruction line is asked for in cycle 0 and there in cycle 1. Data asked for in t is there in
+   t + 1.
+
+   bench_far: the first instruction line (16 instructions) takes the bus in 0..3 and is there in 104. A data line asked
+   for in t is there in t + 104, a word past the cache or an atomic increment in t + 101. */
+const struct rule *timing_rules(size_t *count) {
+  static struct rule rules[128];
+  size_t n = 0;
+
+  /* --- Words --- */
+  RULE("Words", "a result of latency 1 can be used in the next cycle", NEAR, "", 4, NONE, "1 2 3", "icache_miss=1",
+       I(ADDI, 1, 0, 7), R(ADD, 2, 1, 1), HALT);
+  /* Cycle 1: all ask, TP 0 wins. It asks again from 2 on: TP 1's turn, TP 2's, its own. */
+  RULE("Words", "round robin: the winner goes to the back", NEAR, "chip.tps_per_tm=3 " LOCKSTEP, 11, NONE,
+       "1 4 7 8 / 2 5 8 9 / 3 6 9 10", "icache_miss=3 fp_add_conflict=15", R(FADD, 1, 0, 0), R(FSUB, 2, 0, 0),
+       R(FADD, 3, 0, 0), HALT);
+  /* rdsr 1, bne 2. TP 0 alone has the adder in 3, nobody in 4. In 5 both ask: it is TP 1's turn. */
+  RULE("Words", "round robin: the pointer stays when nobody asks", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 8, NONE,
+       "1 2 3 4 6 7 / 1 2 3 4 5 6", "icache_miss=2 fp_add_conflict=1", U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 12),
+       R(FADD, 2, 0, 0), J(0, 12), NOP, NOP, R(FADD, 3, 0, 0), HALT);
+
+  /* --- Start and end --- */
+  RULE("Start and end", "the run ends with the first cycle in which every thread has ended", NEAR, "", 2, NONE, "1",
+       "icache_miss=1", HALT);
+  /* 0.1 bytes a cycle: the line is through in 640, there in 740. The run of 4 bytes is written by halt: 742..781. */
+  RULE("Start and end", "the last stores are part of the run", FAR, "memory.bandwidth_gbps=0.05", 782, NONE,
+       "740 741 742", "icache_miss=740", U(LUI, 1, 1), S(SW, 1, 1, 0), HALT);
+
+  /* --- A cycle --- */
+  RULE("A cycle", "what arrives in t can be used by an instruction issued in t", NEAR, "", 5, NONE, "1 2 3 4",
+       "icache_miss=1", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
+  /* In 5 TP 0 stores 7 and TP 1 loads it; what it got is there in 6, and the branch goes past the nop. */
+  RULE("A cycle", "a load sees what a lower TP stored in its cycle", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 8, NONE,
+       "1 2 3 4 5 6 / 1 2 3 4 5 6 7", "icache_miss=2", U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), I(ADDI, 4, 0, 7),
+       B(BNE, 1, 0, 12), S(SWNT, 4, 2, 0), HALT, I(LWNT, 3, 2, 0), B(BNE, 3, 0, 8), NOP, HALT);
+  /* The other way round: TP 0 gets 0. */
+  RULE("A cycle", "a load does not see what a higher TP stores in its cycle", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 9,
+       NONE, "1 2 3 4 5 6 7 8 / 1 2 3 4 5 6", "icache_miss=2", U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), I(ADDI, 4, 0, 7),
+       B(BEQ, 1, 0, 12), S(SWNT, 4, 2, 0), HALT, I(LWNT, 3, 2, 0), B(BNE, 3, 0, 8), NOP, HALT);
+  /* In 5 TP 0 increments and TP 1 stores 5: TP 1 loads 6 in 6 and takes the branch. */
+  RULE("A cycle", "atomic increments follow all stores of their cycle", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 10, NONE,
+       "1 2 3 4 5 6 / 1 2 3 4 5 6 7 8 9", "icache_miss=2", U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), I(ADDI, 4, 0, 5),
+       B(BNE, 1, 0, 12), I(AINC, 6, 2, 0), HALT, S(SWNT, 4, 2, 0), I(LWNT, 3, 2, 0), I(ADDI, 5, 3, -6), B(BEQ, 5, 0, 8),
+       NOP, HALT);
+  /* One bank. TPs fetch by turns: TP 0 rdsr 1, bne 2, fdiv 4; TP 1 rdsr 1, bne 3, nop 5. TP 0 fetches its second fdiv
+     in 6 and keeps it to 12, when the unit is free; TP 1 has the bank from 7 on. */
+  RULE("A cycle", "an instruction that was refused is not fetched again", NEAR, "chip.tps_per_tm=2 icache.banks=1", 14,
+       NONE, "1 2 4 12 13 / 1 3 5 7 8 9 10", "icache_miss=1 icache_bank_conflict=6 special_conflict=6",
+       U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 16), R(FDIV, 2, 0, 0), R(FDIV, 3, 0, 0), HALT, NOP, NOP, NOP, NOP, HALT);
+
+  /* --- Fetch --- */
+  /* Cycle 0: TP 0 wins bank 0. 1: TP 0 by the line, TP 1 by the bank. 2: both want bank 1. Then TP 1 follows. */
+  RULE("Fetch", "a bank serves one fetch a cycle", NEAR, "chip.tps_per_tm=2", 7, NONE, "1 2 3 4 5 / 1 3 4 5 6",
+       "icache_miss=1 icache_bank_conflict=2", NOP, NOP, NOP, NOP, HALT);
+  RULE("Fetch", "a bank's losers wait for their turn", NEAR, "chip.tps_per_tm=8", 8, NONE,
+       "1 / 1 / 2 / 3 / 4 / 5 / 6 / 7", "icache_miss=1 icache_bank_conflict=28", HALT);
+  /* TP 0 branches in 2 to index 4, TP 1 goes on to 2: other banks. */
+  RULE("Fetch", "neighbouring instructions are in neighbouring banks", NEAR, "chip.tps_per_tm=2", 6, NONE,
+       "1 2 3 / 1 3 4 5", "icache_miss=1 icache_bank_conflict=2", U(RDSR, 1, TRAX_SR_TP), B(BEQ, 1, 0, 12), NOP, HALT,
+       HALT);
+  RULE("Fetch", "the banks are icache.banks", NEAR, "chip.tps_per_tm=2 icache.banks=1", 7, NONE, "1 2 4 / 1 3 5 6",
+       "icache_miss=1 icache_bank_conflict=4", U(RDSR, 1, TRAX_SR_TP), B(BEQ, 1, 0, 12), NOP, HALT, HALT);
+  /* Cycle 0: TP 0 misses, TP 1 merges, TP 2 is refused; 2: bank 1 serves TPs 0 and 1. */
+  RULE("Fetch", "a bank serves icache.ports_per_bank", NEAR, "chip.tps_per_tm=3 icache.ports_per_bank=2", 5, NONE,
+       "1 2 3 / 1 2 3 / 1 3 4", "icache_miss=2 icache_bank_conflict=2", NOP, NOP, HALT);
+  RULE("Fetch", "each group has a cache of its own", NEAR, "chip.tps_per_tm=4 icache.tps_per_cache=2", 5, NONE,
+       "1 2 3 / 1 3 4 / 1 2 3 / 1 3 4", "icache_miss=2 icache_bank_conflict=4", NOP, NOP, HALT);
+  RULE("Fetch", "a line serves all that wait for it when it arrives, without a bank", NEAR, "chip.tps_per_tm=2", 2,
+       NONE, "1 / 1", "icache_miss=1 icache_bank_conflict=1", HALT);
+  /* Lines of 8 instructions and 2 cycles: there in 102; the second is asked for in 110. */
+  RULE("Fetch", "a line that is not present comes from memory", FAR, "icache.line_bytes=32", 214, NONE,
+       "102 103 104 105 106 107 108 109 212 213", "icache_miss=204", NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, HALT);
+  RULE("Fetch", "a line that is on its way is not asked for again", FAR, "chip.tps_per_tm=2", 105, NONE, "104 / 104",
+       "icache_miss=208", HALT);
+  /* TP 0's line has the only place in 0..103. */
+  RULE("Fetch", "a miss needs a place in the memory queue", FAR,
+       "chip.tps_per_tm=2 icache.tps_per_cache=1 memory.queue_depth=1", 209, NONE, "104 / 208",
+       "icache_miss=208 memory_queue_full=104", HALT);
+  /* In 107 TP 1 misses index 16 and TP 0 wants the place for lwnt; it gets it when the line is there, in 211. */
+  RULE("Fetch", "fetches take their places before loads and stores", FAR, "chip.tps_per_tm=2 memory.queue_depth=1", 213,
+       NONE, "104 105 106 211 212 / 104 105 106 211", "icache_miss=312 memory_queue_full=104", U(LUI, 2, 1),
+       U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 56), I(LWNT, 3, 2, 0), HALT, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP,
+       NOP, NOP, HALT);
+  /* Lines 0, 2 and again 0 of 16 instructions, in a cache for two: in one of two sets, then in one set of two. */
+  RULE("Fetch", "a line has its set by its number", FAR, "icache.bytes=128", 315, NONE, "104 209 314",
+       "icache_miss=312", J(1, 128), HALT, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP,
+       NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, I(JALR, 0, 1, 0));
+  RULE("Fetch", "a set has icache.ways places", FAR, "icache.bytes=128 icache.ways=2", 211, NONE, "104 209 210",
+       "icache_miss=208", J(1, 128), HALT, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP,
+       NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, I(JALR, 0, 1, 0));
+  RULE("Fetch", "a pc outside the text faults without a bank", NEAR, "", 3, EXECUTE, "1", "icache_miss=1", NOP);
+  RULE("Fetch", "a pc that is not a multiple of 4 faults", NEAR, "", 3, MISALIGNED_PC, "1", "icache_miss=1",
+       I(JALR, 0, 0, TEXT + 2), HALT);
+
+  /* --- Operands --- */
+  RULE("Operands", "instructions stall on use", NEAR, "", 11, NONE, "1 2 3 9 10", "icache_miss=1 wait_special=5",
+       R(FDIV, 1, 0, 0), NOP, NOP, R(ADD, 2, 0, 1), HALT);
+  RULE("Operands", "results do not overtake one another", NEAR, "", 11, NONE, "1 9 10", "icache_miss=1 wait_special=7",
+       R(FDIV, 1, 0, 0), I(ADDI, 1, 0, 5), HALT);
+  RULE("Operands", "r0 is always usable", NEAR, "", 4, NONE, "1 2 3", "icache_miss=1", R(FDIV, 0, 2, 3),
+       R(ADD, 4, 0, 0), HALT);
+  /* fdiv 1, usable 9; fmul 2, usable 14: for ra in 3..8, for rb in 9..13. */
+  RULE("Operands", "the first register is blamed: ra before rb", NEAR, "fpu.mul_latency_cycles=12", 16, NONE,
+       "1 2 14 15", "icache_miss=1 wait_special=6 wait_other=5", R(FDIV, 1, 0, 0), R(FMUL, 2, 0, 0), R(ADD, 3, 1, 2),
+       HALT);
+  RULE("Operands", "the first register is blamed: rb before rd", NEAR, "fpu.mul_latency_cycles=12", 16, NONE,
+       "1 2 14 15", "icache_miss=1 wait_special=6 wait_other=5", R(FDIV, 1, 0, 0), R(FMUL, 2, 0, 0), R(ADD, 2, 0, 1),
+       HALT);
+  RULE("Operands", "a conditional move reads its destination", NEAR, "", 11, NONE, "1 9 10",
+       "icache_miss=1 wait_special=7", R(FDIV, 1, 0, 0), R(CMOVNZ, 1, 0, 0), HALT);
+  RULE("Operands", "wait for local memory", NEAR, "tp.local_latency_cycles=4", 7, NONE, "1 5 6",
+       "icache_miss=1 wait_local=3", I(LBU, 1, 0, -512), R(ADD, 2, 1, 1), HALT);
+  /* lw 105 there 209; lw 210 usable 213. */
+  RULE("Operands", "wait for memory and for the data cache", FAR, "dcache.hit_latency_cycles=3", 215, NONE,
+       "104 105 209 210 213 214", "icache_miss=104 wait_memory=103 wait_dcache_hit=2", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       R(ADD, 3, 2, 2), I(LW, 4, 1, 60), R(ADD, 5, 4, 4), HALT);
+  RULE("Operands", "wait for an atomic increment", FAR, "", 208, NONE, "104 105 206 207",
+       "icache_miss=104 wait_atomic=100", U(LUI, 1, 1), I(AINC, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
+  RULE("Operands", "an illegal instruction faults before its operands are looked at", NEAR, "", 3, ILLEGAL, "1",
+       "icache_miss=1", R(FDIV, 1, 0, 0), U(RDSR, 1, 0) | TRAX_SR_COUNT, HALT);
+  /* 0 / 0 is 0x7FC00000, usable in 9. */
+  RULE("Operands", "an access that is not allowed faults when its operands are usable", NEAR, "", 10, UNMAPPED, "1",
+       "icache_miss=1 wait_special=7", R(FDIV, 1, 0, 0), I(LW, 2, 1, 0), HALT);
+
+  /* --- Units --- */
+  /* fadd 1, use 4; fmul, use 8; feq, use 10; mul, use 15; add, use 21. */
+  RULE("Units", "each unit has its latency", NEAR,
+       "fpu.add_latency_cycles=3 fpu.mul_latency_cycles=4 fpu.compare_latency_cycles=2 int_mul.latency_cycles=5 "
+       "tp.int_latency_cycles=6",
+       23, NONE, "1 4 8 10 15 21 22", "icache_miss=1 wait_other=15", R(FADD, 1, 0, 0), R(FMUL, 2, 1, 1),
+       R(FEQ, 3, 2, 2), R(MUL, 4, 3, 3), R(ADD, 5, 4, 4), R(ADD, 6, 5, 5), HALT);
+  RULE("Units", "a unit accepts one instruction a cycle, whatever its latency", NEAR, "fpu.add_latency_cycles=5", 4,
+       NONE, "1 2 3", "icache_miss=1", R(FADD, 1, 0, 0), R(FADD, 2, 0, 0), HALT);
+  RULE("Units", "8 TPs share an adder", NEAR, "chip.tps_per_tm=9 " LOCKSTEP, 10, NONE,
+       "1 2 / 2 3 / 3 4 / 4 5 / 5 6 / 6 7 / 7 8 / 8 9 / 1 2", "icache_miss=9 fp_add_conflict=28", R(FADD, 1, 0, 0),
+       HALT);
+  RULE("Units", "8 TPs share a multiplier", NEAR, "chip.tps_per_tm=16 " LOCKSTEP, 10, NONE, NULL,
+       "icache_miss=16 fp_mul_conflict=56", R(FMUL, 1, 0, 0), HALT);
+  /* TPs 0..3 add and 4..7 multiply in 4. */
+  RULE("Units", "adder and multiplier are two", NEAR, "chip.tps_per_tm=8 " LOCKSTEP, 9, NONE,
+       "1 2 3 4 5 / 1 2 3 5 6 / 1 2 3 6 7 / 1 2 3 7 8 / 1 2 3 4 5 / 1 2 3 5 6 / 1 2 3 6 7 / 1 2 3 7 8",
+       "icache_miss=8 fp_add_conflict=6 fp_mul_conflict=6", U(RDSR, 1, TRAX_SR_TP), I(SLTI, 2, 1, 4), B(BNE, 2, 0, 12),
+       R(FMUL, 3, 0, 0), HALT, R(FADD, 3, 0, 0), HALT);
+  RULE("Units", "16 TPs share an integer multiplier", NEAR, "chip.tps_per_tm=32 " LOCKSTEP, 18, NONE, NULL,
+       "icache_miss=32 int_mul_conflict=240", R(MULH, 1, 0, 0), HALT);
+  RULE("Units", "comparisons and conversions execute on the adder", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 6, NONE,
+       "1 3 4 / 2 4 5", "icache_miss=2 fp_add_conflict=3", R(FMIN, 1, 0, 0), R1(FCVT_W_S, 2, 0), HALT);
+  RULE("Units", "or, with fpu.compare_units, on the TP's own units", NEAR,
+       "chip.tps_per_tm=2 fpu.compare_units=true " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3", "icache_miss=2",
+       R(FMIN, 1, 0, 0), R1(FCVT_W_S, 2, 0), HALT);
+  RULE("Units", "the TM's FPDIV/iSQRT unit is taken for its latency", NEAR, "chip.tps_per_tm=4 " LOCKSTEP, 27, NONE,
+       "1 2 / 9 10 / 17 18 / 25 26", "icache_miss=4 special_conflict=48", R(FDIV, 1, 0, 0), HALT);
+  RULE("Units", "as many are served as there are free units", NEAR,
+       "chip.tps_per_tm=4 special.units_per_tm=2 " LOCKSTEP, 11, NONE, "1 2 / 1 2 / 9 10 / 9 10",
+       "icache_miss=4 special_conflict=16", R1(FRSQRT, 1, 0), HALT);
+  RULE("Units", "a pipelined unit is free in the next cycle", NEAR,
+       "chip.tps_per_tm=4 special.pipelined=true " LOCKSTEP, 6, NONE, "1 2 / 2 3 / 3 4 / 4 5",
+       "icache_miss=4 special_conflict=6", R(FDIV, 1, 0, 0), HALT);
+  RULE("Units", "local memory is the TP's own", NEAR, "chip.tps_per_tm=3 " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3 / 1 2 3",
+       "icache_miss=3", S(SW, 0, 0, -4), I(LW, 1, 0, -4), HALT);
+  RULE("Units", "a bubble follows an instruction whose next pc is not pc + 4", NEAR, "tp.branch_bubble_cycles=3", 11,
+       NONE, "1 5 6 10", "icache_miss=1 branch_bubble=6", J(1, 12), NOP, NOP, B(BNE, 0, 0, 8), B(BEQ, 0, 0, 8), NOP,
+       HALT);
+
+  /* --- Data cache --- */
+  RULE("Data cache", "a bank serves one access a cycle", FAR, "chip.tps_per_tm=4", 211, NONE,
+       "104 105 209 210 / 104 106 209 210 / 104 107 209 210 / 104 108 209 210",
+       "icache_miss=416 dcache_bank_conflict=6 wait_memory=406", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
+  /* The line is on the bus in 108..111. */
+  RULE(
+      "Data cache", "neighbouring words are in neighbouring banks", FAR, "chip.tps_per_tm=4 dcache.tps_per_bank=1", 112,
+      NONE, "104 105 106 107 108 109 / 104 105 106 107 108 109 / 104 105 106 107 108 109 / 104 105 106 107 108 109",
+      "icache_miss=416", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 2), R(ADD, 1, 1, 2), I(LW, 3, 1, 0), HALT);
+  RULE("Data cache", "words 4 apart are in one of 4 banks", FAR, "chip.tps_per_tm=4 dcache.tps_per_bank=1", 113, NONE,
+       "104 105 106 107 108 109 / 104 105 106 107 109 110 / 104 105 106 107 110 111 / 104 105 106 107 111 112",
+       "icache_miss=416 dcache_bank_conflict=6", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 4),
+       R(ADD, 1, 1, 2), I(LW, 3, 1, 0), HALT);
+  /* 105 misses, there 209; 106 merges; 107 misses, on the bus in 109..112, there 213. */
+  RULE("Data cache", "a miss does not stop the next one; a line on its way is merged with", FAR, "", 215, NONE,
+       "104 105 106 107 209 210 213 214", "icache_miss=104 wait_memory=103", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       I(LW, 3, 1, 4), I(LW, 4, 1, 64), R(ADD, 5, 3, 3), R(ADD, 6, 2, 2), R(ADD, 7, 4, 4), HALT);
+  RULE("Data cache", "a miss needs a miss register", FAR, "dcache.mshrs=1", 315, NONE, "104 105 209 313 314",
+       "icache_miss=104 memory_queue_full=103 wait_memory=103", U(LUI, 1, 1), I(LW, 2, 1, 0), I(LW, 3, 1, 64),
+       R(ADD, 4, 3, 3), HALT);
+  /* TP 0 misses in 109. From 110 on TP 1 (even cycles) and TP 0 (odd ones) have the bank by turns and are refused; in
+     213 the register is free and it is TP 0's turn. TP 1 has it in 317; that line is on the bus in 317..320. */
+  RULE("Data cache", "a load that is refused has used its bank, and the bank's pointer moved", FAR,
+       "chip.tps_per_tm=2 dcache.mshrs=1", 321, NONE, "104 105 106 107 108 109 213 214 / 104 105 106 107 108 317 318",
+       "icache_miss=208 dcache_bank_conflict=105 memory_queue_full=206", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP),
+       I(SLLI, 3, 2, 6), R(ADD, 1, 1, 3), B(BNE, 2, 0, 16), I(LW, 3, 1, 0), I(LW, 4, 1, 128), HALT, I(LW, 3, 1, 0),
+       HALT);
+  /* One set of two: A 105, B 210, A hits, C 317 takes A's place, B hits, A 424. */
+  RULE("Data cache", "first in, first out", FAR, "dcache.bytes=128 dcache.ways=2", 530, NONE,
+       "104 105 209 210 314 315 316 317 421 422 423 424 528 529", "icache_miss=104 wait_memory=412", U(LUI, 1, 1),
+       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), I(LW, 2, 1, 4), R(ADD, 0, 2, 2),
+       I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 68), R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  /* The load after the first store misses (106, there 210); the second store updates the line: the load of 213 hits and
+     gets 9. */
+  RULE("Data cache", "a store goes around the cache and updates a line in place", FAR, "", 217, NONE,
+       "104 105 106 210 211 212 213 214 215 216", "icache_miss=104 wait_memory=103", U(LUI, 1, 1), S(SW, 1, 1, 0),
+       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(ADDI, 3, 0, 9), S(SW, 3, 1, 0), I(LW, 4, 1, 0), I(ADDI, 5, 4, -9),
+       B(BEQ, 5, 0, 8), NOP, HALT);
+  RULE("Data cache", "loads past the cache ask for no bank", FAR, "chip.tps_per_tm=4", 107, NONE,
+       "104 105 106 / 104 105 106 / 104 105 106 / 104 105 106", "icache_miss=416", U(LUI, 1, 1), I(LWNT, 2, 1, 0),
+       HALT);
+
+  /* --- Stores and write combining: 0.1 bytes a cycle; the first instruction in 740 --- */
+  RULE("Stores", "stores that touch become one write", FAR, "memory.bandwidth_gbps=0.05", 905, NONE,
+       "740 741 742 743 744 745", "icache_miss=740", U(LUI, 1, 1), S(SWNT, 1, 1, 0), S(SWNT, 1, 1, 4), S(SW, 1, 1, 8),
+       S(SWNT, 1, 1, 12), HALT);
+  RULE("Stores", "also downwards", FAR, "memory.bandwidth_gbps=0.05", 823, NONE, "740 741 742 743", "icache_miss=740",
+       U(LUI, 1, 1), S(SWNT, 1, 1, 4), S(SWNT, 1, 1, 0), HALT);
+  RULE("Stores", "what overlaps the run joins it", FAR, "memory.bandwidth_gbps=0.05", 783, NONE, "740 741 742 743",
+       "icache_miss=740", U(LUI, 1, 1), S(SW, 1, 1, 0), S(SB, 1, 1, 2), HALT);
+  /* 742..781 and 782..821. */
+  RULE("Stores", "a gap ends the run", FAR, "memory.bandwidth_gbps=0.05", 822, NONE, "740 741 742 743",
+       "icache_miss=740", U(LUI, 1, 1), S(SWNT, 1, 1, 0), S(SWNT, 1, 1, 8), HALT);
+  RULE("Stores", "the end of a block of 64 bytes ends the run", FAR, "memory.bandwidth_gbps=0.05", 822, NONE,
+       "740 741 742 743", "icache_miss=740", U(LUI, 1, 1), S(SWNT, 1, 1, 60), S(SWNT, 1, 1, 64), HALT);
+  RULE("Stores", "without write combining each is written by itself", FAR,
+       "memory.bandwidth_gbps=0.05 memory.write_combining=false", 901, NONE, "740 741 742 743 744 745",
+       "icache_miss=740", U(LUI, 1, 1), S(SWNT, 1, 1, 0), S(SWNT, 1, 1, 4), S(SW, 1, 1, 8), S(SWNT, 1, 1, 12), HALT);
+  /* The write of 106 is back in 207. */
+  RULE("Stores", "halt needs a place for what the buffer holds", FAR, "memory.queue_depth=1", 208, NONE,
+       "104 105 106 207", "icache_miss=104 memory_queue_full=100", U(LUI, 1, 1), S(SW, 1, 1, 0), S(SW, 1, 1, 8), HALT);
+  /* TP 0's write of 105 has the place to 206. */
+  RULE("Stores", "a store that gets no place waits for it", FAR,
+       "chip.tps_per_tm=2 memory.queue_depth=1 memory.write_combining=false", 208, NONE, "104 105 106 / 104 206 207",
+       "icache_miss=208 dcache_bank_conflict=1 memory_queue_full=100", U(LUI, 1, 1), S(SW, 1, 1, 0), HALT);
+
+  /* --- Memory queue --- */
+  /* Three lines, three banks, one place: TP k in 108 + 104 k, then all again. The last line is on the bus in 628..631.
+   */
+  RULE("Memory queue", "places go round", FAR, "chip.tps_per_tm=3 memory.queue_depth=1 dcache.tps_per_bank=1", 632,
+       NONE, "104 105 106 107 108 420 421 / 104 105 106 107 212 524 525 / 104 105 106 107 316 628 629",
+       "icache_miss=312 memory_queue_full=1245", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 6),
+       R(ADD, 1, 1, 2), I(LW, 3, 1, 0), I(LW, 4, 1, 192), HALT);
+  RULE("Memory queue", "the second of two that miss a line in one cycle merges", FAR,
+       "chip.tps_per_tm=2 dcache.tps_per_bank=1", 214, NONE,
+       "104 105 106 107 108 212 213 / 104 105 106 107 108 212 213", "icache_miss=208 wait_memory=206", U(LUI, 1, 1),
+       U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 2), R(ADD, 1, 1, 2), I(LW, 3, 1, 0), R(ADD, 4, 3, 3), HALT);
+  /* 105 is back in 206, the next in 307; halt has nothing to write. */
+  RULE("Memory queue", "a write has its place until its completion", FAR,
+       "memory.queue_depth=1 memory.write_combining=false", 309, NONE, "104 105 206 307 308",
+       "icache_miss=104 memory_queue_full=200", U(LUI, 1, 1), S(SW, 1, 1, 0), S(SW, 1, 1, 4), S(SW, 1, 1, 8), HALT);
+  /* The line has the bus in 105..108, the word from 109 on. */
+  RULE("Memory queue", "requests are served in the order in which they were made", FAR, "", 212, NONE,
+       "104 105 106 210 211", "icache_miss=104 wait_memory=103", U(LUI, 1, 1), I(LW, 2, 1, 0), I(LWNT, 3, 1, 0),
+       R(ADD, 0, 3, 3), HALT);
+  /* Two cycles each: 105..106 and 107..108. */
+  RULE("Memory queue", "a short transfer costs memory.min_transfer_bytes", FAR, "memory.min_transfer_bytes=32", 211,
+       NONE, "104 105 106 207 209 210", "icache_miss=104 wait_memory=101", U(LUI, 1, 1), I(LWNT, 2, 1, 0),
+       I(LWNT, 3, 1, 0), R(ADD, 0, 2, 2), R(ADD, 0, 3, 3), HALT);
+
+  /* --- Memory controller --- */
+  /* 3 bytes a cycle: the line is through after 21 1/3, there in 122. 36 bytes from 123 on take 12 cycles. */
+  RULE("Memory controller", "the bandwidth is an exact fraction", FAR,
+       "memory.bandwidth_gbps=1.5 memory.write_combining=false", 135, NONE,
+       "122 123 124 125 126 127 128 129 130 131 132", "icache_miss=122", U(LUI, 1, 1), S(SW, 1, 1, 0), S(SW, 1, 1, 4),
+       S(SW, 1, 1, 8), S(SW, 1, 1, 12), S(SW, 1, 1, 16), S(SW, 1, 1, 20), S(SW, 1, 1, 24), S(SW, 1, 1, 28),
+       S(SW, 1, 1, 32), HALT);
+  /* Four words fill 105; the fifth has 106. */
+  RULE("Memory controller", "a cycle serves as many requests as begin in it", FAR, "chip.tps_per_tm=5", 209, NONE,
+       "104 105 206 207 / 104 105 206 207 / 104 105 206 207 / 104 105 206 207 / 104 105 207 208",
+       "icache_miss=520 wait_memory=501", U(LUI, 1, 1), I(LWNT, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
+  /* Lines there in 104, 108, 112. Increments of 64 cycles, the first from 105: TMs 0, 1, 2, 0, 1, 2; the k-th is usable
+     in 269 + 64 k. */
+  RULE("Memory controller", "TMs take turns", FAR, "chip.tms=3 chip.tps_per_tm=2 memory.atomic_bytes=1024", 591, NONE,
+       "104 105 269 270 / 104 105 461 462 / 108 109 333 334 / 108 109 525 526 / 112 113 397 398 / 112 113 589 590",
+       "icache_miss=648 wait_atomic=1914", U(LUI, 1, 1), I(AINC, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
+  /* 105 takes half a cycle, 106 as well: there in 206 and 207. The second got 1. */
+  RULE("Memory controller", "increments happen in the order of service", FAR, "", 209, NONE, "104 105 106 207 208",
+       "icache_miss=104 wait_atomic=100", U(LUI, 1, 1), I(AINC, 2, 1, 0), I(AINC, 3, 1, 0), B(BNE, 3, 0, 8), NOP, HALT);
+
+  /* --- Faults --- */
+  RULE("Faults", "the rest of the cycle happens", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 4, NULL_PAGE, "1 2 / 1 2 3",
+       "icache_miss=2", U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 8), I(LW, 2, 0, 0), NOP, HALT);
+  /* In 3 TP 0 is illegal (step 2), and TP 1 aborts (step 5); then the other way round. */
+  RULE("Faults", "the first in (TM, TP) order is reported", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 4, ILLEGAL,
+       "1 2 / 1 2", "icache_miss=2", U(RDSR, 1, TRAX_SR_TP), B(BEQ, 1, 0, 8), T(0, TRAX_TRAP_ABORT), 0);
+  RULE("Faults", "also if a higher one came in an earlier step", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 4, ABORT,
+       "1 2 / 1 2", "icache_miss=2", U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 8), T(0, TRAX_TRAP_ABORT), 0);
+  RULE("Faults", "the null page comes before misalignment", NEAR, "", 2, NULL_PAGE, "", "icache_miss=1 halted=1",
+       I(LW, 1, 0, 2), HALT);
+
+  /* --- Accounting --- */
+  RULE("Accounting", "a thread is halted from the cycle after its end", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 6, NONE,
+       "1 2 3 / 1 2 3 4 5", "icache_miss=2 halted=2", U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 8), HALT, NOP, NOP, HALT);
+  *count = n;
+  return rules;
+}
