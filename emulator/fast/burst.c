@@ -19,6 +19,13 @@ static unsigned data_bank(const struct trax_fast_tm *ftm, uint32_t address) {
   return (banks & (banks - 1)) == 0 ? address / 4 & (banks - 1) : address / 4 % banks;
 }
 
+/* Bit line % 64 of the lines from one instruction to another. */
+static uint64_t lines_of(const struct trax_fast_inst *first, const struct trax_fast_inst *last) {
+  const unsigned count = (unsigned)(last->step.line - first->step.line), begin = first->step.line % 64u;
+  const uint64_t lines = count < 63 ? ((uint64_t)2 << count) - 1 : ~(uint64_t)0;
+  return begin ? lines << begin | lines >> (64 - begin) : lines;
+}
+
 unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number, unsigned limit) {
   struct trax_fast_tp *const ftp = &ftm->tp[number];
   struct trax_tp *const tp = &ftm->tm->tp[number];
@@ -34,6 +41,8 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
   uint32_t address, word, jumps = 0;
   uint64_t resume_pc = ftp->resume_pc; /* of the outside */
   int64_t *const changes = ftm->changes;
+  const struct trax_fast_inst *run = inst; /* where the latest jump went */
+  uint64_t lines = 0;
   ftp->undo_count = 0;
   changes[inst->step.index]++;
 
@@ -111,9 +120,10 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
     __VA_ARGS__                                                                                                        \
     if (next_pc != NOWHERE && (uint32_t)next_pc != PC + 4) {                                                           \
       jumps++;                                                                                                         \
+      lines |= lines_of(run, inst);                                                                                    \
       changes[inst->step.index + 1]--;                                                                                 \
       step->asks |= slow_jump;                                                                                         \
-      inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                            \
+      run = inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                      \
       resume_pc = next_pc;                                                                                             \
       changes[inst->step.index]++;                                                                                     \
     } else {                                                                                                           \
@@ -131,5 +141,6 @@ stop:
   ftp->resume = inst;
   ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->pc[inst->step.index];
   ftp->burst_jumps = jumps;
+  ftp->burst_lines = lines | lines_of(run, inst);
   return (unsigned)(step - ftp->steps);
 }

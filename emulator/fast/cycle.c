@@ -141,6 +141,7 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   const struct trax_tp *tp = &tm->tp[number];
   if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL) {
     ftm->slot[number].busy &= ~ftm->slot[number].step->waits;
+    ftm->busy &= ~((uint64_t)!ftm->slot[number].busy << number);
     return true;
   }
   uint64_t until = 0;
@@ -220,7 +221,7 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   if (latency > 1) {
     const unsigned rd = ftm->fast->program.inst[step->index].rd;
     trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
-    ftm->slot[number].busy |= trax_fast_register_bit(rd);
+    trax_fast_set_busy(ftm, number, rd);
   }
   return true;
 }
@@ -234,7 +235,7 @@ static bool serve(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
     return false;
   }
-  ftm->slot[number].busy |= trax_fast_register_bit(tm->tp[number].inst->rd);
+  trax_fast_set_busy(ftm, number, tm->tp[number].inst->rd);
   return true;
 }
 

@@ -37,7 +37,9 @@ static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
     ftm->behind = create_vectors(count);
   }
   ftm->resident = calloc(tm->icaches, sizeof *ftm->resident);
-  if (!(ftm->narrow ? ftm->asking16 && ftm->behind16 : ftm->asking && ftm->behind) || !ftm->resident)
+  ftm->resident_lines = calloc(tm->icaches, sizeof *ftm->resident_lines);
+  if (!(ftm->narrow ? ftm->asking16 && ftm->behind16 : ftm->asking && ftm->behind) || !ftm->resident ||
+      !ftm->resident_lines)
     return false;
   for (unsigned i = 0; i < tm->tps; i++) {
     const uint32_t icache = i / tps;
@@ -109,6 +111,7 @@ static void destroy(struct trax_fast *fast) {
     free(fast->tm[i].asking16);
     free(fast->tm[i].behind16);
     free(fast->tm[i].resident);
+    free(fast->tm[i].resident_lines);
   }
   free(fast->tm);
   trax_fast_blocks_destroy(&fast->blocks);

@@ -56,8 +56,8 @@ enum {
 /* What timing needs of an instruction that has been executed. */
 struct trax_fast_step {
   uint32_t waits;      /* mask of registers that must be usable */
-  uint32_t index : 26; /* of the instruction, in trax_fast_program.inst */
-  uint32_t bank : 6;   /* of the instruction cache */
+  uint32_t index : 24; /* of the instruction, in trax_fast_program.inst */
+  uint32_t bank : 8;   /* of the instruction cache */
   uint32_t address;    /* of a memory access, else 0 */
   uint16_t line;       /* of the program, for `resident` */
   uint16_t asks;
@@ -82,6 +82,7 @@ struct trax_fast_section {
 struct trax_fast_program {
   struct trax_fast_section *sections; /* [count], in one array of instructions */
   size_t count, inst_count;
+  uint32_t lines; /* that `resident` knows */
   struct trax_fast_inst *inst;
   uint32_t *pc;                   /* [inst_count] */
   struct trax_fast_inst *outside; /* the last */
@@ -116,6 +117,7 @@ struct trax_fast_tp {
   /* Of the bursts that are over: how much of them was issued. */
   uint64_t issued, jumps;
   uint32_t burst_jumps; /* of the current burst, its last step included */
+  uint64_t burst_lines; /* bit line % 64: in which lines of the program its steps are */
 
   struct trax_fast_step steps[TRAX_BURST];
   /* How to get back to the burst's beginning (blocks.c). */
@@ -141,7 +143,9 @@ struct trax_fast_tm {
   uint64_t smooth;  /* the head's operands will be usable in the first cycle in which it can be fetched, and its line is
                        there */
   uint64_t outside; /* the head cannot be fetched */
-  uint64_t taken_up; /* hold an instruction since before the run was taken up: its operands are looked at again */
+  uint64_t busy;    /* slot.busy is not 0 */
+  uint64_t uncertain; /* a line of the burst may not be there */
+  uint64_t taken_up;  /* hold an instruction since before the run was taken up: its operands are looked at again */
 
   /* The banks of all instruction caches, one cache's after another's, each beginning a vector: the TPs that ask, and
      those behind the latest winner. If no more than 16 TPs share a cache, the arrays of 16 bits are used, and a bit is
@@ -154,6 +158,7 @@ struct trax_fast_tm {
   trax_fast_lanes16 *asking16, *behind16;
   uint32_t data_banks, data_bank_bits;
   uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches] */
+  uint64_t *resident_lines;             /* [tm->icaches]: the same, bit by line, of programs of 64 lines; else 0 */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 
   struct trax_fast_units fp;      /* adders, multipliers */
@@ -181,6 +186,11 @@ struct trax_fast {
 /* In trax_fast_slot.busy. */
 static inline uint32_t trax_fast_register_bit(unsigned rd) {
   return (uint32_t)((uint64_t)1 << rd); /* 0 of TRAX_NO_REGISTER */
+}
+
+static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
+  ftm->slot[tp].busy |= trax_fast_register_bit(rd);
+  ftm->busy |= (uint64_t)1 << tp;
 }
 
 /* --- program.c --- */

@@ -23,6 +23,8 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   }
   if (count) {
     ftm->deferred &= ~bit;
+    const bool certain = !(ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]]);
+    ftm->uncertain = (ftm->uncertain & ~bit) | (certain ? 0 : bit);
     ftp->steps[count - 1].asks |= TRAX_ASKS_SLOWLY;
     slot->step = ftp->steps;
     ftp->last = ftp->steps + count - 1;
@@ -84,11 +86,15 @@ void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned number, uint32_t 
     const uint64_t comes_as = section->line + (uint64_t)line - section->first_line;
     const uint64_t goes_as = section->line + gone - 1 - section->first_line;
     if (gone > section->first_line && gone - 1 <= last_line && goes_as < TRAX_FAST_LINES - 1)
-      resident[goes_as] = 0;
+      trax_fast_set_resident(ftm, number, (uint32_t)goes_as, false);
     if (line >= section->first_line && line <= last_line && comes_as < TRAX_FAST_LINES - 1)
-      resident[comes_as] = 1;
+      trax_fast_set_resident(ftm, number, (uint32_t)comes_as, true);
   }
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
-    if (ftm->icache_of[tp] == number && !resident[ftm->slot[tp].step->line])
-      ftm->smooth &= ~((uint64_t)1 << tp);
+    if (ftm->icache_of[tp] == number) {
+      if (gone)
+        ftm->uncertain |= (uint64_t)1 << tp;
+      if (!resident[ftm->slot[tp].step->line])
+        ftm->smooth &= ~((uint64_t)1 << tp);
+    }
 }

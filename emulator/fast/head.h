@@ -22,6 +22,12 @@ static inline bool trax_fast_is_smooth(const struct trax_fast_slot *slot, const 
   return (step->waits & slot->busy ? 0 : 1) & slot->resident[step->line];
 }
 
+static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned icache, uint32_t line, bool is_there) {
+  ftm->resident[icache][line] = is_there;
+  if (ftm->fast->program.lines <= 64)
+    ftm->resident_lines[icache] = (ftm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_there << line;
+}
+
 /* The TP's next instruction becomes its head, executed already if it may be; returns its pc. */
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp);
 

@@ -20,7 +20,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
   else if (tp->address >= TRAX_LOCAL_BASE)
     trax_tp_set_usable(tp, inst->rd, t + ftm->tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
-  ftm->slot[number].busy |= trax_fast_register_bit(inst->rd);
+  trax_fast_set_busy(ftm, number, inst->rd);
   const bool goes_on = tp->pc == pc + 4;
   ftp->resume = goes_on ? &ftm->fast->program.inst[index + 1] : trax_fast_inst_at(&ftm->fast->program, tp->pc);
   ftp->resume_pc = tp->pc;
@@ -45,7 +45,7 @@ static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   }
   if (latency > 1) {
     trax_tp_set_usable(&ftm->tm->tp[number], inst->rd, t + latency, cause);
-    ftm->slot[number].busy |= trax_fast_register_bit(inst->rd);
+    trax_fast_set_busy(ftm, number, inst->rd);
   }
 }
 
@@ -80,21 +80,24 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
 
 /* The next steps of those that do nothing else: they become the heads and ask for their banks. */
 static inline void issue_alike(struct trax_fast_tm *ftm, uint64_t quick, bool narrow) {
-  uint64_t smooth = 0;
   for (uint64_t rest = quick; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     struct trax_fast_slot *const slot = &ftm->slot[number];
     const struct trax_fast_step *const next = slot->step + 1;
     slot->step = next;
     ftm->asks[number] = next->asks;
-    smooth |= (uint64_t)trax_fast_is_smooth(slot, next) << number;
     if (narrow) /* what has been executed can be fetched */
       slot->asking16[next->bank] |= slot->bit16;
     else
       slot->asking[next->bank] |= rest & -rest;
   }
-  ftm->smooth = (ftm->smooth & ~quick) | smooth;
   ftm->tm->holding &= ~quick;
+  ftm->smooth |= quick;
+  for (uint64_t rest = quick & (ftm->busy | ftm->uncertain); rest; rest &= rest - 1) {
+    const struct trax_fast_slot *slot = &ftm->slot[trax_first(rest)];
+    if (!trax_fast_is_smooth(slot, slot->step))
+      ftm->smooth ^= rest & -rest;
+  }
 }
 
 static inline void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {

@@ -57,7 +57,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   for (size_t i = 0; i < text->count; i++)
     total += (text->sections[i].end - text->sections[i].begin) / 4 + 1;
   program->inst_count = total;
-  if (total >= (size_t)1 << 26)
+  if (total >= (size_t)1 << 24)
     return trax_fail(error, "%zu instructions are too many for the fast engine", total);
   program->sections = calloc(text->count ? text->count : 1, sizeof *program->sections);
   program->inst = malloc(total * sizeof *program->inst);
@@ -78,6 +78,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     lines += section->end / line_bytes - first_line + 1;
     lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES - 1;
   }
+  program->lines = lines;
   program->outside = &program->inst[index];
   *program->outside = predecode(trax_text_at(text, 1), index, TRAX_FAST_LINES); /* none is at an odd address */
   program->pc[index] = 0;

@@ -83,7 +83,7 @@ static void find_resident_lines(struct trax_fast_tm *ftm) {
       const uint32_t last_line = (section->begin + section->bytes) >> tags->line_shift;
       for (uint32_t line = section->first_line, index = section->line; line <= last_line && index < TRAX_FAST_LINES - 1;
            line++, index++)
-        ftm->resident[i][index] = trax_cache_tags_have(tags, line);
+        trax_fast_set_resident(ftm, i, index, trax_cache_tags_have(tags, line));
     }
   }
 }
@@ -108,9 +108,10 @@ static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   ftp->resume_pc = tp->pc;
   slot->step = ftp->last = &ftp->only;
   slot->busy = 0;
+  ftm->busy &= ~bit;
   for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
     if (tp->usable[rd] > t)
-      slot->busy |= trax_fast_register_bit(rd);
+      trax_fast_set_busy(ftm, number, rd);
   trax_fast_advance(ftm, number);
   if (tm->awake & ~tm->holding & bit)
     trax_fast_ask_fetch(ftm, number);

@@ -102,6 +102,7 @@ static void add_fast(struct trax_windows *windows, struct trax_fast_tm *ftm) {
   add_region(windows, ftm->tp, tm->tps * sizeof *ftm->tp);
   add_region(windows, ftm->changes, (ftm->fast->program.inst_count + 1) * sizeof *ftm->changes);
   add_region(windows, ftm->resident, tm->icaches * sizeof *ftm->resident);
+  add_region(windows, ftm->resident_lines, tm->icaches * sizeof *ftm->resident_lines);
   add_region(windows, ftm->narrow ? (void *)ftm->asking16 : ftm->asking, vectors);
   add_region(windows, ftm->narrow ? (void *)ftm->behind16 : ftm->behind, vectors);
 }
