@@ -112,7 +112,7 @@ struct trax_stats {
   X(peak_gflops, "peak_gflops", "10^9 operations/s", "one add and one multiplication per cluster and cycle",           \
     2.0 * TRAX_CLUSTERS(C) * C->chip.tms * C->chip.clock_mhz / 1e3)                                                    \
   X(area_mm2, "area_mm2", "mm2 at 65 nm", "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs",        \
-    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                            \
+    C->chip.tms * (0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                           \
   X(fp_add_utilisation, "fp_add.utilisation", "fraction", "share of cycles in which an adder accepted an operation",   \
     (double)S->total.fp_add_ops / S->cycles / (TRAX_CLUSTERS(C) * C->chip.tms))                                        \
   X(fp_mul_utilisation, "fp_mul.utilisation", "fraction",                                                              \
@@ -134,7 +134,28 @@ struct trax_stats {
   X(memory_gbps, "memory.bandwidth_gbps", "GB/s", "off-chip bandwidth used",                                           \
     TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9)                                                                   \
   X(memory_utilisation, "memory.utilisation", "fraction", "share of the off-chip bandwidth used",                      \
-    TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)
+    TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)                                        \
+  X(energy_fp_add, "energy.fp_add", "J", "adders: additions and subtractions", trax_energy_of(S, C).fp_add)            \
+  X(energy_fp_mul, "energy.fp_mul", "J", "multipliers", trax_energy_of(S, C).fp_mul)                                   \
+  X(energy_fp_other, "energy.fp_other", "J", "comparisons, minima, maxima, conversions",                               \
+    trax_energy_of(S, C).fp_other)                                                                                     \
+  X(energy_int_mul, "energy.int_mul", "J", "integer multipliers", trax_energy_of(S, C).int_mul)                        \
+  X(energy_special, "energy.special", "J", "FPDIV/iSQRT units", trax_energy_of(S, C).special)                          \
+  X(energy_integer, "energy.integer", "J", "the TPs' integer units: instructions, addresses, branches",                \
+    trax_energy_of(S, C).integer)                                                                                      \
+  X(energy_registers, "energy.registers", "J", "register files: an access for each operand and each result",           \
+    trax_energy_of(S, C).registers)                                                                                    \
+  X(energy_local, "energy.local_memory", "J", "local memories", trax_energy_of(S, C).local_memory)                     \
+  X(energy_icache, "energy.icache", "J", "instruction caches: fetches, and lines that arrive",                         \
+    trax_energy_of(S, C).icache)                                                                                       \
+  X(energy_dcache, "energy.dcache", "J", "data caches: loads, stores through them, and lines that arrive",             \
+    trax_energy_of(S, C).dcache)                                                                                       \
+  X(energy_total, "energy.total", "J",                                                                                 \
+    "the sum of these: the chip's dynamic energy at 65 nm, without leakage and clock", trax_energy_of(S, C).total)     \
+  X(energy_per_ray, "energy.per_ray", "J/ray", "the same for each ray", trax_energy_of(S, C).total / S->total.rays)    \
+  X(energy_power, "energy.average_power", "W", "the same for each simulated second",                                   \
+    trax_energy_of(S, C).total / TRAX_SECONDS(S, C))                                                                   \
+  X(energy_off_chip, "energy.off_chip", "J", "off-chip memory, which is not in the sum", trax_energy_of(S, C).off_chip)
 
 #define TRAX_SECONDS(S, C) ((double)(S)->cycles / ((C)->chip.clock_mhz * 1e6))
 #define TRAX_CLUSTERS(C) (((C)->chip.tps_per_tm + (C)->fpu.tps_per_cluster - 1) / (C)->fpu.tps_per_cluster)

@@ -4,12 +4,6 @@
 
 #include <string.h>
 
-const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
-#define NAME(ID, NAME, MEANING) NAME,
-    TRAX_CAUSES(NAME)
-#undef NAME
-};
-
 /* What a thread was charged since its latest issue. */
 struct trax_steps {
   struct trax_stretch *stretches;
@@ -35,6 +29,7 @@ static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause
 static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
   const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
   struct trax_steps *steps = &explain->steps[thread];
+  const uint32_t index = trax_places_index(explain->places, steps->pc);
   const struct trax_step step = {.tm = tm,
                                  .tp = tp,
                                  .thread = thread,
@@ -44,7 +39,8 @@ static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, co
                                  .stretches = steps->stretches,
                                  .count = steps->count,
                                  .issue = issue,
-                                 .inst = issue ? trax_decode(issue->word) : (trax_inst){0}};
+                                 .index = index,
+                                 .inst = *trax_places_inst(explain->places, index)};
   for (unsigned i = 0; i < explain->reader_count; i++)
     explain->readers[i].step(explain->readers[i].self, &step);
   steps->count = 0;

@@ -123,7 +123,6 @@ static void count(struct perfetto *perfetto, const struct trax_issue *issue) {
 static void take(void *self, const struct trax_step *step) {
   struct perfetto *perfetto = self;
   const struct trax_explain_options *options = &perfetto->explain->options;
-  struct trax_places *places = perfetto->explain->places;
   struct thread *thread = &perfetto->threads[step->thread];
   if (step->issue)
     count(perfetto, step->issue);
@@ -134,7 +133,7 @@ static void take(void *self, const struct trax_step *step) {
   const bool bubble = step->count && step->stretches[0].cause == TRAX_CAUSE_BRANCH; /* it is the branch's */
   const uint64_t entered = step->begin + (bubble ? step->stretches[0].cycles : 0);
   if (entered < options->window_end && !(halts && step->count == 1))
-    enter_frames(perfetto, step->tm, step->tp, thread, trax_places_index(places, step->pc), clip(options, entered));
+    enter_frames(perfetto, step->tm, step->tp, thread, step->index, clip(options, entered));
   for (size_t i = 0; i < step->count; i++)
     add_stretch(perfetto, step->tm, step->tp, thread, step->stretches[i].cause, step->stretches[i].since,
                 step->stretches[i].cycles);

@@ -20,6 +20,7 @@ struct trax_places {
   size_t range_count;
   uint32_t count;
   struct trax_place *place; /* [count + 2]; frames are NULL until it is looked up */
+  trax_inst *inst;          /* [count + 2] */
 
   char **names; /* [name] */
   size_t name_count, name_capacity;
@@ -40,9 +41,15 @@ struct trax_places *trax_places_create(const trax_machine *machine) {
     places->count += segment->bytes / 4;
   }
   places->place = calloc((size_t)places->count + 2, sizeof *places->place);
-  if (!places->ranges || !places->place) {
+  places->inst = calloc((size_t)places->count + 2, sizeof *places->inst);
+  if (!places->ranges || !places->place || !places->inst) {
     trax_places_destroy(places);
     return NULL;
+  }
+  for (uint32_t i = 0; i < places->count; i++) {
+    uint32_t word;
+    memcpy(&word, machine->space.bytes + trax_places_pc(places, i), sizeof word);
+    places->inst[i] = trax_decode(word);
   }
   return places;
 }
@@ -57,6 +64,7 @@ void trax_places_destroy(struct trax_places *places) {
   free(places->names);
   free(places->ranges);
   free(places->place);
+  free(places->inst);
   trax_table_free(&places->by_hash);
   free(places);
 }
@@ -77,6 +85,10 @@ uint32_t trax_places_pc(const struct trax_places *places, uint32_t index) {
     if (index - places->ranges[i].first < places->ranges[i].count)
       return places->ranges[i].address + 4 * (index - places->ranges[i].first);
   return 0;
+}
+
+const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t index) {
+  return &places->inst[index];
 }
 
 /* --- names --- */

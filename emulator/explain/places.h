@@ -27,6 +27,7 @@ void trax_places_destroy(struct trax_places *places);
 uint32_t trax_places_count(const struct trax_places *places); /* without those two */
 uint32_t trax_places_index(const struct trax_places *places, uint32_t pc);
 uint32_t trax_places_pc(const struct trax_places *places, uint32_t index);
+const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t index);
 static inline uint32_t trax_places_halted(const struct trax_places *places) {
   return trax_places_count(places);
 }

@@ -95,7 +95,7 @@ static void take(void *self, const struct trax_step *step) {
   struct trax_profile *profile = self;
   struct trax_profile_thread *thread = &profile->threads[step->thread];
   const struct trax_places *places = profile->explain->places;
-  const uint32_t index = trax_places_index(places, step->pc), previous = thread->latest;
+  const uint32_t index = step->index, previous = thread->latest;
   struct trax_profile_counts *counts = NULL; /* made only if it counts something */
   if (step->issue) {
     counts = counts_of(profile, thread->context, index, &thread->latest);

@@ -1,18 +1,10 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
 /* Profiles as text: tables by function and line, folded stacks, annotated instructions. */
 #include "explain/profile.h"
+#include "host/statistics.h"
 
 #include <inttypes.h>
 #include <string.h>
-
-/* Heads of the columns, as short as they can be understood. */
-static const char *const cause_heads[TRAX_CAUSE_COUNT] = {
-    [TRAX_CAUSE_ISSUED] = "issued",    [TRAX_CAUSE_ICACHE_BANK] = "i-bank", [TRAX_CAUSE_ICACHE_MISS] = "i-miss",
-    [TRAX_CAUSE_DATA_LOCAL] = "local", [TRAX_CAUSE_DATA_HIT] = "d-hit",     [TRAX_CAUSE_DATA_MISS] = "memory",
-    [TRAX_CAUSE_DATA_SPECIAL] = "div", [TRAX_CAUSE_DATA_ATOMIC] = "atomic", [TRAX_CAUSE_DATA_OTHER] = "other",
-    [TRAX_CAUSE_FP_ADD] = "add-c",     [TRAX_CAUSE_FP_MUL] = "mul-c",       [TRAX_CAUSE_INT_MUL] = "imul-c",
-    [TRAX_CAUSE_SPECIAL] = "div-c",    [TRAX_CAUSE_DCACHE_BANK] = "d-bank", [TRAX_CAUSE_MEMORY_QUEUE] = "queue",
-    [TRAX_CAUSE_BRANCH] = "bubble",    [TRAX_CAUSE_HALTED] = "halted"};
 
 /* A row of a table. */
 struct row {
@@ -75,7 +67,7 @@ static void print_head(FILE *out, const struct trax_profile_counts *total) {
   fprintf(out, "%15s %6s %6s %14s %7s", "thread-cycles", "own %", "all %", "instructions", "load-h%");
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
     if (total->cycles[cause])
-      fprintf(out, " %6s", cause_heads[cause]);
+      fprintf(out, " %6s", trax_cause_heads[cause]);
   fprintf(out, "\n");
 }
 

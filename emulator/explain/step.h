@@ -6,6 +6,7 @@
 #include "core/chip.h"
 #include "explain/explain.h"
 #include "host/host.h"
+#include "host/statistics.h"
 #include "host/util.h"
 
 struct trax_stretch {
@@ -16,12 +17,13 @@ struct trax_stretch {
 struct trax_step {
   uint32_t tm, tp, thread;
   uint32_t pc;          /* of the instruction */
+  uint32_t index;       /* of it in the places */
   uint32_t previous_pc; /* of the thread's instruction before it, whose a branch bubble is; pc if there was none */
   uint64_t begin;       /* the cycle from which on it is told here */
   const struct trax_stretch *stretches;
   size_t count;
   const struct trax_issue *issue; /* NULL: the run ended before it was issued, or the thread has halted */
-  trax_inst inst;                 /* of the issue */
+  trax_inst inst;                 /* the instruction; what is not text is illegal */
 };
 
 struct trax_reader {
@@ -47,8 +49,6 @@ struct trax_explain {
   struct trax_watch *series; /* NULL: none */
   bool out_of_memory;        /* some of what was told could not be kept */
 };
-
-extern const char *const trax_cause_names[TRAX_CAUSE_COUNT];
 
 /* Whether the window has the TP's cycles from begin to end (not included), or part of them. */
 bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, uint32_t tp, uint64_t begin,

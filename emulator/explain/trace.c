@@ -12,9 +12,9 @@ struct trace {
   char **text; /* [places]: symbol, word and disassembly; NULL until needed */
 };
 
-static const char *text_of(struct trace *trace, uint32_t pc, uint32_t word) {
+static const char *text_of(struct trace *trace, uint32_t index, uint32_t pc, uint32_t word) {
   struct trax_places *places = trace->explain->places;
-  char **text = &trace->text[trax_places_index(places, pc)];
+  char **text = &trace->text[index];
   if (!*text) {
     char symbol[256], disassembly[128], line[512];
     trax_disassemble(word, pc, disassembly, sizeof disassembly);
@@ -45,7 +45,7 @@ static void take(void *self, const struct trax_step *step) {
     return;
   const unsigned flags = trax_op_table[step->inst.op].flags;
   put_place(trace, issue->cycle, step->tm, step->tp);
-  fprintf(out, "%08x  %s", issue->pc, text_of(trace, issue->pc, issue->word));
+  fprintf(out, "%08x  %s", issue->pc, text_of(trace, step->index, issue->pc, issue->word));
   if (flags & TRAX_WRITES_RD && step->inst.rd && !(flags & TRAX_IS_ATOMIC))
     fprintf(out, "  r%u=%08x", step->inst.rd, issue->result);
   else if (flags & TRAX_IS_STORE || step->inst.op == TRAX_OP_TRAP)

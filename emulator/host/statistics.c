@@ -5,12 +5,19 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/energy.h"
 #include "host.h"
+
+const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
+#define NAME(ID, NAME, MEANING) NAME,
+    TRAX_CAUSES(NAME)
+#undef NAME
+};
 
 /* Units of what is counted rather than measured or divided. */
 static bool is_count(const char *unit) {
-  return !strchr(unit, '/') && strcmp(unit, "s") != 0 && strcmp(unit, "fraction") != 0 &&
-         strcmp(unit, "per cent") != 0 && strncmp(unit, "mm2", 3) != 0;
+  return !strchr(unit, '/') && strcmp(unit, "s") != 0 && strcmp(unit, "J") != 0 && strcmp(unit, "W") != 0 &&
+         strcmp(unit, "fraction") != 0 && strcmp(unit, "per cent") != 0 && strncmp(unit, "mm2", 3) != 0;
 }
 
 struct visitor {
@@ -69,11 +76,6 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
                         void (*visit)(void *context, const struct trax_figure *figure), void *context) {
   static const struct trax_stats no_stats = {0};
   static const struct trax_config no_config = TRAX_CONFIG_DEFAULT;
-  static const char *const cause_names[TRAX_CAUSE_COUNT] = {
-#define NAME(ID, NAME, MEANING) NAME,
-      TRAX_CAUSES(NAME)
-#undef NAME
-  };
   static const char *const cause_meanings[TRAX_CAUSE_COUNT] = {
 #define MEANING(ID, NAME, MEANING) MEANING,
       TRAX_CAUSES(MEANING)
@@ -91,10 +93,10 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
     sum += (double)tm->cycles[cause];
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
-    emit(&visitor, TRAX_GROUP_CAUSE, "causes.", cause_names[cause], "thread-cycles", cause_meanings[cause],
+    emit(&visitor, TRAX_GROUP_CAUSE, "causes.", trax_cause_names[cause], "thread-cycles", cause_meanings[cause],
          (double)tm->cycles[cause]);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
-    emit(&visitor, TRAX_GROUP_SHARE, "cause_percent.", cause_names[cause], "per cent", cause_meanings[cause],
+    emit(&visitor, TRAX_GROUP_SHARE, "cause_percent.", trax_cause_names[cause], "per cent", cause_meanings[cause],
          100 * (double)tm->cycles[cause] / sum);
   visit_instructions(&visitor, tm);
 }
@@ -145,6 +147,14 @@ bool trax_stats_get(const trax_machine *machine, const char *name, double *value
 }
 
 /* --- text --- */
+
+const char *const trax_cause_heads[TRAX_CAUSE_COUNT] = {
+    [TRAX_CAUSE_ISSUED] = "issued",    [TRAX_CAUSE_ICACHE_BANK] = "i-bank", [TRAX_CAUSE_ICACHE_MISS] = "i-miss",
+    [TRAX_CAUSE_DATA_LOCAL] = "local", [TRAX_CAUSE_DATA_HIT] = "d-hit",     [TRAX_CAUSE_DATA_MISS] = "memory",
+    [TRAX_CAUSE_DATA_SPECIAL] = "div", [TRAX_CAUSE_DATA_ATOMIC] = "atomic", [TRAX_CAUSE_DATA_OTHER] = "other",
+    [TRAX_CAUSE_FP_ADD] = "add-c",     [TRAX_CAUSE_FP_MUL] = "mul-c",       [TRAX_CAUSE_INT_MUL] = "imul-c",
+    [TRAX_CAUSE_SPECIAL] = "div-c",    [TRAX_CAUSE_DCACHE_BANK] = "d-bank", [TRAX_CAUSE_MEMORY_QUEUE] = "queue",
+    [TRAX_CAUSE_BRANCH] = "bubble",    [TRAX_CAUSE_HALTED] = "halted"};
 
 struct listing {
   FILE *out;
@@ -204,6 +214,40 @@ static void print_tms(const trax_machine *machine, FILE *out) {
   }
 }
 
+/* The heads of the causes that occur, and their per cent. */
+static void print_cause_heads(FILE *out, const struct trax_stats *stats) {
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    if (stats->total.cycles[cause])
+      fprintf(out, " %6s", trax_cause_heads[cause]);
+  fprintf(out, "\n");
+}
+
+static void print_causes(FILE *out, const struct trax_stats *stats, const uint64_t *cycles, double thread_cycles) {
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+    if (stats->total.cycles[cause])
+      fprintf(out, " %6.2f", 100 * (double)cycles[cause] / fmax(1, thread_cycles));
+  fprintf(out, "\n");
+}
+
+static void print_shares(const trax_machine *machine, FILE *out) {
+  const struct trax_stats *stats = &machine->stats;
+  const uint32_t tms = machine->config.chip.tms, tps = machine->config.chip.tps_per_tm;
+  if (!stats->cycles)
+    return;
+  fprintf(out, "\nThread-cycles of each TM by cause, per cent (-c: a conflict at the shared unit)\n    TM");
+  print_cause_heads(out, stats);
+  for (uint32_t tm = 0; tm < tms; ++tm) {
+    fprintf(out, "  %4u", tm);
+    print_causes(out, stats, machine->tm_stats[tm].cycles, (double)tps * (double)stats->cycles);
+  }
+  fprintf(out, "\nCycles of each TP by cause, per cent\n  TM.TP");
+  print_cause_heads(out, stats);
+  for (uint32_t thread = 0; thread < stats->threads; ++thread) {
+    fprintf(out, "  %2u.%-2u", thread / tps, thread % tps);
+    print_causes(out, stats, machine->tp_stats[thread].cycles, (double)stats->cycles);
+  }
+}
+
 void trax_stats_print(const trax_machine *machine, FILE *out) {
   const struct trax_host *host = trax_host_of(machine);
   fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
@@ -219,6 +263,7 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
   print_group(machine, out, "Instructions by unit", TRAX_GROUP_UNIT, false);
   print_group(machine, out, "Instructions by operation (those that occur)", TRAX_GROUP_OPERATION, true);
   print_tms(machine, out);
+  print_shares(machine, out);
   fprintf(out, "\nConfiguration\n");
   trax_config_print(&machine->config, out);
 }

@@ -17,7 +17,8 @@
   X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line, message " \
              "of an abort")                                                                                            \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
-  X("tms", "for each TM: tm, and the figures that are counted in every TM")                                            \
+  X("tms",                                                                                                             \
+    "for each TM: tm, the figures that are counted in every TM, and tps: for each TP tp, thread, exit_status, causes") \
   X("configuration", "every key of the machine's configuration")
 
 void trax_stats_describe_members(FILE *out) {
@@ -118,6 +119,25 @@ static void put_identity(struct document *document, const trax_machine *machine)
   put(document, object, "holds", json_boolean(trax_stats_identity(&machine->stats)));
 }
 
+/* Nothing without time: the functional mode charges nobody. */
+static json_t *tps_of(struct document *document, const trax_machine *machine, uint32_t tm) {
+  const uint32_t count = machine->config.chip.tps_per_tm;
+  json_t *tps = json_array();
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t thread = tm * count + i;
+    json_t *tp = json_object(), *causes = json_object();
+    put(document, tp, "tp", json_integer(i));
+    put(document, tp, "thread", json_integer(thread));
+    put(document, tp, "exit_status", json_integer(machine->exit_statuses[thread]));
+    put(document, tp, "causes", causes);
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
+      put(document, causes, trax_cause_names[cause], json_integer((json_int_t)machine->tp_stats[thread].cycles[cause]));
+    if (json_array_append_new(tps, tp) != 0)
+      document->failed = true;
+  }
+  return tps;
+}
+
 static void put_tms(struct document *document, const trax_machine *machine) {
   json_t *tms = json_array();
   put(document, document->root, "tms", tms);
@@ -125,6 +145,7 @@ static void put_tms(struct document *document, const trax_machine *machine) {
     struct document tm = {json_object(), false};
     put(&tm, tm.root, "tm", json_integer(i));
     trax_figures_visit(&machine->stats, &machine->tm_stats[i], &machine->config, put_figure, &tm);
+    put(&tm, tm.root, "tps", tps_of(&tm, machine, i));
     if (json_array_append_new(tms, tm.root) != 0 || tm.failed)
       document->failed = true;
   }

@@ -1,18 +1,13 @@
 /* What each pixel cost, as false colours and as numbers. */
 #include "core/machine.h"
 #include "explain/explain.h"
+#include "host/statistics.h"
 #include "host/util.h"
 #include "render.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const char *const cause_names[TRAX_CAUSE_COUNT] = {
-#define NAME(ID, NAME, MEANING) NAME,
-    TRAX_CAUSES(NAME)
-#undef NAME
-};
 
 enum { COST_CYCLES = TRAX_CAUSE_COUNT }; /* otherwise a cause; instructions are the cycles issued */
 
@@ -26,7 +21,7 @@ trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error) 
     return TRAX_OK;
   }
   for (*what = TRAX_CAUSE_ISSUED + 1; *what < TRAX_CAUSE_HALTED; ++*what)
-    if (strcmp(name, cause_names[*what]) == 0)
+    if (strcmp(name, trax_cause_names[*what]) == 0)
       return TRAX_OK;
   return trax_fail(error, "--cost %s: expected cycles, instructions, or a cause as wait_memory (trax-sim --help-stats)",
                    name);

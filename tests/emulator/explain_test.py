@@ -59,6 +59,50 @@ def figure(stats, name):
 # --- each output against the statistics ---
 
 
+def check_tps(stats):
+    for tm in stats["tms"]:
+        for cause, cycles in tm["causes"].items():
+            equal(sum(tp["causes"][cause] for tp in tm["tps"]), cycles, "TPs of TM", tm["tm"], cause)
+        for tp in tm["tps"]:
+            equal(sum(tp["causes"].values()), stats["cycles"], "cycles of thread", tp["thread"])
+            equal(tp["thread"], tm["tm"] * len(tm["tps"]) + tp["tp"], "thread of", tp["tp"])
+
+
+def check_energy(stats):
+    """Against the figures for each access, in nJ, and what docs/emulator.md says is an access. The machine has a
+    data cache of 16 kB with one bank, and instruction caches of 4 kB with 16."""
+    count = stats["instructions_by_operation"]
+    registers = {"r": 3, "r1": 2, "cmov": 4, "store": 2, "u": 1, "none": 0}
+    kinds = {"cmov": ["cmovnz", "cmovz"], "store": ["sb", "sh", "sw", "swnt", "beq", "bne", "blt", "bge", "bltu", "bgeu"],
+             "u": ["lui", "jal", "rdsr", "trap"], "none": ["halt"],
+             "r": ["add", "sub", "and", "or", "xor", "sll", "srl", "sra", "slt", "sltu", "mul", "mulh", "mulhu", "fadd", "fsub",
+                   "fmin", "fmax", "feq", "flt", "fle", "fmul", "fdiv"]}
+    kind_of = {name: kind for kind, names in kinds.items() for name in names}
+    accesses = sum(number * registers[kind_of.get(name, "r1")] for name, number in count.items())
+    icache, dcache, local, memory = (stats[name] for name in ("icache", "dcache", "local", "memory"))
+    expected = {
+        "fp_add": 0.0074 * (count["fadd"] + count["fsub"]),
+        "fp_mul": 0.0142 * count["fmul"],
+        "fp_other": 0.000536 * sum(count[name] for name in ("fmin", "fmax", "feq", "flt", "fle")) +
+                    0.001 * sum(count[name] for name in count if name.startswith("fcvt")),
+        "int_mul": 0.0177 * stats["instructions_by_unit"]["int_mul"],
+        "special": 0.1563 * stats["instructions_by_unit"]["special"],
+        "integer": 0.000572 * sum(stats["instructions_by_unit"][unit] for unit in ("int", "control", "memory")),
+        "registers": 0.00789613 * accesses,
+        "local_memory": 0.00692867 * (local["loads"] + local["stores"]),
+        "icache": 0.013490 * (icache["hits"] + 17 * icache["misses"] + icache["merged"]),
+        "dcache": 0.126381 * (dcache["hits"] + 2 * dcache["misses"] + dcache["merged"] + dcache["store_hits"] +
+                              dcache["store_misses"]),
+    }
+    energy = stats["energy"]
+    total = sum(expected.values())
+    expected.update(total=total, off_chip=1.95 / 8 * memory["bytes"], average_power=total / stats["seconds"], per_ray=0)
+    equal(set(expected), set(energy), "energies")
+    for name, value in expected.items():
+        check(abs(energy[name] - value * 1e-9) <= 1e-12 * abs(value), "energy", name, energy[name], value * 1e-9)
+    check(all(energy[name] for name in ("icache", "dcache", "registers", "special", "int_mul", "local_memory")), energy)
+
+
 def check_profile(directory, stats):
     sections = re.split(r"\n(Functions|Lines)\n", read(directory, "profile"))
     for title, text in zip(sections[1::2], sections[2::2]):
@@ -266,6 +310,8 @@ def main():
               ("icache_miss", "wait_memory", "wait_special", "wait_atomic", "memory_queue_full", "branch_bubble")),
           "the program is too tame:", stats["causes"])
 
+    check_tps(stats)
+    check_energy(stats)
     here = directory / "fast"
     check_profile(here, stats)
     check_folded(here, stats)

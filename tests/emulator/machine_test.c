@@ -12,6 +12,7 @@
 #include <cmocka.h>
 #include <jansson.h>
 
+#include "core/energy.h"
 #include "core/machine.h"
 #include "host/statistics.h"
 #include "programs.h"
@@ -346,6 +347,35 @@ static void expect_in_report(const char *report, const char *part) {
     fail_msg("the report lacks \"%s\":\n%s", part, report);
 }
 
+static void test_energy_of_caches(void **state) {
+  (void)state;
+  static const struct {
+    uint32_t bytes, banks;
+    double nj;
+  } cases[] = {{16384, 4, 0.134578},
+               {16384, 8, 0.204198},
+               {16384, 6, (0.134578 + 0.204198) / 2},
+               {4096, 3, (0.119011 + 0.111004) / 2},
+               {8388608, 64, 2.227535},
+               {64, 1, 0.057617},       /* below the table */
+               {16777216, 1, 2.171381}, /* above it */
+               {1024, 64, 0.105809},    /* more banks than it has at this size */
+               {32768, 64, 0.590784}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+    assert_true(fabs(trax_energy_of_cache(cases[i].bytes, cases[i].banks) - cases[i].nj) < 1e-12);
+
+  struct trax_config config = TRAX_CONFIG_DEFAULT;
+  struct trax_stats stats = {0};
+  assert_true(trax_energy_of(&stats, &config).total == 0);
+  stats.total.icache_hits = 1000000000; /* so that J are what nJ are for each */
+  assert_true(fabs(trax_energy_of(&stats, &config).total - 0.013490) < 1e-9);
+  config.icache.banks = 48;
+  assert_true(fabs(trax_energy_of(&stats, &config).total - (0.015138 + 0.016584) / 2) < 1e-9);
+  config.icache.banks = 16;
+  config.icache.bytes = 16384;
+  assert_true(fabs(trax_energy_of(&stats, &config).total - 0.013490 * 0.126381 / 0.072368) < 1e-9);
+}
+
 static void test_report_of_a_fault(void **state) {
   (void)state;
   trax_machine *machine = load("null");
@@ -464,6 +494,7 @@ int main(void) {
       cmocka_unit_test(test_counts_of_a_known_program),
       cmocka_unit_test(test_json_says_the_same),
       cmocka_unit_test(test_statistics_before_a_run),
+      cmocka_unit_test(test_energy_of_caches),
       cmocka_unit_test(test_report_of_a_fault),
       cmocka_unit_test(test_report_of_an_abort),
       cmocka_unit_test(test_reports_of_other_faults),
