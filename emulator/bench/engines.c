@@ -1,22 +1,29 @@
 /* engine-bench: how fast the engines are.
 
-     engine-bench                                    built-in programs
-     engine-bench PROGRAM [SYMBOL=FILE | SYMBOL:BYTES]...    an executable with its buffers
+     engine-bench [--chips 4x32,8x64] [--max-cycles N] [--repeats N]                            built-in programs
+     engine-bench [OPTION]... PROGRAM [SYMBOL=FILE | SYMBOL:BYTES]...    an executable with its buffers
 
-   A row for each case: million simulated instructions per second of processor time with each engine and without time,
-   and how much faster the fast engine is than the reference. They take turns, and the least time of several runs
-   counts, since the host may be busy. Ends with status 1 if the engines disagree on cycles or instructions. */
+   A row for each case: million simulated instructions per second of wall time, for the reference engine, the fast
+   engine on one, two and all threads of the host, and the functional mode; then how much faster the fast engine on one
+   thread is than the reference, what part it is of the functional mode, and what two threads gain. The engines take
+   turns, and the least time of several runs counts, since the host may be busy. With --max-cycles the timed engines run
+   the same first N cycles. Ends with status 1 if the engines disagree on cycles or instructions. */
+#define _GNU_SOURCE /* clock_gettime, strchrnul */
+#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "core/machine.h"
 #include "trax/isa.h"
 
-enum { ENGINES = 3, REPEATS = 3, TEXT = 0x1000, TABLE = 0x10000, TABLE_BYTES = 0x10000 };
+enum { TEXT = 0x1000, TABLE = 0x10000, TABLE_BYTES = 0x10000 };
 
-static const char *const configs[] = {"1x32", "4x32", "2x64"};
+static const char *chips = "1x32,4x32,2x64";
+static uint64_t max_cycles;
+static unsigned repeats = 3;
 
 static uint32_t op(trax_op operation, unsigned rd, unsigned ra, unsigned rb, int32_t imm) {
   return trax_encode((trax_inst){operation, (uint8_t)rd, (uint8_t)ra, (uint8_t)rb, imm});
@@ -24,7 +31,7 @@ static uint32_t op(trax_op operation, unsigned rd, unsigned ra, unsigned rb, int
 
 /* --- built-in programs: every thread 2000 turns of a loop, with its own data --- */
 
-static size_t begin(uint32_t *words) {
+static size_t open_loop(uint32_t *words) {
   size_t n = 0;
   words[n++] = op(TRAX_OP_RDSR, 1, 0, 0, TRAX_SR_THREAD);
   words[n++] = op(TRAX_OP_LUI, 2, 0, 0, TABLE >> 16);
@@ -33,7 +40,7 @@ static size_t begin(uint32_t *words) {
   return n;
 }
 
-static size_t end(uint32_t *words, size_t n, size_t loop) {
+static size_t close_loop(uint32_t *words, size_t n, size_t loop) {
   words[n++] = op(TRAX_OP_ADDI, 20, 20, 0, -1);
   words[n] = op(TRAX_OP_BNE, 0, 20, 0, ((int32_t)loop - (int32_t)n) * 4);
   words[++n] = op(TRAX_OP_HALT, 0, 0, 0, 0);
@@ -41,18 +48,18 @@ static size_t end(uint32_t *words, size_t n, size_t loop) {
 }
 
 static size_t integers(uint32_t *words) {
-  const size_t loop = begin(words);
+  const size_t loop = open_loop(words);
   size_t n = loop;
   for (unsigned i = 0; i < 16; i++) {
     words[n++] = op(TRAX_OP_XOR, 4 + i % 8, 1, 4 + (i + 3) % 8, 0);
     words[n++] = op(TRAX_OP_SRLI, 5 + i % 8, 4 + i % 8, 0, 3);
     words[n++] = op(TRAX_OP_ADD, 1, 1, 5 + i % 8, 0);
   }
-  return end(words, n, loop);
+  return close_loop(words, n, loop);
 }
 
 static size_t floats(uint32_t *words) {
-  const size_t loop = begin(words);
+  const size_t loop = open_loop(words);
   size_t n = loop;
   for (unsigned i = 0; i < 12; i++) {
     words[n++] = op(TRAX_OP_FMUL, 4 + i % 8, 3, 3, 0);
@@ -60,12 +67,12 @@ static size_t floats(uint32_t *words) {
     words[n++] = op(TRAX_OP_XORI, 6, 6, 0, 9);
     words[n++] = op(TRAX_OP_ADD, 7, 6, 1, 0);
   }
-  return end(words, n, loop);
+  return close_loop(words, n, loop);
 }
 
 /* Walks through a table with branches that depend on it, like a traversal. */
 static size_t walk(uint32_t *words) {
-  const size_t loop = begin(words);
+  const size_t loop = open_loop(words);
   size_t n = loop;
   for (unsigned i = 0; i < 6; i++) {
     words[n++] = op(TRAX_OP_ANDI, 4, 1, 0, 0x3FFC);
@@ -80,7 +87,7 @@ static size_t walk(uint32_t *words) {
     words[n++] = op(TRAX_OP_LW, 9, 0, 0, -8);
     words[n++] = op(TRAX_OP_SUB, 10, 1, 9, 0);
   }
-  return end(words, n, loop);
+  return close_loop(words, n, loop);
 }
 
 struct bench_case {
@@ -129,12 +136,32 @@ static void load_program(trax_machine *machine, char **arguments) {
   }
 }
 
+struct engine {
+  const char *name;
+  trax_engine engine;
+  unsigned host_threads; /* 0: all */
+};
+
+enum { REFERENCE, FAST, FAST_2, FAST_ALL, FUNCTIONAL, ENGINES };
+static const struct engine engines[ENGINES] = {{"reference", TRAX_ENGINE_REFERENCE, 1},
+                                               {"fast", TRAX_ENGINE_FAST, 1},
+                                               {"2 threads", TRAX_ENGINE_FAST, 2},
+                                               {"all", TRAX_ENGINE_FAST, 0},
+                                               {"functional", TRAX_ENGINE_FUNCTIONAL, 1}};
+
 struct result {
   uint64_t cycles, instructions;
   double seconds;
 };
 
-static struct result run(const char *preset, const struct bench_case *bench, trax_engine engine, char **arguments) {
+static double now(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static struct result run(const char *preset, const struct bench_case *bench, const struct engine *engine,
+                         char **arguments) {
   trax_error error;
   trax_config *config = trax_config_create();
   check(config ? trax_config_preset(config, preset, &error) : trax_fail(&error, "out of memory"), &error);
@@ -144,11 +171,15 @@ static struct result run(const char *preset, const struct bench_case *bench, tra
     load_words(machine, bench->program);
   else
     load_program(machine, arguments);
-  const trax_run_options options = {.engine = engine};
-  const clock_t begun = clock();
-  check(trax_machine_run(machine, &options, &error), &error);
-  const struct result result = {machine->stats.cycles, machine->stats.instructions,
-                                (double)(clock() - begun) / CLOCKS_PER_SEC};
+  const bool timed = engine->engine != TRAX_ENGINE_FUNCTIONAL;
+  const trax_run_options options = {
+      .engine = engine->engine, .host_threads = engine->host_threads, .max_cycles = timed ? max_cycles : 0};
+  const double begun = now();
+  const trax_status status = trax_machine_run(machine, &options, &error);
+  const double seconds = now() - begun;
+  if (!(timed && max_cycles && status == TRAX_STUCK))
+    check(status, &error);
+  const struct result result = {machine->stats.cycles, machine->stats.instructions, seconds};
   trax_machine_destroy(machine);
   trax_config_destroy(config);
   return result;
@@ -156,32 +187,69 @@ static struct result run(const char *preset, const struct bench_case *bench, tra
 
 static bool row(const char *preset, const struct bench_case *bench, char **arguments) {
   struct result best[ENGINES];
-  for (unsigned repeat = 0; repeat < REPEATS; repeat++)
+  for (unsigned repeat = 0; repeat < repeats; repeat++)
     for (unsigned engine = 0; engine < ENGINES; engine++) {
-      const struct result result = run(preset, bench, (trax_engine)engine, arguments);
+      const struct result result = run(preset, bench, &engines[engine], arguments);
       if (!repeat || result.seconds < best[engine].seconds)
         best[engine] = result;
     }
-  const struct result *reference = &best[TRAX_ENGINE_REFERENCE], *fast = &best[TRAX_ENGINE_FAST];
-  const bool same = reference->cycles == fast->cycles && reference->instructions == fast->instructions;
-  printf("%-6s %-10s %14llu", preset, bench->name, (unsigned long long)fast->instructions);
+  bool same = true;
+  double speed[ENGINES];
+  for (unsigned engine = 0; engine < ENGINES; engine++) {
+    speed[engine] = 1e-6 * (double)best[engine].instructions / best[engine].seconds;
+    if (engine != FUNCTIONAL)
+      same &= best[engine].cycles == best[FAST].cycles && best[engine].instructions == best[FAST].instructions;
+  }
+  printf("%-6s %-10s %12llu %12llu", preset, bench->name, (unsigned long long)best[FAST].cycles,
+         (unsigned long long)best[FAST].instructions);
   for (unsigned engine = 0; engine < ENGINES; engine++)
-    printf(" %10.1f", 1e-6 * (double)best[engine].instructions / best[engine].seconds);
-  printf(" %10.2f%s\n", reference->seconds / fast->seconds, same ? "" : "  DIFFERENT");
+    printf(" %10.1f", speed[engine]);
+  printf(" %9.1f %10.2f %9.2f%s\n", speed[FAST] / speed[REFERENCE], speed[FAST] / speed[FUNCTIONAL],
+         speed[FAST_2] / speed[FAST], same ? "" : "  DIFFERENT");
   fflush(stdout);
   return same;
+}
+
+static uint64_t number(const char *option, const char *text) {
+  char *end;
+  const unsigned long long value = strtoull(text, &end, 10);
+  if (*text < '0' || *text > '9' || *end || !value) {
+    fprintf(stderr, "engine-bench: error: --%s: \"%s\" is not a whole number from 1\n", option, text);
+    exit(EXIT_FAILURE);
+  }
+  return value;
 }
 
 int main(int count, char **arguments) {
   static const struct bench_case builtin[] = {{"integers", integers}, {"floats", floats}, {"walk", walk}};
   static const struct bench_case program = {"program", NULL};
-  const struct bench_case *cases = count > 1 ? &program : builtin;
-  const size_t case_count = count > 1 ? 1 : sizeof builtin / sizeof *builtin;
+  static const struct option options[] = {{"chips", required_argument, NULL, 'c'},
+                                          {"max-cycles", required_argument, NULL, 'm'},
+                                          {"repeats", required_argument, NULL, 'r'},
+                                          {NULL, 0, NULL, 0}};
+  for (int option; (option = getopt_long(count, arguments, "+", options, NULL)) != -1;) {
+    if (option == 'c')
+      chips = optarg;
+    else if (option == 'm')
+      max_cycles = number("max-cycles", optarg);
+    else if (option == 'r')
+      repeats = (unsigned)number("repeats", optarg);
+    else
+      return EXIT_FAILURE;
+  }
+  const bool has_program = optind < count;
   bool same = true;
-  printf("%-6s %-10s %14s %10s %10s %10s %10s\n", "chip", "case", "instructions", "fast", "reference", "functional",
-         "fast/ref.");
-  for (size_t i = 0; i < sizeof configs / sizeof *configs; i++)
-    for (size_t j = 0; j < case_count; j++)
-      same &= row(configs[i], &cases[j], arguments + 1);
+  printf("%-6s %-10s %12s %12s", "chip", "case", "cycles", "instructions");
+  for (unsigned engine = 0; engine < ENGINES; engine++)
+    printf(" %10s", engines[engine].name);
+  printf(" %9s %10s %9s\n", "fast/ref.", "fast/func.", "2/1");
+  for (const char *chip = chips; *chip;) {
+    const char *end = strchrnul(chip, ',');
+    char preset[16];
+    snprintf(preset, sizeof preset, "%.*s", (int)(end - chip), chip);
+    for (size_t i = 0; i < (has_program ? 1 : sizeof builtin / sizeof *builtin); i++)
+      same &= row(preset, has_program ? &program : &builtin[i], arguments + optind);
+    chip = *end ? end + 1 : end;
+  }
   return same ? EXIT_SUCCESS : EXIT_FAILURE;
 }

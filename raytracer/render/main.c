@@ -230,7 +230,8 @@ static trax_status run_emulator(struct trax_picture *picture, const struct optio
                 .progress = show_run,
                 .progress_context = progress,
                 .interrupt = (const volatile int *)&interrupted,
-                .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST}};
+                .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST,
+                .host_threads = options->threads}};
     if (options->cost_picture || options->cost_values) {
       run.costs = &costs;
       status = trax_costs_init(&costs, frame->params->width, frame->params->height,

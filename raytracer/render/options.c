@@ -31,7 +31,7 @@ static const char usage[] =
     "      --engine WHICH      fast (default): the emulator; reference: its reference engine, the same cycles, "
     "slowly;\n"
     "                          native: the same program compiled for this computer; embree: the reference picture\n"
-    "      --threads N         host threads of the native engine (default: all processors)\n"
+    "      --threads N         host threads of engines fast and native (default: all processors)\n"
     "      --compare           renders the reference and the native twin too and prints the differences;\n"
     "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
     "                          99.9 % of the pixels are within 2/255 of the reference\n"
@@ -248,8 +248,8 @@ static trax_status check(const struct options *options, trax_error *error) {
   }
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
-  if (options->threads && options->engine != ENGINE_NATIVE)
-    return trax_fail(error, "--threads is for --engine native");
+  if (options->threads && options->engine != ENGINE_NATIVE && options->engine != ENGINE_FAST)
+    return trax_fail(error, "--threads is for engines fast and native");
   return TRAX_OK;
 }
 

@@ -27,7 +27,7 @@ struct options {
   size_t setting_count;
   struct trax_frame_options frame;
   enum engine engine;
-  unsigned threads; /* of the native twin; 0: as many as the host has */
+  unsigned threads; /* of the fast engine and the native twin; 0: as many as the host has */
   bool compare, quiet;
 };
 

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""How fast the engines are on the ray tracer: a row for each scene and chip.
+
+    emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
+                            [--max-cycles 400000] [--repeats 3] [--build build]
+
+SCENES_DIRECTORY holds the scenes as for raytracer/bench/paper.py. Prints what engine-bench prints (emulator/bench/engines.c):
+million simulated instructions per second of wall time for each engine, and ratios, all of one run. The timed engines run
+the same first cycles of the picture, the functional mode the whole picture.
+"""
+
+import argparse
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+FILES = {"conference": ["conference.ply"], "crytek-sponza": ["crytek-sponza.ply"], "dragon": ["dragon.ply", "dragon_box.obj"],
+         "sibenik": ["sibenik.ply"]}
+
+
+def find(directory, name):
+    for candidate in (directory / name, directory / (name + ".xz")):
+        if candidate.exists():
+            return str(candidate)
+    sys.exit(f"speed.py: error: {directory}: neither {name} nor {name}.xz is there")
+
+
+def engine_arguments(command):
+    """The executable and its buffers, as engine-bench takes them, of a trax-sim command line."""
+    words, program, buffers = shlex.split(command), None, []
+    words = words[1:]
+    while words:
+        word = words.pop(0)
+        if word in ("--bind", "--scene"):
+            buffers.append(words.pop(0) if word == "--bind" else "scene=" + words.pop(0))
+        elif word == "--alloc":
+            buffers.append(words.pop(0).replace("=", ":"))
+        elif word.startswith("--"):
+            if word != "--quiet":
+                words.pop(0)
+        else:
+            program = word
+    return [program, *buffers]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("scenes", type=pathlib.Path)
+    parser.add_argument("--scenes", dest="names", default="conference,dragon,sibenik")
+    parser.add_argument("--chips", default="4x32,8x64")
+    parser.add_argument("--size", default="320x180")
+    parser.add_argument("--max-cycles", default="400000")
+    parser.add_argument("--repeats", default="3")
+    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build")
+    options = parser.parse_args()
+
+    header = True
+    for scene in options.names.split(","):
+        with tempfile.TemporaryDirectory() as scratch:
+            files = [find(options.scenes, name) for name in FILES[scene]]
+            subprocess.run([options.build / "bin/trax-render", *files, "--view", scene, "--size", options.size, "--quiet",
+                            "--keep", scratch, "-o", pathlib.Path(scratch) / "picture.png"], check=True)
+            lines = (pathlib.Path(scratch) / "run.sh").read_text().replace("\\\n", " ").splitlines()
+            command = next(line for line in lines if "--bind" in line)
+            run = subprocess.run([(options.build / "bin/engine-bench").resolve(), "--chips", options.chips, "--max-cycles",
+                                  options.max_cycles, "--repeats", options.repeats, *engine_arguments(command)],
+                                 cwd=scratch, text=True, stdout=subprocess.PIPE)
+        rows = run.stdout.splitlines()
+        if header and rows:
+            print(rows[0].replace("case      ", "scene         "))
+            header = False
+        for row in rows[1:]:
+            print(row.replace("program   ", f"{scene:14}"), flush=True)
+        if run.returncode:
+            sys.exit(f"speed.py: error: engine-bench ended with status {run.returncode}")
+
+
+if __name__ == "__main__":
+    main()
