@@ -13,6 +13,8 @@ struct trax_chip;
 struct trax_watch {
   uint64_t next;
   trax_status (*look)(struct trax_watch *watch, struct trax_chip *chip);
+  /* If not NULL: the run has ended before cycle t, with this status; the chip is as it was then. */
+  void (*end)(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t);
   void *context;
   struct trax_watch *others; /* the next one of the machine's list */
 };

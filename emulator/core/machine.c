@@ -197,6 +197,9 @@ static trax_status run_chip(struct trax_machine *machine, const trax_run_options
   trax_status status = trax_chip_create(&chip, machine, options, error);
   if (status == TRAX_OK) {
     status = trax_chip_run(&chip, options, &machine->stats.cycles);
+    for (struct trax_watch *watch = machine->watches; watch; watch = watch->others)
+      if (watch->end)
+        watch->end(watch, &chip, status, machine->stats.cycles);
     trax_chip_settle(&chip, machine->stats.cycles);
   }
   trax_chip_destroy(&chip);

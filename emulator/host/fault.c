@@ -5,8 +5,7 @@
 #include "host.h"
 #include "trax/isa.h"
 
-/* docs/abi.md, "Registers" */
-static const char *const register_names[TRAX_NUM_REGISTERS] = {
+const char *const trax_register_names[TRAX_NUM_REGISTERS] = {
     "zero", "ra", "sp", "fp", "a0", "a1", "a2", "a3", "a4", "a5", "a6", "a7", "t0", "t1", "t2",  "t3",
     "t4",   "t5", "t6", "t7", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10", "s11"};
 enum { RA = 1, SP = 2 };
@@ -122,7 +121,7 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, "thread", fault->thread, fault->tm, fault->tp,
           fault->cycle);
   for (unsigned i = 0; i < TRAX_NUM_REGISTERS; ++i) {
-    fprintf(out, "%sr%-2u %-4s %08x%s", i % 4 ? "   " : "  ", i, register_names[i], fault->registers[i],
+    fprintf(out, "%sr%-2u %-4s %08x%s", i % 4 ? "   " : "  ", i, trax_register_names[i], fault->registers[i],
             i % 4 == 3 ? "\n" : "");
   }
 }

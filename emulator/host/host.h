@@ -19,6 +19,9 @@ struct trax_host {
   uint32_t stack_bytes;  /* of each thread's stack in global memory, from the end of memory down; 0: they are local */
 };
 
+/* docs/abi.md, "Registers" */
+extern const char *const trax_register_names[TRAX_NUM_REGISTERS];
+
 /* The machine's host side; NULL before a program is loaded. */
 static inline struct trax_host *trax_host_of(const struct trax_machine *machine) {
   return machine->host;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
 #include "util.h"
@@ -48,7 +49,7 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
 }
 
 static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
-  const char *const files[] = {options->stats, options->report};
+  const char *const files[] = {options->stats, options->report, options->gdb_symbols};
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
     if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -77,6 +78,28 @@ static trax_status load(trax_machine *machine, const struct trax_options *option
   return status;
 }
 
+/* The same, with a debugger, which is waited for. */
+static trax_status debug(trax_machine *machine, trax_run_options *options, unsigned number, trax_error *error) {
+  struct trax_gdb_port port;
+  trax_status status = trax_gdb_listen(&port, number, error);
+  if (status != TRAX_OK)
+    return status;
+  fprintf(stderr, "trax-sim: waiting for GDB: target remote localhost:%u\n", port.number);
+  status = trax_gdb_accept(&port, options->interrupt, error);
+  struct trax_gdb_link link = trax_gdb_port_link(&port);
+  struct trax_gdb *gdb = status == TRAX_OK ? trax_gdb_create(machine, &link, options->interrupt, error) : NULL;
+  if (gdb) {
+    status = trax_machine_run(machine, options, error);
+    if (trax_gdb_killed(gdb))
+      interrupted = SIGKILL; /* what the debugger's `kill` means */
+  } else if (status == TRAX_OK) {
+    status = TRAX_ERROR;
+  }
+  trax_gdb_destroy(gdb);
+  trax_gdb_port_close(&port);
+  return status;
+}
+
 static trax_status run(trax_machine *machine, const struct trax_options *options, trax_error *error) {
   struct trax_progress_line line = {.terminal = stderr};
   trax_run_options run_options = {.output = stdout,
@@ -92,7 +115,8 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
     if (shared)
       run_options.output = shared;
   }
-  trax_status status = trax_machine_run(machine, &run_options, error);
+  trax_status status = options->gdb ? debug(machine, &run_options, (unsigned)options->gdb_port, error)
+                                    : trax_machine_run(machine, &run_options, error);
   if (run_options.output != stdout)
     fclose(run_options.output);
   trax_progress_clear(&line);
@@ -139,6 +163,11 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   return result;
 }
 
+/* --gdb-symbols: from the program, once it has been checked. */
+static trax_status write_symbols(const struct trax_options *options, trax_error *error) {
+  return options->gdb_symbols ? trax_gdb_write_symbols(options->program, options->gdb_symbols, error) : TRAX_OK;
+}
+
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
   catch_signals();
@@ -149,6 +178,12 @@ static int simulate(const trax_config *config, const struct trax_options *option
     return complain(&error);
   struct trax_explain *explain = NULL;
   trax_status status = load(machine, options, &error);
+  if (status == TRAX_OK)
+    status = write_symbols(options, &error);
+  if (status == TRAX_OK && options->gdb_symbols && !options->gdb) {
+    trax_machine_destroy(machine);
+    return EXIT_SUCCESS;
+  }
   if (status == TRAX_OK)
     status = trax_explain_begin(&explain, machine, &options->explain, &error);
   if (status != TRAX_OK) {
@@ -168,18 +203,18 @@ static int simulate(const trax_config *config, const struct trax_options *option
   case TRAX_INTERRUPTED:
   case TRAX_STUCK:
     fflush(stdout);
-    fprintf(stderr, "trax-sim: %s; the statistics are partial\n", error.message);
+    fprintf(stderr, "trax-sim: %s%s\n", error.message, machine->has_run ? "; the statistics are partial" : "");
     result = status == TRAX_STUCK ? EXIT_STUCK : EXIT_SIGNAL + interrupted;
     break;
   case TRAX_ERROR:
     result = complain(&error);
     break;
   }
-  if (status == TRAX_ERROR)
+  if (status == TRAX_ERROR || !machine->has_run)
     trax_explain_discard(explain);
   else if (trax_explain_end(explain, &write_error) != TRAX_OK)
     result = complain(&write_error);
-  if (status != TRAX_ERROR && write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
+  if (status != TRAX_ERROR && machine->has_run && write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
     result = complain(&write_error);
   trax_machine_destroy(machine);
   return result;

@@ -37,6 +37,8 @@ enum option_id {
   OPTION_PROGRESS_TOTAL,
   OPTION_ENGINE,
   OPTION_HOST_THREADS,
+  OPTION_GDB,
+  OPTION_GDB_SYMBOLS,
   OPTION_QUIET,
   OPTION_PRINT_CONFIG,
   OPTION_HELP_CONFIG,
@@ -76,6 +78,8 @@ static const struct {
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
     [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
     [OPTION_HOST_THREADS] = {"host-threads", "N", "threads of the host for the fast engine; default one for each core"},
+    [OPTION_GDB] = {"gdb", "PORT", "wait for GDB on a port of the loopback interface; 0 is any free one"},
+    [OPTION_GDB_SYMBOLS] = {"gdb-symbols", "FILE", "write PROGRAM as GDB reads it; end, unless there is --gdb"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -277,6 +281,11 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
       return TRAX_ERROR;
     options->host_threads = (unsigned)number;
     break;
+  case OPTION_GDB:
+    options->gdb = true;
+    return parse_number(table[id].name, value, 0, UINT16_MAX, &options->gdb_port, error);
+  case OPTION_GDB_SYMBOLS:
+    return set_once(id, &options->gdb_symbols, value, error);
   case OPTION_QUIET:
     options->quiet = true;
     break;
@@ -351,6 +360,8 @@ trax_status trax_options_parse(struct trax_options *options, int count, char **a
   }
   if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
     return trax_fail(error, "no program is given");
+  if (options->gdb && options->engine != TRAX_ENGINE_FAST)
+    return trax_fail(error, "--gdb debugs in the fast engine, not in the one that --engine names");
   return check_explain(options, error);
 }
 

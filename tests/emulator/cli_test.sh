@@ -206,7 +206,7 @@ for option in help help-config help-stats version; do
 done
 run 0 --help
 for option in profile profile-folded annotate heat heat-lines items item-buffer series series-interval trace perfetto konata \
-  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine quiet print-config; do
+  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine gdb gdb-symbols quiet print-config; do
   prints "--$option"
 done
 

@@ -1,0 +1,126 @@
+/* Breakpoints and watchpoints. */
+#include "gdb/stub.h"
+#include "trax/isa.h"
+
+/* --- breakpoints --- */
+
+static struct trax_gdb_break *find_break(struct trax_gdb *gdb, uint32_t address) {
+  for (uint32_t i = 0; i < gdb->break_count; i++)
+    if (gdb->breaks[i].address == address)
+      return &gdb->breaks[i];
+  return NULL;
+}
+
+/* In text; and in local memory, where GDB lets a function return to that it calls itself. */
+static bool can_break(const struct trax_gdb *gdb, uint32_t address) {
+  return address >= TRAX_LOCAL_BASE || trax_text_at(&gdb->chip->text, address)->ask != TRAX_ASK_OUTSIDE;
+}
+
+static bool insert_break(struct trax_gdb *gdb, uint32_t address) {
+  struct trax_gdb_break *found = find_break(gdb, address);
+  if (!found && (gdb->break_count == TRAX_GDB_BREAKS || !can_break(gdb, address)))
+    return false;
+  if (!found)
+    found = &gdb->breaks[gdb->break_count++];
+  *found = (struct trax_gdb_break){.address = address};
+  return true;
+}
+
+void trax_gdb_forget_breaks(struct trax_gdb *gdb) {
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < gdb->break_count; i++)
+    if (!gdb->breaks[i].removed)
+      gdb->breaks[kept++] = gdb->breaks[i];
+  gdb->break_count = kept;
+}
+
+bool trax_gdb_breaks_at(const struct trax_gdb *gdb, uint32_t pc) {
+  for (uint32_t i = 0; i < gdb->break_count; i++)
+    if (gdb->breaks[i].address == pc)
+      return !gdb->breaks[i].removed || gdb->named_only;
+  return false;
+}
+
+/* --- watchpoints --- */
+
+static bool insert_watch(struct trax_gdb *gdb, char type, uint32_t address, uint32_t bytes) {
+  if (gdb->watch_count == TRAX_GDB_WATCHES || bytes == 0)
+    return false;
+  gdb->watches[gdb->watch_count++] = (struct trax_gdb_watch){type, address, bytes, gdb->selected};
+  return true;
+}
+
+static bool remove_watch(struct trax_gdb *gdb, char type, uint32_t address, uint32_t bytes) {
+  for (uint32_t i = 0; i < gdb->watch_count; i++) {
+    const struct trax_gdb_watch *watch = &gdb->watches[i];
+    if (watch->type == type && watch->address == address && watch->bytes == bytes) {
+      gdb->watches[i] = gdb->watches[--gdb->watch_count];
+      return true;
+    }
+  }
+  return true; /* removing twice does no harm, says the protocol */
+}
+
+const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32_t thread, uint32_t address,
+                                              uint32_t bytes, bool reads, bool writes) {
+  for (uint32_t i = 0; i < gdb->watch_count; i++) {
+    const struct trax_gdb_watch *watch = &gdb->watches[i];
+    const bool wanted = watch->type == '2' ? writes : watch->type == '3' ? reads : true;
+    if (wanted && (uint64_t)address + bytes > watch->address && (uint64_t)watch->address + watch->bytes > address &&
+        (address < TRAX_LOCAL_BASE || watch->thread == thread))
+      return watch;
+  }
+  return NULL;
+}
+
+static void note(struct trax_gdb *gdb, uint32_t thread, uint32_t address, uint32_t bytes, bool reads, bool writes) {
+  const struct trax_gdb_watch *watch = trax_gdb_watched(gdb, thread, address, bytes, reads, writes);
+  struct trax_gdb_thread *state = &gdb->thread[thread];
+  if (!watch)
+    return;
+  state->events |= TRAX_GDB_ACCESSED;
+  state->access = watch->type;
+  state->accessed = address > watch->address ? address : watch->address;
+  gdb->eventful = true;
+}
+
+void trax_gdb_note_access(struct trax_gdb *gdb, uint32_t thread, const struct trax_issue *issue) {
+  const trax_op_info *info = &trax_op_table[trax_decode(issue->word).op];
+  if (!info->access_bytes)
+    return;
+  if (info->flags & TRAX_IS_ATOMIC) { /* nothing has happened yet */
+    if (gdb->atomic_count < gdb->threads * TRAX_NUM_REGISTERS &&
+        trax_gdb_watched(gdb, thread, issue->address, 4, true, true))
+      gdb->atomics[gdb->atomic_count++] = (struct trax_gdb_atomic){thread, trax_decode(issue->word).rd, issue->address};
+    return;
+  }
+  const bool writes = (info->flags & TRAX_IS_STORE) != 0;
+  note(gdb, thread, issue->address, info->access_bytes, !writes, writes);
+}
+
+void trax_gdb_note_arrival(struct trax_gdb *gdb, uint32_t thread, uint32_t rd) {
+  rd = rd == TRAX_NO_REGISTER ? 0 : rd;
+  for (uint32_t i = 0; i < gdb->atomic_count; i++)
+    if (gdb->atomics[i].thread == thread && gdb->atomics[i].rd == rd) {
+      note(gdb, thread, gdb->atomics[i].address, 4, true, true);
+      gdb->atomics[i] = gdb->atomics[--gdb->atomic_count];
+      return;
+    }
+}
+
+/* --- packets --- */
+
+bool trax_gdb_insert(struct trax_gdb *gdb, char type, uint32_t address, uint32_t bytes) {
+  if (type == '0' || type == '1')
+    return insert_break(gdb, address);
+  return type >= '2' && type <= '4' && insert_watch(gdb, type, address, bytes);
+}
+
+bool trax_gdb_remove(struct trax_gdb *gdb, char type, uint32_t address, uint32_t bytes) {
+  struct trax_gdb_break *found;
+  if (type != '0' && type != '1')
+    return type >= '2' && type <= '4' && remove_watch(gdb, type, address, bytes);
+  if ((found = find_break(gdb, address)))
+    found->removed = true;
+  return true;
+}

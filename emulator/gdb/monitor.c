@@ -1,0 +1,108 @@
+/* What GDB has no words for: its command `monitor`. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#include "gdb/stub.h"
+#include "host/host.h"
+#include "trax/isa.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool print_cycle(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  fprintf(out, "%" PRIu64 "\n", gdb->cycle);
+  return !*arguments;
+}
+
+static bool print_statistics(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  gdb->machine->stats.cycles = gdb->cycle;
+  trax_chip_settle(gdb->chip, gdb->cycle);
+  trax_stats_print(gdb->machine, out);
+  return !*arguments;
+}
+
+static bool print_registers(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  const struct trax_tp *tp = trax_gdb_tp(gdb, gdb->selected);
+  for (unsigned i = 0; i < TRAX_NUM_REGISTERS; i++)
+    fprintf(out, "r%-2u %-4s %08x%s", i, trax_register_names[i], tp->reg[i], i % 4 == 3 ? "\n" : "   ");
+  fprintf(out, "pc       %08x\n", tp->pc);
+  return !*arguments;
+}
+
+/* [ADDRESS [COUNT]]; from the selected thread's pc. */
+static bool print_instructions(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  char *end = (char *)arguments;
+  const unsigned long address = *arguments ? strtoul(arguments, &end, 0) : trax_gdb_tp(gdb, gdb->selected)->pc;
+  const unsigned long count = *end ? strtoul(end, &end, 0) : 10;
+  if (*end || address > UINT32_MAX || address % 4 || count > 1000)
+    return false;
+  for (uint32_t pc = (uint32_t)address, i = 0; i < count; i++, pc += 4) {
+    uint8_t *bytes;
+    uint32_t word;
+    char text[128];
+    if (trax_gdb_memory(gdb, gdb->selected, pc, sizeof word, &bytes) < sizeof word)
+      break;
+    memcpy(&word, bytes, sizeof word);
+    trax_disassemble(word, pc, text, sizeof text);
+    for (char *c = text; *c; c++)
+      *c = *c == '\t' ? ' ' : *c;
+    fprintf(out, "%s 0x%08x  %08x  %s\n", pc == trax_gdb_tp(gdb, gdb->selected)->pc ? "=>" : "  ", pc, word, text);
+  }
+  return true;
+}
+
+static bool print_help(struct trax_gdb *gdb, const char *arguments, FILE *out);
+
+static const struct {
+  const char *name, *meaning;
+  bool (*print)(struct trax_gdb *gdb, const char *arguments, FILE *out); /* false: the arguments are wrong */
+} commands[] = {
+    {"cycle", "the cycle that comes next", print_cycle},
+    {"stats", "statistics up to here", print_statistics},
+    {"registers", "the selected thread's, by our names", print_registers},
+    {"disassemble", "[ADDRESS [COUNT]]  instructions from there or the selected thread's pc on", print_instructions},
+    {"help", "this", print_help},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static bool print_help(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  (void)gdb;
+  for (size_t i = 0; i < COMMANDS; i++)
+    fprintf(out, "monitor %-12s %s\n", commands[i].name, commands[i].meaning);
+  return !*arguments;
+}
+
+/* Text for the debugger's terminal goes in packets of its own. */
+static void send_text(struct trax_gdb_wire *wire, const char *text, size_t size) {
+  while (size) {
+    const size_t part = size < TRAX_GDB_PACKET / 4 ? size : TRAX_GDB_PACKET / 4;
+    trax_gdb_begin(wire);
+    trax_gdb_add(wire, "O");
+    trax_gdb_add_hex(wire, text, part);
+    trax_gdb_send(wire);
+    text += part;
+    size -= part;
+  }
+}
+
+bool trax_gdb_monitor(struct trax_gdb *gdb, const char *command) {
+  const size_t length = strcspn(command, " ");
+  const char *arguments = command + length + strspn(command + length, " ");
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    return false;
+  bool known = false;
+  for (size_t i = 0; i < COMMANDS; i++)
+    if (strlen(commands[i].name) == length && strncmp(commands[i].name, command, length) == 0)
+      known = commands[i].print(gdb, arguments, out);
+  if (!known) {
+    fprintf(out, "not understood: %s\n", command);
+    print_help(gdb, "", out);
+  }
+  if (fclose(out) == 0)
+    send_text(&gdb->wire, text, size);
+  free(text);
+  return true;
+}

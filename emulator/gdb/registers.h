@@ -1,0 +1,51 @@
+/* The machine's registers as the debugger is shown them. Stock GDB does not know the TP; of what it knows, RISC-V with
+   32 bits is nearest: return address in x1, stack pointer in x2, arguments in registers, results in the first of them.
+   Each register stands in the place that its role has there (docs/abi.md, "Registers"), so that GDB finds frames,
+   results and arguments. Behind them all are there once more under our own numbers. */
+#ifndef TRAX_GDB_REGISTERS_H
+#define TRAX_GDB_REGISTERS_H
+
+#include "trax/abi.h"
+
+enum {
+  TRAX_GDB_PC = 32,
+  TRAX_GDB_OWN = 33, /* r0 */
+  TRAX_GDB_REGISTERS = TRAX_GDB_OWN + TRAX_NUM_REGISTERS
+};
+
+/* [i]: what stands in x_i, and its name there. */
+#define TRAX_GDB_ROLES(X)                                                                                              \
+  X(0, "zero")                                                                                                         \
+  X(1, "ra")                                                                                                           \
+  X(2, "sp")                                                                                                           \
+  X(19, "gp") /* t7 */                                                                                                 \
+  X(31, "tp") /* s11 */                                                                                                \
+  X(12, "t0")                                                                                                          \
+  X(13, "t1")                                                                                                          \
+  X(14, "t2")                                                                                                          \
+  X(3, "fp")                                                                                                           \
+  X(20, "s1")                                                                                                          \
+  X(4, "a0")                                                                                                           \
+  X(5, "a1")                                                                                                           \
+  X(6, "a2")                                                                                                           \
+  X(7, "a3")                                                                                                           \
+  X(8, "a4")                                                                                                           \
+  X(9, "a5")                                                                                                           \
+  X(10, "a6")                                                                                                          \
+  X(11, "a7")                                                                                                          \
+  X(21, "s2")                                                                                                          \
+  X(22, "s3")                                                                                                          \
+  X(23, "s4")                                                                                                          \
+  X(24, "s5")                                                                                                          \
+  X(25, "s6")                                                                                                          \
+  X(26, "s7")                                                                                                          \
+  X(27, "s8")                                                                                                          \
+  X(28, "s9")                                                                                                          \
+  X(29, "s10")                                                                                                         \
+  X(30, "s11")                                                                                                         \
+  X(15, "t3")                                                                                                          \
+  X(16, "t4")                                                                                                          \
+  X(17, "t5")                                                                                                          \
+  X(18, "t6")
+
+#endif

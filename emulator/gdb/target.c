@@ -1,0 +1,155 @@
+/* Threads, registers and memory as the debugger sees them. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#include "gdb/registers.h"
+#include "gdb/stub.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROLE(NUMBER, NAME) NUMBER,
+static const uint8_t roles[TRAX_NUM_REGISTERS] = {TRAX_GDB_ROLES(ROLE)};
+#define ROLE_NAME(NUMBER, NAME) NAME,
+static const char *const role_names[TRAX_NUM_REGISTERS] = {TRAX_GDB_ROLES(ROLE_NAME)};
+
+/* --- threads --- */
+
+struct trax_tm *trax_gdb_tm(const struct trax_gdb *gdb, uint32_t thread) {
+  return &gdb->chip->tm[thread / gdb->tps];
+}
+
+struct trax_tp *trax_gdb_tp(const struct trax_gdb *gdb, uint32_t thread) {
+  return &trax_gdb_tm(gdb, thread)->tp[thread % gdb->tps];
+}
+
+bool trax_gdb_is_alive(const struct trax_gdb *gdb, uint32_t thread) {
+  const struct trax_tm *tm = trax_gdb_tm(gdb, thread);
+  return !(tm->ended >> thread % gdb->tps & 1) || (tm->fault.kind && tm->fault.thread == thread);
+}
+
+void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *name, size_t size) {
+  snprintf(name, size, "TM %u TP %u", thread / gdb->tps, thread % gdb->tps);
+}
+
+/* --- registers --- */
+
+uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number) {
+  const struct trax_tp *tp = trax_gdb_tp(gdb, thread);
+  if (number == TRAX_GDB_PC)
+    return gdb->pretended && thread == gdb->stopped ? gdb->pretended_pc : tp->pc;
+  const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
+  return own ? tp->reg[own] : 0;
+}
+
+/* The thread goes on somewhere else: what it has fetched is of no use. */
+static bool set_pc(struct trax_gdb *gdb, uint32_t thread, uint32_t pc) {
+  struct trax_tm *tm = trax_gdb_tm(gdb, thread);
+  struct trax_tp *tp = trax_gdb_tp(gdb, thread);
+  const uint64_t bit = (uint64_t)1 << thread % gdb->tps;
+  const struct trax_decoded *inst = trax_text_at(&gdb->chip->text, pc);
+  if (inst->ask == TRAX_ASK_OUTSIDE)
+    return false;
+  gdb->pretended &= thread != gdb->stopped;
+  if (pc == tp->pc)
+    return true;
+  tp->pc = pc;
+  tp->inst = inst;
+  tm->holding &= ~(bit & tm->awake);
+  gdb->thread[thread].told = true;
+  return true;
+}
+
+bool trax_gdb_set_register(struct trax_gdb *gdb, uint32_t thread, unsigned number, uint32_t value) {
+  if (gdb->over || !trax_gdb_is_alive(gdb, thread))
+    return false;
+  gdb->changed = true;
+  if (number == TRAX_GDB_PC)
+    return set_pc(gdb, thread, value);
+  const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
+  if (own)
+    trax_gdb_tp(gdb, thread)->reg[own] = value;
+  return own || !value;
+}
+
+/* --- memory --- */
+
+size_t trax_gdb_memory(const struct trax_gdb *gdb, uint32_t thread, uint32_t address, size_t size, uint8_t **bytes) {
+  const struct trax_space *space = &gdb->machine->space;
+  uint64_t end = space->size;
+  if (address >= TRAX_LOCAL_BASE) {
+    *bytes = trax_gdb_tp(gdb, thread)->local + (address - TRAX_LOCAL_BASE);
+    end = (uint64_t)TRAX_LOCAL_BASE + TRAX_LOCAL_SIZE;
+  } else if (address >= TRAX_NULL_END && address < end) {
+    *bytes = space->bytes + address;
+  } else {
+    return 0;
+  }
+  return size < end - address ? size : (size_t)(end - address);
+}
+
+bool trax_gdb_write_memory(struct trax_gdb *gdb, uint32_t thread, uint32_t address, const void *bytes, size_t size) {
+  uint8_t *place;
+  if (size == 0)
+    return true;
+  if (gdb->over || trax_gdb_memory(gdb, thread, address, size, &place) != size)
+    return false;
+  for (size_t i = 0; i < gdb->chip->text.count; i++) {
+    const struct trax_text_section *section = &gdb->chip->text.sections[i];
+    if (address < section->end && (uint64_t)address + size > section->begin)
+      return false;
+  }
+  memcpy(place, bytes, size);
+  gdb->changed = true;
+  return true;
+}
+
+/* --- documents --- */
+
+char *trax_gdb_target_description(void) {
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    return NULL;
+  fprintf(out,
+          "<?xml version=\"1.0\"?>\n<!DOCTYPE target SYSTEM \"gdb-target.dtd\">\n<target version=\"1.0\">\n"
+          "<architecture>riscv:rv32</architecture>\n<osabi>none</osabi>\n<feature name=\"org.gnu.gdb.riscv.cpu\">\n");
+  for (unsigned i = 0; i < TRAX_NUM_REGISTERS; i++)
+    fprintf(out, "<reg name=\"%s\" bitsize=\"32\" type=\"%s\" regnum=\"%u\"/>\n", role_names[i],
+            i == 1             ? "code_ptr"
+            : i == 2 || i == 8 ? "data_ptr"
+                               : "int",
+            i);
+  fprintf(out,
+          "<reg name=\"pc\" bitsize=\"32\" type=\"code_ptr\" regnum=\"%u\"/>\n</feature>\n"
+          "<feature name=\"trax.own\">\n",
+          TRAX_GDB_PC);
+  for (unsigned i = 0; i < TRAX_NUM_REGISTERS; i++)
+    fprintf(out, "<reg name=\"r%u\" bitsize=\"32\" type=\"int\" regnum=\"%u\" group=\"trax\"/>\n", i, TRAX_GDB_OWN + i);
+  fprintf(out, "</feature>\n</target>\n");
+  if (fclose(out) != 0) {
+    free(text);
+    return NULL;
+  }
+  return text;
+}
+
+char *trax_gdb_thread_list(const struct trax_gdb *gdb) {
+  char *text = NULL, name[32];
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    return NULL;
+  fprintf(out, "<?xml version=\"1.0\"?>\n<threads>\n");
+  for (uint32_t thread = 0; thread < gdb->threads; thread++)
+    if (trax_gdb_is_alive(gdb, thread)) {
+      trax_gdb_thread_name(gdb, thread, name, sizeof name);
+      fprintf(out, "<thread id=\"%x\" core=\"%u\" name=\"%s\"/>\n", thread + 1, thread / gdb->tps, name);
+    }
+  fprintf(out, "</threads>\n");
+  if (fclose(out) != 0) {
+    free(text);
+    return NULL;
+  }
+  return text;
+}
