@@ -299,6 +299,9 @@ def main():
     for name in FILES:
         equal((directory / "fast" / name).read_bytes(), (directory / "reference" / name).read_bytes(), "engines:", name)
         equal((directory / "fast" / name).read_bytes(), (directory / "again" / name).read_bytes(), "two runs:", name)
+    # A series needs no observer: then the engine runs ahead, and its TMs of each other.
+    run(directory / "series", "fast", *machine, *whole[2:], files=["series"])
+    equal(read(directory / "series", "series"), read(directory / "fast", "series"), "a series alone")
     run(directory / "plain", "fast", *machine, files=[])
     stats = json.loads(read(directory / "fast", "stats.json"))
     plain = json.loads(read(directory / "plain", "stats.json"))
