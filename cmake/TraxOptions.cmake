@@ -15,6 +15,7 @@ set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON) # Debian's LLVM
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 
 option(TRAX_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(TRAX_SANITIZE_THREADS "Thread sanitizer" OFF)
 option(TRAX_FUZZ "libFuzzer's programs of llvm-target/fuzz: needs clang, implies TRAX_SANITIZE" OFF)
 option(TRAX_WERROR "Warnings are errors" ON)
 
@@ -33,4 +34,8 @@ if(TRAX_SANITIZE)
   # GCC takes a check that it inserted itself for a null pointer in clang's headers.
   target_compile_options(trax_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-nonnull>)
   target_link_options(trax_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(TRAX_SANITIZE_THREADS)
+  target_compile_options(trax_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(trax_flags INTERFACE -fsanitize=thread)
 endif()

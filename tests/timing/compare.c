@@ -24,13 +24,9 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   return TRAX_OK;
 }
 
-static unsigned host_threads(void) {
-  const char *text = getenv("TRAX_HOST_THREADS");
-  return text ? (unsigned)strtoul(text, NULL, 10) : 1;
-}
-
 static struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
-                           bool traced, uint64_t max_cycles, bool looked, struct trax_watch *other) {
+                           bool traced, uint64_t max_cycles, unsigned host_threads, bool looked,
+                           struct trax_watch *other) {
   struct run run = {.bench = bench_begin(config, program, count)};
   struct trax_machine *machine = run.bench.machine;
   const uint64_t saved = random_state;
@@ -43,7 +39,8 @@ static struct run run_with(const struct trax_config *config, const uint32_t *pro
   struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run, .others = other};
   run.looked = looked;
   machine->watches = looked ? &watch : other;
-  const trax_run_options options = {.output = output, .max_cycles = max_cycles, .engine = engine, .host_threads = host_threads()};
+  const trax_run_options options = {
+      .output = output, .max_cycles = max_cycles, .engine = engine, .host_threads = host_threads};
   if (traced)
     bench_run_observed(&run.bench, &options);
   else
@@ -55,12 +52,12 @@ static struct run run_with(const struct trax_config *config, const uint32_t *pro
 
 struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
                        bool traced, uint64_t max_cycles, struct trax_watch *other) {
-  return run_with(config, program, count, engine, traced, max_cycles, true, other);
+  return run_with(config, program, count, engine, traced, max_cycles, setting("TRAX_HOST_THREADS", 1), true, other);
 }
 
 struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
-                     uint64_t max_cycles) {
-  return run_with(config, program, count, engine, false, max_cycles, false, NULL);
+                     uint64_t max_cycles, unsigned host_threads) {
+  return run_with(config, program, count, engine, false, max_cycles, host_threads, false, NULL);
 }
 
 struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,

@@ -17,14 +17,15 @@ struct run {
   bool looked; /* or it ran alone */
 };
 
-/* Runs the words on the same random data each time. other may be NULL. */
+/* Runs the words on the same random data each time, on TRAX_HOST_THREADS host threads (environment; 1). other may be
+   NULL. */
 struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
                        bool traced, uint64_t max_cycles, struct trax_watch *other);
 struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,
                uint64_t max_cycles);
 /* Nobody looks at it. */
 struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
-                     uint64_t max_cycles);
+                     uint64_t max_cycles, unsigned host_threads);
 void end(struct run *run);
 
 /* What differs between two runs, in words. */
