@@ -1,5 +1,5 @@
-/* Which lines a cache holds: sets of ways, first in, first out (docs/timing.md, "Fetch"). Lines are known by their
-   number, address / line_bytes. Used by the instruction and the data caches. */
+/* Which lines a cache holds: sets of ways, first in, first out (docs/timing.md, "Fetch") or least recently used out
+   ("Data cache"). Lines are known by their number, address / line_bytes. Used by all caches. */
 #ifndef TRAX_CORE_CACHE_TAGS_H
 #define TRAX_CORE_CACHE_TAGS_H
 
@@ -10,15 +10,17 @@
 struct trax_cache_tags {
   uint32_t ways, set_mask;
   unsigned line_shift;
-  uint64_t *lines; /* [sets][ways]: line number + 1; 0 is an empty place */
-  uint32_t *next;  /* [sets]: the way the next arriving line takes */
+  uint64_t *lines; /* [sets][ways]: line number + 1; 0 is an empty place. If `lru` the latest used first */
+  uint32_t *next;  /* [sets]: the way the next arriving line takes, unless `lru` */
+  bool lru;
 };
 
 static inline bool trax_cache_tags_create(struct trax_cache_tags *tags, uint32_t bytes, uint32_t line_bytes,
-                                          uint32_t ways) {
+                                          uint32_t ways, bool lru) {
   const uint32_t sets = bytes / line_bytes / ways;
   tags->ways = ways;
   tags->set_mask = sets - 1;
+  tags->lru = lru && ways > 1;
   tags->line_shift = (unsigned)__builtin_ctz(line_bytes);
   tags->lines = calloc((size_t)sets * ways, sizeof *tags->lines);
   tags->next = calloc(sets, sizeof *tags->next);
@@ -42,8 +44,32 @@ static inline bool trax_cache_tags_have(const struct trax_cache_tags *tags, uint
   return false;
 }
 
+/* Makes the line in `way` of a set the latest used; those used since it was go one way back. */
+static inline void trax_cache_tags_to_front(uint64_t *set, uint32_t way, uint64_t line) {
+  for (; way > 0; way--)
+    set[way] = set[way - 1];
+  set[0] = line;
+}
+
+/* Whether the cache has the line, which is used if so. */
+static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t line) {
+  if (!tags->lru)
+    return trax_cache_tags_have(tags, line);
+  uint64_t *set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
+  for (uint32_t way = 0; way < tags->ways; way++)
+    if (set[way] == (uint64_t)line + 1) {
+      trax_cache_tags_to_front(set, way, set[way]);
+      return true;
+    }
+  return false;
+}
+
 static inline void trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
   const uint32_t set = line & tags->set_mask;
+  if (tags->lru) {
+    trax_cache_tags_to_front(tags->lines + (size_t)set * tags->ways, tags->ways - 1, (uint64_t)line + 1);
+    return;
+  }
   tags->lines[(size_t)set * tags->ways + tags->next[set]] = (uint64_t)line + 1;
   tags->next[set] = (tags->next[set] + 1) & (tags->ways - 1);
 }

@@ -13,7 +13,8 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   memset(chip, 0, sizeof *chip);
   chip->machine = machine;
   chip->tms = machine->config.chip.tms;
-  trax_memory_create(&chip->memory, &machine->config);
+  if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error))
+    return TRAX_ERROR;
   if (trax_text_create(&chip->text, &machine->space, &machine->config, error))
     return TRAX_ERROR;
   chip->tm = calloc(chip->tms, sizeof *chip->tm);
@@ -39,6 +40,7 @@ void trax_chip_destroy(struct trax_chip *chip) {
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
   trax_text_destroy(&chip->text);
+  trax_memory_destroy(&chip->memory);
 }
 
 uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm) {
@@ -146,7 +148,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
     for (uint32_t i = 0; i < chip->tms; i++)
       if (chip->tm[i].next_cycle < next)
         next = chip->tm[i].next_cycle;
-    if (!trax_chip_running(chip) && !chip->memory.waiting_tms) {
+    if (!trax_chip_running(chip) && !trax_memory_has_waiting(&chip->memory)) {
       t++;
       break;
     }

@@ -53,9 +53,9 @@ trax_status trax_config_check_value(const struct trax_config_key *key, double va
                        in_range ? "" : key->unit);
     return TRAX_OK;
   case TRAX_KIND_POWER:
-    if (!in_range || !is_power_of_two(value))
-      return trax_fail(error, "%s is %.12g; allowed are the powers of two from %.12g to %.12g %s", key->name, value,
-                       key->least, key->most, key->unit);
+    if (!in_range || !(is_power_of_two(value) || (value == 0 && key->least == 0)))
+      return trax_fail(error, "%s is %.12g; allowed are %sthe powers of two from %.12g to %.12g %s", key->name, value,
+                       key->least == 0 ? "0 and " : "", fmax(key->least, 1), key->most, key->unit);
     return TRAX_OK;
   case TRAX_KIND_REAL:
     if (!in_range || fabs(value * 1000 - round(value * 1000)) > 1e-9 * value * 1000)
@@ -63,6 +63,15 @@ trax_status trax_config_check_value(const struct trax_config_key *key, double va
                        value, key->least, key->most, key->unit);
     return TRAX_OK;
   }
+  return TRAX_OK;
+}
+
+/* A line of the cache `name` must not be longer than the value of `limit`. */
+static trax_status check_line(const char *name, uint32_t line_bytes, const char *limit_name, uint32_t limit,
+                              trax_error *error) {
+  if (line_bytes > limit)
+    return trax_fail(error, "%s.line_bytes is %u; it must not be more than %s = %u", name, line_bytes, limit_name,
+                     limit);
   return TRAX_OK;
 }
 
@@ -80,6 +89,18 @@ trax_status trax_config_validate(const struct trax_config *config, trax_error *e
       return TRAX_ERROR;
   if (check_cache("icache", config->icache.bytes, config->icache.line_bytes, config->icache.ways, error) ||
       check_cache("dcache", config->dcache.bytes, config->dcache.line_bytes, config->dcache.ways, error))
+    return TRAX_ERROR;
+  if (config->l2.bytes &&
+      (check_cache("l2", config->l2.bytes, config->l2.line_bytes, config->l2.ways, error) ||
+       check_line("icache", config->icache.line_bytes, "l2.line_bytes", config->l2.line_bytes, error) ||
+       check_line("dcache", config->dcache.line_bytes, "l2.line_bytes", config->l2.line_bytes, error)))
+    return TRAX_ERROR;
+  const char *const interleave = "memory.interleave_bytes";
+  const uint32_t interleave_bytes = config->memory.interleave_bytes;
+  if (config->memory.channels > 1 &&
+      (check_line("icache", config->icache.line_bytes, interleave, interleave_bytes, error) ||
+       check_line("dcache", config->dcache.line_bytes, interleave, interleave_bytes, error) ||
+       (config->l2.bytes && check_line("l2", config->l2.line_bytes, interleave, interleave_bytes, error))))
     return TRAX_ERROR;
   return TRAX_OK;
 }

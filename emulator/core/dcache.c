@@ -10,7 +10,8 @@ bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm) {
   dcache->mshr_limit = config->dcache.mshrs;
   dcache->mshr = calloc(dcache->mshr_limit, sizeof *dcache->mshr);
   dcache->next_waiter = calloc((size_t)tm->tps * TRAX_NUM_REGISTERS, sizeof *dcache->next_waiter);
-  return trax_cache_tags_create(&dcache->tags, config->dcache.bytes, config->dcache.line_bytes, config->dcache.ways) &&
+  return trax_cache_tags_create(&dcache->tags, config->dcache.bytes, config->dcache.line_bytes, config->dcache.ways,
+                                config->dcache.lru) &&
          dcache->mshr && dcache->next_waiter;
 }
 
@@ -33,7 +34,7 @@ static void wait_for_line(struct trax_dcache *dcache, struct trax_mshr *mshr, st
 bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const uint32_t line = trax_line_of(&dcache->tags, tp->address);
-  if (trax_cache_tags_have(&dcache->tags, line)) {
+  if (trax_cache_tags_use(&dcache->tags, line)) {
     tm->stats->dcache_hits++;
     trax_tp_set_usable(tp, tp->inst->rd, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
     return true;
@@ -49,8 +50,10 @@ bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned n
     return false;
   tm->stats->dcache_misses++;
   tp->outcome = TRAX_OUTCOME_MISS;
-  trax_tm_request(
-      tm, (struct trax_request){.kind = TRAX_REQUEST_DATA_LINE, .line = line, .bytes = tm->config->dcache.line_bytes});
+  trax_tm_request(tm, (struct trax_request){.kind = TRAX_REQUEST_DATA_LINE,
+                                            .line = line,
+                                            .address = line << dcache->tags.line_shift,
+                                            .bytes = tm->config->dcache.line_bytes});
   struct trax_mshr *mshr = &dcache->mshr[dcache->mshr_count++];
   *mshr = (struct trax_mshr){line, NO_WAITER};
   wait_for_line(dcache, mshr, tp, number);

@@ -105,7 +105,7 @@ struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct t
                                    count->store_hits + count->store_misses);
   energy.dcache = accesses * trax_energy_of_cache(config->dcache.bytes, banks);
 
-  energy.off_chip = off_chip_nj_per_byte * TRAX_MEMORY_BYTES(stats);
+  energy.off_chip = off_chip_nj_per_byte * (double)stats->memory.bytes;
   double *const all = (double *)&energy;
   for (size_t i = 0; i < sizeof energy / sizeof *all; i++)
     all[i] *= 1e-9;

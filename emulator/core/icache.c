@@ -6,7 +6,7 @@ bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struc
   icache->number = number;
   icache->pending = calloc(tm->tps, sizeof *icache->pending);
   return trax_cache_tags_create(&icache->tags, tm->config->icache.bytes, tm->config->icache.line_bytes,
-                                tm->config->icache.ways) &&
+                                tm->config->icache.ways, false) &&
          icache->pending;
 }
 
@@ -39,6 +39,7 @@ void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigne
   trax_tm_request(tm, (struct trax_request){.kind = TRAX_REQUEST_INSTRUCTION_LINE,
                                             .icache = (uint8_t)icache->number,
                                             .line = line,
+                                            .address = line << icache->tags.line_shift,
                                             .bytes = tm->config->icache.line_bytes});
   icache->pending[icache->pending_count++] = (struct trax_icache_pending){line, bit};
   trax_tm_sleep(tm, tp, t, TRAX_CAUSE_ICACHE_MISS);

@@ -69,6 +69,31 @@ typedef enum trax_cause {
   X(memory_requests, "memory.requests", "requests", "requests to off-chip memory of any kind")                         \
   X(queue_peak, "memory.queue_peak", "requests", "most requests of one TM under way at once; for the chip, the sum")
 
+/* Counted beyond the TMs, by the second-level cache and the memory controller. */
+#define TRAX_MEMORY_COUNTERS(X)                                                                                        \
+  X(bytes, "memory.bytes", "bytes", "moved to and from off-chip memory")                                               \
+  X(transfers, "memory.transfers", "transfers", "transfers to and from off-chip memory")                               \
+  X(l2_hits, "l2.hits", "requests", "reads that found their line in the second-level cache")                           \
+  X(l2_misses, "l2.misses", "requests", "reads of lines that the second-level cache requested")                        \
+  X(l2_merged, "l2.merged", "requests", "reads whose line was already on its way to the second-level cache")           \
+  X(l2_passed, "l2.passed", "requests", "loads past the data cache that found no line in the second-level cache")      \
+  X(l2_store_hits, "l2.store_hits", "requests", "writes and atomic increments that updated a line in place")           \
+  X(l2_store_misses, "l2.store_misses", "requests", "writes and atomic increments that found no line to update")       \
+  X(l2_refused, "l2.refused", "cycles", "cycles a bank could serve nobody for want of a miss register; sum of all")    \
+  X(l2_served_bytes, "l2.served_bytes", "bytes", "read by the TMs through hits and merged reads")                      \
+  X(l2_read_bytes, "l2.read_bytes", "bytes", "lines read into the second-level cache from off-chip memory")
+
+struct trax_channel_stats {
+  uint64_t transfers, bytes;
+};
+
+struct trax_memory_stats {
+#define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
+  TRAX_MEMORY_COUNTERS(TRAX_COUNTER_FIELD)
+#undef TRAX_COUNTER_FIELD
+  struct trax_channel_stats channel[TRAX_MAX_CHANNELS];
+};
+
 struct trax_tp_stats {
   uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles */
 };
@@ -87,6 +112,7 @@ struct trax_stats {
   uint64_t instructions; /* issued, all threads */
   double host_seconds;   /* wall time of trax_machine_run */
   struct trax_tm_stats total;
+  struct trax_memory_stats memory;
 };
 
 /* Figures made from the counts, for reports: identifier, JSON name, unit, meaning, C expression over
@@ -109,20 +135,21 @@ struct trax_stats {
   X(mrps, "mrps", "million rays/s", "simulated rays per simulated second", S->total.rays / TRAX_SECONDS(S, C) / 1e6)   \
   X(gflops, "gflops", "10^9 operations/s", "adds, subtractions and multiplications per simulated second",              \
     S->total.flops / TRAX_SECONDS(S, C) / 1e9)                                                                         \
-  X(peak_gflops, "peak_gflops", "10^9 operations/s", "one add and one multiplication per cluster and cycle",           \
-    2.0 * TRAX_CLUSTERS(C) * C->chip.tms * C->chip.clock_mhz / 1e3)                                                    \
-  X(area_mm2, "area_mm2", "mm2 at 65 nm", "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs",        \
+  X(peak_gflops, "peak_gflops", "10^9 operations/s", "an operation per adder, per multiplier and cycle",               \
+    (double)(TRAX_ADDERS(C) + TRAX_MULTIPLIERS(C)) * C->chip.tms * C->chip.clock_mhz / 1e3)                            \
+  X(area_mm2, "area_mm2", "mm2 at 65 nm",                                                                              \
+    "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs; no second-level cache, the paper's units",    \
     C->chip.tms * (0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                           \
   X(fp_add_utilisation, "fp_add.utilisation", "fraction", "share of cycles in which an adder accepted an operation",   \
-    (double)S->total.fp_add_ops / S->cycles / (TRAX_CLUSTERS(C) * C->chip.tms))                                        \
+    (double)S->total.fp_add_ops / S->cycles / (TRAX_ADDERS(C) * C->chip.tms))                                          \
   X(fp_mul_utilisation, "fp_mul.utilisation", "fraction",                                                              \
     "share of cycles in which a multiplier accepted an operation",                                                     \
-    (double)S->total.fp_mul_ops / S->cycles / (TRAX_CLUSTERS(C) * C->chip.tms))                                        \
+    (double)S->total.fp_mul_ops / S->cycles / (TRAX_MULTIPLIERS(C) * C->chip.tms))                                     \
   X(int_mul_utilisation, "int_mul.utilisation", "fraction",                                                            \
     "share of cycles in which an integer multiplier accepted an operation",                                            \
     (double)S->total.int_mul_ops / S->cycles / (TRAX_INT_MULS(C) * C->chip.tms))                                       \
   X(special_utilisation, "special.utilisation", "fraction", "share of cycles in which an FPDIV/iSQRT unit was taken",  \
-    (double)S->total.special_ops *(C->special.pipelined ? 1 : C->special.latency_cycles) / S->cycles /                 \
+    (C->special.pipelined ? (double)S->total.special_ops : TRAX_SPECIAL_CYCLES(S, C)) / S->cycles /                    \
         (C->special.units_per_tm * C->chip.tms))                                                                       \
   X(issue_utilisation, "issue.utilisation", "fraction", "share of thread-cycles that issued an instruction",           \
     (double)S->instructions / S->cycles / S->threads)                                                                  \
@@ -130,11 +157,12 @@ struct trax_stats {
     (double)S->total.icache_hits / (S->total.icache_hits + S->total.icache_misses + S->total.icache_merged))           \
   X(dcache_hit_rate, "dcache.hit_rate", "fraction", "hits per load that looked in the data cache",                     \
     (double)S->total.dcache_hits / (S->total.dcache_hits + S->total.dcache_misses + S->total.dcache_merged))           \
-  X(memory_bytes, "memory.bytes", "bytes", "moved to and from off-chip memory", TRAX_MEMORY_BYTES(S))                  \
+  X(l2_hit_rate, "l2.hit_rate", "fraction", "hits per read that the second-level cache looked up",                     \
+    (double)S->memory.l2_hits / (S->memory.l2_hits + S->memory.l2_misses + S->memory.l2_merged + S->memory.l2_passed)) \
   X(memory_gbps, "memory.bandwidth_gbps", "GB/s", "off-chip bandwidth used",                                           \
-    TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9)                                                                   \
+    S->memory.bytes / TRAX_SECONDS(S, C) / 1e9)                                                                        \
   X(memory_utilisation, "memory.utilisation", "fraction", "share of the off-chip bandwidth used",                      \
-    TRAX_MEMORY_BYTES(S) / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)                                        \
+    S->memory.bytes / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)                                             \
   X(energy_fp_add, "energy.fp_add", "J", "adders: additions and subtractions", trax_energy_of(S, C).fp_add)            \
   X(energy_fp_mul, "energy.fp_mul", "J", "multipliers", trax_energy_of(S, C).fp_mul)                                   \
   X(energy_fp_other, "energy.fp_other", "J", "comparisons, minima, maxima, conversions",                               \
@@ -158,10 +186,13 @@ struct trax_stats {
   X(energy_off_chip, "energy.off_chip", "J", "off-chip memory, which is not in the sum", trax_energy_of(S, C).off_chip)
 
 #define TRAX_SECONDS(S, C) ((double)(S)->cycles / ((C)->chip.clock_mhz * 1e6))
-#define TRAX_CLUSTERS(C) (((C)->chip.tps_per_tm + (C)->fpu.tps_per_cluster - 1) / (C)->fpu.tps_per_cluster)
-#define TRAX_INT_MULS(C) (((C)->chip.tps_per_tm + (C)->int_mul.tps_per_unit - 1) / (C)->int_mul.tps_per_unit)
-#define TRAX_MEMORY_BYTES(S)                                                                                           \
-  ((double)((S)->total.data_read_bytes + (S)->total.instruction_read_bytes + (S)->total.nontemporal_read_bytes +       \
-            (S)->total.written_bytes + (S)->total.atomic_bytes))
+/* Units of a TM: `COUNT` for each group of SIZE TPs. */
+#define TRAX_UNITS(C, SIZE, COUNT) (((C)->chip.tps_per_tm + (SIZE) - 1) / (SIZE) * (COUNT))
+#define TRAX_ADDERS(C) TRAX_UNITS(C, (C)->fpu.tps_per_cluster, (C)->fpu.adders_per_cluster)
+#define TRAX_MULTIPLIERS(C) TRAX_UNITS(C, trax_config_mul_cluster(C), (C)->fpu.multipliers_per_cluster)
+#define TRAX_INT_MULS(C) TRAX_UNITS(C, (C)->int_mul.tps_per_unit, (C)->int_mul.units_per_group)
+#define TRAX_SPECIAL_CYCLES(S, C)                                                                                      \
+  ((double)(S)->total.instructions[TRAX_OP_FDIV] * (C)->special.latency_cycles +                                       \
+   (double)(S)->total.instructions[TRAX_OP_FRSQRT] * trax_config_rsqrt_latency(C))
 
 #endif

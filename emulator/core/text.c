@@ -32,17 +32,23 @@ static trax_ask ask_of(const trax_inst *inst, const struct trax_config *config) 
   }
 }
 
+static bool is_conversion(trax_op op) {
+  return op == TRAX_OP_FCVT_S_W || op == TRAX_OP_FCVT_S_WU || op == TRAX_OP_FCVT_W_S || op == TRAX_OP_FCVT_WU_S;
+}
+
 static uint32_t latency_of(const trax_inst *inst, const struct trax_config *config) {
   const trax_op_info *info = &trax_op_table[inst->op];
   switch (info->unit) {
   case TRAX_UNIT_INT_MUL:
     return config->int_mul.latency_cycles;
   case TRAX_UNIT_FP_ADD:
-    return info->flags & TRAX_IS_FLOP ? config->fpu.add_latency_cycles : config->fpu.compare_latency_cycles;
+    return info->flags & TRAX_IS_FLOP ? config->fpu.add_latency_cycles
+           : is_conversion(inst->op)  ? config->fpu.convert_latency_cycles
+                                      : config->fpu.compare_latency_cycles;
   case TRAX_UNIT_FP_MUL:
     return config->fpu.mul_latency_cycles;
   case TRAX_UNIT_SPECIAL:
-    return config->special.latency_cycles;
+    return inst->op == TRAX_OP_FRSQRT ? trax_config_rsqrt_latency(config) : config->special.latency_cycles;
   default:
     return config->tp.int_latency_cycles;
   }

@@ -24,19 +24,20 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_mach
   tm->tp = calloc(tps, sizeof *tm->tp);
   tm->icaches = (tps + config->icache.tps_per_cache - 1) / config->icache.tps_per_cache;
   tm->icache = calloc(tm->icaches, sizeof *tm->icache);
-  tm->queue.depth = config->memory.queue_depth;
-  tm->queue.requests = calloc(tm->queue.depth, sizeof *tm->queue.requests);
-  bool complete = tm->tp && tm->icache && tm->queue.requests && trax_dcache_create(&tm->dcache, tm);
+  bool complete = tm->tp && tm->icache &&
+                  trax_queue_create(&tm->queue, config->memory.queue_depth, trax_memory_keeps_order(config)) &&
+                  trax_dcache_create(&tm->dcache, tm);
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
     complete = trax_icache_create(&tm->icache[i], i, tm);
   if (!complete)
     return trax_fail(error, "out of memory");
 
-  trax_shared_unit_create(&tm->fp_add, config->fpu.tps_per_cluster, tps);
-  trax_shared_unit_create(&tm->fp_mul, config->fpu.tps_per_cluster, tps);
-  trax_shared_unit_create(&tm->int_mul, config->int_mul.tps_per_unit, tps);
+  trax_shared_unit_create(&tm->fp_add, config->fpu.tps_per_cluster, config->fpu.adders_per_cluster, tps);
+  trax_shared_unit_create(&tm->fp_mul, trax_config_mul_cluster(config), config->fpu.multipliers_per_cluster, tps);
+  trax_shared_unit_create(&tm->int_mul, config->int_mul.tps_per_unit, config->int_mul.units_per_group, tps);
   trax_special_unit_create(&tm->special, config->special.units_per_tm,
-                           config->special.pipelined ? 1 : config->special.latency_cycles);
+                           config->special.pipelined ? 1 : config->special.latency_cycles,
+                           config->special.pipelined ? 1 : trax_config_rsqrt_latency(config));
   for (uint32_t i = 0; i < tps; i++) {
     tm->tp[i].pc = machine->entry;
     tm->tp[i].inst = trax_text_at(text, machine->entry);
@@ -51,7 +52,7 @@ void trax_tm_destroy(struct trax_tm *tm) {
     trax_icache_destroy(&tm->icache[i]);
   trax_dcache_destroy(&tm->dcache);
   free(tm->icache);
-  free(tm->queue.requests);
+  trax_queue_destroy(&tm->queue);
   free(tm->tp);
 }
 
@@ -187,12 +188,24 @@ static bool request_in_turn(struct trax_tm *tm, unsigned tp, struct trax_request
   return true;
 }
 
+/* Empties the TP's write-combining buffer; false if that needs a place and there is none. */
+static bool write_run(struct trax_tm *tm, unsigned number) {
+  struct trax_tp *tp = &tm->tp[number];
+  const uint32_t run = tp->run_end - tp->run_begin;
+  const struct trax_request request = {.kind = TRAX_REQUEST_WRITE, .address = tp->run_begin, .bytes = run};
+  if (run && !request_in_turn(tm, number, request))
+    return false;
+  tp->run_begin = tp->run_end = 0;
+  return true;
+}
+
 /* A store joins the run of its TP's write-combining buffer, or writes that run and begins a new one. */
 static bool store_past_cache(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
   const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
   if (!tm->config->memory.write_combining)
-    return request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = end - begin});
+    return request_in_turn(tm, number,
+                           (struct trax_request){.kind = TRAX_REQUEST_WRITE, .address = begin, .bytes = end - begin});
   if (trax_tp_combines(tp, begin, tp->inst->bytes)) {
     tm->stats->combined_stores++;
     tp->outcome = TRAX_OUTCOME_COMBINED;
@@ -200,20 +213,10 @@ static bool store_past_cache(struct trax_tm *tm, unsigned number) {
     tp->run_end = end > tp->run_end ? end : tp->run_end;
     return true;
   }
-  const uint32_t run = tp->run_end - tp->run_begin;
-  if (run && !request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = run}))
+  if (!write_run(tm, number))
     return false;
   tp->run_begin = begin;
   tp->run_end = end;
-  return true;
-}
-
-static bool write_last_run(struct trax_tm *tm, unsigned number) {
-  struct trax_tp *tp = &tm->tp[number];
-  const uint32_t run = tp->run_end - tp->run_begin;
-  if (run && !request_in_turn(tm, number, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = run}))
-    return false;
-  tp->run_begin = tp->run_end = 0;
   return true;
 }
 
@@ -234,7 +237,7 @@ static bool read_past_cache(struct trax_tm *tm, unsigned number) {
 
 static bool count_store(struct trax_tm *tm, struct trax_tp *tp) {
   if (!tp->inst->is_nontemporal) {
-    if (trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address))) {
+    if (trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address))) {
       tm->stats->store_hits++;
       tp->outcome |= TRAX_OUTCOME_HIT;
     } else {
@@ -247,7 +250,7 @@ static bool count_store(struct trax_tm *tm, struct trax_tp *tp) {
 bool trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   if (tp->inst->ask == TRAX_ASK_END)
-    return write_last_run(tm, number);
+    return write_run(tm, number);
   if (tp->inst->is_store)
     return store_past_cache(tm, number) && count_store(tm, tp);
   if (tp->inst->is_nontemporal || tp->inst->is_atomic)

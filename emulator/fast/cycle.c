@@ -214,7 +214,7 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, co
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const struct trax_fast_step *step = ftm->slot[number].step;
-  if (!trax_cache_tags_have(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, step->address)))
+  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, step->address)))
     return false;
   tm->stats->dcache_hits++;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
@@ -249,6 +249,14 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
   return granted;
 }
 
+static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers) {
+  uint64_t roots = 0;
+  for (uint64_t rest = askers; rest; rest &= rest - 1)
+    if (ftm->fast->program.inst[ftm->slot[trax_first(rest)].step->index].decoded->op == TRAX_OP_FRSQRT)
+      roots |= rest & -rest;
+  return roots;
+}
+
 /* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do. */
 static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t *slow, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
@@ -267,7 +275,8 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
     lost->int_mul = askers & ~won;
   }
   if ((askers = ready & asks.bit[4])) {
-    granted |= won = trax_special_unit_grant(&tm->special, askers, t);
+    const bool differ = tm->special.root_interval != tm->special.interval;
+    granted |= won = trax_special_unit_grant(&tm->special, askers, differ ? askers_for_roots(ftm, askers) : 0, t);
     lost->special = askers & ~won;
   }
   uint64_t queue_askers = ready & asks.bit[6];
@@ -275,7 +284,7 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
     uint64_t hits;
     won = grant_banks(ftm, askers, &asks, &hits);
     lost->bank = askers & ~won;
-    if (tm->config->dcache.hit_latency_cycles > 1)
+    if (ftm->hits_in_turn)
       hits = 0; /* serve sees to that */
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;

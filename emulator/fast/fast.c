@@ -4,12 +4,18 @@
 
 #include <string.h>
 
-static void create_unit(struct trax_fast_units *unit, const struct trax_shared_unit *reference) {
-  unit->groups = reference->groups;
-  unit->group_size = reference->group_size;
-  unit->even = 64 % unit->group_size == 0;
-  for (uint32_t i = 0; i < unit->groups; i++)
-    unit->group[i] = trax_group_mask(i, reference->group_size);
+static void create_units(struct trax_fast_units *unit, const struct trax_shared_unit *first,
+                         const struct trax_shared_unit *second) {
+  const struct trax_shared_unit *const kinds[2] = {first, second};
+  unit->group_size = first->group_size;
+  unit->even = 64 % first->group_size == 0 && second->group_size == first->group_size && first->per_group == 1 &&
+               second->per_group == 1;
+  for (unsigned kind = 0; kind < 2; kind++) {
+    unit->uneven[kind].groups = kinds[kind]->groups;
+    unit->uneven[kind].per_group = kinds[kind]->per_group;
+    for (uint32_t i = 0; i < kinds[kind]->groups; i++)
+      unit->uneven[kind].group[i] = trax_group_mask(i, kinds[kind]->group_size);
+  }
   for (uint32_t i = unit->group_size - 1; unit->even && i < 64; i += unit->group_size)
     unit->top |= (uint64_t)1 << i;
   unit->below_top = ~unit->top;
@@ -65,8 +71,9 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   ftm->data_banks = tm->dcache.banks;
   while (1u << ftm->data_bank_bits < ftm->data_banks)
     ftm->data_bank_bits++;
-  create_unit(&ftm->fp, &tm->fp_add);
-  create_unit(&ftm->int_mul, &tm->int_mul);
+  create_units(&ftm->fp, &tm->fp_add, &tm->fp_mul);
+  create_units(&ftm->int_mul, &tm->int_mul, &tm->int_mul);
+  ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++)
     ftm->slot[i].step = &ftm->tp[0].only; /* those that do not exist are looked at in place of nobody */
   for (unsigned i = 0; i < tm->tps; i++) {

@@ -157,6 +157,7 @@ struct trax_fast_tm {
   trax_fast_lanes *asking, *behind;
   trax_fast_lanes16 *asking16, *behind16;
   uint32_t data_banks, data_bank_bits;
+  bool hits_in_turn;                    /* a hit of the data cache needs more than counting: latency, or order of use */
   uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches] */
   uint64_t *resident_lines;             /* [tm->icaches]: the same, bit by line, of programs of 64 lines; else 0 */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];

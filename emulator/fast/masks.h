@@ -61,25 +61,32 @@ static inline void trax_fast_count(struct trax_fast_tally *tally, const struct t
     trax_fast_count_log(tally);
 }
 
-/* Shared units, one to a group of neighbours; of two kinds that are grouped alike. */
+/* Shared units of two kinds, for groups of neighbours. `even`: one of each kind to a group, grouped alike and so that
+   the groups are 64 bits; then all groups are served at once. */
 typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 
 struct trax_fast_units {
-  uint32_t groups, group_size;
-  bool even;               /* the groups are 64 bits */
+  uint32_t group_size;
+  bool even;
   uint64_t top, below_top; /* of each group, if they are: the last bit, the others */
   trax_fast_pair behind;   /* those who come before the others: the bits behind the latest winners */
-  uint64_t group[64];
+  struct {
+    uint32_t groups, per_group;
+    uint64_t group[64];
+  } uneven[2];
 };
 
 static inline uint64_t trax_fast_grant_unevenly(struct trax_fast_units *units, unsigned kind, uint64_t askers) {
   uint64_t winners = 0, behind = units->behind[kind];
-  for (uint32_t i = 0; i < units->groups; i++) {
-    const uint64_t all = askers & units->group[i], preferred = all & behind, among = preferred ? preferred : all;
-    const uint64_t winner = among & -among;
-    winners |= winner;
-    if (winner)
-      behind = (behind & ~units->group[i]) | (units->group[i] & ~(winner | (winner - 1)));
+  for (uint32_t i = 0; i < units->uneven[kind].groups; i++) {
+    const uint64_t group = units->uneven[kind].group[i];
+    uint64_t all = askers & group;
+    for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {
+      const uint64_t preferred = all & behind, among = preferred ? preferred : all, winner = among & -among;
+      winners |= winner;
+      all ^= winner;
+      behind = (behind & ~group) | (group & ~(winner | (winner - 1)));
+    }
   }
   units->behind[kind] = behind;
   return winners;

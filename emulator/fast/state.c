@@ -29,15 +29,15 @@ static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t b
 }
 
 static void gather_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
-  for (uint32_t i = 0; i < units->groups; i++)
-    unit->turn[i] = pointer_of(units->behind[kind] & units->group[i]);
+  for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
+    unit->turn[i] = pointer_of(units->behind[kind] & units->uneven[kind].group[i]);
 }
 
 static void scatter_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
   uint64_t behind = 0;
-  for (uint32_t i = 0; i < units->groups; i++)
+  for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
     if (unit->turn[i])
-      behind |= units->group[i] & ~(uint64_t)0 << unit->turn[i];
+      behind |= units->uneven[kind].group[i] & ~(uint64_t)0 << unit->turn[i];
   units->behind[kind] = behind;
 }
 
@@ -90,10 +90,9 @@ static void find_resident_lines(struct trax_fast_tm *ftm) {
 
 static void find_atomics(struct trax_fast_tm *ftm) {
   const struct trax_queue *queue = &ftm->tm->queue;
-  for (uint32_t i = 0; i < queue->count; i++) {
-    const uint32_t index = queue->oldest + i;
-    const struct trax_request *request = &queue->requests[index < queue->depth ? index : index - queue->depth];
-    if (request->kind == TRAX_REQUEST_ATOMIC)
+  for (uint32_t i = 0; i < queue->depth; i++) {
+    const struct trax_request *request = &queue->requests[i];
+    if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC)
       ftm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
   }
 }

@@ -15,6 +15,7 @@ enum {
   FIRST_PAUSE = 64,        /* cycles that are run one by one after a conflict, besides those that contain it */
   LONGEST_PAUSE = 1 << 20, /* it doubles with each conflict that follows soon */
   REGIONS_OF_A_TM = 32,
+  REGIONS_OF_THE_MEMORY = 32,
 };
 
 /* Bytes that change during the run. */
@@ -71,6 +72,10 @@ static void add_region(struct trax_windows *windows, void *bytes, size_t size) {
   windows->kept_size += size;
 }
 
+static void add_memory_region(void *windows, void *bytes, size_t size) {
+  add_region(windows, bytes, size);
+}
+
 static void add_tags(struct trax_windows *windows, const struct trax_cache_tags *tags) {
   const size_t sets = (size_t)tags->set_mask + 1;
   add_region(windows, tags->lines, sets * tags->ways * sizeof *tags->lines);
@@ -90,6 +95,10 @@ static void add_core(struct trax_windows *windows, struct trax_tm *tm) {
   add_region(windows, tm->dcache.mshr, tm->dcache.mshr_limit * sizeof *tm->dcache.mshr);
   add_region(windows, tm->dcache.next_waiter, waiters * sizeof *tm->dcache.next_waiter);
   add_region(windows, tm->queue.requests, tm->queue.depth * sizeof *tm->queue.requests);
+  if (tm->queue.heap) {
+    add_region(windows, tm->queue.heap, tm->queue.depth * sizeof *tm->queue.heap);
+    add_region(windows, tm->queue.places, tm->queue.depth * sizeof *tm->queue.places);
+  }
   add_region(windows, tm->stats, sizeof *tm->stats);
   add_region(windows, tm->tp_stats, tm->tps * sizeof *tm->tp_stats);
   add_region(windows, tm->exit_statuses, tm->tps * sizeof *tm->exit_statuses);
@@ -337,7 +346,7 @@ bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t un
 }
 
 trax_status trax_windows_create(struct trax_chip *chip, unsigned threads, trax_error *error) {
-  const uint64_t length = (uint64_t)chip->machine->config.memory.latency_cycles + 1;
+  const uint64_t length = trax_memory_least_latency(&chip->machine->config);
   const long processors = sysconf(_SC_NPROCESSORS_ONLN);
   if (!threads)
     threads = processors > 1 ? (unsigned)processors : 1;
@@ -353,14 +362,15 @@ trax_status trax_windows_create(struct trax_chip *chip, unsigned threads, trax_e
   windows->pause = FIRST_PAUSE;
   windows->writer_capacity = 1024;
   windows->ahead = calloc(chip->tms, sizeof *windows->ahead);
-  windows->regions =
-      calloc((size_t)chip->tms * (REGIONS_OF_A_TM + 3 * TRAX_MAX_TPS_PER_TM) + 1, sizeof *windows->regions);
+  windows->regions = calloc((size_t)chip->tms * (REGIONS_OF_A_TM + 3 * TRAX_MAX_TPS_PER_TM) + REGIONS_OF_THE_MEMORY,
+                            sizeof *windows->regions);
   windows->writers = calloc(windows->writer_capacity, sizeof *windows->writers);
   windows->next_write = calloc(chip->tms, sizeof *windows->next_write);
   windows->next_request = calloc(chip->tms, sizeof *windows->next_request);
   if (!windows->ahead || !windows->regions || !windows->writers || !windows->next_write || !windows->next_request)
     return trax_fail(error, "out of memory");
   add_region(windows, &chip->memory, sizeof chip->memory);
+  trax_memory_visit_state(&chip->memory, add_memory_region, windows);
   for (uint32_t i = 0; i < chip->tms; i++) {
     add_core(windows, &chip->tm[i]);
     add_fast(windows, &chip->fast->tm[i]);

@@ -211,7 +211,8 @@ void trax_config_describe(FILE *out) {
       snprintf(range, sizeof range, "true or false");
       break;
     case TRAX_KIND_POWER:
-      snprintf(range, sizeof range, "power of two, %.12g to %.12g", key->least, key->most);
+      snprintf(range, sizeof range, "%spower of two, %.12g to %.12g", key->least == 0 ? "0 or " : "",
+               fmax(key->least, 1), key->most);
       break;
     case TRAX_KIND_REAL:
       snprintf(range, sizeof range, "%.12g to %.12g, steps of 0.001", key->least, key->most);

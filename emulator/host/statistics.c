@@ -71,6 +71,12 @@ static void visit_instructions(const struct visitor *visitor, const struct trax_
          (double)tm->instructions[op]);
 }
 
+static void visit_memory(const struct visitor *visitor, const struct trax_memory_stats *memory) {
+#define COUNTER(ID, NAME, UNIT, MEANING) emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (double)memory->ID);
+  TRAX_MEMORY_COUNTERS(COUNTER)
+#undef COUNTER
+}
+
 void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_stats *tm,
                         const struct trax_config *config,
                         void (*visit)(void *context, const struct trax_figure *figure), void *context) {
@@ -84,6 +90,7 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
   const struct visitor visitor = {visit, context};
   if (!tm) {
     visit_run(&visitor, stats ? stats : &no_stats, config ? config : &no_config);
+    visit_memory(&visitor, stats ? &stats->memory : &no_stats.memory);
     tm = stats ? &stats->total : &no_stats.total;
   }
 #define COUNTER(ID, NAME, UNIT, MEANING) emit(&visitor, TRAX_GROUP_COUNTER, "", NAME, UNIT, MEANING, (double)tm->ID);
@@ -175,7 +182,8 @@ static void print_figure(void *context, const struct trax_figure *figure) {
   if (figure->group != listing->group || (listing->hide_zero && figure->value == 0))
     return;
   const char *name = strrchr(figure->name, '.');
-  if (figure->group == TRAX_GROUP_RUN || figure->group == TRAX_GROUP_COUNTER || !name)
+  if (figure->group == TRAX_GROUP_RUN || figure->group == TRAX_GROUP_COUNTER || figure->group == TRAX_GROUP_MEMORY ||
+      !name)
     name = figure->name;
   else
     ++name;
@@ -248,6 +256,20 @@ static void print_shares(const trax_machine *machine, FILE *out) {
   }
 }
 
+double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel) {
+  const struct trax_config *config = &machine->config;
+  const double share = 1e9 * config->memory.bandwidth_gbps / config->memory.channels; /* bytes/s */
+  const double seconds = TRAX_SECONDS(&machine->stats, config);
+  return seconds > 0 ? (double)machine->stats.memory.channel[channel].bytes / seconds / share : 0;
+}
+
+static void print_channels(const trax_machine *machine, FILE *out) {
+  fprintf(out, "\nChannels\n  %7s %16s %16s %12s\n", "channel", "transfers", "bytes", "utilisation");
+  for (uint32_t i = 0; i < machine->config.memory.channels; ++i)
+    fprintf(out, "  %7u %16" PRIu64 " %16" PRIu64 " %12.6g\n", i, machine->stats.memory.channel[i].transfers,
+            machine->stats.memory.channel[i].bytes, trax_stats_channel_utilisation(machine, i));
+}
+
 void trax_stats_print(const trax_machine *machine, FILE *out) {
   const struct trax_host *host = trax_host_of(machine);
   fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
@@ -264,6 +286,8 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
   print_group(machine, out, "Instructions by operation (those that occur)", TRAX_GROUP_OPERATION, true);
   print_tms(machine, out);
   print_shares(machine, out);
+  print_group(machine, out, "Beyond the TMs", TRAX_GROUP_MEMORY, !machine->config.l2.bytes);
+  print_channels(machine, out);
   fprintf(out, "\nConfiguration\n");
   trax_config_print(&machine->config, out);
 }

@@ -9,6 +9,7 @@
 enum trax_figure_group {
   TRAX_GROUP_RUN,      /* figures made from counts */
   TRAX_GROUP_COUNTER,  /* counted in every TM */
+  TRAX_GROUP_MEMORY,   /* counted beyond the TMs */
   TRAX_GROUP_CAUSE,    /* thread-cycles by cause: "causes.<cause>" */
   TRAX_GROUP_SHARE,    /* the same in per cent: "cause_percent.<cause>" */
   TRAX_GROUP_UNIT,     /* instructions by unit: "instructions_by_unit.<unit>" */
@@ -24,7 +25,8 @@ struct trax_figure {
 };
 
 /* Calls visit for every figure in the order of the reports. stats and config may be NULL (values are then 0), and tm
-   chooses what is counted: NULL is the whole chip; for one TM the figures of TRAX_GROUP_RUN are left out. */
+   chooses what is counted: NULL is the whole chip; for one TM the figures of TRAX_GROUP_RUN and
+   TRAX_GROUP_MEMORY are left out. */
 void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_stats *tm,
                         const struct trax_config *config,
                         void (*visit)(void *context, const struct trax_figure *figure), void *context);
@@ -41,6 +43,9 @@ void trax_stats_describe_members(FILE *out);
 
 /* "finished", "fault", "interrupted", "stuck", "error" */
 const char *trax_status_name(trax_status status);
+
+/* Share of the cycles in which a channel's bus was taken. */
+double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel);
 
 trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_error *error);
 

@@ -19,6 +19,7 @@
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
   X("tms",                                                                                                             \
     "for each TM: tm, the figures that are counted in every TM, and tps: for each TP tp, thread, exit_status, causes") \
+  X("channels", "for each channel of the memory: channel, transfers, bytes, utilisation")                              \
   X("configuration", "every key of the machine's configuration")
 
 void trax_stats_describe_members(FILE *out) {
@@ -151,6 +152,21 @@ static void put_tms(struct document *document, const trax_machine *machine) {
   }
 }
 
+static void put_channels(struct document *document, const trax_machine *machine) {
+  json_t *channels = json_array();
+  put(document, document->root, "channels", channels);
+  for (uint32_t i = 0; i < machine->config.memory.channels; ++i) {
+    const struct trax_channel_stats *stats = &machine->stats.memory.channel[i];
+    struct document channel = {json_object(), false};
+    put(&channel, channel.root, "channel", json_integer(i));
+    put(&channel, channel.root, "transfers", json_integer((json_int_t)stats->transfers));
+    put(&channel, channel.root, "bytes", json_integer((json_int_t)stats->bytes));
+    put(&channel, channel.root, "utilisation", json_real(trax_stats_channel_utilisation(machine, i)));
+    if (json_array_append_new(channels, channel.root) != 0 || channel.failed)
+      document->failed = true;
+  }
+}
+
 static void put_configuration(struct document *document, const struct trax_config *config) {
   json_t *configuration = json_object();
   put(document, document->root, "configuration", configuration);
@@ -181,6 +197,7 @@ trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_er
   trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, &document);
   put_identity(&document, machine);
   put_tms(&document, machine);
+  put_channels(&document, machine);
   put_configuration(&document, &machine->config);
   bool written = !document.failed && json_dumpf(root, out, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0;
   json_decref(root);

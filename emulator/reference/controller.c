@@ -36,6 +36,11 @@ static void start(struct trax_ref_chip *chip, struct trax_ref_request *request, 
   const uint64_t cycle = controller->units_per_cycle;
   const uint64_t begin = controller->free_from > t * cycle ? controller->free_from : t * cycle;
   controller->free_from = begin + request->bytes * controller->units_per_byte;
+  struct trax_memory_stats *stats = &chip->machine->stats.memory;
+  stats->transfers++;
+  stats->bytes += request->bytes;
+  stats->channel[0].transfers++;
+  stats->channel[0].bytes += request->bytes;
   request->started = true;
   request->completion = (controller->free_from + cycle - 1) / cycle + chip->machine->config.memory.latency_cycles;
   if (request->kind == ATOMIC)

@@ -28,6 +28,14 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   return complete;
 }
 
+trax_status trax_reference_knows(const struct trax_config *config, trax_error *error) {
+  if (config->l2.bytes || config->memory.channels > 1 || config->memory.atomic_latency_cycles || config->dcache.lru ||
+      config->fpu.adders_per_cluster > 1 || config->fpu.multipliers_per_cluster > 1 ||
+      config->fpu.mul_tps_per_cluster || config->int_mul.units_per_group > 1 || config->special.rsqrt_latency_cycles)
+    return trax_fail(error, "the reference engine does not know this machine yet; the fast engine does");
+  return TRAX_OK;
+}
+
 static trax_status create(struct trax_ref_chip *chip, struct trax_machine *machine, FILE *output, trax_error *error) {
   *chip = (struct trax_ref_chip){.machine = machine, .tms = machine->config.chip.tms};
   trax_ref_controller_create(&chip->controller, &machine->config);
@@ -106,6 +114,8 @@ uint32_t trax_reference_queued(const struct trax_ref_chip *chip, uint32_t tm) {
 trax_status trax_reference_run(struct trax_machine *machine, const trax_run_options *options, uint64_t *cycles,
                                trax_error *error) {
   struct trax_ref_chip chip;
+  if (trax_reference_knows(&machine->config, error))
+    return TRAX_ERROR;
   trax_status status = create(&chip, machine, options->output, error);
   if (status == TRAX_OK)
     status = run(&chip, options, cycles);

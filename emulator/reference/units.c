@@ -8,12 +8,19 @@ static trax_unit unit_of(const struct trax_ref_tp *tp, const struct trax_config 
   return compares && config->fpu.compare_units ? TRAX_UNIT_INT /* the TP's own */ : unit;
 }
 
+static bool converts(const struct trax_ref_tp *tp) {
+  const trax_op op = tp->inst.op;
+  return op == TRAX_OP_FCVT_S_W || op == TRAX_OP_FCVT_S_WU || op == TRAX_OP_FCVT_W_S || op == TRAX_OP_FCVT_WU_S;
+}
+
 uint32_t trax_ref_latency(const struct trax_ref_tp *tp, const struct trax_config *config) {
   switch (trax_ref_info(tp)->unit) {
   case TRAX_UNIT_INT_MUL:
     return config->int_mul.latency_cycles;
   case TRAX_UNIT_FP_ADD:
-    return trax_ref_is(tp, TRAX_IS_FLOP) ? config->fpu.add_latency_cycles : config->fpu.compare_latency_cycles;
+    return trax_ref_is(tp, TRAX_IS_FLOP) ? config->fpu.add_latency_cycles
+           : converts(tp)                ? config->fpu.convert_latency_cycles
+                                         : config->fpu.compare_latency_cycles;
   case TRAX_UNIT_FP_MUL:
     return config->fpu.mul_latency_cycles;
   case TRAX_UNIT_SPECIAL:

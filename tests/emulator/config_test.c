@@ -168,7 +168,9 @@ static void test_random_configurations_round_trip(void **state) {
       double fraction = (double)(next_random() >> 11) / 9007199254740992.0;
       double value = key->least + fraction * (key->most - key->least);
       if (key->kind == TRAX_KIND_POWER)
-        value = exp2(floor(log2(key->least) + fraction * (log2(key->most) - log2(key->least))));
+        value = key->least == 0 && next_random() % 2
+                    ? 0
+                    : exp2(floor(log2(fmax(key->least, 1)) + fraction * (log2(key->most) - log2(fmax(key->least, 1)))));
       else
         value = key->kind == TRAX_KIND_REAL ? round(value * 1000) / 1000 : floor(value);
       set_number(config, key, value);

@@ -169,6 +169,7 @@ bool different_runs(struct difference *to, const struct run *a, const struct run
     if (different_tm(to, i, &x->tm_stats[i], &y->tm_stats[i]))
       return true;
   return different_bytes(to, "statistics of the chip", &x->stats.total, &y->stats.total, sizeof x->stats.total) ||
+         different_bytes(to, "statistics of the memory", &x->stats.memory, &y->stats.memory, sizeof x->stats.memory) ||
          different_effects(to, a, b) || different_looks(to, a, b);
 }
 

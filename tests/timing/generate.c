@@ -1,5 +1,7 @@
 #include "generate.h"
 
+#include "reference/run.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -295,6 +297,8 @@ static double any_value(const struct trax_config_key *key) {
   case TRAX_KIND_FLAG:
     return any(0, 1);
   case TRAX_KIND_POWER:
+    if (key->least == 0) /* what may be absent */
+      return any(0, 1) ? 0 : (double)(1u << any(0, 16));
     return any_power((uint32_t)key->least, (uint32_t)(seldom(4) || key->least * 64 > most ? most : key->least * 64));
   case TRAX_KIND_REAL:
     return exp2(any(0, 160) / 10.0) / 100; /* 0.01 to 655 */
@@ -327,12 +331,46 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
     const struct trax_config before = config;
     for (unsigned tries = 0; tries < 20; tries++) {
       set_value(&config, key, any_value(key));
-      if (trax_config_validate(&config, NULL) == TRAX_OK)
+      if (trax_config_validate(&config, NULL) == TRAX_OK && trax_reference_knows(&config, NULL) == TRAX_OK)
         break;
       config = before; /* it does not go with the others */
     }
   }
   return config;
+}
+
+static uint32_t longer(uint32_t a, uint32_t b) {
+  return a > b ? a : b;
+}
+
+/* A second-level cache, several channels, or both; units that are shared in other ways. */
+static void beyond_the_paper(struct trax_config *config) {
+  config->fpu.adders_per_cluster = any(0, 1) ? 1 : any(1, 4);
+  config->fpu.multipliers_per_cluster = any(0, 1) ? 1 : any(1, 4);
+  config->fpu.mul_tps_per_cluster = any(0, 1) ? 0 : any(1, 20);
+  config->fpu.convert_latency_cycles = any(1, 3);
+  config->int_mul.units_per_group = any(0, 1) ? 1 : any(1, 4);
+  config->special.rsqrt_latency_cycles = any(0, 1) ? 0 : any(1, 20);
+  config->dcache.lru = any(0, 1);
+  const uint32_t l1_line = longer(config->icache.line_bytes, config->dcache.line_bytes);
+  if (any(0, 2)) {
+    config->l2.line_bytes = any_power(l1_line, 1024);
+    config->l2.bytes = any_power(config->l2.line_bytes, 32768);
+    config->l2.ways = any_power(1, config->l2.bytes / config->l2.line_bytes);
+    if (config->l2.ways > 64)
+      config->l2.ways = 64;
+    config->l2.lru = any(0, 1);
+    config->l2.banks = any(1, 12);
+    config->l2.latency_cycles = any(1, 40);
+    config->l2.mshrs = any(0, 1) ? any(1, 8) : any(1, 300);
+  }
+  if (any(0, 2)) {
+    config->memory.channels = any(1, 6);
+    config->memory.interleave_bytes =
+        any_power(longer(64, longer(l1_line, config->l2.bytes ? config->l2.line_bytes : 0)), 4096);
+  }
+  if (!any(0, 2))
+    config->memory.atomic_latency_cycles = any(1, 60);
 }
 
 struct trax_config any_config(uint32_t tms, uint32_t tps) {
@@ -376,5 +414,7 @@ struct trax_config any_config(uint32_t tms, uint32_t tps) {
   config.memory.min_transfer_bytes = any_power(1, 64);
   config.memory.atomic_bytes = any(1, 64);
   config.memory.write_combining = any(0, 1);
+  if (any(0, 1))
+    beyond_the_paper(&config);
   return config;
 }
