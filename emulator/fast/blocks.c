@@ -28,7 +28,6 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
 static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
-  struct trax_fast_slot *slot = &ftm->slot[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred & bit)
     return;
@@ -37,8 +36,8 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
   }
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
-  const unsigned issued = (unsigned)(slot->step - ftp->steps);
-  const uint32_t head = slot->step->index;
+  const unsigned issued = (unsigned)(ftm->head[number] - ftp->steps);
+  const uint32_t head = ftm->head[number]->index;
   trax_fast_close(ftm, number, 0); /* as if nothing had happened */
   ftp->resume = ftp->begin;
   ftp->resume_pc = fast->program.pc[ftp->begin->step.index];
@@ -47,9 +46,9 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   (void)again, (void)head;
   ftp->last = ftp->steps + issued - 1;
   trax_fast_close(ftm, number, issued);
-  ftp->only = *slot->step;
+  ftp->only = *ftm->head[number];
   ftp->only.asks |= TRAX_ASKS_SLOWLY;
-  slot->step = ftp->last = &ftp->only;
+  ftm->head[number] = ftp->last = &ftp->only;
   ftm->deferred |= bit;
   ftm->asks[number] |= TRAX_ASKS_SLOWLY; /* what it asks for stays */
   tp->inst = ftp->resume->decoded;

@@ -88,9 +88,8 @@ static inline uint64_t lose_fetches(struct trax_fast_tm *ftm) {
 /* A bank has let the TP look up the line of its head. True if it is there. */
 static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const struct trax_fast_slot *slot = &ftm->slot[number];
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
-  if (slot->resident[slot->step->line])
+  if (ftm->resident[ftm->icache_of[number]][ftm->head[number]->line])
     return true;
   trax_fast_show(ftm, number);
   if (trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc)))
@@ -108,7 +107,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  uint16_t asks = ftm->fast->program.inst[ftm->slot[number].step->index].step.asks;
+  uint16_t asks = ftm->fast->program.inst[ftm->head[number]->index].step.asks;
   if (inst->ask == TRAX_ASK_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
@@ -140,8 +139,8 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   trax_fast_show(ftm, number);
   const struct trax_tp *tp = &tm->tp[number];
   if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL) {
-    ftm->slot[number].busy &= ~ftm->slot[number].step->waits;
-    ftm->busy &= ~((uint64_t)!ftm->slot[number].busy << number);
+    ftm->busy_registers[number] &= ~ftm->head[number]->waits;
+    ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
     return true;
   }
   uint64_t until = 0;
@@ -202,7 +201,7 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, co
                         &winner);
     winners |= trax_fast_any(&winner);
     for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
-      const uint32_t line = trax_line_of(tags, ftm->slot[trax_first(winner[i] | (uint64_t)1 << 63)].step->address);
+      const uint32_t line = trax_line_of(tags, ftm->head[trax_first(winner[i] | (uint64_t)1 << 63)]->address);
       const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
       there |= winner[i] & -(uint64_t)is_there;
     }
@@ -213,7 +212,7 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, co
 
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const struct trax_fast_step *step = ftm->slot[number].step;
+  const struct trax_fast_step *step = ftm->head[number];
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, step->address)))
     return false;
   tm->stats->dcache_hits++;
@@ -297,29 +296,30 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
   return granted;
 }
 
-void trax_fast_count_log(struct trax_fast_tally *tally) {
-  trax_fast_lanes sum[4][2] = {0};
+static void count_half(struct trax_fast_tally *tally, unsigned half) {
+  trax_fast_lanes sum[4] = {0}, carry = {0};
   for (unsigned i = 0; i < tally->logged; i++) {
-    trax_fast_lanes first = tally->log[i][0], second = tally->log[i][1];
+    trax_fast_lanes term = tally->log[i][half];
+#pragma GCC unroll 4
     for (unsigned bit = 0; bit < 4; bit++) {
-      const trax_fast_lanes carry = sum[bit][0] & first, other_carry = sum[bit][1] & second;
-      sum[bit][0] ^= first;
-      sum[bit][1] ^= second;
-      first = carry;
-      second = other_carry;
+      const trax_fast_lanes to_next = sum[bit] & term;
+      sum[bit] ^= term;
+      term = to_next;
     }
   }
+  for (unsigned bit = 0; bit < 64 && (bit < 4 || trax_fast_any(&carry)); bit++) {
+    trax_fast_lanes *const plane = &tally->planes[bit][half];
+    const trax_fast_lanes term = bit < 4 ? sum[bit] : (trax_fast_lanes){0}, either = *plane ^ term;
+    const trax_fast_lanes to_next = (*plane & term) | (either & carry);
+    *plane = either ^ carry;
+    carry = to_next;
+  }
+}
+
+void trax_fast_count_log(struct trax_fast_tally *tally) {
+  count_half(tally, 0);
+  count_half(tally, 1);
   tally->logged = 0;
-  for (unsigned half = 0; half < 2; half++) {
-    trax_fast_lanes carry = {0};
-    for (unsigned bit = 0; bit < 64 && (bit < 4 || trax_fast_any(&carry)); bit++) {
-      trax_fast_lanes *const plane = &tally->planes[bit][half];
-      const trax_fast_lanes term = bit < 4 ? sum[bit][half] : (trax_fast_lanes){0}, either = *plane ^ term;
-      const trax_fast_lanes next = (*plane & term) | (either & carry);
-      *plane = either ^ carry;
-      carry = next;
-    }
-  }
 }
 
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {

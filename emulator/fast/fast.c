@@ -49,14 +49,12 @@ static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
     return false;
   for (unsigned i = 0; i < tm->tps; i++) {
     const uint32_t icache = i / tps;
-    struct trax_fast_slot *slot = &ftm->slot[i];
     ftm->icache_of[i] = (uint8_t)icache;
-    slot->resident = ftm->resident[icache];
-    slot->bit16 = (uint16_t)(1u << i % tps % TRAX_FAST_LANES16);
+    ftm->bit16[i] = (uint16_t)(1u << i % tps % TRAX_FAST_LANES16);
     if (ftm->narrow)
-      slot->asking16 = (uint16_t *)(ftm->asking16 + icache * ftm->vectors);
+      ftm->asking16_of[i] = (uint16_t *)(ftm->asking16 + icache * ftm->vectors);
     else
-      slot->asking = (uint64_t *)(ftm->asking + icache * ftm->vectors);
+      ftm->asking_of[i] = (uint64_t *)(ftm->asking + icache * ftm->vectors);
   }
   return true;
 }
@@ -75,11 +73,11 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   create_units(&ftm->int_mul, &tm->int_mul, &tm->int_mul);
   ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++)
-    ftm->slot[i].step = &ftm->tp[0].only; /* those that do not exist are looked at in place of nobody */
+    ftm->head[i] = &ftm->tp[0].only; /* those that do not exist are looked at in place of nobody */
   for (unsigned i = 0; i < tm->tps; i++) {
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
-    ftm->slot[i].step = ftm->tp[i].last = &ftm->tp[i].only;
+    ftm->head[i] = ftm->tp[i].last = &ftm->tp[i].only;
     trax_fast_advance(ftm, i);
     trax_fast_ask_fetch(ftm, i);
   }
@@ -170,7 +168,7 @@ void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost 
 
 /* Of the current burst: how much was issued. */
 static unsigned issued_of_burst(const struct trax_fast_tm *ftm, unsigned tp) {
-  const struct trax_fast_step *step = ftm->slot[tp].step;
+  const struct trax_fast_step *step = ftm->head[tp];
   return step == &ftm->tp[tp].only || ftm->tm->ended >> tp & 1 ? 0 : (unsigned)(step - ftm->tp[tp].steps);
 }
 
@@ -194,8 +192,8 @@ static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
 /* Counts what has run ahead of its issue `sign` times more. */
 static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
-    if (ftm->slot[tp].step != &ftm->tp[tp].only && !(ftm->tm->ended >> tp & 1))
-      for (const struct trax_fast_step *step = ftm->slot[tp].step; step <= ftm->tp[tp].last; step++) {
+    if (ftm->head[tp] != &ftm->tp[tp].only && !(ftm->tm->ended >> tp & 1))
+      for (const struct trax_fast_step *step = ftm->head[tp]; step <= ftm->tp[tp].last; step++) {
         ftm->changes[step->index] += sign;
         ftm->changes[step->index + 1] -= sign;
       }

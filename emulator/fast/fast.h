@@ -92,21 +92,6 @@ struct trax_fast_undo {
   uint32_t offset, word; /* what a word of local memory was */
 };
 
-/* What most issues need of a TP, apart so that a TM's fit into few of the host's cache lines. */
-struct trax_fast_slot {
-  const struct trax_fast_step *step; /* the head: one of trax_fast_tp.steps, or its `only` if it is deferred */
-  const uint8_t *resident;           /* [TRAX_FAST_LINES]: lines of the program that its instruction cache holds */
-  /* The banks of its instruction cache, in trax_fast_tm.asking or asking16, and its bit there. */
-  union {
-    uint64_t *asking;
-    uint16_t *asking16;
-  };
-  /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
-     it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
-  uint32_t busy;
-  uint16_t bit16;
-};
-
 struct trax_fast_tp {
   struct trax_fast_step only;
   const struct trax_fast_step *last; /* after it comes the next burst */
@@ -134,7 +119,17 @@ struct trax_fast_tm {
   struct trax_fast_tp *tp; /* [tps] */
   /* How often each instruction was executed since that was collected: the sum of this up to it, in its section. */
   int64_t *changes; /* [inst_count + 1] */
-  struct trax_fast_slot slot[TRAX_MAX_TPS_PER_TM];
+  /* What most issues need of a TP: its head, one of trax_fast_tp.steps or `only` if it is deferred; the banks of its
+     instruction cache, in asking or asking16; its bit there. */
+  const struct trax_fast_step *head[TRAX_MAX_TPS_PER_TM];
+  union {
+    uint64_t *asking_of[TRAX_MAX_TPS_PER_TM];
+    uint16_t *asking16_of[TRAX_MAX_TPS_PER_TM];
+  };
+  uint16_t bit16[TRAX_MAX_TPS_PER_TM];
+  /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
+     it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
+  uint32_t busy_registers[TRAX_MAX_TPS_PER_TM];
   _Alignas(32) uint16_t asks[TRAX_MAX_TPS_PER_TM]; /* of the heads; a deferred one's once its operands are usable */
 
   /* Masks of TPs. */
@@ -143,7 +138,7 @@ struct trax_fast_tm {
   uint64_t smooth;  /* the head's operands will be usable in the first cycle in which it can be fetched, and its line is
                        there */
   uint64_t outside; /* the head cannot be fetched */
-  uint64_t busy;    /* slot.busy is not 0 */
+  uint64_t busy;    /* busy_registers is not 0 */
   uint64_t uncertain; /* a line of the burst may not be there */
   uint64_t taken_up;  /* hold an instruction since before the run was taken up: its operands are looked at again */
 
@@ -184,13 +179,13 @@ struct trax_fast {
   struct trax_fast_blocks blocks;
 };
 
-/* In trax_fast_slot.busy. */
+/* In busy_registers. */
 static inline uint32_t trax_fast_register_bit(unsigned rd) {
   return (uint32_t)((uint64_t)1 << rd); /* 0 of TRAX_NO_REGISTER */
 }
 
 static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
-  ftm->slot[tp].busy |= trax_fast_register_bit(rd);
+  ftm->busy_registers[tp] |= trax_fast_register_bit(rd);
   ftm->busy |= (uint64_t)1 << tp;
 }
 

@@ -12,7 +12,6 @@ static void drop_arrived(struct trax_fast_tp *ftp, const struct trax_tp *tp) {
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
-  struct trax_fast_slot *slot = &ftm->slot[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
   drop_arrived(ftp, tp);
   unsigned count = 0;
@@ -26,13 +25,13 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     const bool certain = !(ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]]);
     ftm->uncertain = (ftm->uncertain & ~bit) | (certain ? 0 : bit);
     ftp->steps[count - 1].asks |= TRAX_ASKS_SLOWLY;
-    slot->step = ftp->steps;
+    ftm->head[number] = ftp->steps;
     ftp->last = ftp->steps + count - 1;
   } else {
     ftm->deferred |= bit;
     ftp->only = ftp->resume->step;
     ftp->only.asks = TRAX_ASKS_SLOWLY;
-    slot->step = ftp->last = &ftp->only;
+    ftm->head[number] = ftp->last = &ftp->only;
     tp->inst = ftp->resume->decoded;
     tp->pc = ftp->resume_pc;
   }
@@ -40,18 +39,17 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
 
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
-  struct trax_fast_slot *slot = &ftm->slot[number];
-  if (slot->step == ftm->tp[number].last)
+  if (ftm->head[number] == ftm->tp[number].last)
     trax_fast_refill(ftm, number);
   else
-    slot->step++;
-  ftm->asks[number] = slot->step->asks;
-  ftm->smooth = (ftm->smooth & ~bit) | (trax_fast_is_smooth(slot, slot->step) ? bit & ~ftm->deferred : 0);
-  return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[slot->step->index];
+    ftm->head[number]++;
+  ftm->asks[number] = ftm->head[number]->asks;
+  ftm->smooth = (ftm->smooth & ~bit) | (trax_fast_is_smooth(ftm, number) ? bit & ~ftm->deferred : 0);
+  return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[ftm->head[number]->index];
 }
 
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_step *step = ftm->slot[number].step;
+  const struct trax_fast_step *step = ftm->head[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred >> number & 1)
     return; /* set when it became the head, and its address since */
@@ -94,7 +92,7 @@ void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned number, uint32_t 
     if (ftm->icache_of[tp] == number) {
       if (gone)
         ftm->uncertain |= (uint64_t)1 << tp;
-      if (!resident[ftm->slot[tp].step->line])
+      if (!resident[ftm->head[tp]->line])
         ftm->smooth &= ~((uint64_t)1 << tp);
     }
 }

@@ -7,19 +7,19 @@
 
 /* The TP, which has no other instruction, asks the bank of its head from the next fetch on. */
 static inline void trax_fast_ask_fetch(struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_slot *slot = &ftm->slot[number];
-  const struct trax_fast_inst *inst = &ftm->fast->program.inst[slot->step->index];
+  const struct trax_fast_inst *inst = &ftm->fast->program.inst[ftm->head[number]->index];
   if (inst->decoded->ask == TRAX_ASK_OUTSIDE)
     ftm->outside |= (uint64_t)1 << number;
   else if (ftm->narrow)
-    slot->asking16[slot->step->bank] |= slot->bit16;
+    ftm->asking16_of[number][ftm->head[number]->bank] |= ftm->bit16[number];
   else
-    slot->asking[slot->step->bank] |= (uint64_t)1 << number;
+    ftm->asking_of[number][ftm->head[number]->bank] |= (uint64_t)1 << number;
 }
 
 /* Whether a step that becomes the TP's head will need no second look when it is fetched. */
-static inline bool trax_fast_is_smooth(const struct trax_fast_slot *slot, const struct trax_fast_step *step) {
-  return (step->waits & slot->busy ? 0 : 1) & slot->resident[step->line];
+static inline bool trax_fast_is_smooth(const struct trax_fast_tm *ftm, unsigned number) {
+  const struct trax_fast_step *step = ftm->head[number];
+  return (step->waits & ftm->busy_registers[number] ? 0 : 1) & ftm->resident[ftm->icache_of[number]][step->line];
 }
 
 static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned icache, uint32_t line, bool is_there) {

@@ -7,7 +7,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  const uint32_t pc = tp->pc, index = ftm->slot[number].step->index;
+  const uint32_t pc = tp->pc, index = ftm->head[number]->index;
   if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE && !ftm->tm->ahead)
     trax_fast_block_written(ftm->fast, tp->address);
   if (inst->is_atomic && ftm->tm->ahead)
@@ -33,7 +33,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 
 /* When the result can be used, if that is not in the next cycle and memory does not decide. */
 static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
-  const struct trax_fast_step *step = ftm->slot[number].step;
+  const struct trax_fast_step *step = ftm->head[number];
   const struct trax_decoded *inst = ftm->fast->program.inst[step->index].decoded;
   uint32_t latency = inst->latency;
   trax_cause cause = (trax_cause)inst->cause;
@@ -63,7 +63,7 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
       return;
   } else {
     note_result(ftm, number, t);
-    if (ftm->slot[number].step == ftp->last)
+    if (ftm->head[number] == ftp->last)
       trax_fast_close(ftm, number, (unsigned)(ftp->last - ftp->steps) + 1);
   }
   tm->holding &= ~bit;
@@ -82,22 +82,19 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
 static inline void issue_alike(struct trax_fast_tm *ftm, uint64_t quick, bool narrow) {
   for (uint64_t rest = quick; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
-    struct trax_fast_slot *const slot = &ftm->slot[number];
-    const struct trax_fast_step *const next = slot->step + 1;
-    slot->step = next;
+    const struct trax_fast_step *const next = ftm->head[number] + 1;
+    ftm->head[number] = next;
     ftm->asks[number] = next->asks;
     if (narrow) /* what has been executed can be fetched */
-      slot->asking16[next->bank] |= slot->bit16;
+      ftm->asking16_of[number][next->bank] |= ftm->bit16[number];
     else
-      slot->asking[next->bank] |= rest & -rest;
+      ftm->asking_of[number][next->bank] |= rest & -rest;
   }
   ftm->tm->holding &= ~quick;
   ftm->smooth |= quick;
-  for (uint64_t rest = quick & (ftm->busy | ftm->uncertain); rest; rest &= rest - 1) {
-    const struct trax_fast_slot *slot = &ftm->slot[trax_first(rest)];
-    if (!trax_fast_is_smooth(slot, slot->step))
+  for (uint64_t rest = quick & (ftm->busy | ftm->uncertain); rest; rest &= rest - 1)
+    if (!trax_fast_is_smooth(ftm, trax_first(rest)))
       ftm->smooth ^= rest & -rest;
-  }
 }
 
 static inline void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {

@@ -100,13 +100,12 @@ static void find_atomics(struct trax_fast_tm *ftm) {
 static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
-  struct trax_fast_slot *slot = &ftm->slot[number];
   const struct trax_tm *tm = ftm->tm;
   const struct trax_tp *tp = &tm->tp[number];
   ftp->resume = trax_fast_inst_at(&ftm->fast->program, tp->pc);
   ftp->resume_pc = tp->pc;
-  slot->step = ftp->last = &ftp->only;
-  slot->busy = 0;
+  ftm->head[number] = ftp->last = &ftp->only;
+  ftm->busy_registers[number] = 0;
   ftm->busy &= ~bit;
   for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
     if (tp->usable[rd] > t)
