@@ -251,7 +251,7 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
 static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers) {
   uint64_t roots = 0;
   for (uint64_t rest = askers; rest; rest &= rest - 1)
-    if (ftm->fast->program.inst[ftm->slot[trax_first(rest)].step->index].decoded->op == TRAX_OP_FRSQRT)
+    if (ftm->fast->program.inst[ftm->head[trax_first(rest)]->index].decoded->op == TRAX_OP_FRSQRT)
       roots |= rest & -rest;
   return roots;
 }
