@@ -3,6 +3,7 @@
 #include "core/poll.h"
 #include "fast/engine.h"
 #include "fast/functional.h"
+#include "fast/sampled.h"
 #include "fast/windows.h"
 #include "reference/run.h"
 
@@ -24,10 +25,12 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
     if (trax_tm_create(&chip->tm[i], i, machine, &chip->text, options->output, error))
       return TRAX_ERROR;
   if (options->engine == TRAX_ENGINE_FUNCTIONAL)
-    return trax_functional_create(chip, error);
+    return (chip->functional = trax_functional_create(chip, error)) ? TRAX_OK : TRAX_ERROR;
   chip->engine = trax_fast_best_engine();
   if (chip->engine->create(chip, error))
     return TRAX_ERROR;
+  if (options->engine == TRAX_ENGINE_SAMPLED)
+    return (chip->sampled = trax_sampled_create(chip, options, error)) ? TRAX_OK : TRAX_ERROR;
   return trax_windows_create(chip, options->host_threads, error);
 }
 
@@ -36,6 +39,7 @@ void trax_chip_destroy(struct trax_chip *chip) {
   if (chip->engine)
     chip->engine->destroy(chip->fast);
   trax_functional_destroy(chip->functional);
+  trax_sampled_destroy(chip->sampled);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
@@ -125,7 +129,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       *cycles = limit;
       return TRAX_STUCK;
     }
-    if (trax_poll(&poll, t)) {
+    if (trax_poll(&poll, t + chip->skipped)) {
       *cycles = t;
       return TRAX_INTERRUPTED;
     }

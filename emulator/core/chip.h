@@ -32,14 +32,16 @@ struct trax_chip {
   struct trax_windows *windows;          /* if its TMs run ahead of each other; else NULL */
   struct trax_functional *functional;    /* instead of an engine, where time is not wanted; else NULL */
   const struct trax_ref_chip *reference; /* the reference engine's; else NULL */
+  struct trax_sampled *sampled;          /* if most of the run is executed without time; else NULL */
+  uint64_t skipped;                      /* cycles estimated for that */
 };
 
-/* Whether a thread has not ended. */
-static inline bool trax_chip_running(const struct trax_chip *chip) {
+/* How many threads have not ended. */
+static inline uint32_t trax_chip_running(const struct trax_chip *chip) {
   uint32_t running = 0;
   for (uint32_t i = 0; i < chip->tms; i++)
-    running |= chip->tm[i].running;
-  return running != 0;
+    running += chip->tm[i].running;
+  return running;
 }
 
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,

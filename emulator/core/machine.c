@@ -2,6 +2,7 @@
 #include "core/machine.h"
 
 #include "core/chip.h"
+#include "fast/sampled.h"
 #include "reference/run.h"
 
 #include <inttypes.h>
@@ -144,7 +145,7 @@ static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *ter
 }
 
 /* Sums up, and checks the rule of accounting: every thread is charged every cycle once. */
-static trax_status collect(struct trax_machine *machine, bool timed, trax_error *error) {
+static trax_status collect(struct trax_machine *machine, bool exact, trax_error *error) {
   const uint32_t tps = machine->config.chip.tps_per_tm;
   for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
     struct trax_tm_stats *stats = &machine->tm_stats[i];
@@ -162,8 +163,9 @@ static trax_status collect(struct trax_machine *machine, bool timed, trax_error 
     }
     add_stats(&machine->stats.total, stats);
   }
-  machine->stats.instructions = machine->stats.total.cycles[TRAX_CAUSE_ISSUED];
-  if (!timed) /* nobody is charged */
+  if (exact)
+    machine->stats.instructions = machine->stats.total.cycles[TRAX_CAUSE_ISSUED];
+  else /* charges are estimates, or there are none */
     for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
       machine->stats.instructions += machine->stats.total.instructions[op];
   return TRAX_OK;
@@ -201,6 +203,8 @@ static trax_status run_chip(struct trax_machine *machine, const trax_run_options
       if (watch->end)
         watch->end(watch, &chip, status, machine->stats.cycles);
     trax_chip_settle(&chip, machine->stats.cycles);
+    if (chip.sampled)
+      trax_sampled_finish(chip.sampled, machine->stats.cycles);
   }
   trax_chip_destroy(&chip);
   machine->chip = NULL;
@@ -226,7 +230,7 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
   machine->stats.host_seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
   if (machine->status == TRAX_ERROR)
     return TRAX_ERROR;
-  if (collect(machine, options->engine != TRAX_ENGINE_FUNCTIONAL, error))
+  if (collect(machine, options->engine != TRAX_ENGINE_FUNCTIONAL && options->engine != TRAX_ENGINE_SAMPLED, error))
     return machine->status = TRAX_ERROR;
   return report_outcome(machine, options, error);
 }

@@ -106,6 +106,16 @@ struct trax_tm_stats {
 #undef TRAX_COUNTER_FIELD
 };
 
+/* What a sampled run (fast/sampled.c) says about its estimates. */
+struct trax_sampling_stats {
+  bool is_sampled;
+  bool has_interval; /* there were windows enough, or nothing was estimated */
+  trax_sampling asked;
+  uint64_t windows;
+  double low, high; /* cycles: 95 % interval */
+  uint64_t detailed_cycles, detailed_instructions;
+};
+
 struct trax_stats {
   uint64_t cycles;       /* length of the run */
   uint64_t threads;      /* tms * tps_per_tm */
@@ -113,6 +123,7 @@ struct trax_stats {
   double host_seconds;   /* wall time of trax_machine_run */
   struct trax_tm_stats total;
   struct trax_memory_stats memory;
+  struct trax_sampling_stats sampling;
 };
 
 /* Figures made from the counts, for reports: identifier, JSON name, unit, meaning, C expression over

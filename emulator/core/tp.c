@@ -1,7 +1,7 @@
 #include "core/tp.h"
 
 #include "core/ahead.h"
-#include "core/tm.h"
+#include "core/chip.h"
 #include "core/traps.h"
 #include "trax/semantics.h"
 
@@ -65,9 +65,9 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
   case TRAX_SR_THREADS:
     return tm->config->chip.tms * tm->tps;
   case TRAX_SR_CYCLE:
-    return (uint32_t)t;
+    return (uint32_t)(t + tm->machine->chip->skipped);
   case TRAX_SR_CYCLEH:
-    return (uint32_t)(t >> 32);
+    return (uint32_t)((t + tm->machine->chip->skipped) >> 32);
   }
   return 0; /* the decoder lets no other pass */
 }

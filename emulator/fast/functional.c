@@ -1,15 +1,19 @@
 /* The functional mode: what a program computes, without time. Threads take turns of TRAX_TURN instructions or a few
    more (a turn ends with a jump); within a turn every instruction takes effect at once. Caches, units, queues and the
    write-combining buffers do not exist, and the run has no length: cycles are 0, and of the counts only those made from
-   the instructions executed are kept. `rdsr cycle` gives the number of instructions that the thread has executed. */
+   the instructions executed are kept. `rdsr cycle` gives the number of instructions that the thread has executed.
+
+   Sampled simulation (sampled.c) passes the time between its windows in the same way, in shorter turns, and partly with
+   the caches' contents as they would be. */
 #include "fast/functional.h"
 
+#include "core/l2.h"
 #include "core/traps.h"
 #include "trax/semantics.h"
 
 #include <string.h>
 
-enum { TRAX_TURN = 4096 };
+enum { TRAX_TURN = 4096, SHORT_TURN = 64 };
 
 struct instruction {
   const void *operation; /* where function() executes it */
@@ -22,144 +26,91 @@ struct section {
   struct instruction *inst; /* [bytes / 4 + 1]; the last is outside */
 };
 
-struct trax_functional {
-  struct trax_chip *chip;
+struct text {
   struct section *sections; /* [count], in one array of instructions */
-  size_t count, inst_count;
+  size_t count;
   struct instruction *inst;
   const struct instruction *outside; /* the last */
-  int64_t *changes;                  /* [inst_count + 1] as in trax_fast_tm, for all TMs */
-  uint64_t *executed;                /* [threads] */
+};
+
+enum variant { PLAIN, WARMING, VARIANTS };
+
+struct trax_functional {
+  struct trax_chip *chip;
+  struct text text[VARIANTS]; /* alike but for the places of the operations */
+  size_t inst_count;
+  int64_t **changes;  /* [tms][inst_count + 1] as in trax_fast_tm */
+  uint64_t *executed; /* [threads] */
+  int64_t *left;      /* [threads]: of their turns */
+  uint64_t misses;    /* of data */
+  int64_t penalty;    /* instructions that a thread could execute while it waits for one */
+  bool standing;      /* time stands still in cycle `now`; else it is each thread's count of instructions */
+  uint64_t now;
 };
 
 enum stop { STOP_TURN, STOP_SLOW };
 
-static const struct instruction *inst_at(const struct trax_functional *functional, uint32_t pc) {
-  for (size_t i = 0; i < functional->count && pc % 4 == 0; i++)
-    if (pc - functional->sections[i].begin < functional->sections[i].bytes)
-      return functional->sections[i].inst + (pc - functional->sections[i].begin) / 4;
-  return functional->outside;
+static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
+  for (size_t i = 0; i < text->count && pc % 4 == 0; i++)
+    if (pc - text->sections[i].begin < text->sections[i].bytes)
+      return text->sections[i].inst + (pc - text->sections[i].begin) / 4;
+  return text->outside;
 }
 
-/* Executes the TP's instructions from tp->pc on until its turn is over, or the next one is for execute_slowly. Without
-   a TP: *operations receives the places of all operations. */
-static enum stop function(struct trax_functional *functional, const struct trax_tm *tm, struct trax_tp *tp,
-                          uint64_t *executed, const void *const **operations) {
-  __extension__ static const void *const places[] = {
-#define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
-#include "trax/semantics.inc"
-#undef TRAX_SEMANTICS
-      [TRAX_OP_ILLEGAL] = &&slow};
-  if (!tp) {
-    *operations = places;
-    return STOP_TURN;
-  }
-  const struct trax_space *const space = &functional->chip->machine->space;
-  const uint64_t accessible = space->size - TRAX_NULL_END;
-  const unsigned bits = tm->config->special.precision_bits;
-  const unsigned number = (unsigned)(tp - tm->tp);
-  uint32_t *const reg = tp->reg;
-  uint8_t *const local = tp->local;
-  int64_t *const changes = functional->changes;
-  const struct instruction *const base = functional->inst;
-  const struct section *const first = functional->sections;
-  const struct instruction *inst = inst_at(functional, tp->pc), *begin = inst;
-  const uint64_t end = *executed + TRAX_TURN;
-  uint64_t count = *executed;
-  uint32_t address, word, pc = tp->pc;
-  if (inst == functional->outside)
-    return STOP_SLOW;
-  changes[inst - base]++;
-  __extension__({ goto * inst->operation; });
+static uint64_t time_of(const struct trax_functional *functional, uint64_t executed) {
+  return functional->standing ? functional->now : executed;
+}
 
-/* The pc of an instruction of the section in which the thread is; pc is that of the last jump's target. */
-#define HERE (pc + (uint32_t)(inst - begin) * 4)
-#define RD reg[inst->rd]
-#define RA reg[inst->ra]
-#define RB reg[inst->rb]
-#define IMM ((uint32_t)inst->imm)
-#define PC HERE
-#define NEXT_PC next_pc
-#define LOAD(ADDRESS, BYTES)                                                                                           \
-  (__extension__({                                                                                                     \
-    address = (ADDRESS);                                                                                               \
-    word = 0;                                                                                                          \
-    if (address & (BYTES - 1))                                                                                         \
-      goto slow;                                                                                                       \
-    if (address - TRAX_NULL_END < accessible)                                                                          \
-      memcpy(&word, space->bytes + address, BYTES);                                                                    \
-    else if (address >= TRAX_LOCAL_BASE)                                                                               \
-      memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
-    else                                                                                                               \
-      goto slow;                                                                                                       \
-    word;                                                                                                              \
-  }))
-#define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
+/* --- the caches' contents, without their time --- */
+
+/* False if the line was there. */
+static bool touch_line(struct trax_cache_tags *tags, uint32_t line) {
+  if (trax_cache_tags_use(tags, line))
+    return false;
+  trax_cache_tags_install(tags, line);
+  return true;
+}
+
+/* A line that a TM's cache missed. */
+static void touch_l2(struct trax_memory *memory, uint32_t address) {
+  if (memory->l2)
+    touch_line(&memory->l2->tags, trax_line_of(&memory->l2->tags, address));
+}
+
+static inline bool touch_data(struct trax_tm *tm, uint32_t address) {
+  if (!touch_line(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
+    return false;
+  touch_l2(&tm->machine->chip->memory, address);
+  return true;
+}
+
+static inline void touch_text(struct trax_tm *tm, struct trax_icache *icache, uint32_t begin, uint32_t end) {
+  const uint32_t last = trax_line_of(&icache->tags, end);
+  for (uint32_t line = trax_line_of(&icache->tags, begin); line <= last; line++)
+    if (touch_line(&icache->tags, line))
+      touch_l2(&tm->machine->chip->memory, line << icache->tags.line_shift);
+}
+
+/* --- turns --- */
+
+/* Executes the TP's instructions from tp->pc on until `turn` are over, or the next one is for execute_slowly; the
+   second function also takes what they touch into the caches. Without a TP: *operations receives the places of all
+   operations. */
+#define FUNCTION function
+#define TOUCH_DATA(ADDRESS) ((void)0)
+#define TOUCH_TEXT(BEGIN, END) ((void)0)
+#include "fast/functional_turn.h"
+
+#define FUNCTION function_warming
+#define TOUCH_DATA(ADDRESS)                                                                                            \
   do {                                                                                                                 \
-    address = (ADDRESS);                                                                                               \
-    word = (VALUE);                                                                                                    \
-    if (address & (BYTES - 1))                                                                                         \
-      goto slow;                                                                                                       \
-    if (address >= TRAX_LOCAL_BASE)                                                                                    \
-      memcpy(local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                       \
-    else if (address - TRAX_NULL_END < accessible &&                                                                   \
-             !(space->restrictions[address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE))                                     \
-      memcpy(space->bytes + address, &word, BYTES);                                                                    \
-    else                                                                                                               \
-      goto slow;                                                                                                       \
-  } while (0)
-#define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
-#define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
-#define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
-#define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
-#define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
-#define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
-#define ATOMIC_INC(ADDRESS)                                                                                            \
-  (__extension__({                                                                                                     \
-    (void)(ADDRESS);                                                                                                   \
-    goto slow;                                                                                                         \
-    0u;                                                                                                                \
-  }))
-#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, count + (uint64_t)(inst - begin))
-#define TRAP(VALUE, CODE) goto slow
-#define HALT() goto slow
-#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)
-#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), bits)
-#define NOWHERE UINT64_MAX
-#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
-  do_##NAME : {                                                                                                        \
-    uint64_t next_pc = NOWHERE;                                                                                        \
-    __VA_ARGS__                                                                                                        \
-    if (next_pc != NOWHERE) {                                                                                          \
-      changes[inst + 1 - base]--;                                                                                      \
-      count += (uint64_t)(inst + 1 - begin);                                                                           \
-      pc = (uint32_t)next_pc;                                                                                          \
-      begin = inst = pc % 4 == 0 && pc - first->begin < first->bytes ? first->inst + (pc - first->begin) / 4           \
-                                                                     : inst_at(functional, pc);                        \
-      if (count >= end || inst == functional->outside)                                                                 \
-        goto jumped;                                                                                                   \
-      changes[inst - base]++;                                                                                          \
-    } else {                                                                                                           \
-      inst++;                                                                                                          \
+    if (touch_data(tm, ADDRESS)) {                                                                                     \
+      functional->misses++;                                                                                            \
+      end -= functional->penalty;                                                                                      \
     }                                                                                                                  \
-    __extension__({ goto * inst->operation; });                                                                        \
-  }
-#include "trax/semantics.inc"
-#undef TRAX_SEMANTICS
-
-slow:
-  changes[inst - base]--;
-  pc = HERE;
-  count += (uint64_t)(inst - begin);
-  *executed = count;
-  tp->pc = pc;
-  return STOP_SLOW;
-
-jumped:
-  *executed = count;
-  tp->pc = pc;
-  return inst == functional->outside ? STOP_SLOW : STOP_TURN;
-}
+  } while (0)
+#define TOUCH_TEXT(BEGIN, END) touch_text(tm, icache, BEGIN, END)
+#include "fast/functional_turn.h"
 
 /* --- what function() leaves to the core --- */
 
@@ -175,7 +126,8 @@ static void increment(struct trax_functional *functional, struct trax_tp *tp) {
 static bool execute_slowly(struct trax_functional *functional, struct trax_tm *tm, unsigned number,
                            uint64_t *executed) {
   struct trax_tp *tp = &tm->tp[number];
-  const uint64_t index = (uint64_t)(inst_at(functional, tp->pc) - functional->inst);
+  const uint64_t index = (uint64_t)(inst_at(&functional->text[PLAIN], tp->pc) - functional->text[PLAIN].inst);
+  const uint64_t now = time_of(functional, *executed);
   const struct trax_decoded *inst = tp->inst = trax_text_at(tm->text, tp->pc);
   trax_fault_kind kind = TRAX_FAULT_NONE;
   uint32_t address = 0;
@@ -189,51 +141,67 @@ static bool execute_slowly(struct trax_functional *functional, struct trax_tm *t
     kind = trax_tp_check_access(tp, &functional->chip->machine->space, address);
   }
   if (kind) {
-    trax_tm_fault(tm, number, *executed, kind, address);
+    trax_tm_fault(tm, number, now, kind, address);
     return false;
   }
   if (inst->is_atomic)
     increment(functional, tp);
-  if (!trax_tp_execute(tm, number, *executed))
+  if (!trax_tp_execute(tm, number, now))
     return false;
   ++*executed;
-  functional->changes[index]++;
-  functional->changes[index + 1]--;
+  functional->changes[tm->number][index]++;
+  functional->changes[tm->number][index + 1]--;
   return true;
 }
 
-/* The thread's turn. False if it faulted. */
-static bool take_turn(struct trax_functional *functional, struct trax_tm *tm, unsigned number, uint64_t *executed) {
+/* The thread's turn, longer or shorter by what the one before has left. False if it faulted. */
+static bool take_turn(struct trax_functional *functional, struct trax_tm *tm, unsigned number, int64_t turn,
+                      enum variant variant, uint64_t *executed, int64_t *left) {
   struct trax_tp *tp = &tm->tp[number];
-  const uint64_t end = *executed + TRAX_TURN;
-  while (*executed < end && !(tm->ended >> number & 1)) {
-    if (function(functional, tm, tp, executed, NULL) == STOP_TURN)
-      return true;
-    if (!execute_slowly(functional, tm, number, executed))
+  *left += turn;
+  while (*left > 0 && !(tm->ended >> number & 1)) {
+    const uint64_t before = *executed, misses = functional->misses;
+    const enum stop stop = variant == WARMING
+                               ? function_warming(functional, &functional->text[WARMING], tm, tp, *left, executed, NULL)
+                               : function(functional, &functional->text[PLAIN], tm, tp, *left, executed, NULL);
+    if (stop == STOP_SLOW && !execute_slowly(functional, tm, number, executed))
       return false;
+    *left -= (int64_t)(*executed - before) + functional->penalty * (int64_t)(functional->misses - misses);
   }
   return true;
+}
+
+/* A turn of every thread. *instructions grows by what was executed. Also stops behind a thread that has executed
+   `limit` instructions. */
+static trax_status take_turns(struct trax_functional *functional, int64_t turn, enum variant variant, uint64_t limit,
+                              uint64_t *instructions) {
+  const struct trax_chip *chip = functional->chip;
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    struct trax_tm *tm = &chip->tm[i];
+    for (unsigned number = 0; number < tm->tps; number++) {
+      const size_t thread = (size_t)i * tm->tps + number;
+      uint64_t *executed = &functional->executed[thread];
+      const uint64_t before = *executed;
+      if (!(tm->ended >> number & 1) &&
+          !take_turn(functional, tm, number, turn, variant, executed, &functional->left[thread]))
+        return TRAX_FAULT;
+      if (*executed >= limit)
+        return TRAX_STUCK;
+      *instructions += *executed - before;
+    }
+  }
+  return TRAX_OK;
 }
 
 /* --- the mode --- */
 
 trax_status trax_functional_run(struct trax_functional *functional, uint64_t limit,
                                 bool (*stop)(void *context, uint64_t instructions), void *context) {
-  struct trax_chip *chip = functional->chip;
-  uint64_t before = 0;
-  while (trax_chip_running(chip)) {
-    uint64_t instructions = 0;
-    for (uint32_t i = 0; i < chip->tms; i++) {
-      struct trax_tm *tm = &chip->tm[i];
-      for (unsigned number = 0; number < tm->tps; number++) {
-        uint64_t *executed = &functional->executed[(size_t)i * tm->tps + number];
-        if (!(tm->ended >> number & 1) && !take_turn(functional, tm, number, executed))
-          return TRAX_FAULT;
-        if (*executed >= limit)
-          return TRAX_STUCK;
-        instructions += *executed;
-      }
-    }
+  uint64_t instructions = 0, before = 0;
+  while (trax_chip_running(functional->chip)) {
+    const trax_status status = take_turns(functional, TRAX_TURN, PLAIN, limit, &instructions);
+    if (status)
+      return status;
     if (instructions - before >= 1000000) { /* not in every turn of a few threads */
       before = instructions;
       if (stop(context, instructions))
@@ -243,14 +211,30 @@ trax_status trax_functional_run(struct trax_functional *functional, uint64_t lim
   return TRAX_OK;
 }
 
+trax_status trax_functional_advance(struct trax_functional *functional, uint64_t instructions, uint32_t penalty,
+                                    uint64_t now, uint64_t *executed) {
+  const uint32_t running = trax_chip_running(functional->chip);
+  functional->standing = true;
+  functional->now = now;
+  functional->penalty = penalty;
+  memset(functional->left, 0, functional->chip->machine->stats.threads * sizeof *functional->left);
+  trax_status status = TRAX_OK;
+  *executed = 0;
+  while (!status && *executed < instructions && trax_chip_running(functional->chip) == running)
+    status = take_turns(functional, SHORT_TURN, WARMING, UINT64_MAX, executed);
+  return status;
+}
+
 void trax_functional_collect(struct trax_functional *functional) {
-  uint64_t *const instructions = functional->chip->tm[0].stats->instructions;
-  int64_t count = 0;
-  for (size_t i = 0; i < functional->inst_count; i++) {
-    count += functional->changes[i];
-    instructions[functional->inst[i].op] += (uint64_t)count;
+  for (uint32_t i = 0; i < functional->chip->tms; i++) {
+    uint64_t *const instructions = functional->chip->tm[i].stats->instructions;
+    int64_t count = 0;
+    for (size_t index = 0; index < functional->inst_count; index++) {
+      count += functional->changes[i][index];
+      instructions[functional->text[PLAIN].inst[index].op] += (uint64_t)count;
+    }
+    memset(functional->changes[i], 0, functional->inst_count * sizeof *functional->changes[i]);
   }
-  memset(functional->changes, 0, functional->inst_count * sizeof *functional->changes);
 }
 
 static bool is_slow(const struct trax_decoded *decoded) {
@@ -258,51 +242,72 @@ static bool is_slow(const struct trax_decoded *decoded) {
          decoded->ask == TRAX_ASK_OUTSIDE || decoded->op == TRAX_OP_TRAP || decoded->op == TRAX_OP_HALT;
 }
 
-static trax_status predecode(struct trax_functional *functional, const struct trax_text *text, trax_error *error) {
-  const void *const *operations;
-  function(functional, NULL, NULL, NULL, &operations);
-  size_t total = 1;
-  for (size_t i = 0; i < text->count; i++)
-    total += (text->sections[i].end - text->sections[i].begin) / 4 + 1;
-  functional->inst_count = total;
-  functional->sections = calloc(text->count + 1, sizeof *functional->sections);
-  functional->inst = calloc(total, sizeof *functional->inst);
-  functional->changes = calloc(total + 1, sizeof *functional->changes);
-  if (!functional->sections || !functional->inst || !functional->changes)
+static trax_status predecode(struct text *text, size_t total, const struct trax_text *from,
+                             const void *const *operations, trax_error *error) {
+  text->sections = calloc(from->count + 1, sizeof *text->sections);
+  text->inst = calloc(total, sizeof *text->inst);
+  if (!text->sections || !text->inst)
     return trax_fail(error, "out of memory for %zu instructions", total);
-  struct instruction *inst = functional->inst;
-  for (size_t i = 0; i < text->count; i++) {
-    const struct trax_text_section *section = &text->sections[i];
+  struct instruction *inst = text->inst;
+  for (size_t i = 0; i < from->count; i++) {
+    const struct trax_text_section *section = &from->sections[i];
     const uint32_t words = (section->end - section->begin) / 4;
-    functional->sections[functional->count++] = (struct section){section->begin, words * 4, inst};
+    text->sections[text->count++] = (struct section){section->begin, words * 4, inst};
     for (uint32_t word = 0; word <= words; word++) {
-      const struct trax_decoded *from = &section->decoded[word];
-      *inst++ = (struct instruction){
-          operations[is_slow(from) ? TRAX_OP_ILLEGAL : from->op], from->imm, from->op, from->rd, from->ra, from->rb};
+      const struct trax_decoded *decoded = &section->decoded[word];
+      *inst++ = (struct instruction){operations[is_slow(decoded) ? TRAX_OP_ILLEGAL : decoded->op],
+                                     decoded->imm,
+                                     decoded->op,
+                                     decoded->rd,
+                                     decoded->ra,
+                                     decoded->rb};
     }
   }
   *inst = (struct instruction){.operation = operations[TRAX_OP_ILLEGAL]};
-  functional->outside = inst;
+  text->outside = inst;
   return TRAX_OK;
 }
 
-trax_status trax_functional_create(struct trax_chip *chip, trax_error *error) {
-  struct trax_functional *functional = chip->functional = calloc(1, sizeof *functional);
-  if (!functional)
-    return trax_fail(error, "out of memory");
-  functional->chip = chip;
-  functional->executed = calloc((size_t)chip->tms * chip->tm[0].tps, sizeof *functional->executed);
-  if (!functional->executed)
-    return trax_fail(error, "out of memory");
-  return predecode(functional, &chip->text, error);
+struct trax_functional *trax_functional_create(struct trax_chip *chip, trax_error *error) {
+  struct trax_functional *functional = calloc(1, sizeof *functional);
+  const void *const *operations[VARIANTS];
+  function(functional, NULL, NULL, NULL, 0, NULL, &operations[PLAIN]);
+  function_warming(functional, NULL, NULL, NULL, 0, NULL, &operations[WARMING]);
+  size_t total = 1;
+  for (size_t i = 0; i < chip->text.count; i++)
+    total += (chip->text.sections[i].end - chip->text.sections[i].begin) / 4 + 1;
+  bool complete = functional != NULL;
+  if (complete) {
+    functional->chip = chip;
+    functional->inst_count = total;
+    functional->executed = calloc((size_t)chip->tms * chip->tm[0].tps, sizeof *functional->executed);
+    functional->left = calloc((size_t)chip->tms * chip->tm[0].tps, sizeof *functional->left);
+    functional->changes = calloc(chip->tms, sizeof *functional->changes);
+    complete = functional->executed && functional->left && functional->changes;
+  }
+  for (uint32_t i = 0; complete && i < chip->tms; i++)
+    complete = (functional->changes[i] = calloc(total + 1, sizeof **functional->changes)) != NULL;
+  if (!complete)
+    trax_fail(error, "out of memory for %zu instructions", total);
+  for (unsigned variant = 0; complete && variant < VARIANTS; variant++)
+    complete = !predecode(&functional->text[variant], total, &chip->text, operations[variant], error);
+  if (complete)
+    return functional;
+  trax_functional_destroy(functional);
+  return NULL;
 }
 
 void trax_functional_destroy(struct trax_functional *functional) {
   if (!functional)
     return;
-  free(functional->sections);
-  free(functional->inst);
+  for (unsigned variant = 0; variant < VARIANTS; variant++) {
+    free(functional->text[variant].sections);
+    free(functional->text[variant].inst);
+  }
+  for (uint32_t i = 0; functional->changes && i < functional->chip->tms; i++)
+    free(functional->changes[i]);
   free(functional->changes);
   free(functional->executed);
+  free(functional->left);
   free(functional);
 }

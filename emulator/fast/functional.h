@@ -6,8 +6,8 @@
 
 struct trax_functional;
 
-/* Into chip->functional. */
-trax_status trax_functional_create(struct trax_chip *chip, trax_error *error);
+/* NULL if there is no memory for it. */
+struct trax_functional *trax_functional_create(struct trax_chip *chip, trax_error *error);
 void trax_functional_destroy(struct trax_functional *functional); /* which may be NULL */
 
 /* Runs until all threads have ended, a fault, or a thread has executed `limit` instructions (TRAX_STUCK). `stop` is
@@ -15,7 +15,13 @@ void trax_functional_destroy(struct trax_functional *functional); /* which may b
 trax_status trax_functional_run(struct trax_functional *functional, uint64_t limit,
                                 bool (*stop)(void *context, uint64_t instructions), void *context);
 
-/* The instructions executed since the last call, all in TM 0's statistics: no TM has time of its own. */
+/* Goes on for at least `instructions` of all threads together, and at most until a thread has ended, in short turns;
+   time stands still in cycle `now`. The caches' tags follow, and a thread that misses data falls behind by `penalty`
+   instructions. *executed receives the instructions. */
+trax_status trax_functional_advance(struct trax_functional *functional, uint64_t instructions, uint32_t penalty,
+                                    uint64_t now, uint64_t *executed);
+
+/* Adds the instructions executed since the last call to the TMs' statistics. */
 void trax_functional_collect(struct trax_functional *functional);
 
 #endif

@@ -107,7 +107,9 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
                                   .total_items = options->total_items,
                                   .interrupt = &interrupted,
                                   .engine = options->engine,
-                                  .host_threads = options->host_threads};
+                                  .host_threads = options->host_threads,
+
+                                  .sampling = options->sampling};
   if (!options->quiet && isatty(STDERR_FILENO)) {
     run_options.progress = trax_progress_show;
     run_options.progress_context = &line;
@@ -214,7 +216,8 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_explain_discard(explain);
   else if (trax_explain_end(explain, &write_error) != TRAX_OK)
     result = complain(&write_error);
-  if (status != TRAX_ERROR && machine->has_run && write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
+  if (status != TRAX_ERROR && machine->has_run &&
+      write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
     result = complain(&write_error);
   trax_machine_destroy(machine);
   return result;

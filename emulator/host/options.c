@@ -36,6 +36,7 @@ enum option_id {
   OPTION_MAX_CYCLES,
   OPTION_PROGRESS_TOTAL,
   OPTION_ENGINE,
+  OPTION_SAMPLE,
   OPTION_HOST_THREADS,
   OPTION_GDB,
   OPTION_GDB_SYMBOLS,
@@ -76,7 +77,9 @@ static const struct {
     [OPTION_WINDOW_TPS] = {"window-tps", "LIST", "its TPs in each of these TMs; default all"},
     [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
-    [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
+    [OPTION_ENGINE] = {"engine", "NAME",
+                       "fast (default), reference (the same, slower), sampled (estimates) or functional (no time)"},
+    [OPTION_SAMPLE] = {"sample", "KEY=N,...", "--engine sampled, with period, window, warm-up, hold or seed set"},
     [OPTION_HOST_THREADS] = {"host-threads", "N", "threads of the host for the fast engine; default one for each core"},
     [OPTION_GDB] = {"gdb", "PORT", "wait for GDB on a port of the loopback interface; 0 is any free one"},
     [OPTION_GDB_SYMBOLS] = {"gdb-symbols", "FILE", "write PROGRAM as GDB reads it; end, unless there is --gdb"},
@@ -189,8 +192,36 @@ static trax_status set_engine(struct trax_options *options, const char *value, t
     options->engine = TRAX_ENGINE_FAST;
   else if (strcmp(value, "functional") == 0)
     options->engine = TRAX_ENGINE_FUNCTIONAL;
+  else if (strcmp(value, "sampled") == 0)
+    options->engine = TRAX_ENGINE_SAMPLED;
   else
-    return trax_fail(error, "--engine: \"%s\" is none of fast, reference and functional", value);
+    return trax_fail(error, "--engine: \"%s\" is none of fast, reference, sampled and functional", value);
+  return TRAX_OK;
+}
+
+/* "period=1000000,seed=3" */
+static trax_status set_sampling(struct trax_options *options, const char *list, trax_error *error) {
+  static const char *const names[] = {"period", "window", "warm-up", "hold", "seed"};
+  uint64_t *const values[] = {&options->sampling.period, &options->sampling.window, &options->sampling.warm_up,
+                              &options->sampling.hold, &options->sampling.seed};
+  options->engine = TRAX_ENGINE_SAMPLED;
+  while (*list) {
+    char item[64];
+    const size_t length = strcspn(list, ",");
+    snprintf(item, sizeof item, "%.*s", (int)(length < sizeof item ? length : sizeof item - 1), list);
+    char *equals = strchr(item, '=');
+    size_t i = sizeof names / sizeof *names;
+    if (equals) {
+      *equals = '\0';
+      for (i = 0; i < sizeof names / sizeof *names && strcmp(item, names[i]) != 0;)
+        i++;
+    }
+    if (i == sizeof names / sizeof *names)
+      return trax_fail(error, "--sample: \"%s\" sets none of period, window, warm-up, hold and seed", item);
+    if (parse_number("sample", equals + 1, 1, (uint64_t)1 << 40, values[i], error) != TRAX_OK)
+      return TRAX_ERROR;
+    list += length + (list[length] == ',');
+  }
   return TRAX_OK;
 }
 
@@ -286,6 +317,8 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return parse_number(table[id].name, value, 0, UINT16_MAX, &options->gdb_port, error);
   case OPTION_GDB_SYMBOLS:
     return set_once(id, &options->gdb_symbols, value, error);
+  case OPTION_SAMPLE:
+    return set_sampling(options, value, error);
   case OPTION_QUIET:
     options->quiet = true;
     break;

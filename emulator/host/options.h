@@ -20,7 +20,7 @@ struct trax_assignment {
 
 struct trax_options {
   const char *program, *config, *stats, *report, *gdb_symbols; /* NULL: not given */
-  struct trax_assignment *assignments;           /* in the order of the command line */
+  struct trax_assignment *assignments;                         /* in the order of the command line */
   size_t assignment_count;
   uint64_t max_cycles, total_items; /* 0: not given */
   struct trax_explain_options explain;
@@ -28,6 +28,7 @@ struct trax_options {
   unsigned host_threads; /* 0: not given */
   bool gdb;
   uint64_t gdb_port;
+  trax_sampling sampling;
   bool quiet;
   bool print_config;
   enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;

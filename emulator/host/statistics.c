@@ -270,6 +270,18 @@ static void print_channels(const trax_machine *machine, FILE *out) {
             machine->stats.memory.channel[i].bytes, trax_stats_channel_utilisation(machine, i));
 }
 
+static void print_sampling(const struct trax_sampling_stats *sampling, FILE *out) {
+  if (!sampling->is_sampled)
+    return;
+  fprintf(out, "sampled  %" PRIu64 " windows, %" PRIu64 " cycles simulated; ", sampling->windows,
+          sampling->detailed_cycles);
+  if (sampling->has_interval)
+    fprintf(out, "the run takes %.0f to %.0f cycles with 95 %% confidence\n", sampling->low, sampling->high);
+  else
+    fprintf(out, "too few windows to say how far off the estimate is\n");
+  fprintf(out, "         all figures are estimates but those of instructions, operations, rays and items\n");
+}
+
 void trax_stats_print(const trax_machine *machine, FILE *out) {
   const struct trax_host *host = trax_host_of(machine);
   fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
@@ -277,6 +289,7 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
           machine->config.chip.clock_mhz, machine->config.memory.bandwidth_gbps);
   fprintf(out, "run      %s%s, exit status %d\n", trax_status_name(machine->status),
           machine->status == TRAX_OK ? "" : " (partial)", trax_machine_exit_status(machine));
+  print_sampling(&machine->stats.sampling, out);
   print_group(machine, out, "Run", TRAX_GROUP_RUN, false);
   print_group(machine, out, "Thread-cycles by cause", TRAX_GROUP_CAUSE, false);
   fprintf(out, "  %-30s%20.0f %6.2f %%  %s\n", "sum", (double)machine->stats.threads * (double)machine->stats.cycles,

@@ -16,6 +16,10 @@
   X("exit_status", "of the program; 1 for a fault, 134 for an abort")                                                  \
   X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line, message " \
              "of an abort")                                                                                            \
+  X("sampled",                                                                                                         \
+    "only of a sampled run: cycles_low and cycles_high, between which cycles lie with 95 % confidence (null: too "     \
+    "few windows); windows, detailed_cycles, detailed_instructions: what was simulated; period, window, "              \
+    "warm_up, hold, seed; exact: the figures that are no estimates")                                                   \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
   X("tms",                                                                                                             \
     "for each TM: tm, the figures that are counted in every TM, and tps: for each TP tp, thread, exit_status, causes") \
@@ -109,6 +113,24 @@ static void put_fault(struct document *document, const trax_machine *machine) {
   }
 }
 
+static void put_sampling(struct document *document, const struct trax_sampling_stats *sampling) {
+  json_t *object = json_object();
+  put(document, document->root, "sampled", object);
+  put(document, object, "cycles_low", sampling->has_interval ? json_real(sampling->low) : json_null());
+  put(document, object, "cycles_high", sampling->has_interval ? json_real(sampling->high) : json_null());
+  put(document, object, "windows", json_integer((json_int_t)sampling->windows));
+  put(document, object, "detailed_cycles", json_integer((json_int_t)sampling->detailed_cycles));
+  put(document, object, "detailed_instructions", json_integer((json_int_t)sampling->detailed_instructions));
+  put(document, object, "period", json_integer((json_int_t)sampling->asked.period));
+  put(document, object, "window", json_integer((json_int_t)sampling->asked.window));
+  put(document, object, "warm_up", json_integer((json_int_t)sampling->asked.warm_up));
+  put(document, object, "hold", json_integer((json_int_t)sampling->asked.hold));
+  put(document, object, "seed", json_integer((json_int_t)sampling->asked.seed));
+  put(document, object, "exact",
+      json_pack("[s, s, s, s, s, s]", "instructions", "instructions_by_unit", "instructions_by_operation", "rays",
+                "items", "flops"));
+}
+
 static void put_identity(struct document *document, const trax_machine *machine) {
   uint64_t sum = 0;
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
@@ -195,6 +217,8 @@ trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_er
   if (machine->status == TRAX_FAULT)
     put_fault(&document, machine);
   trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, &document);
+  if (machine->stats.sampling.is_sampled)
+    put_sampling(&document, &machine->stats.sampling);
   put_identity(&document, machine);
   put_tms(&document, machine);
   put_channels(&document, machine);

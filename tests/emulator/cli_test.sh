@@ -125,6 +125,24 @@ for key in rays items instructions flops; do
 done
 grep -q '"cycles": 0,' timeless.json || fail "timeless.json: cycles"
 
+# --- sampled
+run 0 --stats stats.json hello.elf
+run 0 --engine sampled --stats sampled.json --report sampled.txt hello.elf # ends before the first window
+[ "$(grep -m1 '"cycles":' sampled.json)" = "$(grep -m1 '"cycles":' stats.json)" ] || fail "sampled.json: cycles"
+run 0 --config 2x32 --stats stats.json mix.elf
+grep -q '"windows": 0' sampled.json || fail "sampled.json: windows"
+grep -q 'cycles with 95 % confidence' sampled.txt || fail "sampled.txt"
+run 0 --config 2x32 --sample period=2000,window=100,warm-up=100,hold=200,seed=7 --stats sampled.json mix.elf
+for key in rays items instructions flops; do
+  [ "$(grep -m1 "\"$key\":" sampled.json)" = "$(grep -m1 "\"$key\":" stats.json)" ] || fail "sampled.json: $key"
+done
+grep -q '"seed": 7' sampled.json || fail "sampled.json: seed"
+grep -q '"holds": true' sampled.json || fail "sampled.json: identity"
+run 124 --engine sampled spin.elf --max-cycles 1000000
+refuse '--sample: "speed" sets none of period, window, warm-up, hold and seed' --sample speed=3 hello.elf
+refuse '--sample: "0" is not a whole number from 1' --sample window=0 hello.elf
+refuse '--sample: "period" sets none of' --sample period hello.elf
+
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
 refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf
@@ -160,7 +178,7 @@ refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: FILE is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse '--engine: "slow" is none of fast, reference and functional' --engine slow hello.elf
+refuse '--engine: "slow" is none of fast, reference, sampled and functional' --engine slow hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
 refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
 refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf
@@ -206,7 +224,7 @@ for option in help help-config help-stats version; do
 done
 run 0 --help
 for option in profile profile-folded annotate heat heat-lines items item-buffer series series-interval trace perfetto konata \
-  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine gdb gdb-symbols quiet print-config; do
+  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine sample gdb gdb-symbols quiet print-config; do
   prints "--$option"
 done
 

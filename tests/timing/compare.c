@@ -24,9 +24,8 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   return TRAX_OK;
 }
 
-static struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
-                           bool traced, uint64_t max_cycles, unsigned host_threads, bool looked,
-                           struct trax_watch *other) {
+static struct run run_options(const struct trax_config *config, const uint32_t *program, size_t count,
+                              trax_run_options options, bool traced, bool looked, struct trax_watch *other) {
   struct run run = {.bench = bench_begin(config, program, count)};
   struct trax_machine *machine = run.bench.machine;
   const uint64_t saved = random_state;
@@ -39,8 +38,7 @@ static struct run run_with(const struct trax_config *config, const uint32_t *pro
   struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run, .others = other};
   run.looked = looked;
   machine->watches = looked ? &watch : other;
-  const trax_run_options options = {
-      .output = output, .max_cycles = max_cycles, .engine = engine, .host_threads = host_threads};
+  options.output = output;
   if (traced)
     bench_run_observed(&run.bench, &options);
   else
@@ -52,12 +50,20 @@ static struct run run_with(const struct trax_config *config, const uint32_t *pro
 
 struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
                        bool traced, uint64_t max_cycles, struct trax_watch *other) {
-  return run_with(config, program, count, engine, traced, max_cycles, setting("TRAX_HOST_THREADS", 1), true, other);
+  const trax_run_options options = {
+      .max_cycles = max_cycles, .engine = engine, .host_threads = setting("TRAX_HOST_THREADS", 1)};
+  return run_options(config, program, count, options, traced, true, other);
+}
+
+struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count,
+                    const trax_run_options *options) {
+  return run_options(config, program, count, *options, false, false, NULL);
 }
 
 struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
                      uint64_t max_cycles, unsigned host_threads) {
-  return run_with(config, program, count, engine, false, max_cycles, host_threads, false, NULL);
+  const trax_run_options options = {.max_cycles = max_cycles, .engine = engine, .host_threads = host_threads};
+  return run_options(config, program, count, options, false, false, NULL);
 }
 
 struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,

@@ -26,6 +26,9 @@ struct run run(const struct trax_config *config, const uint32_t *program, size_t
 /* Nobody looks at it. */
 struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
                      uint64_t max_cycles, unsigned host_threads);
+/* The same with any options but the output. */
+struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count,
+                    const trax_run_options *options);
 void end(struct run *run);
 
 /* What differs between two runs, in words. */

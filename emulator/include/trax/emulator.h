@@ -79,8 +79,18 @@ typedef struct trax_progress {
 typedef enum trax_engine {
   TRAX_ENGINE_FAST = 0,  /* emulator/fast */
   TRAX_ENGINE_REFERENCE, /* written to be read beside docs/timing.md, many times slower: emulator/reference */
-  TRAX_ENGINE_FUNCTIONAL /* emulator/fast/functional.c */
+  TRAX_ENGINE_FUNCTIONAL, /* emulator/fast/functional.c */
+  TRAX_ENGINE_SAMPLED /* emulator/fast/sampled.c: cycles and what depends on them are estimates */
 } trax_engine;
+
+/* How TRAX_ENGINE_SAMPLED samples (docs/emulator.md, "Sampled simulation"); 0 is the default. */
+typedef struct trax_sampling {
+  uint64_t period;  /* instructions of all threads from one window to the next, to begin with */
+  uint64_t window;  /* cycles of a window */
+  uint64_t warm_up; /* cycles before it that are simulated but not measured */
+  uint64_t hold;    /* cycles that are simulated after the end of a thread */
+  uint64_t seed;    /* of where the first window lies */
+} trax_sampling;
 
 typedef struct trax_run_options {
   FILE *output;                                                 /* guest output; NULL discards it */
@@ -91,6 +101,7 @@ typedef struct trax_run_options {
   const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
   trax_engine engine;
   unsigned host_threads; /* of the fast engine, whose results they do not change; 0: one for each processor */
+  trax_sampling sampling;
 } trax_run_options;
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
