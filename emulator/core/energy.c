@@ -105,11 +105,18 @@ struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct t
                                    count->store_hits + count->store_misses);
   energy.dcache = accesses * trax_energy_of_cache(config->dcache.bytes, banks);
 
+  if (config->l2.bytes) {
+    const struct trax_memory_stats *memory = &stats->memory;
+    const double requests = (double)(memory->l2_hits + 2 * memory->l2_misses + memory->l2_merged + memory->l2_passed +
+                                     memory->l2_store_hits + memory->l2_store_misses);
+    energy.l2 = requests * trax_energy_of_cache(config->l2.bytes, config->l2.banks);
+  }
+
   energy.off_chip = off_chip_nj_per_byte * (double)stats->memory.bytes;
   double *const all = (double *)&energy;
   for (size_t i = 0; i < sizeof energy / sizeof *all; i++)
     all[i] *= 1e-9;
   energy.total = energy.fp_add + energy.fp_mul + energy.fp_other + energy.int_mul + energy.special + energy.integer +
-                 energy.registers + energy.local_memory + energy.icache + energy.dcache;
+                 energy.registers + energy.local_memory + energy.icache + energy.dcache + energy.l2;
   return energy;
 }

@@ -12,7 +12,7 @@ struct trax_energy {
   double int_mul, special;
   double integer; /* the TPs' integer units: their instructions, addresses, branches */
   double registers, local_memory;
-  double icache, dcache;
+  double icache, dcache, l2;
   double total;    /* of those above */
   double off_chip; /* apart from the total */
 };

@@ -189,6 +189,7 @@ struct trax_stats {
     trax_energy_of(S, C).icache)                                                                                       \
   X(energy_dcache, "energy.dcache", "J", "data caches: loads, stores through them, and lines that arrive",             \
     trax_energy_of(S, C).dcache)                                                                                       \
+  X(energy_l2, "energy.l2", "J", "second-level cache: requests, and lines that arrive", trax_energy_of(S, C).l2)       \
   X(energy_total, "energy.total", "J",                                                                                 \
     "the sum of these: the chip's dynamic energy at 65 nm, without leakage and clock", trax_energy_of(S, C).total)     \
   X(energy_per_ray, "energy.per_ray", "J/ray", "the same for each ray", trax_energy_of(S, C).total / S->total.rays)    \

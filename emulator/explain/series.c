@@ -10,10 +10,12 @@ struct series {
   trax_output output;
   uint64_t begin;                 /* of the next row */
   struct trax_tm_stats *previous; /* [tms] */
+  struct trax_memory_stats previous_memory;
 };
 
+/* memory: of the chip's row; NULL for a TM. */
 static void put_row(struct series *series, const char *tm, uint64_t end, const struct trax_tm_stats *stats,
-                    uint32_t queue) {
+                    const struct trax_memory_stats *memory, uint32_t queue) {
   FILE *out = series->output.file;
   fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s", series->begin, end, tm);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -22,6 +24,9 @@ static void put_row(struct series *series, const char *tm, uint64_t end, const s
   if (strcmp(NAME, "memory.queue_peak") != 0)                                                                          \
     fprintf(out, ",%" PRIu64, stats->ID);
   TRAX_TM_COUNTERS(COUNT)
+#undef COUNT
+#define COUNT(ID, NAME, UNIT, MEANING) memory ? fprintf(out, ",%" PRIu64, memory->ID) : fputc(',', out);
+  TRAX_MEMORY_COUNTERS(COUNT)
 #undef COUNT
   fprintf(out, ",%u\n", queue);
 }
@@ -34,6 +39,9 @@ static void put_head(FILE *out) {
   if (strcmp(NAME, "memory.queue_peak") != 0)                                                                          \
     fprintf(out, "," NAME);
   TRAX_TM_COUNTERS(HEAD)
+#undef HEAD
+#define HEAD(ID, NAME, UNIT, MEANING) fprintf(out, "," NAME);
+  TRAX_MEMORY_COUNTERS(HEAD)
 #undef HEAD
   fprintf(out, ",memory.queue\n");
 }
@@ -49,10 +57,11 @@ static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32
   return stats;
 }
 
-static void subtract(struct trax_tm_stats *from, const struct trax_tm_stats *stats) {
-  uint64_t *to = (uint64_t *)from;
-  const uint64_t *terms = (const uint64_t *)stats;
-  for (size_t i = 0; i < sizeof *from / sizeof *to; i++)
+/* Of structs of counts. */
+static void subtract(void *from, const void *stats, size_t bytes) {
+  uint64_t *to = from;
+  const uint64_t *terms = stats;
+  for (size_t i = 0; i < bytes / sizeof *to; i++)
     to[i] -= terms[i];
 }
 
@@ -70,17 +79,20 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
     if (chip) /* after the run they are there */
       trax_stats_derive(&rows[tm], &machine->config);
     const struct trax_tm_stats counted = rows[tm];
-    subtract(&rows[tm], &series->previous[tm]);
+    subtract(&rows[tm], &series->previous[tm], sizeof rows[tm]);
     series->previous[tm] = counted;
     for (size_t i = 0; i < sizeof total / sizeof(uint64_t); i++)
       ((uint64_t *)&total)[i] += ((const uint64_t *)&rows[tm])[i];
     queued += chip ? trax_chip_queued(chip, tm) : 0;
   }
-  put_row(series, "all", end, &total, queued);
+  struct trax_memory_stats memory = machine->stats.memory;
+  subtract(&memory, &series->previous_memory, sizeof memory);
+  series->previous_memory = machine->stats.memory;
+  put_row(series, "all", end, &total, &memory, queued);
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
     char name[16];
     snprintf(name, sizeof name, "%u", tm);
-    put_row(series, name, end, &rows[tm], chip ? trax_chip_queued(chip, tm) : 0);
+    put_row(series, name, end, &rows[tm], NULL, chip ? trax_chip_queued(chip, tm) : 0);
   }
   series->begin = end;
   free(rows);
