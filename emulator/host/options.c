@@ -360,8 +360,9 @@ static trax_status parse_option(struct trax_options *options, char **arguments, 
 static trax_status check_explain(const struct trax_options *options, trax_error *error) {
   const struct trax_explain_options *explain = &options->explain;
   const bool windowed = explain->trace || explain->perfetto || explain->konata;
-  if (options->engine == TRAX_ENGINE_FUNCTIONAL && trax_explain_wanted(explain))
-    return trax_fail(error, "--engine functional knows no time: nothing can be explained");
+  const bool exact = options->engine == TRAX_ENGINE_FAST || options->engine == TRAX_ENGINE_REFERENCE;
+  if (!exact && trax_explain_wanted(explain))
+    return trax_fail(error, "only the engines fast and reference know every cycle: there is nothing to explain");
   if ((explain->perfetto || explain->konata) && !explain->window_end)
     return trax_fail(error, "--%s needs --window", explain->perfetto ? "perfetto" : "konata");
   if (!windowed && (explain->window_end || explain->window_tms || explain->window_tps))

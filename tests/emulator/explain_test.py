@@ -413,7 +413,7 @@ def main():
     refuse("--series-interval without --series", "--series-interval", "5")
     refuse("--item-buffer without --items", "--item-buffer", "results")
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
-    refuse("--engine functional knows no time", "--engine", "functional", "--profile", "x")
+    refuse("only the engines fast and reference know every cycle", "--engine", "functional", "--profile", "x")
     for name in FILES:
         refuse("none/x: cannot be written", f"--{name}", "none/x", "--window", "0:9", "--trace=t" if name != "trace" else
                "--profile=t")
