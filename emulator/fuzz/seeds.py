@@ -60,3 +60,23 @@ for preset in ("1x32", "8x64"):
 add("trax-sim-config", "memory.bandwidth_gbps=12.8 special.pipelined=true",
     ("m.cfg", b'preset = "4x32";\n# paper\nmemory: { latency_cycles = 0x10; /* low */ bandwidth_gbps = 1e3; };\n'))
 add("trax-sim-config", "chip.tms=64 dcache.bytes=64 dcache.ways=4 icache.line_bytes=4096")
+
+
+def packets(*lines):
+    folder = os.path.join(directory, "trax-sim-gdb")
+    os.makedirs(folder, exist_ok=True)
+    case = "\n".join(lines).encode("latin-1")
+    with open(os.path.join(folder, hashlib.sha1(case).hexdigest()[:12]), "wb") as file:
+        file.write(case)
+
+
+packets("qSupported:swbreak+;hwbreak+", "?", "Hg0", "qXfer:features:read:target.xml:0,ffb", "qfThreadInfo", "qsThreadInfo",
+        "qXfer:threads:read::0,200", "qC", "qAttached", "g", "p20", "vCont?", "m1000,40", "mfffffff0,10", "T2", "qThreadExtraInfo,3")
+packets("QStartNoAckMode", "Z0,1008,4", "vCont;c", "z0,1008,4", "vCont;s:1", "Z0,1008,4", "vCont;c", "Hg2", "vCont;s:2;c", "c", "c", "D")
+packets("Z2,10004,4", "c", "c", "z2,10004,4", "Z3,10000,4", "c", "Z4,fffffff8,4", "c", "Z2,10000,4", "c", "c", "c", "vKill;1")
+packets("P5=02000000", "P20=08100000", "M10000,4:01020304", "X10000,3:abc", "G" + "00" * 260, "vCont;r1000,1010:1;c", "s", "S05", "C0b;1008")
+packets("vCont;c", "\x03", "qRcmd," + b"cycle".hex(), "qRcmd," + b"stats".hex(), "qRcmd," + b"registers".hex(),
+        "qRcmd," + b"disassemble 0x1000 5".hex(), "qRcmd," + b"help".hex(), "vCont;c", "\x03", "k")
+packets("Z0,1024,4", "Z0,1028,4", "c", "z0,1024,4", "vCont;s:1", "vCont;s:1", "vCont;s:1", "c", "c", "c", "c")
+packets("c", "g", "?", "c")
+packets("\0+$?#3f-$g#67$vCont;c#a8\x03$m10}")
