@@ -52,6 +52,24 @@ static void visit_run(const struct visitor *visitor, const struct trax_stats *S,
 #undef FIGURE
 }
 
+/* Shares of what a TM has of its own, computed as if it were the chip. */
+static void visit_tm_shares(const struct visitor *visitor, const struct trax_stats *stats,
+                            const struct trax_tm_stats *tm, const struct trax_config *config) {
+  struct trax_stats only = {.cycles = stats->cycles,
+                            .threads = config->chip.tps_per_tm,
+                            .instructions = tm->cycles[TRAX_CAUSE_ISSUED],
+                            .total = *tm};
+  struct trax_config single = *config;
+  single.chip.tms = 1;
+  const struct trax_stats *S = &only;
+  const struct trax_config *C = &single;
+#define FIGURE(ID, NAME, UNIT, MEANING, EXPRESSION)                                                                    \
+  if (strcmp(UNIT, "fraction") == 0 && strncmp(NAME, "memory.", 7) != 0 && strncmp(NAME, "l2.", 3) != 0)               \
+    emit(visitor, TRAX_GROUP_RUN, "", NAME, UNIT, MEANING, (double)(EXPRESSION));
+  TRAX_FIGURES(FIGURE)
+#undef FIGURE
+}
+
 static void visit_instructions(const struct visitor *visitor, const struct trax_tm_stats *tm) {
   static const char *const unit_meaning[TRAX_UNIT_COUNT] = {
 #define TRAX_UNIT(NAME, DESCRIPTION, LATENCY) [TRAX_UNIT_##NAME] = DESCRIPTION,
@@ -92,6 +110,8 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
     visit_run(&visitor, stats ? stats : &no_stats, config ? config : &no_config);
     visit_memory(&visitor, stats ? &stats->memory : &no_stats.memory);
     tm = stats ? &stats->total : &no_stats.total;
+  } else {
+    visit_tm_shares(&visitor, stats ? stats : &no_stats, tm, config ? config : &no_config);
   }
 #define COUNTER(ID, NAME, UNIT, MEANING) emit(&visitor, TRAX_GROUP_COUNTER, "", NAME, UNIT, MEANING, (double)tm->ID);
   TRAX_TM_COUNTERS(COUNTER)
@@ -207,22 +227,35 @@ static void print_group(const trax_machine *machine, FILE *out, const char *titl
   trax_figures_visit(&machine->stats, NULL, &machine->config, print_figure, &listing);
 }
 
+/* Figures of the table of TMs, in per cent. */
+static const char *const tm_shares[] = {"issue.utilisation",   "fp_add.utilisation", "fp_mul.utilisation",
+                                        "special.utilisation", "icache.hit_rate",    "dcache.hit_rate"};
+enum { TM_SHARES = sizeof tm_shares / sizeof *tm_shares };
+
+static void collect_share(void *context, const struct trax_figure *figure) {
+  double *shares = context;
+  for (unsigned i = 0; i < TM_SHARES; ++i)
+    if (strcmp(figure->name, tm_shares[i]) == 0)
+      shares[i] = figure->value;
+}
+
 static void print_tms(const trax_machine *machine, FILE *out) {
-  fprintf(out, "\nTMs\n  %4s %16s %9s %12s %12s %16s %12s\n", "TM", "instructions", "issued %", "icache miss",
-          "dcache miss", "memory bytes", "rays");
+  fprintf(out, "\nTMs\n  %4s %16s %9s %9s %9s %9s %9s %9s %16s %12s\n", "TM", "instructions", "issued %", "adders %",
+          "mults %", "div %", "i-hit %", "d-hit %", "memory bytes", "rays");
   for (uint32_t i = 0; i < machine->config.chip.tms; ++i) {
     const struct trax_tm_stats *tm = &machine->tm_stats[i];
-    double thread_cycles = (double)machine->config.chip.tps_per_tm * (double)machine->stats.cycles;
-    fprintf(out, "  %4u %16" PRIu64 " %9.2f %12" PRIu64 " %12" PRIu64 " %16" PRIu64 " %12" PRIu64 "\n", i,
-            tm->cycles[TRAX_CAUSE_ISSUED], 100 * (double)tm->cycles[TRAX_CAUSE_ISSUED] / fmax(1, thread_cycles),
-            tm->icache_misses, tm->dcache_misses,
+    double shares[TM_SHARES] = {0};
+    trax_figures_visit(&machine->stats, tm, &machine->config, collect_share, shares);
+    fprintf(out, "  %4u %16" PRIu64, i, tm->cycles[TRAX_CAUSE_ISSUED]);
+    for (unsigned share = 0; share < TM_SHARES; ++share)
+      fprintf(out, " %9.2f", 100 * shares[share]);
+    fprintf(out, " %16" PRIu64 " %12" PRIu64 "\n",
             tm->data_read_bytes + tm->instruction_read_bytes + tm->nontemporal_read_bytes + tm->written_bytes +
                 tm->atomic_bytes,
             tm->rays);
   }
 }
 
-/* The heads of the causes that occur, and their per cent. */
 static void print_cause_heads(FILE *out, const struct trax_stats *stats) {
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
     if (stats->total.cycles[cause])

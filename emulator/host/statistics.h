@@ -25,8 +25,8 @@ struct trax_figure {
 };
 
 /* Calls visit for every figure in the order of the reports. stats and config may be NULL (values are then 0), and tm
-   chooses what is counted: NULL is the whole chip; for one TM the figures of TRAX_GROUP_RUN and
-   TRAX_GROUP_MEMORY are left out. */
+   chooses what is counted: NULL is the whole chip; for one TM those of TRAX_GROUP_MEMORY are left out,
+   and of TRAX_GROUP_RUN all but the shares of what is the TM's own (utilisations, hit rates). */
 void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_stats *tm,
                         const struct trax_config *config,
                         void (*visit)(void *context, const struct trax_figure *figure), void *context);

@@ -21,8 +21,9 @@
     "few windows); windows, detailed_cycles, detailed_instructions: what was simulated; period, window, "              \
     "warm_up, hold, seed; exact: the figures that are no estimates")                                                   \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
-  X("tms",                                                                                                             \
-    "for each TM: tm, the figures that are counted in every TM, and tps: for each TP tp, thread, exit_status, causes") \
+  X("tms", "for each TM: tm, the figures that are counted in every TM, utilisations and hit rates of its own, and "    \
+           "tps: for each TP "                                                                                         \
+           "tp, thread, exit_status, causes")                                                                          \
   X("channels", "for each channel of the memory: channel, transfers, bytes, utilisation")                              \
   X("configuration", "every key of the machine's configuration")
 

@@ -65,6 +65,10 @@ def check_tps(stats):
     for tm in stats["tms"]:
         for cause, cycles in tm["causes"].items():
             equal(sum(tp["causes"][cause] for tp in tm["tps"]), cycles, "TPs of TM", tm["tm"], cause)
+        for share, exact in ((tm["issue"]["utilisation"], tm["causes"]["issued"] / (len(tm["tps"]) * stats["cycles"])),
+                             (tm["fp_add"]["utilisation"], tm["fp_add"]["operations"] / stats["cycles"])):
+            check(abs(share - exact) <= 1e-14, "share of TM", tm["tm"], share, exact)  # 15 digits are written
+        check(tm["special"]["utilisation"] > 0 and 0 < tm["dcache"]["hit_rate"] < 1, "shares of TM", tm["tm"])
         for tp in tm["tps"]:
             equal(sum(tp["causes"].values()), stats["cycles"], "cycles of thread", tp["thread"])
             equal(tp["thread"], tm["tm"] * len(tm["tps"]) + tp["tp"], "thread of", tp["tp"])
