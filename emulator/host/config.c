@@ -136,6 +136,13 @@ trax_status trax_config_store(struct trax_config *config, const struct trax_conf
   return TRAX_OK;
 }
 
+const char *trax_config_allowed(const struct trax_config_key *key, trax_error *message) {
+  message->message[0] = 0;
+  trax_config_check_value(key, NAN, message); /* which no key may have */
+  const char *allowed = strstr(message->message, "; ");
+  return allowed ? allowed : message->message;
+}
+
 static trax_status parse_flag(const char *name, const char *text, double *value, trax_error *error) {
   static const char *const words[] = {"false", "true", "no", "yes", "off", "on", "0", "1"};
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
@@ -158,10 +165,8 @@ trax_status trax_config_set(trax_config *config, const char *key_text, const cha
   value = strtod(value_text, &end);
   /* strtod skips blanks and knows names; a value is digits. */
   if (end == value_text || *end != 0 || !strchr("+-.0123456789", *value_text) || !isfinite(value)) {
-    trax_error allowed = {.message = ""};
-    trax_config_check_value(key, NAN, &allowed);
-    const char *what = strstr(allowed.message, "; ");
-    return trax_fail(error, "%s is \"%s\", not a number%s", key->name, value_text, what ? what : "");
+    trax_error allowed;
+    return trax_fail(error, "%s is \"%s\", not a number%s", key->name, value_text, trax_config_allowed(key, &allowed));
   }
   return trax_config_store(config, key, value, error);
 }

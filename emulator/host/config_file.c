@@ -19,7 +19,8 @@
    the process. Also a text file has no NUL. */
 static trax_status check_text(const char *path, const char *text, size_t size, trax_error *error) {
   unsigned line = 1;
-  const char *end = text + size;
+  const char *end = text + size, *name = text; /* the latest */
+  int name_length = 0;
   for (const char *p = text; p < end;) {
     if (*p == 0)
       return trax_fail(error, "%s:%u: not a text file", path, line);
@@ -43,37 +44,21 @@ static trax_status check_text(const char *path, const char *text, size_t size, t
     } else if (*p == '@') {
       return trax_fail(error, "%s:%u: directives such as @include are not supported", path, line);
     } else if (isalpha((unsigned char)*p) || *p == '*') {
-      while (isalnum((unsigned char)*p) || (*p && strchr("-_*", *p)))
-        ++p;
+      for (name = p; isalnum((unsigned char)*p) || (*p && strchr("-_*", *p)); ++p)
+        ;
+      name_length = (int)(p - name);
     } else if (isdigit((unsigned char)*p)) {
       char *number_end;
       double value = strtod(p, &number_end);
       if (!(value <= INT_MAX))
-        return trax_fail(error, "%s:%u: %.*s is larger than any key allows", path, line, (int)(number_end - p), p);
+        return trax_fail(error, "%s:%u: %.*s is %.*s, larger than any key allows", path, line, name_length, name,
+                         (int)(number_end - p), p);
       p = number_end;
     } else {
       ++p;
     }
   }
   return TRAX_OK;
-}
-
-/* A setting's value as text for messages. */
-static const char *kind_name(const config_setting_t *setting) {
-  switch (config_setting_type(setting)) {
-  case CONFIG_TYPE_STRING:
-    return "a string";
-  case CONFIG_TYPE_BOOL:
-    return "true or false";
-  case CONFIG_TYPE_INT:
-  case CONFIG_TYPE_INT64:
-  case CONFIG_TYPE_FLOAT:
-    return "a number";
-  case CONFIG_TYPE_GROUP:
-    return "a section";
-  default:
-    return "a list";
-  }
 }
 
 static bool number_value(const config_setting_t *setting, double *value) {
@@ -92,6 +77,34 @@ static bool number_value(const config_setting_t *setting, double *value) {
   }
 }
 
+/* A setting's value, as far as it has one, for messages. */
+struct value_text {
+  char text[80];
+};
+static struct value_text describe(const config_setting_t *setting) {
+  struct value_text value;
+  double number;
+  if (number_value(setting, &number)) {
+    snprintf(value.text, sizeof value.text, "%.12g", number);
+    return value;
+  }
+  switch (config_setting_type(setting)) {
+  case CONFIG_TYPE_STRING:
+    snprintf(value.text, sizeof value.text, "\"%.48s\", a string", config_setting_get_string(setting));
+    break;
+  case CONFIG_TYPE_BOOL:
+    snprintf(value.text, sizeof value.text, "%s", config_setting_get_bool(setting) ? "true" : "false");
+    break;
+  case CONFIG_TYPE_GROUP:
+    snprintf(value.text, sizeof value.text, "a section");
+    break;
+  default:
+    snprintf(value.text, sizeof value.text, "a list");
+    break;
+  }
+  return value;
+}
+
 static trax_status apply_setting(struct trax_config *config, const char *section, const config_setting_t *setting,
                                  trax_error *error) {
   char name[256];
@@ -99,14 +112,14 @@ static trax_status apply_setting(struct trax_config *config, const char *section
   const struct trax_config_key *key = trax_config_find(name, error);
   if (!key)
     return TRAX_ERROR;
-  double value;
-  if (key->kind == TRAX_KIND_FLAG) {
-    if (config_setting_type(setting) != CONFIG_TYPE_BOOL)
-      return trax_fail(error, "%s is %s; allowed are true and false", name, kind_name(setting));
-    value = config_setting_get_bool(setting);
-  } else if (!number_value(setting, &value)) {
-    return trax_fail(error, "%s is %s; it must be a number", name, kind_name(setting));
+  double value = 0;
+  const bool flag = config_setting_type(setting) == CONFIG_TYPE_BOOL;
+  if (key->kind == TRAX_KIND_FLAG ? !flag : !number_value(setting, &value)) {
+    trax_error allowed;
+    return trax_fail(error, "%s is %s%s", name, describe(setting).text, trax_config_allowed(key, &allowed));
   }
+  if (flag)
+    value = config_setting_get_bool(setting);
   return trax_config_store(config, key, value, error);
 }
 
@@ -152,7 +165,7 @@ static trax_status apply_all(struct trax_config *config, const char *path, const
   if (preset) {
     const char *name = config_setting_get_string(preset);
     if (!name) {
-      trax_fail(&reason, "preset is %s; it must be a string such as \"4x32\"", kind_name(preset));
+      trax_fail(&reason, "preset is %s; it must be a string such as \"4x32\"", describe(preset).text);
       return located(path, preset, &reason, error);
     }
     if (trax_config_preset(config, name, &reason) != TRAX_OK)
@@ -170,7 +183,7 @@ static trax_status apply_all(struct trax_config *config, const char *path, const
     }
     if (is_section(config_setting_name(setting)))
       trax_fail(&reason, "%s is %s; it must be a section: %s: { ... };", config_setting_name(setting),
-                kind_name(setting), config_setting_name(setting));
+                describe(setting).text, config_setting_name(setting));
     else /* no key lives outside a section: the message says where it belongs */
       apply_setting(config, "", setting, &reason);
     return located(path, setting, &reason, error);

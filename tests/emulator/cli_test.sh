@@ -4,6 +4,7 @@
 set -u
 export LC_ALL=C
 sim=$1
+machines=$(cd "$(dirname "$0")/../../emulator/machines" && pwd) || exit 1
 directory=$(mktemp -d) || exit 1
 trap 'chmod -R u+w "$directory"; rm -rf "$directory"' EXIT
 "$2" "$directory" || exit 1
@@ -211,6 +212,24 @@ for preset in $presets; do
   run 0 --print-config
   cmp -s single.cfg out || fail "$preset differs from the default in more than its TMs and TPs"
 done
+for machine in "$machines"/*.cfg; do # the examples: no longer than a page, read back, and programs run on them
+  [ "$(wc -l <"$machine")" -le 50 ] || fail "$machine is no longer short"
+  "$sim" --config "$machine" --print-config >first.cfg || fail "$machine"
+  run 0 --config first.cfg --print-config
+  cmp -s first.cfg out || fail "$machine is not read back as it was"
+  run 0 --config "$machine" --stats stats.json --report report.txt mix.elf
+  grep -q '"rays": 12800' stats.json || fail "stats.json of $machine: rays"
+done
+run 0 --config "$machines/modern.cfg" --stats stats.json --report report.txt mix.elf
+[ "$(grep -c '"channel": ' stats.json)" -eq 4 ] || fail "stats.json: channels"
+grep -q '"merged": [1-9]' stats.json && grep -q '^  l2.misses ' report.txt || fail "statistics of the second-level cache"
+run 0 --config "$machines/modern.cfg" --set l2.bytes=0 --stats stats.json mix.elf
+refuse "dcache.line_bytes is 64; it must not be more than l2.line_bytes = 32" --set l2.bytes=4096 --set l2.line_bytes=32 \
+  --set icache.line_bytes=32 hello.elf
+refuse "l2.bytes is 256; it must hold l2.ways = 8 lines of l2.line_bytes = 64" --set l2.bytes=256 hello.elf
+refuse "l2.bytes is 100; allowed are 0 and the powers of two from 1 to 268435456 bytes" --set l2.bytes=100 hello.elf
+refuse "icache.line_bytes is 128; it must not be more than memory.interleave_bytes = 64" --set memory.channels=2 \
+  --set memory.interleave_bytes=64 --set icache.line_bytes=128 hello.elf
 printf 'preset = "2x32";\nmemory: {\n  latency = 5;\n};\n' >bad.cfg
 refuse "bad.cfg:3: unknown key \"memory.latency\"" --config bad.cfg hello.elf
 run 0 --set chip.tms=2 --config 4x32 --print-config # --set is applied last, wherever it stands

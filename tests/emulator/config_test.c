@@ -258,26 +258,26 @@ static void test_bad_files(void **state) {
       {"chip: {\n  tms = 0;\n};", ":2: chip.tms is 0; allowed are 1 to 64 TMs"},
       {"chip: {\n\n  tms = 65;\n};", ":3: chip.tms is 65; allowed are 1 to 64"},
       {"chip: { tms = 2.5; };", ":1: chip.tms is 2.5; allowed are 1 to 64, without a fraction"},
-      {"chip: { tms = \"4\"; };", ":1: chip.tms is a string; it must be a number"},
-      {"chip: { tms = true; };", "it must be a number"},
+      {"chip: { tms = \"4\"; };", ":1: chip.tms is \"4\", a string; allowed are 1 to 64 TMs"},
+      {"chip: { tms = true; };", "chip.tms is true; allowed are 1 to 64 TMs"},
       {"chip: { tms = [1, 2]; };", "chip.tms is a list"},
       {"chip: { tms = (); };", "chip.tms is a list"},
       {"chip: { tms = { a = 1; }; };", "chip.tms is a section"},
       {"chip: { tps = 4; };", "unknown key \"chip.tps\""},
-      {"chip = 4;", "chip is a number; it must be a section"},
+      {"chip = 4;", "chip is 4; it must be a section"},
       {"tms = 4;", "did you mean chip.tms?"},
       {"chips: { tms = 4; };", ":1: unknown section \"chips\"; did you mean chip?"},
       {"nonsense: { };", "unknown section \"nonsense\""},
-      {"special: { pipelined = 1; };", "special.pipelined is a number; allowed are true and false"},
-      {"special: { pipelined = \"yes\"; };", "special.pipelined is a string; allowed are true and false"},
+      {"special: { pipelined = 1; };", "special.pipelined is 1; allowed are true and false"},
+      {"special: { pipelined = \"yes\"; };", "special.pipelined is \"yes\", a string; allowed are true and false"},
       {"icache: { bytes = 3000; };", "powers of two"},
       {"memory: { bandwidth_gbps = 0.0; };", "from 0.001 to 1000000 GB/s"},
       {"memory: { bandwidth_gbps = 1e400; };", "larger than any key allows"},
-      {"chip: {\n tms = 4294967297; };", ":2: 4294967297 is larger than any key allows"},
-      {"/* a\n comment */ chip: {\n tms = 0x100000001; };", ":3: 0x100000001 is larger"},
+      {"chip: {\n tms = 4294967297; };", ":2: tms is 4294967297, larger than any key allows"},
+      {"/* a\n comment */ chip: {\n tms = 0x100000001; };", ":3: tms is 0x100000001, larger"},
       {"chip: { tms = 18446744073709551617L; };", "larger than any key allows"},
       {"preset = \"4x33\";", ":1: no preset \"4x33\" (did you mean"},
-      {"\npreset = 4;", ":2: preset is a number; it must be a string"},
+      {"\npreset = 4;", ":2: preset is 4; it must be a string"},
       {"chip: { tms = 4; tms = 5; };", ":1: duplicate"},
       {"chip: { tms = ", ":1: syntax error"},
       {"chip: {\n tms = 4\n }}", ":3: syntax error"},
@@ -293,6 +293,42 @@ static void test_bad_files(void **state) {
   memset(large, '(', 100000);
   load_text(large, 100000, "");
   free(large);
+}
+
+/* Of every key in a file: a value of another type, out of range, not a power of two, a fraction, and a name that is not
+   quite its own. */
+static void test_every_key_wrong_in_a_file(void **state) {
+  (void)state;
+  for (size_t i = 0; i < trax_config_key_count; ++i) {
+    const struct trax_config_key *key = &trax_config_keys[i];
+    const bool flag = key->kind == TRAX_KIND_FLAG, real = key->kind == TRAX_KIND_REAL;
+    const char *const values[] = {"\"x\"",
+                                  "[1]",
+                                  "(1)",
+                                  "{ a = 1; }",
+                                  flag ? "1" : "true",
+                                  flag ? "0" : "-1",
+                                  flag   ? "2.5"
+                                  : real ? "0.0004"
+                                         : "7.25",
+                                  key->kind == TRAX_KIND_POWER ? "96" : "2147483647"};
+    for (size_t j = 0; j < sizeof values / sizeof *values; ++j) {
+      char text[256], place[128];
+      const int length =
+          snprintf(text, sizeof text, "# %s\n%s: {\n  %s = %s;\n};\n", key->unit, key->section, key->key, values[j]);
+      snprintf(place, sizeof place, ":3: %s is %.4s", key->name,
+               *values[j] == '"'           ? "\"x\""
+               : strchr("[({", *values[j]) ? "a"
+                                           : values[j]);
+      load_text(text, (size_t)length, place);
+      load_text(text, (size_t)length, flag ? "; allowed are true and false" : "; allowed are ");
+    }
+    char text[256], suggestion[128];
+    const int length = snprintf(text, sizeof text, "\n%s: { %sx = 1; };", key->section, key->key);
+    snprintf(suggestion, sizeof suggestion, ":2: unknown key \"%s.%sx\"; did you mean %s?", key->section, key->key,
+             key->name);
+    load_text(text, (size_t)length, suggestion);
+  }
 }
 
 static void test_missing_files(void **state) {
@@ -389,6 +425,7 @@ int main(void) {
       cmocka_unit_test(test_presets_are_the_papers_chips),
       cmocka_unit_test(test_defaults_are_the_papers),
       cmocka_unit_test(test_bad_files),
+      cmocka_unit_test(test_every_key_wrong_in_a_file),
       cmocka_unit_test(test_missing_files),
       cmocka_unit_test(test_good_files),
       cmocka_unit_test(test_relations_between_keys),
