@@ -5,9 +5,9 @@
 
 int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n) {
   for (uint32_t i = 0; i < n; i++) {
-    const uint32_t position = (*turn + i) % n;
+    const uint32_t position = *turn + i < n ? *turn + i : *turn + i - n;
     if (asks[position]) {
-      *turn = (position + 1) % n;
+      *turn = position + 1 < n ? position + 1 : 0;
       return (int)position;
     }
   }

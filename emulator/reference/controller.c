@@ -4,24 +4,42 @@
 #include <math.h>
 #include <string.h>
 
-/* B = (MB/s) / MHz bytes move in a cycle. A cycle of as many units as there are MB/s and a byte of as many as there are
-   MHz are whole numbers; a common divisor changes nothing but how long the run may be. */
-void trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config) {
-  uint64_t cycle = (uint64_t)llround(config->memory.bandwidth_gbps * 1000), byte = config->chip.clock_mhz;
-  for (uint64_t divisor = 2; divisor <= byte; divisor++)
-    while (cycle % divisor == 0 && byte % divisor == 0) {
-      cycle /= divisor;
-      byte /= divisor;
-    }
-  *controller = (struct trax_ref_controller){.units_per_cycle = cycle, .units_per_byte = byte};
+static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
+  return b ? greatest_common_divisor(b, a % b) : a;
 }
 
-/* The oldest request of a TM that waits; NULL: none does. */
-static struct trax_ref_request *first_waiting(struct trax_ref_tm *tm) {
-  for (uint32_t i = 0; i < tm->places; i++)
-    if (!tm->queue[i].started)
-      return &tm->queue[i];
-  return NULL;
+/* A channel moves B = (MB/s) / MHz / channels bytes in a cycle: B in lowest terms is units per cycle by units per byte.
+ */
+void trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config) {
+  const uint64_t numerator = (uint64_t)llround(config->memory.bandwidth_gbps * 1000);
+  const uint64_t denominator = (uint64_t)config->chip.clock_mhz * config->memory.channels;
+  const uint64_t divisor = greatest_common_divisor(numerator, denominator);
+  controller->units_per_cycle = numerator / divisor;
+  controller->units_per_byte = denominator / divisor;
+}
+
+uint32_t trax_ref_channel_of(const struct trax_config *config, uint32_t address) {
+  return address / config->memory.interleave_bytes % config->memory.channels;
+}
+
+bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t) {
+  for (uint32_t i = 0; i < chip->config->memory.channels; i++)
+    if (chip->controller.channel[i].free_from > t * chip->controller.units_per_cycle)
+      return false;
+  return true;
+}
+
+/* Begins a transfer; gives the cycle ceil(f). */
+static uint64_t transfer(struct trax_ref_chip *chip, uint32_t number, uint32_t bytes, uint64_t t) {
+  struct trax_ref_channel *channel = &chip->controller.channel[number];
+  const uint64_t cycle = chip->controller.units_per_cycle;
+  const uint64_t begin = channel->free_from > t * cycle ? channel->free_from : t * cycle;
+  channel->free_from = begin + bytes * chip->controller.units_per_byte;
+  chip->stats->transfers++;
+  chip->stats->bytes += bytes;
+  chip->stats->channel[number].transfers++;
+  chip->stats->channel[number].bytes += bytes;
+  return (channel->free_from + cycle - 1) / cycle;
 }
 
 static void increment(struct trax_ref_request *request, struct trax_machine *machine) {
@@ -31,30 +49,66 @@ static void increment(struct trax_ref_request *request, struct trax_machine *mac
   memcpy(word, &new_value, 4);
 }
 
-static void start(struct trax_ref_chip *chip, struct trax_ref_request *request, uint64_t t) {
-  struct trax_ref_controller *controller = &chip->controller;
-  const uint64_t cycle = controller->units_per_cycle;
-  const uint64_t begin = controller->free_from > t * cycle ? controller->free_from : t * cycle;
-  controller->free_from = begin + request->bytes * controller->units_per_byte;
-  struct trax_memory_stats *stats = &chip->machine->stats.memory;
-  stats->transfers++;
-  stats->bytes += request->bytes;
-  stats->channel[0].transfers++;
-  stats->channel[0].bytes += request->bytes;
-  request->started = true;
-  request->completion = (controller->free_from + cycle - 1) / cycle + chip->machine->config.memory.latency_cycles;
-  if (request->kind == ATOMIC)
+static void serve_request(struct trax_ref_chip *chip, struct trax_ref_request *request, uint32_t channel, uint64_t t) {
+  const struct trax_config *config = chip->config;
+  request->stage = SERVED;
+  request->completion = transfer(chip, channel, request->bytes, t) + config->memory.latency_cycles +
+                        (config->l2.bytes ? config->l2.latency_cycles : 0);
+  if (request->kind == ATOMIC) {
+    request->completion += config->memory.atomic_latency_cycles;
     increment(request, chip->machine);
+  }
+}
+
+static void serve_miss(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint32_t channel, uint64_t t) {
+  const struct trax_config *config = chip->config;
+  const uint64_t over = transfer(chip, channel, trax_ref_l2_line_cost(config), t);
+  trax_ref_l2_started(chip, miss, over + config->memory.latency_cycles);
+}
+
+/* False: nothing waits for the channel. */
+static bool serve_next(struct trax_ref_chip *chip, uint32_t channel, uint64_t t) {
+  bool asks[MOST];
+  for (uint32_t i = 0; i < chip->tms; i++)
+    asks[i] = trax_ref_oldest_at_channel(&chip->tm[i], channel) != NULL;
+  const int winner = trax_ref_pick(&chip->controller.channel[channel].turn, asks, chip->tms);
+  if (winner >= 0)
+    serve_request(chip, trax_ref_oldest_at_channel(&chip->tm[winner], channel), channel, t);
+  return winner >= 0;
+}
+
+/* The same behind a second-level cache: who came first. */
+static bool serve_first(struct trax_ref_chip *chip, uint32_t channel, uint64_t t) {
+  struct trax_ref_request *first_request = NULL;
+  struct trax_ref_miss *first_miss = NULL;
+  uint64_t first = UNKNOWN;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (uint32_t place = 0; place < chip->tm[i].places; place++) {
+      struct trax_ref_request *request = &chip->tm[i].queue[place];
+      if (request->stage == AT_CHANNEL && trax_ref_channel_of(chip->config, request->address) == channel &&
+          request->came < first) {
+        first = request->came;
+        first_request = request;
+      }
+    }
+  for (uint32_t i = 0; i < chip->l2.misses; i++) {
+    struct trax_ref_miss *miss = &chip->l2.miss[i];
+    if (miss->arrival == UNKNOWN && miss->channel == channel && miss->came < first) {
+      first = miss->came;
+      first_miss = miss;
+    }
+  }
+  if (first_miss)
+    serve_miss(chip, first_miss, channel, t);
+  else if (first_request)
+    serve_request(chip, first_request, channel, t);
+  return first != UNKNOWN;
 }
 
 void trax_ref_controller_cycle(struct trax_ref_chip *chip, uint64_t t) {
-  while (chip->controller.free_from < (t + 1) * chip->controller.units_per_cycle) {
-    bool asks[MOST];
-    for (uint32_t i = 0; i < chip->tms; i++)
-      asks[i] = first_waiting(&chip->tm[i]) != NULL;
-    const int winner = trax_ref_pick(&chip->controller.turn, asks, chip->tms);
-    if (winner < 0)
-      return;
-    start(chip, first_waiting(&chip->tm[winner]), t);
-  }
+  const uint64_t next = (t + 1) * chip->controller.units_per_cycle;
+  for (uint32_t channel = 0; channel < chip->config->memory.channels; channel++)
+    while (chip->controller.channel[channel].free_from < next)
+      if (!(chip->config->l2.bytes ? serve_first : serve_next)(chip, channel, t))
+        break;
 }

@@ -28,7 +28,7 @@ static void wait_for_line(struct trax_ref_tp *tp, uint32_t line) {
 
 bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const uint32_t line = tp->address / tm->config->dcache.line_bytes;
-  if (trax_ref_lines_have(&tm->dcache, line)) {
+  if (trax_ref_lines_use(&tm->dcache, line)) {
     tm->stats->dcache_hits++;
     tp->outcome |= TRAX_OUTCOME_HIT;
     trax_ref_result(tp, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
@@ -41,8 +41,10 @@ bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
     return true;
   }
   if (trax_ref_lines_on_their_way(tm, DATA_LINE) == tm->config->dcache.mshrs ||
-      !trax_ref_request(
-          tm, (struct trax_ref_request){.kind = DATA_LINE, .line = line, .bytes = tm->config->dcache.line_bytes}))
+      !trax_ref_request(tm, (struct trax_ref_request){.kind = DATA_LINE,
+                                                      .line = line,
+                                                      .address = line * tm->config->dcache.line_bytes,
+                                                      .bytes = tm->config->dcache.line_bytes}))
     return false;
   tm->stats->dcache_misses++;
   tp->outcome |= TRAX_OUTCOME_MISS;

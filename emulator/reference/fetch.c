@@ -31,14 +31,18 @@ static void fault_outside_text(struct trax_ref_tm *tm, uint64_t t) {
   }
 }
 
+static uint32_t bank_of(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  return tp->pc / 4 % tm->config->icache.banks;
+}
+
 /* The winners of a bank; `first` is the first of the cache's n TPs. */
-static void grant_bank(struct trax_ref_tm *tm, struct trax_ref_icache *icache, uint32_t bank, uint32_t first,
-                       uint32_t n, uint64_t t, bool *won) {
+static void grant_bank(struct trax_ref_tm *tm, uint32_t bank, uint32_t first, uint32_t n, uint64_t t, bool *won) {
+  trax_ref_turn *turn = &tm->icache[icache_of(tm, &tm->tp[first])].bank[bank];
   bool asking[MOST] = {false};
   for (uint32_t i = 0; i < n; i++)
-    asking[i] = asks(&tm->tp[first + i]) && tm->tp[first + i].pc / 4 % tm->config->icache.banks == bank;
+    asking[i] = asks(&tm->tp[first + i]) && bank_of(tm, &tm->tp[first + i]) == bank;
   for (uint32_t port = 0; port < tm->config->icache.ports_per_bank; port++) {
-    const int winner = trax_ref_pick(&icache->bank[bank], asking, n);
+    const int winner = trax_ref_pick(turn, asking, n);
     if (winner < 0)
       break;
     asking[winner] = false;
@@ -60,6 +64,7 @@ static void look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) 
   } else if (trax_ref_request(tm, (struct trax_ref_request){.kind = INSTRUCTION_LINE,
                                                             .icache = icache,
                                                             .line = line,
+                                                            .address = line * tm->config->icache.line_bytes,
                                                             .bytes = tm->config->icache.line_bytes})) {
     tm->stats->icache_misses++;
     tp->awaits_line = true;
@@ -74,7 +79,7 @@ void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t) {
   bool won[MOST] = {false};
   for (uint32_t first = 0; first < tm->tps; first += size)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      grant_bank(tm, &tm->icache[first / size], bank, first, first + size < tm->tps ? size : tm->tps - first, t, won);
+      grant_bank(tm, bank, first, first + size < tm->tps ? size : tm->tps - first, t, won);
   for (uint32_t i = 0; i < tm->tps; i++)
     if (won[i])
       look_up(tm, &tm->tp[i], t);

@@ -20,6 +20,11 @@ uint32_t trax_ref_bank_of(const struct trax_config *config, uint32_t address) {
   return address / config->l2.line_bytes % config->l2.banks;
 }
 
+uint32_t trax_ref_l2_line_cost(const struct trax_config *config) {
+  const uint32_t line = config->l2.line_bytes, least = config->memory.min_transfer_bytes;
+  return line > least ? line : least;
+}
+
 /* --- arrivals --- */
 
 /* The first of the lines that arrive in cycle t; NULL: none does, any more. */
@@ -92,6 +97,7 @@ static void look_up_read(struct trax_ref_chip *chip, struct trax_ref_request *re
     stats->l2_refused++;
   } else {
     stats->l2_misses++;
+    stats->l2_read_bytes += trax_ref_l2_line_cost(chip->config);
     miss = &l2->miss[l2->misses++];
     *miss = (struct trax_ref_miss){.line = line,
                                    .channel = trax_ref_channel_of(chip->config, line * chip->config->l2.line_bytes),

@@ -3,8 +3,9 @@
 
 #include <stdlib.h>
 
-bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways) {
-  *lines = (struct trax_ref_lines){.line_bytes = line_bytes, .ways = ways, .sets = bytes / (line_bytes * ways)};
+bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways, bool lru) {
+  *lines =
+      (struct trax_ref_lines){.line_bytes = line_bytes, .ways = ways, .sets = bytes / (line_bytes * ways), .lru = lru};
   lines->line = calloc((size_t)lines->sets * ways, sizeof *lines->line);
   lines->pointer = calloc(lines->sets, sizeof *lines->pointer);
   return lines->line && lines->pointer;
@@ -15,16 +16,44 @@ void trax_ref_lines_destroy(struct trax_ref_lines *lines) {
   free(lines->pointer);
 }
 
-bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line) {
-  const struct trax_ref_line *set = &lines->line[(size_t)(line % lines->sets) * lines->ways];
+static struct trax_ref_line *find(const struct trax_ref_lines *lines, uint32_t line) {
+  struct trax_ref_line *set = &lines->line[(size_t)(line % lines->sets) * lines->ways];
   for (uint32_t way = 0; way < lines->ways; way++)
     if (set[way].present && set[way].number == line)
-      return true;
-  return false;
+      return &set[way];
+  return NULL;
+}
+
+bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line) {
+  return find(lines, line) != NULL;
+}
+
+bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line) {
+  struct trax_ref_line *found = find(lines, line);
+  if (found)
+    found->used = ++lines->uses;
+  return found != NULL;
+}
+
+/* The place of an arriving line. */
+static uint32_t choose(struct trax_ref_lines *lines, uint32_t set) {
+  const struct trax_ref_line *places = &lines->line[(size_t)set * lines->ways];
+  if (!lines->lru) {
+    const uint32_t first_in = lines->pointer[set];
+    lines->pointer[set] = (first_in + 1) % lines->ways;
+    return first_in;
+  }
+  uint32_t least = 0;
+  for (uint32_t way = 0; way < lines->ways; way++) {
+    if (!places[way].present)
+      return way;
+    if (places[way].used < places[least].used)
+      least = way;
+  }
+  return least;
 }
 
 void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line) {
-  const uint32_t set = line % lines->sets;
-  lines->line[(size_t)set * lines->ways + lines->pointer[set]] = (struct trax_ref_line){true, line};
-  lines->pointer[set] = (lines->pointer[set] + 1) % lines->ways;
+  const uint32_t set = line % lines->sets, way = choose(lines, set);
+  lines->line[(size_t)set * lines->ways + way] = (struct trax_ref_line){true, line, ++lines->uses};
 }

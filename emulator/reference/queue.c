@@ -7,6 +7,7 @@ bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request) {
     return false;
   if (request.bytes < tm->config->memory.min_transfer_bytes)
     request.bytes = tm->config->memory.min_transfer_bytes;
+  request.stage = tm->config->l2.bytes ? AT_BANK : AT_CHANNEL;
   tm->queue[tm->places++] = request;
 
   if (tm->places > stats->queue_peak)
@@ -34,6 +35,20 @@ bool trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint3
     if (tm->queue[i].kind == kind && tm->queue[i].icache == icache && tm->queue[i].line == line)
       return true;
   return false;
+}
+
+struct trax_ref_request *trax_ref_oldest_at_bank(struct trax_ref_tm *tm, uint32_t bank) {
+  for (uint32_t i = 0; i < tm->places; i++)
+    if (tm->queue[i].stage == AT_BANK && trax_ref_bank_of(tm->config, tm->queue[i].address) == bank)
+      return &tm->queue[i];
+  return NULL;
+}
+
+struct trax_ref_request *trax_ref_oldest_at_channel(struct trax_ref_tm *tm, uint32_t channel) {
+  for (uint32_t i = 0; i < tm->places; i++)
+    if (tm->queue[i].stage == AT_CHANNEL && trax_ref_channel_of(tm->config, tm->queue[i].address) == channel)
+      return &tm->queue[i];
+  return NULL;
 }
 
 /* --- arrivals --- */
@@ -64,7 +79,7 @@ static void arrive(struct trax_ref_tm *tm, const struct trax_ref_request *reques
 void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t) {
   uint32_t kept = 0;
   for (uint32_t i = 0; i < tm->places; i++)
-    if (tm->queue[i].started && tm->queue[i].completion == t)
+    if (tm->queue[i].stage == SERVED && tm->queue[i].completion == t)
       arrive(tm, &tm->queue[i], t);
     else
       tm->queue[kept++] = tm->queue[i];

@@ -24,14 +24,17 @@ int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n);
 
 /* --- The machine --- */
 
-/* The lines a cache holds (Fetch). */
+/* The lines a cache holds (Fetch, Data cache). */
 struct trax_ref_lines {
   uint32_t line_bytes, ways, sets;
+  bool lru;
   struct trax_ref_line {
     bool present;
     uint32_t number;
+    uint64_t used;   /* latest use: a number from `uses` */
   } *line;           /* [sets][ways] */
-  uint32_t *pointer; /* [sets]: the place of the next line */
+  uint32_t *pointer; /* [sets]: the place of the next line, unless lru */
+  uint64_t uses;     /* of any line so far */
 };
 
 struct trax_ref_icache {
@@ -44,11 +47,14 @@ typedef enum trax_ref_kind { INSTRUCTION_LINE, DATA_LINE, LOAD_PAST_CACHE, WRITE
 struct trax_ref_request {
   trax_ref_kind kind;
   uint32_t bytes;
-  uint32_t icache, line;       /* lines; icache of INSTRUCTION_LINE only */
-  uint32_t tp, rd;             /* LOAD_PAST_CACHE, ATOMIC: who waits, in which register */
-  uint32_t address, old_value; /* ATOMIC */
-  bool started;                /* its transfer; before that it waits */
-  uint64_t completion;         /* once started */
+  uint32_t address;
+  uint32_t icache, line;                      /* lines; icache of INSTRUCTION_LINE only */
+  uint32_t tp, rd;                            /* LOAD_PAST_CACHE, ATOMIC: who waits, in which register */
+  uint32_t old_value;                         /* ATOMIC */
+  enum { AT_BANK, AT_CHANNEL, SERVED } stage; /* it waits for its bank of the second-level cache, for its channel */
+  uint64_t came;       /* AT_CHANNEL, from the second-level cache: a number from trax_ref_controller.came */
+  uint32_t l2_line;    /* SERVED, with a line of the second-level cache that is on its way */
+  uint64_t completion; /* of one that is SERVED; UNKNOWN until that of l2_line is known */
 };
 
 /* A register in the scoreboard (Operands). */
@@ -96,17 +102,35 @@ struct trax_ref_tm {
   struct trax_tm_stats *stats;
 };
 
+/* The second-level cache; without one, all is 0. */
+struct trax_ref_l2 {
+  struct trax_ref_lines lines;
+  trax_ref_turn bank[MOST]; /* over the TMs */
+  struct trax_ref_miss {
+    uint32_t line, channel;
+    uint64_t came;    /* as of requests */
+    uint64_t arrival; /* UNKNOWN while it waits for its channel */
+  } *miss;            /* [misses]: the miss registers that hold a line */
+  uint32_t misses;
+};
+
 /* Bus time is counted in units: a cycle has units_per_cycle of them, a byte takes units_per_byte. */
 struct trax_ref_controller {
   uint64_t units_per_cycle, units_per_byte;
-  uint64_t free_from; /* f, in units */
-  trax_ref_turn turn; /* over the TMs */
+  struct trax_ref_channel {
+    uint64_t free_from; /* f, in units */
+    trax_ref_turn turn; /* over the TMs */
+  } channel[MOST];
+  uint64_t came; /* requests that have come from the second-level cache so far, to any channel */
 };
 
 struct trax_ref_chip {
   struct trax_machine *machine;
   struct trax_ref_tm *tm; /* [tms] */
   uint32_t tms;
+  const struct trax_config *config;
+  struct trax_memory_stats *stats;
+  struct trax_ref_l2 l2;
   struct trax_ref_controller controller;
 };
 
@@ -144,9 +168,13 @@ static inline bool trax_ref_ends_thread(const struct trax_ref_tp *tp) {
 void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
 void trax_ref_instruction_arrives(struct trax_ref_tm *tm, uint32_t icache, uint32_t line);
 
-bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways);
+bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways, bool lru);
 void trax_ref_lines_destroy(struct trax_ref_lines *lines);
+/* Whether the line is present. */
 bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line);
+/* The same, which uses the line. */
+bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line);
+/* The line arrives. */
 void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line);
 
 /* --- Operands: operands.c --- */
@@ -178,9 +206,26 @@ bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request);
 uint32_t trax_ref_lines_on_their_way(const struct trax_ref_tm *tm, trax_ref_kind kind);
 bool trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache, uint32_t line);
 
+/* The oldest request of the TM that waits for that bank or channel; NULL: none does. */
+struct trax_ref_request *trax_ref_oldest_at_bank(struct trax_ref_tm *tm, uint32_t bank);
+struct trax_ref_request *trax_ref_oldest_at_channel(struct trax_ref_tm *tm, uint32_t channel);
+
+/* --- Second-level cache: l2.c --- */
+bool trax_ref_l2_create(struct trax_ref_l2 *l2, const struct trax_config *config);
+void trax_ref_l2_destroy(struct trax_ref_l2 *l2);
+void trax_ref_l2_cycle(struct trax_ref_chip *chip, uint64_t t);
+uint32_t trax_ref_bank_of(const struct trax_config *config, uint32_t address);
+/* The bytes that the transfer of a line costs. */
+uint32_t trax_ref_l2_line_cost(const struct trax_config *config);
+/* The transfer of a line has begun; the line arrives in the cycle `arrival`. */
+void trax_ref_l2_started(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint64_t arrival);
+
 /* --- Memory controller: controller.c --- */
 void trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config);
 void trax_ref_controller_cycle(struct trax_ref_chip *chip, uint64_t t);
+uint32_t trax_ref_channel_of(const struct trax_config *config, uint32_t address);
+/* Whether all buses are idle in cycle t. */
+bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t);
 
 /* --- Issue, step 5: issue.c --- */
 void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t);

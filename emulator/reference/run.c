@@ -17,10 +17,10 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   tm->stats = &machine->tm_stats[number];
   tm->queue = calloc(config->memory.queue_depth, sizeof *tm->queue);
   bool complete = tm->queue && trax_ref_lines_create(&tm->dcache, config->dcache.bytes, config->dcache.line_bytes,
-                                                     config->dcache.ways);
+                                                     config->dcache.ways, config->dcache.lru);
   for (uint32_t i = 0; complete && i * config->icache.tps_per_cache < tm->tps; i++)
     complete = trax_ref_lines_create(&tm->icache[i].lines, config->icache.bytes, config->icache.line_bytes,
-                                     config->icache.ways);
+                                     config->icache.ways, false);
   for (uint32_t i = 0; i < tm->tps; i++) {
     tm->tp[i].number = i;
     tm->tp[i].pc = machine->entry;
@@ -28,19 +28,12 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   return complete;
 }
 
-trax_status trax_reference_knows(const struct trax_config *config, trax_error *error) {
-  if (config->l2.bytes || config->memory.channels > 1 || config->memory.atomic_latency_cycles || config->dcache.lru ||
-      config->fpu.adders_per_cluster > 1 || config->fpu.multipliers_per_cluster > 1 ||
-      config->fpu.mul_tps_per_cluster || config->int_mul.units_per_group > 1 || config->special.rsqrt_latency_cycles)
-    return trax_fail(error, "the reference engine does not know this machine yet; the fast engine does");
-  return TRAX_OK;
-}
-
 static trax_status create(struct trax_ref_chip *chip, struct trax_machine *machine, FILE *output, trax_error *error) {
-  *chip = (struct trax_ref_chip){.machine = machine, .tms = machine->config.chip.tms};
+  *chip = (struct trax_ref_chip){
+      .machine = machine, .tms = machine->config.chip.tms, .config = &machine->config, .stats = &machine->stats.memory};
   trax_ref_controller_create(&chip->controller, &machine->config);
   chip->tm = calloc(chip->tms, sizeof *chip->tm);
-  bool complete = chip->tm != NULL;
+  bool complete = chip->tm && trax_ref_l2_create(&chip->l2, &machine->config);
   for (uint32_t i = 0; complete && i < chip->tms; i++)
     complete = create_tm(&chip->tm[i], i, machine, output);
   return complete ? TRAX_OK : trax_fail(error, "out of memory");
@@ -53,20 +46,24 @@ static void destroy(struct trax_ref_chip *chip) {
       trax_ref_lines_destroy(&chip->tm[i].icache[icache].lines);
     free(chip->tm[i].queue);
   }
+  trax_ref_l2_destroy(&chip->l2);
   free(chip->tm);
 }
 
-/* Every thread has ended, no request waits, and the bus is idle. */
+/* Every thread has ended, no request waits, and the buses are idle. */
 static bool is_over(const struct trax_ref_chip *chip, uint64_t t) {
   for (uint32_t i = 0; i < chip->tms; i++) {
     for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
       if (!chip->tm[i].tp[tp].ended)
         return false;
     for (uint32_t place = 0; place < chip->tm[i].places; place++)
-      if (!chip->tm[i].queue[place].started)
+      if (chip->tm[i].queue[place].stage != SERVED)
         return false;
   }
-  return chip->controller.free_from <= t * chip->controller.units_per_cycle;
+  for (uint32_t i = 0; i < chip->l2.misses; i++)
+    if (chip->l2.miss[i].arrival == UNKNOWN)
+      return false;
+  return trax_ref_buses_idle(chip, t);
 }
 
 static void cycle(struct trax_ref_chip *chip, uint64_t t) {
@@ -82,6 +79,7 @@ static void cycle(struct trax_ref_chip *chip, uint64_t t) {
     trax_ref_grant_places(tm, t);
     trax_ref_issue(tm, t);
   }
+  trax_ref_l2_cycle(chip, t);
   trax_ref_controller_cycle(chip, t);
 }
 
@@ -114,8 +112,6 @@ uint32_t trax_reference_queued(const struct trax_ref_chip *chip, uint32_t tm) {
 trax_status trax_reference_run(struct trax_machine *machine, const trax_run_options *options, uint64_t *cycles,
                                trax_error *error) {
   struct trax_ref_chip chip;
-  if (trax_reference_knows(&machine->config, error))
-    return TRAX_ERROR;
   trax_status status = create(&chip, machine, options->output, error);
   if (status == TRAX_OK)
     status = run(&chip, options, cycles);

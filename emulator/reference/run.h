@@ -4,9 +4,6 @@
 
 #include "core/machine.h"
 
-/* An error if the configuration has what the engine does not know. */
-trax_status trax_reference_knows(const struct trax_config *config, trax_error *error);
-
 /* Runs the machine from cycle 0 to its end, a fault, an interrupt or the watchdog, and fills in its statistics and the
    fault; *cycles receives the length of the run. */
 trax_status trax_reference_run(struct trax_machine *machine, const trax_run_options *options, uint64_t *cycles,

@@ -14,7 +14,8 @@ static uint32_t greatest(uint32_t a, uint32_t b) {
 /* A place for the run in the buffer, if there is one. */
 static bool write_run(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   const uint32_t bytes = tp->run_end - tp->run_begin;
-  return bytes == 0 || trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .bytes = bytes});
+  return bytes == 0 ||
+         trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .address = tp->run_begin, .bytes = bytes});
 }
 
 static bool combines(const struct trax_ref_tp *tp, uint32_t begin, uint32_t end) {
@@ -25,7 +26,7 @@ static bool combines(const struct trax_ref_tp *tp, uint32_t begin, uint32_t end)
 static bool write(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
   const uint32_t bytes = trax_ref_info(tp)->access_bytes, begin = tp->address, end = begin + bytes;
   if (!tm->config->memory.write_combining)
-    return trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .bytes = bytes});
+    return trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .address = begin, .bytes = bytes});
   if (combines(tp, begin, end)) {
     tm->stats->combined_stores++;
     tp->outcome |= TRAX_OUTCOME_COMBINED;
@@ -45,7 +46,7 @@ bool trax_ref_store(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
     return false;
   if (trax_ref_is(tp, TRAX_IS_NONTEMPORAL))
     return true;
-  if (trax_ref_lines_have(&tm->dcache, tp->address / tm->config->dcache.line_bytes)) { /* updated in place */
+  if (trax_ref_lines_use(&tm->dcache, tp->address / tm->config->dcache.line_bytes)) { /* updated in place */
     tm->stats->store_hits++;
     tp->outcome |= TRAX_OUTCOME_HIT;
   } else {

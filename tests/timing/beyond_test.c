@@ -7,7 +7,6 @@
 #include "bench.h"
 
 #include "core/memory.h"
-#include "reference/run.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -427,11 +426,5 @@ int main(void) {
       cmocka_unit_test(conversions_have_a_latency_of_their_own),
       cmocka_unit_test(streaming_reaches_the_bandwidth),
   };
-  const struct trax_config config = far_l2(1);
-  const char *engine = getenv("TRAX_ENGINE");
-  if (engine && strcmp(engine, "reference") == 0 && trax_reference_knows(&config, NULL)) {
-    print_message("skipped: the reference engine does not know these machines\n");
-    return 0;
-  }
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

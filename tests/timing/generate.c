@@ -1,7 +1,5 @@
 #include "generate.h"
 
-#include "reference/run.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -331,7 +329,7 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
     const struct trax_config before = config;
     for (unsigned tries = 0; tries < 20; tries++) {
       set_value(&config, key, any_value(key));
-      if (trax_config_validate(&config, NULL) == TRAX_OK && trax_reference_knows(&config, NULL) == TRAX_OK)
+      if (trax_config_validate(&config, NULL) == TRAX_OK)
         break;
       config = before; /* it does not go with the others */
     }

@@ -168,6 +168,20 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Units", "a pipelined unit is free in the next cycle", NEAR,
        "chip.tps_per_tm=4 special.pipelined=true " LOCKSTEP, 6, NONE, "1 2 / 2 3 / 3 4 / 4 5",
        "icache_miss=4 special_conflict=6", R(FDIV, 1, 0, 0), HALT);
+  RULE("Units", "a group may have several adders", NEAR, "chip.tps_per_tm=4 fpu.adders_per_cluster=2 " LOCKSTEP, 4,
+       NONE, "1 2 / 1 2 / 2 3 / 2 3", "icache_miss=4 fp_add_conflict=2", R(FADD, 1, 0, 0), HALT);
+  RULE("Units", "multipliers may have groups of their own", NEAR,
+       "chip.tps_per_tm=4 fpu.mul_tps_per_cluster=2 " LOCKSTEP, 4, NONE, "1 2 / 2 3 / 1 2 / 2 3",
+       "icache_miss=4 fp_mul_conflict=2", R(FMUL, 1, 0, 0), HALT);
+  RULE("Units", "a group may have several integer multipliers", NEAR,
+       "chip.tps_per_tm=3 int_mul.units_per_group=2 " LOCKSTEP, 4, NONE, "1 2 / 1 2 / 2 3",
+       "icache_miss=3 int_mul_conflict=1", R(MUL, 1, 0, 0), HALT);
+  RULE("Units", "conversions have their latency", NEAR, "fpu.convert_latency_cycles=4", 7, NONE, "1 5 6",
+       "icache_miss=1 wait_other=3", R1(FCVT_S_W, 1, 0), R(ADD, 2, 1, 1), HALT);
+  /* The unit is taken in 1..3, 4..11 and 12..14. */
+  RULE("Units", "the unit is taken for the latency of its instruction", NEAR, "special.rsqrt_latency_cycles=3", 17,
+       NONE, "1 4 12 15 16", "icache_miss=1 special_conflict=9 wait_special=2", R1(FRSQRT, 1, 0), R(FDIV, 2, 0, 0),
+       R1(FRSQRT, 3, 0), R(ADD, 4, 3, 3), HALT);
   RULE("Units", "local memory is the TP's own", NEAR, "chip.tps_per_tm=3 " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3 / 1 2 3",
        "icache_miss=3", S(SW, 0, 0, -4), I(LW, 1, 0, -4), HALT);
   RULE("Units", "a bubble follows an instruction whose next pc is not pc + 4", NEAR, "tp.branch_bubble_cycles=3", 11,
@@ -206,6 +220,16 @@ const struct rule *timing_rules(size_t *count) {
        "104 105 209 210 314 315 316 317 421 422 423 424 528 529", "icache_miss=104 wait_memory=412", U(LUI, 1, 1),
        I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), I(LW, 2, 1, 4), R(ADD, 0, 2, 2),
        I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 68), R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  /* A 105, B 210, A hits, C 317 takes B's place, A hits. */
+  RULE("Data cache", "or the least recently used line is replaced", FAR,
+       "dcache.bytes=128 dcache.ways=2 dcache.lru=true", 425, NONE, "104 105 209 210 314 315 316 317 421 422 423 424",
+       "icache_miss=104 wait_memory=309", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64),
+       R(ADD, 0, 2, 2), I(LW, 2, 1, 4), R(ADD, 0, 2, 2), I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 0),
+       R(ADD, 0, 2, 2), HALT);
+  RULE("Data cache", "a store uses the line it finds", FAR, "dcache.bytes=128 dcache.ways=2 dcache.lru=true", 424, NONE,
+       "104 105 209 210 314 315 316 420 421 422 423", "icache_miss=104 wait_memory=309", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), S(SW, 1, 1, 4), I(LW, 2, 1, 128), R(ADD, 0, 2, 2),
+       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
   /* The load after the first store misses (106, there 210); the second store updates the line: the load of 213 hits and
      gets 9. */
   RULE("Data cache", "a store goes around the cache and updates a line in place", FAR, "", 217, NONE,
@@ -264,6 +288,39 @@ const struct rule *timing_rules(size_t *count) {
        NONE, "104 105 106 207 209 210", "icache_miss=104 wait_memory=101", U(LUI, 1, 1), I(LWNT, 2, 1, 0),
        I(LWNT, 3, 1, 0), R(ADD, 0, 2, 2), R(ADD, 0, 3, 3), HALT);
 
+  /* --- Second-level cache: the first instruction line is there in 104, and in 124 at the TM --- */
+  RULE("Second-level cache", "a miss has its latency besides", FAR, "l2.bytes=4096", 125, NONE, "124",
+       "icache_miss=124", HALT);
+  /* A data cache of one line. A 125, there 249; B 250, there 374; A again 375, there 395. */
+  RULE("Second-level cache", "a hit has l2.latency_cycles", FAR, "l2.bytes=4096 dcache.bytes=64", 397, NONE,
+       "124 125 249 250 374 375 395 396", "icache_miss=124 wait_memory=265", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  /* TM 1 is looked up in 1. */
+  RULE("Second-level cache", "a line that is on its way is merged with", FAR, "l2.bytes=4096 chip.tms=2", 125, NONE,
+       "124 / 124", "icache_miss=248", HALT);
+  /* As above; in 375 the bank serves TM 0, in 376 TM 1. */
+  RULE("Second-level cache", "a bank takes one request a cycle", FAR, "l2.bytes=4096 dcache.bytes=64 chip.tms=2", 398,
+       NONE, "124 125 249 250 374 375 395 396 / 124 125 249 250 374 375 396 397", "icache_miss=248 wait_memory=531",
+       U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2),
+       HALT);
+  /* Through in 126, there in 126 + 120. */
+  RULE("Second-level cache", "a lwnt that finds no line passes", FAR, "l2.bytes=4096", 248, NONE, "124 125 246 247",
+       "icache_miss=124 wait_memory=120", U(LUI, 1, 1), I(LWNT, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  RULE("Second-level cache", "a lwnt hits", FAR, "l2.bytes=4096", 272, NONE, "124 125 249 250 270 271",
+       "icache_miss=124 wait_memory=142", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LWNT, 3, 1, 0),
+       R(ADD, 0, 3, 3), HALT);
+  RULE("Second-level cache", "a write allocates no line", FAR, "l2.bytes=4096 memory.write_combining=false", 249, NONE,
+       "124 125 126 247 248", "icache_miss=124 wait_memory=120", U(LUI, 1, 1), S(SWNT, 1, 1, 0), I(LWNT, 2, 1, 0),
+       R(ADD, 0, 2, 2), HALT);
+  /* B is refused from 126 on; A enters the cache in 229, before B is looked up again: there in 229 + 4 + 120. */
+  RULE("Second-level cache", "a miss needs a miss register", FAR, "l2.bytes=4096 l2.mshrs=1", 355, NONE,
+       "124 125 126 353 354", "icache_miss=124 wait_memory=226", U(LUI, 1, 1), I(LW, 2, 1, 0), I(LW, 3, 1, 64),
+       R(ADD, 4, 3, 3), HALT);
+  /* Lines of 8 cycles: 128, and 129 + 8 + 120. */
+  RULE("Second-level cache", "its own lines are transferred whole", FAR, "l2.bytes=4096 l2.line_bytes=128", 259, NONE,
+       "128 129 130 257 258", "icache_miss=128 wait_memory=126", U(LUI, 1, 1), I(LW, 2, 1, 0), I(LW, 3, 1, 64),
+       R(ADD, 4, 3, 3), HALT);
+
   /* --- Memory controller --- */
   /* 3 bytes a cycle: the line is through after 21 1/3, there in 122. 36 bytes from 123 on take 12 cycles. */
   RULE("Memory controller", "the bandwidth is an exact fraction", FAR,
@@ -283,6 +340,17 @@ const struct rule *timing_rules(size_t *count) {
   /* 105 takes half a cycle, 106 as well: there in 206 and 207. The second got 1. */
   RULE("Memory controller", "increments happen in the order of service", FAR, "", 209, NONE, "104 105 106 207 208",
        "icache_miss=104 wait_atomic=100", U(LUI, 1, 1), I(AINC, 2, 1, 0), I(AINC, 3, 1, 0), B(BNE, 3, 0, 8), NOP, HALT);
+
+  RULE("Memory controller", "an atomic increment may take longer", FAR, "memory.atomic_latency_cycles=50", 258, NONE,
+       "104 105 256 257", "icache_miss=104 wait_atomic=150", U(LUI, 1, 1), I(AINC, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
+  /* 8 bytes a cycle each. Channel 0: 0..7, 109..116, 117..124; channel 1: 110..117. */
+  RULE("Memory controller", "channels share the bandwidth, each with a bus of its own", FAR, "memory.channels=2", 227,
+       NONE, "108 109 110 111 217 218 225 226", "icache_miss=108 wait_memory=111", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       I(LW, 3, 1, 256), I(LW, 4, 1, 64), R(ADD, 5, 2, 2), R(ADD, 6, 3, 3), R(ADD, 7, 4, 4), HALT);
+  /* The third, on channel 1, is there in 219, the second in 225. */
+  RULE("Memory controller", "requests for different channels do not wait for each other", FAR, "memory.channels=2", 227,
+       NONE, "108 109 110 111 219 225 226", "icache_miss=108 wait_memory=112", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       I(LW, 3, 1, 64), I(LW, 4, 1, 256), R(ADD, 5, 4, 4), R(ADD, 6, 3, 3), HALT);
 
   /* --- Faults --- */
   RULE("Faults", "the rest of the cycle happens", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 4, NULL_PAGE, "1 2 / 1 2 3",
