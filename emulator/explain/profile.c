@@ -20,6 +20,11 @@ struct trax_profile_thread {
 static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint32_t context, uint32_t index,
                                              uint32_t *record) {
   static struct trax_profile_counts nobodys;
+  uint32_t *const latest = &profile->latest_of[index];
+  if (*latest && profile->records[*latest - 1].context == context) {
+    *record = *latest - 1;
+    return &profile->records[*record].counts;
+  }
   if (!trax_table_find(&profile->record_of, (uint64_t)context << 32 | index, (uint32_t)profile->record_count, record) ||
       !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
                  sizeof *profile->records)) {
@@ -29,6 +34,7 @@ static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint3
   }
   if (*record == profile->record_count)
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
+  *latest = *record + 1;
   return &profile->records[*record].counts;
 }
 
@@ -71,7 +77,8 @@ static void jump_through_register(const struct trax_profile *profile, struct tra
   while (thread->depth && (is_below(thread->calls[thread->depth - 1].stack_pointer, thread->stack_pointer) ||
                            leaves_call(profile, thread, pc)))
     thread->depth--;
-  if (thread->depth && thread->calls[thread->depth - 1].return_pc == pc)
+  if (thread->depth && thread->calls[thread->depth - 1].return_pc == pc &&
+      thread->calls[thread->depth - 1].stack_pointer == thread->stack_pointer) /* not of a call too deep to be kept */
     thread->depth--;
   thread->context = thread->depth ? thread->calls[thread->depth - 1].context : 0;
 }
@@ -156,6 +163,7 @@ static void destroy(void *self) {
   free(profile->threads);
   free(profile->contexts);
   free(profile->records);
+  free(profile->latest_of);
   trax_table_free(&profile->context_of);
   trax_table_free(&profile->record_of);
   free(profile);
@@ -168,7 +176,8 @@ trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader
     return trax_fail(error, "out of memory");
   profile->explain = explain;
   profile->threads = calloc(threads, sizeof *profile->threads);
-  if (!profile->threads ||
+  profile->latest_of = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *profile->latest_of);
+  if (!profile->threads || !profile->latest_of ||
       !trax_grow((void **)&profile->contexts, 0, &profile->context_capacity, sizeof *profile->contexts)) {
     destroy(profile);
     return trax_fail(error, "out of memory");

@@ -33,6 +33,7 @@ struct trax_profile {
   struct trax_profile_record *records;
   size_t record_count, record_capacity;
   struct trax_table record_of; /* (context, index) */
+  uint32_t *latest_of;         /* [places]: record + 1 of the latest context that the instruction was met in */
   bool out_of_memory;
 };
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""explain_test.py TRAX_SIM PROGRAM EMULATOR_PROGRAMS: what explains a run, on both engines: the same bytes, formats that their readers
+"""explain_test.py TRAX_SIM CALLS DEEP EMULATOR_PROGRAMS: what explains a run, on both engines: the same bytes, formats that their readers
 accept, and sums that equal the run's statistics."""
 import collections
 import csv
@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-SIM, PROGRAM, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:4])
+SIM, PROGRAM, DEEP, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:5])
 FILES = ["profile", "profile-folded", "annotate", "heat", "heat-lines", "items", "series", "trace", "perfetto", "konata"]
 RESULTS = 400  # words
 failures = 0
@@ -398,6 +398,17 @@ def main():
         equal(check_konata(directory / f"{name}-fast"), ended["instructions"], "pipeline of", name)
         folded = [line.rsplit(" ", 1) for line in read(directory / f"{name}-fast", "profile-folded").splitlines()]
         equal(sum(int(count) for _, count in folded), ended["thread_cycles"], "folded profile of", name)
+
+    # Deeper than the stacks that are kept; what comes after is where it was called.
+    run(directory / "deep", "fast", "--window", "0:9", program=DEEP)
+    deep = [line.rsplit(" ", 1) for line in read(directory / "deep", "profile-folded").splitlines()]
+    stats = json.loads(read(directory / "deep", "stats.json"))
+    equal(sum(int(count) for _, count in deep), stats["thread_cycles"], "folded profile of deep calls")
+    equal({re.sub(r";[^;]*:[^;]*", "", stack) for stack, _ in deep if "after" in stack and stack.endswith("issued")},
+          {"_start;main;after;issued"}, "after deep calls")
+    check(500 < max(stack.count("recursive") for stack, _ in deep) < 1500, "the depth of the stacks")
+    objects = {row["object"]: int(row["stores"]) for row in rows(directory / "deep", "heat")}
+    check(objects["(stacks)"] > 1500 * 2, "stores to the stacks", objects)
 
     # What cannot be.
     def refuse(message, *options, files=()):
