@@ -340,12 +340,15 @@ def main():
     check_tps(stats)
     check_energy(stats)
     equal(stats["energy"]["l2"], 0, "energy of no second-level cache")
-    run(directory / "l2", "fast", *machine, *whole[2:], "--set", "l2.bytes=65536", "--set", "memory.channels=2",
-        files=["series"])
-    with_l2 = json.loads(read(directory / "l2", "stats.json"))
+    for engine in "reference", "fast":
+        run(directory / f"l2-{engine}", engine, *machine, *whole, "--set", "l2.bytes=65536", "--set", "memory.channels=2",
+            "--window", f"0:{far}")
+    for name in FILES:
+        equal(read(directory / "l2-fast", name), read(directory / "l2-reference", name), "engines, second-level cache:", name)
+    with_l2 = json.loads(read(directory / "l2-fast", "stats.json"))
     check(with_l2["energy"]["l2"] > 0, "energy of the second-level cache")
     check_energy(with_l2)
-    check_series(directory / "l2", with_l2)
+    check_series(directory / "l2-fast", with_l2)
     here = directory / "fast"
     check_profile(here, stats)
     check_folded(here, stats)
