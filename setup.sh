@@ -18,7 +18,7 @@ die() { echo "setup.sh: error: $*" >&2; exit 1; }
 packages=(
   cmake ninja-build make gcc g++ pkg-config python3                       # to build
   llvm-19 llvm-19-dev llvm-19-tools libclang-19-dev libclang-common-19-dev clang-19 libc++-19-dev
-  libelf-dev libdw-dev libconfig-dev libjansson-dev                      # linker, emulator
+  libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev        # linker, emulator
   libassimp-dev libembree-dev libpng-dev liblzma-dev zlib1g-dev          # ray tracer's host side
   libcmocka-dev libmpfr-dev gdb gdb-multiarch                                          # tests
   newlib-source                                                          # the mathematical functions of binary64

@@ -26,7 +26,7 @@ endforeach()
 if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "trax" AND NOT TARGET trax::emulator)
   include(CMakeFindDependencyMacro)
   find_dependency(PkgConfig)
-  pkg_check_modules(TRAX_EMULATOR_NEEDS QUIET IMPORTED_TARGET libelf libdw libconfig jansson)
+  pkg_check_modules(TRAX_EMULATOR_NEEDS QUIET IMPORTED_TARGET libelf libdw libconfig jansson libxxhash zlib)
   if(TRAX_EMULATOR_NEEDS_FOUND)
     add_library(trax::emulator STATIC IMPORTED)
     set_target_properties(trax::emulator PROPERTIES
@@ -34,7 +34,7 @@ if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "trax" AND NOT TARGET trax::emulator)
       INTERFACE_INCLUDE_DIRECTORIES "${TRAX_PREFIX}/include"
       INTERFACE_LINK_LIBRARIES "${TRAX_PREFIX}/lib/libtraxisa.a;PkgConfig::TRAX_EMULATOR_NEEDS;m")
   elseif(NOT trax_FIND_QUIETLY)
-    message(STATUS "trax: no trax::emulator, since pkg-config does not find libelf, libdw, libconfig and jansson")
+    message(STATUS "trax: no trax::emulator, since pkg-config does not find libelf, libdw, libconfig, jansson, libxxhash and zlib")
   endif()
 endif()
 

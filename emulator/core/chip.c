@@ -114,7 +114,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
     *cycles = 0;
     return trax_functional_run(chip->functional, limit, poll_without_time, &poll);
   }
-  uint64_t t = 0, watched = 0;
+  uint64_t t = chip->begin, watched = 0;
   while (true) {
     if (t >= watched) {
       const trax_status status = trax_chip_look(chip, t, &watched);

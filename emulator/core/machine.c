@@ -197,6 +197,8 @@ static trax_status run_chip(struct trax_machine *machine, const trax_run_options
   struct trax_chip chip;
   machine->chip = &chip;
   trax_status status = trax_chip_create(&chip, machine, options, error);
+  if (status == TRAX_OK && machine->prepare)
+    status = machine->prepare(machine->prepare_context, &chip, error);
   if (status == TRAX_OK) {
     status = trax_chip_run(&chip, options, &machine->stats.cycles);
     for (struct trax_watch *watch = machine->watches; watch; watch = watch->others)

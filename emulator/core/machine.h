@@ -30,6 +30,10 @@ struct trax_machine {
 
   const struct trax_observer *observer; /* of the run; NULL: nobody (core/observer.h) */
 
+  /* Called before the first cycle if not NULL: may bring the chip to where another run was (core/state.h). */
+  trax_status (*prepare)(void *context, struct trax_chip *chip, trax_error *error);
+  void *prepare_context;
+
   /* The outcome; valid after trax_machine_run. */
   trax_status status; /* of the run */
   struct trax_fault fault;

@@ -49,7 +49,7 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
 }
 
 static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
-  const char *const files[] = {options->stats, options->report, options->gdb_symbols};
+  const char *const files[] = {options->stats, options->report, options->gdb_symbols, options->checkpoint.write};
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
     if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -108,7 +108,6 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
                                   .interrupt = &interrupted,
                                   .engine = options->engine,
                                   .host_threads = options->host_threads,
-
                                   .sampling = options->sampling};
   if (!options->quiet && isatty(STDERR_FILENO)) {
     run_options.progress = trax_progress_show;
@@ -117,8 +116,13 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
     if (shared)
       run_options.output = shared;
   }
-  trax_status status = options->gdb ? debug(machine, &run_options, (unsigned)options->gdb_port, error)
-                                    : trax_machine_run(machine, &run_options, error);
+  struct trax_checkpoint *checkpoint = NULL;
+  trax_status status = trax_checkpoint_begin(&checkpoint, machine, &options->checkpoint, error);
+  if (status == TRAX_OK)
+    status = options->gdb ? debug(machine, &run_options, (unsigned)options->gdb_port, error)
+                          : trax_machine_run(machine, &run_options, error);
+  if (checkpoint && trax_checkpoint_end(checkpoint, status == TRAX_ERROR ? NULL : error) != TRAX_OK)
+    status = TRAX_ERROR;
   if (run_options.output != stdout)
     fclose(run_options.output);
   trax_progress_clear(&line);

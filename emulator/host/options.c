@@ -40,6 +40,10 @@ enum option_id {
   OPTION_HOST_THREADS,
   OPTION_GDB,
   OPTION_GDB_SYMBOLS,
+  OPTION_CHECKPOINT,
+  OPTION_CHECKPOINT_AT,
+  OPTION_CHECKPOINT_EVERY,
+  OPTION_RESUME,
   OPTION_QUIET,
   OPTION_PRINT_CONFIG,
   OPTION_HELP_CONFIG,
@@ -83,6 +87,11 @@ static const struct {
     [OPTION_HOST_THREADS] = {"host-threads", "N", "threads of the host for the fast engine; default one for each core"},
     [OPTION_GDB] = {"gdb", "PORT", "wait for GDB on a port of the loopback interface; 0 is any free one"},
     [OPTION_GDB_SYMBOLS] = {"gdb-symbols", "FILE", "write PROGRAM as GDB reads it; end, unless there is --gdb"},
+    [OPTION_CHECKPOINT] = {"checkpoint", "FILE", "write the run's state when it is stopped, and when the next two say"},
+    [OPTION_CHECKPOINT_AT] = {"checkpoint-at", "N", "before cycle N"},
+    [OPTION_CHECKPOINT_EVERY] = {"checkpoint-every", "N", "before each multiple of N cycles"},
+    [OPTION_RESUME] = {"resume", "FILE",
+                       "go on with the run of a checkpoint; the other options are to be as they were"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -319,6 +328,14 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return set_once(id, &options->gdb_symbols, value, error);
   case OPTION_SAMPLE:
     return set_sampling(options, value, error);
+  case OPTION_CHECKPOINT:
+    return set_once(id, &options->checkpoint.write, value, error);
+  case OPTION_CHECKPOINT_AT:
+    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->checkpoint.at, error);
+  case OPTION_CHECKPOINT_EVERY:
+    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->checkpoint.every, error);
+  case OPTION_RESUME:
+    return set_once(id, &options->checkpoint.resume, value, error);
   case OPTION_QUIET:
     options->quiet = true;
     break;
@@ -392,6 +409,11 @@ trax_status trax_options_parse(struct trax_options *options, int count, char **a
       options->program = argument;
     }
   }
+  const struct trax_checkpoint_options *checkpoint = &options->checkpoint;
+  if ((checkpoint->at || checkpoint->every) && !checkpoint->write)
+    return trax_fail(error, "--checkpoint-at and --checkpoint-every need --checkpoint");
+  if ((checkpoint->write || checkpoint->resume) && options->engine != TRAX_ENGINE_FAST)
+    return trax_fail(error, "--checkpoint and --resume are for the fast engine");
   if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
     return trax_fail(error, "no program is given");
   if (options->gdb && options->engine != TRAX_ENGINE_FAST)

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "checkpoint.h"
 #include "explain/explain.h"
 #include "trax/emulator.h"
 
@@ -29,6 +30,7 @@ struct trax_options {
   bool gdb;
   uint64_t gdb_port;
   trax_sampling sampling;
+  struct trax_checkpoint_options checkpoint;
   bool quiet;
   bool print_config;
   enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;

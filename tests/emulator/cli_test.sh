@@ -144,6 +144,37 @@ refuse '--sample: "speed" sets none of period, window, warm-up, hold and seed' -
 refuse '--sample: "0" is not a whole number from 1' --sample window=0 hello.elf
 refuse '--sample: "period" sets none of' --sample period hello.elf
 
+# --- checkpoints: the run goes on as if nothing had been, in every figure and byte
+run 0 --config 4x32 --stats stats.json --bind input=input.bin --alloc output=64 --dump output=output.bin copy.elf
+cycles=$(sed -n 's/^  "cycles": \(.*\),/\1/p' stats.json)
+for at in 1 $((cycles / 3)) $((cycles / 2)) $((cycles - 1)); do
+  run 124 --config 4x32 --max-cycles $at --checkpoint checkpoint.bin --bind input=input.bin --alloc output=64 copy.elf
+  rm -f output.bin
+  run 0 --config 4x32 --resume checkpoint.bin --stats again.json --bind input=input.bin --alloc output=64 --dump output=output.bin copy.elf
+  silent
+  for file in stats again; do grep -vE 'host_second' $file.json >$file.txt; done
+  cmp -s stats.txt again.txt || fail "checkpoint at $at: other statistics"
+  cmp -s output.bin expected.bin || fail "checkpoint at $at: output.bin"
+done
+run 0 --config 2x32 --stats stats.json mix.elf
+run 0 --config 2x32 --checkpoint checkpoint.bin --checkpoint-every 1000 --checkpoint-at 1500 --stats again.json mix.elf
+for file in stats again; do grep -vE 'host_second' $file.json >$file.txt; done
+cmp -s stats.txt again.txt || fail "a run that writes checkpoints: other statistics"
+run 0 --config 2x32 --resume checkpoint.bin --stats again.json mix.elf
+grep -vE 'host_second' again.json >again.txt
+cmp -s stats.txt again.txt || fail "the last of several checkpoints: other statistics"
+refuse "checkpoint.bin: a checkpoint of another program, machine, or buffer" --config 4x32 --resume checkpoint.bin mix.elf
+refuse "checkpoint.bin: a checkpoint of another program, machine, or buffer" --config 2x32 --resume checkpoint.bin spin.elf
+refuse "checkpoint.bin: a checkpoint of another program, machine, or buffer" --config 2x32 --set memory.latency_cycles=99 --resume checkpoint.bin mix.elf
+refuse "hello.elf: not a checkpoint" --resume hello.elf hello.elf
+refuse "none.bin: cannot be read: No such file" --resume none.bin hello.elf
+head -c 2000 checkpoint.bin >cut.bin
+refuse "cut.bin: truncated or damaged" --config 2x32 --resume cut.bin mix.elf
+refuse "none/c.bin: cannot be written" --checkpoint none/c.bin hello.elf
+refuse "need --checkpoint" --checkpoint-at 5 hello.elf
+refuse "need --checkpoint" --checkpoint-every 5 hello.elf
+refuse "are for the fast engine" --checkpoint c.bin --engine functional hello.elf
+
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
 refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf
@@ -243,7 +274,7 @@ for option in help help-config help-stats version; do
 done
 run 0 --help
 for option in profile profile-folded annotate heat heat-lines items item-buffer series series-interval trace perfetto konata \
-  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine sample gdb gdb-symbols quiet print-config; do
+  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine sample checkpoint checkpoint-at checkpoint-every resume gdb gdb-symbols quiet print-config; do
   prints "--$option"
 done
 

@@ -24,15 +24,21 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   return TRAX_OK;
 }
 
+/* Loaded, on the same data for all. */
+static struct run begin(const struct trax_config *config, const uint32_t *program, size_t count) {
+  struct run run = {.bench = bench_begin(config, program, count)};
+  const uint64_t saved = random_state;
+  random_state = 99;
+  for (uint32_t i = 0; i < DATA_BYTES; i++)
+    run.bench.machine->space.bytes[DATA + i] = (uint8_t)any(0, 255);
+  random_state = saved;
+  return run;
+}
+
 static struct run run_options(const struct trax_config *config, const uint32_t *program, size_t count,
                               trax_run_options options, bool traced, bool looked, struct trax_watch *other) {
-  struct run run = {.bench = bench_begin(config, program, count)};
+  struct run run = begin(config, program, count);
   struct trax_machine *machine = run.bench.machine;
-  const uint64_t saved = random_state;
-  random_state = 99; /* the same data for all */
-  for (uint32_t i = 0; i < DATA_BYTES; i++)
-    machine->space.bytes[DATA + i] = (uint8_t)any(0, 255);
-  random_state = saved;
   FILE *output = open_memstream(&run.output, &run.output_bytes);
   assert_non_null(output);
   struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run, .others = other};
@@ -53,6 +59,19 @@ struct run run_watched(const struct trax_config *config, const uint32_t *program
   const trax_run_options options = {
       .max_cycles = max_cycles, .engine = engine, .host_threads = setting("TRAX_HOST_THREADS", 1)};
   return run_options(config, program, count, options, traced, true, other);
+}
+
+struct run run_prepared(const struct trax_config *config, const uint32_t *program, size_t count,
+                        const trax_run_options *options, void (*prepare)(void *context, struct trax_machine *machine),
+                        void *context) {
+  struct run run = begin(config, program, count);
+  trax_run_options with_output = *options;
+  with_output.output = open_memstream(&run.output, &run.output_bytes);
+  assert_non_null(with_output.output);
+  prepare(context, run.bench.machine);
+  run.bench.status = trax_machine_run(run.bench.machine, &with_output, &run.bench.error);
+  fclose(with_output.output);
+  return run;
 }
 
 struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count,

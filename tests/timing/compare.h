@@ -29,6 +29,10 @@ struct run run_alone(const struct trax_config *config, const uint32_t *program, 
 /* The same with any options but the output. */
 struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count,
                     const trax_run_options *options);
+/* With something done to the loaded machine before. */
+struct run run_prepared(const struct trax_config *config, const uint32_t *program, size_t count,
+                        const trax_run_options *options, void (*prepare)(void *context, struct trax_machine *machine),
+                        void *context);
 void end(struct run *run);
 
 /* What differs between two runs, in words. */

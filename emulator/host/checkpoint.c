@@ -1,0 +1,378 @@
+/* A checkpoint's file, all numbers little endian:
+
+     struct header
+     deflate stream (zlib) of: the state (core/state.c); then pages of memory that are not as they were before cycle 0,
+     each with its number in 4 bytes before it
+
+   Before cycle 0, memory holds the program and its buffers. So a checkpoint needs both again, and is only taken up by a
+   machine that is the same then: the header has a digest of configuration and memory. */
+#include "checkpoint.h"
+
+#include "core/chip.h"
+#include "core/state.h"
+#include "util.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <xxhash.h>
+#include <zlib.h>
+
+enum { PAGE = 4096, VERSION = 1, LEVEL = 1 };
+
+static const char magic[8] = "TRAXckpt";
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file is the host's bytes");
+
+struct header {
+  char magic[8];
+  uint32_t version;
+  uint32_t pages;
+  uint64_t cycle;      /* the next one */
+  uint64_t state;      /* bytes */
+  uint64_t compressed; /* bytes that follow */
+  uint64_t run[2];     /* digest of what the run began with */
+  uint64_t body[2];    /* digest of the bytes that follow and of the header, with zero here */
+};
+
+struct trax_checkpoint {
+  struct trax_machine *machine;
+  struct trax_checkpoint_options options;
+  struct trax_watch watch;
+  XXH128_hash_t run;
+  uint64_t *pages;  /* [size / PAGE]: hashes of what they held before cycle 0 */
+  uint64_t written; /* the latest one's cycle; TRAX_NEVER: none */
+  /* Of the file to resume from. */
+  struct header header;
+  uint8_t *content;
+  bool failed;
+  trax_error error; /* if so */
+};
+
+/* --- what a run begins with --- */
+
+static bool is_zero(const uint8_t *page) {
+  return page[0] == 0 && memcmp(page, page + 1, PAGE - 1) == 0;
+}
+
+static uint64_t hash_page(const uint8_t *page) {
+  return is_zero(page) ? 0 : XXH3_64bits(page, PAGE);
+}
+
+/* Calls visit for the pages that the host may have bytes for, with their numbers. What was never touched is zero. */
+static void visit_pages(const struct trax_space *space,
+                        void (*visit)(void *context, uint32_t number, const uint8_t *page), void *context) {
+  enum { BATCH = 1024, PRESENT = 63, SWAPPED = 62 };
+  const size_t host_page = (size_t)sysconf(_SC_PAGESIZE);
+  const int map = host_page == PAGE ? open("/proc/self/pagemap", O_RDONLY | O_CLOEXEC) : -1;
+  const uint32_t pages = (uint32_t)(space->size / PAGE);
+  uint64_t entries[BATCH];
+  for (uint32_t first = 0; first < pages; first += BATCH) {
+    const uint32_t count = pages - first < BATCH ? pages - first : BATCH;
+    const off_t place = (off_t)((uintptr_t)(space->bytes + (size_t)first * PAGE) / PAGE * sizeof *entries);
+    const bool known =
+        map >= 0 && pread(map, entries, count * sizeof *entries, place) == (ssize_t)(count * sizeof *entries);
+    for (uint32_t i = 0; i < count; i++)
+      if (!known || entries[i] >> SWAPPED)
+        visit(context, first + i, space->bytes + (size_t)(first + i) * PAGE);
+  }
+  if (map >= 0)
+    close(map);
+}
+
+static void note_page(void *context, uint32_t number, const uint8_t *page) {
+  struct trax_checkpoint *checkpoint = context;
+  checkpoint->pages[number] = hash_page(page);
+}
+
+static XXH128_hash_t digest_run(const struct trax_checkpoint *checkpoint) {
+  const struct trax_machine *machine = checkpoint->machine;
+  XXH3_state_t *state = XXH3_createState();
+  XXH3_128bits_reset(state);
+  for (size_t i = 0; i < trax_config_key_count; i++) {
+    const double value = trax_config_value(&machine->config, &trax_config_keys[i]);
+    XXH3_128bits_update(state, trax_config_keys[i].name, strlen(trax_config_keys[i].name) + 1);
+    XXH3_128bits_update(state, &value, sizeof value);
+  }
+  for (size_t i = 0; i < machine->space.segment_count; i++) {
+    const struct trax_segment *segment = &machine->space.segments[i];
+    const uint32_t numbers[] = {segment->address, segment->bytes, segment->permissions};
+    XXH3_128bits_update(state, numbers, sizeof numbers);
+  }
+  XXH3_128bits_update(state, &machine->entry, sizeof machine->entry);
+  XXH3_128bits_update(state, checkpoint->pages, machine->space.size / PAGE * sizeof *checkpoint->pages);
+  const XXH128_hash_t digest = XXH3_128bits_digest(state);
+  XXH3_freeState(state);
+  return digest;
+}
+
+static XXH128_hash_t digest_file(struct header header, const uint8_t *body) {
+  header.body[0] = header.body[1] = 0;
+  XXH3_state_t *state = XXH3_createState();
+  XXH3_128bits_reset(state);
+  XXH3_128bits_update(state, &header, sizeof header);
+  XXH3_128bits_update(state, body, header.compressed);
+  const XXH128_hash_t digest = XXH3_128bits_digest(state);
+  XXH3_freeState(state);
+  return digest;
+}
+
+/* --- writing --- */
+
+struct content {
+  const struct trax_checkpoint *checkpoint;
+  uint8_t *bytes;
+  size_t count, capacity;
+  uint32_t pages;
+  bool failed;
+};
+
+static void add(void *context, void *bytes, size_t size) {
+  struct content *content = context;
+  if (content->failed)
+    return;
+  if (content->count + size > content->capacity) {
+    const size_t larger = 2 * (content->count + size);
+    uint8_t *grown = realloc(content->bytes, larger);
+    content->failed = !grown;
+    if (!grown)
+      return;
+    content->bytes = grown;
+    content->capacity = larger;
+  }
+  memcpy(content->bytes + content->count, bytes, size);
+  content->count += size;
+}
+
+static void add_page(void *context, uint32_t number, const uint8_t *page) {
+  struct content *content = context;
+  if (hash_page(page) == content->checkpoint->pages[number])
+    return;
+  uint8_t copy[PAGE];
+  memcpy(copy, page, PAGE);
+  add(content, &number, sizeof number);
+  add(content, copy, PAGE);
+  content->pages++;
+}
+
+static trax_status write_file(const char *path, const struct header *header, const uint8_t *body, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fwrite(header, sizeof *header, 1, output.file); /* a failure shows again when the file is closed */
+  fwrite(body, 1, header->compressed, output.file);
+  return trax_output_commit(&output, error);
+}
+
+static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct trax_chip *chip, uint64_t t,
+                                    trax_error *error) {
+  struct content content = {.checkpoint = checkpoint};
+  trax_chip_gather(chip);
+  trax_chip_settle(chip, t);
+  if (chip->tm->output)
+    fflush(chip->tm->output); /* it is of the time before */
+  trax_state_visit(chip, add, &content);
+  struct header header = {.version = VERSION, .cycle = t, .state = content.count};
+  memcpy(header.magic, magic, sizeof magic);
+  visit_pages(&chip->machine->space, add_page, &content);
+  header.pages = content.pages;
+  header.run[0] = checkpoint->run.low64;
+  header.run[1] = checkpoint->run.high64;
+  uLongf size = compressBound(content.count);
+  uint8_t *body = content.failed ? NULL : malloc(size);
+  trax_status status = TRAX_ERROR;
+  if (!body || compress2(body, &size, content.bytes, content.count, LEVEL) != Z_OK) {
+    trax_fail(error, "%s: out of memory for the checkpoint", checkpoint->options.write);
+  } else {
+    header.compressed = size;
+    const XXH128_hash_t digest = digest_file(header, body);
+    header.body[0] = digest.low64;
+    header.body[1] = digest.high64;
+    status = write_file(checkpoint->options.write, &header, body, error);
+    checkpoint->written = t;
+  }
+  free(body);
+  free(content.bytes);
+  return status;
+}
+
+static uint64_t next_time(const struct trax_checkpoint_options *options, uint64_t t) {
+  uint64_t next = options->every ? t - t % options->every + options->every : TRAX_NEVER;
+  if (options->at > t && options->at < next)
+    next = options->at;
+  return next;
+}
+
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+  struct trax_checkpoint *checkpoint = watch->context;
+  const uint64_t t = watch->next;
+  watch->next = next_time(&checkpoint->options, t);
+  if (t == chip->begin || write_checkpoint(checkpoint, chip, t, &checkpoint->error) == TRAX_OK)
+    return TRAX_OK;
+  checkpoint->failed = true;
+  return TRAX_INTERRUPTED;
+}
+
+/* Whoever stops a run may want to go on with it. */
+static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t) {
+  struct trax_checkpoint *checkpoint = watch->context;
+  if ((status == TRAX_INTERRUPTED || status == TRAX_STUCK) && !checkpoint->failed && checkpoint->written != t)
+    checkpoint->failed = write_checkpoint(checkpoint, chip, t, &checkpoint->error) != TRAX_OK;
+}
+
+/* --- reading --- */
+
+static trax_status refuse(const char *path, const char *why, trax_error *error) {
+  return trax_fail(error, "%s: %s", path, why);
+}
+
+/* The compressed bytes; NULL with the reason if they are not there or not as they were written. */
+static uint8_t *read_body(FILE *file, struct header *header, const char *path, trax_error *error) {
+  if (fread(header, sizeof *header, 1, file) != 1 || memcmp(header->magic, magic, sizeof magic) != 0) {
+    refuse(path, "not a checkpoint", error);
+    return NULL;
+  }
+  if (header->version != VERSION) {
+    trax_fail(error, "%s: a checkpoint of version %" PRIu32 "; this program reads version %u", path, header->version,
+              VERSION);
+    return NULL;
+  }
+  const long begin = ftell(file);
+  const bool sized = begin >= 0 && fseek(file, 0, SEEK_END) == 0 &&
+                     (uint64_t)ftell(file) == (uint64_t)begin + header->compressed && fseek(file, begin, SEEK_SET) == 0;
+  uint8_t *body = sized ? malloc(header->compressed ? header->compressed : 1) : NULL;
+  if (!body || fread(body, 1, header->compressed, file) != header->compressed) {
+    refuse(path, "truncated or damaged", error);
+    free(body);
+    return NULL;
+  }
+  const XXH128_hash_t digest = digest_file(*header, body);
+  if (digest.low64 == header->body[0] && digest.high64 == header->body[1])
+    return body;
+  refuse(path, "damaged: its digest is another one", error);
+  free(body);
+  return NULL;
+}
+
+static trax_status read_checkpoint(struct trax_checkpoint *checkpoint, trax_error *error) {
+  const char *path = checkpoint->options.resume;
+  struct header *header = &checkpoint->header;
+  FILE *file = fopen(path, "rb");
+  if (!file)
+    return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+  uint8_t *body = read_body(file, header, path, error);
+  fclose(file);
+  if (!body)
+    return TRAX_ERROR;
+  trax_status status = TRAX_OK;
+  if (header->run[0] != checkpoint->run.low64 || header->run[1] != checkpoint->run.high64) {
+    status = refuse(path, "a checkpoint of another program, machine, or buffer", error);
+  } else {
+    uLongf size = header->state + (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
+    const uLongf expected = size;
+    checkpoint->content = malloc(size);
+    if (!checkpoint->content || uncompress(checkpoint->content, &size, body, header->compressed) != Z_OK ||
+        size != expected)
+      status = refuse(path, "damaged, or too large for this host's memory", error);
+  }
+  free(body);
+  return status;
+}
+
+struct reader {
+  const uint8_t *bytes;
+  size_t left;
+  bool failed;
+};
+
+static void take(void *context, void *bytes, size_t size) {
+  struct reader *reader = context;
+  reader->failed |= size > reader->left;
+  if (reader->failed)
+    return;
+  memcpy(bytes, reader->bytes, size);
+  reader->bytes += size;
+  reader->left -= size;
+}
+
+/* For trax_machine.prepare. */
+static trax_status resume(void *context, struct trax_chip *chip, trax_error *error) {
+  struct trax_checkpoint *checkpoint = context;
+  const struct header *header = &checkpoint->header;
+  struct reader reader = {checkpoint->content, header->state, false};
+  trax_chip_gather(chip); /* nothing has run ahead */
+  trax_state_visit(chip, take, &reader);
+  if (reader.failed || reader.left)
+    return refuse(checkpoint->options.resume, "its state is of another size", error);
+  reader.left = (size_t)header->pages * (PAGE + sizeof(uint32_t));
+  for (uint32_t i = 0; i < header->pages; i++) {
+    uint32_t number = UINT32_MAX;
+    take(&reader, &number, sizeof number);
+    if (number >= chip->machine->space.size / PAGE)
+      return refuse(checkpoint->options.resume, "a page lies outside memory", error);
+    take(&reader, chip->machine->space.bytes + (size_t)number * PAGE, PAGE);
+  }
+  trax_state_taken(chip, header->cycle);
+  free(checkpoint->content);
+  checkpoint->content = NULL;
+  return TRAX_OK;
+}
+
+/* --- the run --- */
+
+trax_status trax_checkpoint_begin(struct trax_checkpoint **result, trax_machine *machine,
+                                  const struct trax_checkpoint_options *options, trax_error *error) {
+  *result = NULL;
+  if (!options->write && !options->resume)
+    return TRAX_OK;
+  struct trax_checkpoint *checkpoint = calloc(1, sizeof *checkpoint);
+  uint64_t *pages = calloc(machine->space.size / PAGE, sizeof *pages);
+  if (!checkpoint || !pages) {
+    free(checkpoint);
+    free(pages);
+    return trax_fail(error, "out of memory");
+  }
+  checkpoint->machine = machine;
+  checkpoint->options = *options;
+  checkpoint->pages = pages;
+  checkpoint->written = TRAX_NEVER;
+  visit_pages(&machine->space, note_page, checkpoint);
+  checkpoint->run = digest_run(checkpoint);
+  if (options->resume && read_checkpoint(checkpoint, error)) {
+    trax_checkpoint_end(checkpoint, NULL);
+    return TRAX_ERROR;
+  }
+  if (options->resume) {
+    machine->prepare = resume;
+    machine->prepare_context = checkpoint;
+  }
+  if (options->write) {
+    checkpoint->watch = (struct trax_watch){.next = next_time(options, checkpoint->header.cycle),
+                                            .look = look,
+                                            .end = end,
+                                            .context = checkpoint,
+                                            .others = machine->watches};
+    machine->watches = &checkpoint->watch;
+  }
+  *result = checkpoint;
+  return TRAX_OK;
+}
+
+trax_status trax_checkpoint_end(struct trax_checkpoint *checkpoint, trax_error *error) {
+  if (!checkpoint)
+    return TRAX_OK;
+  struct trax_watch **link = &checkpoint->machine->watches;
+  while (*link && *link != &checkpoint->watch)
+    link = &(*link)->others;
+  if (*link)
+    *link = checkpoint->watch.others;
+  checkpoint->machine->prepare = NULL;
+  const trax_status status = checkpoint->failed ? trax_fail(error, "%s", checkpoint->error.message) : TRAX_OK;
+  free(checkpoint->content);
+  free(checkpoint->pages);
+  free(checkpoint);
+  return status;
+}
