@@ -194,10 +194,12 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
     tell_step(explain, thread / tps, thread % tps, NULL);
   if (explain->out_of_memory)
     status = trax_fail(error, "out of memory: what was to be explained is not complete and not written");
-  for (unsigned i = 0; i < explain->reader_count && status == TRAX_OK; i++)
-    status = explain->readers[i].finish(explain->readers[i].self, error);
-  if (explain->series && status == TRAX_OK)
-    status = trax_series_finish(explain, error);
+  trax_error reason; /* what can be written is written, whatever fails; the first failure is reported */
+  for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++)
+    if (explain->readers[i].finish(explain->readers[i].self, &reason) != TRAX_OK && status == TRAX_OK)
+      status = trax_fail(error, "%s", reason.message);
+  if (explain->series && trax_series_finish(explain, &reason) != TRAX_OK && status == TRAX_OK)
+    status = trax_fail(error, "%s", reason.message);
   trax_explain_discard(explain);
   return status;
 }

@@ -148,11 +148,17 @@ static trax_status finish(void *self, trax_error *error) {
   const struct trax_explain_options *options = &profile->explain->options;
   if (profile->out_of_memory)
     return trax_fail(error, "out of memory for the profile");
-  trax_status status = write_file(profile, options->profile, trax_profile_write, error);
-  if (status == TRAX_OK)
-    status = write_file(profile, options->folded, trax_profile_write_folded, error);
-  if (status == TRAX_OK)
-    status = write_file(profile, options->annotate, trax_profile_write_annotated, error);
+  const struct {
+    const char *path;
+    trax_status (*write)(const struct trax_profile *profile, FILE *out, trax_error *error);
+  } files[] = {{options->profile, trax_profile_write},
+               {options->folded, trax_profile_write_folded},
+               {options->annotate, trax_profile_write_annotated}};
+  trax_status status = TRAX_OK;
+  trax_error reason;
+  for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+    if (write_file(profile, files[i].path, files[i].write, &reason) != TRAX_OK && status == TRAX_OK)
+      status = trax_fail(error, "%s", reason.message);
   return status;
 }
 

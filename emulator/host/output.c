@@ -19,7 +19,7 @@ static trax_status fail_closed(trax_output *output, int code, trax_error *error)
   return status;
 }
 
-static trax_status open_output(trax_output *output, const char *path, trax_error *error) {
+trax_status trax_output_open(trax_output *output, const char *path, trax_error *error) {
   *output = (trax_output){.path = strdup(path)};
   if (!output->path)
     return trax_fail(error, "%s: out of memory", path);
@@ -63,17 +63,14 @@ static trax_status open_output(trax_output *output, const char *path, trax_error
   return TRAX_OK;
 }
 
-trax_status trax_output_open(trax_output *output, const char *path, trax_error *error) {
-  trax_status status = open_output(output, path, error);
-  errno = 0;
-  return status;
-}
-
 trax_status trax_output_commit(trax_output *output, trax_error *error) {
-  /* What has written to the file until now left its reason in errno, which was 0 when the file was opened. */
-  int failure = ferror(output->file) ? (errno ? errno : EIO) : 0;
-  if (fflush(output->file) != 0 && !failure)
+  int failure = 0;
+  if (ferror(output->file)) { /* perhaps long ago: what fails now tells why, and is thrown away */
+    clearerr(output->file);
+    failure = fputc('\n', output->file) == EOF || fflush(output->file) != 0 ? errno : EIO;
+  } else if (fflush(output->file) != 0) {
     failure = errno;
+  }
   if (output->file != stdout) {
     if (fclose(output->file) != 0 && !failure)
       failure = errno;

@@ -433,6 +433,13 @@ def main():
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
     refuse("only the engines fast and reference know every cycle", "--engine", "functional", "--profile", "x")
     for name in FILES:
+        (directory / "full").mkdir(exist_ok=True)
+        other = "heat" if name != "heat" else "annotate"
+        said = run(directory / "full", "fast", *machine, f"--{name}=/dev/full", "--window", "0:5000", "--item-buffer=results",
+                   *(["--items=i"] if name != "items" else []), *(["--trace=t"] if name != "trace" else []),
+                   files=[other], expected=1)
+        check("/dev/full: cannot be written: No space left on device" in said, f"--{name}=/dev/full:", said)
+        equal(read(directory / "full", other), read(here, other), f"what else is written when --{name} fails")
         refuse("none/x: cannot be written", f"--{name}", "none/x", "--window", "0:9", "--trace=t" if name != "trace" else
                "--profile=t")
         refuse(f"--{name} is given twice", f"--{name}=a", f"--{name}=b")
