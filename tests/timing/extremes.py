@@ -19,7 +19,8 @@ import engines
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 LATENCIES = ["tp.int_latency_cycles", "tp.local_latency_cycles", "tp.branch_bubble_cycles", "fpu.add_latency_cycles", "fpu.mul_latency_cycles",
-             "fpu.compare_latency_cycles", "int_mul.latency_cycles", "special.latency_cycles", "dcache.hit_latency_cycles"]
+             "fpu.compare_latency_cycles", "fpu.convert_latency_cycles", "int_mul.latency_cycles", "special.latency_cycles",
+             "dcache.hit_latency_cycles"]
 ONE_LINE = ["icache.bytes=64", "icache.line_bytes=64", "icache.ways=1", "dcache.bytes=64", "dcache.line_bytes=64", "dcache.ways=1"]
 # Name, TMs and TPs of each, keys.
 MACHINES = [
@@ -52,6 +53,13 @@ MACHINES = [
     ("queue of 1, latency 10,000", (1, 4), ["memory.queue_depth=1", "memory.latency_cycles=10000"]),
     ("queue of 4096", (2, 16), ["memory.queue_depth=4096", "dcache.mshrs=1024"]),
     ("transfers of 4096 bytes", (2, 16), ["memory.min_transfer_bytes=4096", "memory.atomic_bytes=4096"]),
+    ("second level of one line", (4, 8), ["l2.bytes=64", "l2.ways=1", "l2.banks=1", "l2.mshrs=1", "l2.latency_cycles=1"]),
+    ("second level of 256 MB", (4, 8), ["l2.bytes=268435456", "l2.ways=64", "l2.banks=64", "l2.mshrs=4096", "l2.latency_cycles=1000"]),
+    ("16 channels", (4, 8), ["memory.channels=16", "memory.interleave_bytes=64"]),
+    ("16 channels, 0.01 GB/s", (2, 4), ["memory.channels=16", "memory.bandwidth_gbps=0.01", "l2.bytes=4096"]),
+    ("16 channels, 1000 GB/s", (4, 8), ["memory.channels=16", "memory.bandwidth_gbps=1000", "memory.latency_cycles=0"]),
+    ("increments of 100,000", (2, 2), ["memory.atomic_latency_cycles=100000"]),
+    ("64 units of a group", (2, 16), ["fpu.adders_per_cluster=64", "fpu.multipliers_per_cluster=64", "int_mul.units_per_group=64"]),
     ("1 MHz", (2, 16), ["chip.clock_mhz=1"]),
     ("100 GHz", (1, 8), ["chip.clock_mhz=100000"]),
 ]
