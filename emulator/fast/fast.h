@@ -37,7 +37,7 @@
 #include "fast/masks.h"
 
 enum {
-  TRAX_BURST = 64,       /* most instructions of a burst */
+  TRAX_BURST = 128,      /* most instructions of a burst */
   TRAX_FAST_LINES = 1024 /* lines of the program that `resident` knows; the last entry stands for all others */
 };
 

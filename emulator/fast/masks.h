@@ -20,7 +20,14 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
 }
 
 static inline uint64_t trax_fast_any16(const trax_fast_lanes *lanes) {
+#ifdef __SSE2__
+  const __m128i *const halves = (const __m128i *)lanes;
+  __m128i four = _mm_or_si128(halves[0], halves[1]);
+  four = _mm_or_si128(four, _mm_shuffle_epi32(four, 0x4E));
+  uint64_t any = (uint64_t)_mm_cvtsi128_si64(four);
+#else
   uint64_t any = trax_fast_any(lanes);
+#endif
   any |= any >> 32;
   return (any | any >> 16) & 0xFFFF;
 }
