@@ -29,11 +29,12 @@ static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause
 static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
   const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
   struct trax_steps *steps = &explain->steps[thread];
-  const uint32_t index = trax_places_index(explain->places, steps->pc);
+  const uint32_t pc = issue ? issue->pc : steps->pc; /* a debugger may have sent the thread elsewhere */
+  const uint32_t index = trax_places_index(explain->places, pc);
   const struct trax_step step = {.tm = tm,
                                  .tp = tp,
                                  .thread = thread,
-                                 .pc = steps->pc,
+                                 .pc = pc,
                                  .previous_pc = steps->previous_pc,
                                  .begin = steps->begin,
                                  .stretches = steps->stretches,

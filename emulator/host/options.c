@@ -380,6 +380,8 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
   const bool exact = options->engine == TRAX_ENGINE_FAST || options->engine == TRAX_ENGINE_REFERENCE;
   if (!exact && trax_explain_wanted(explain))
     return trax_fail(error, "only the engines fast and reference know every cycle: there is nothing to explain");
+  if (options->checkpoint.resume && trax_explain_wanted(explain))
+    return trax_fail(error, "--resume: what was before the checkpoint is not known, and the run cannot be explained");
   if ((explain->perfetto || explain->konata) && !explain->window_end)
     return trax_fail(error, "--%s needs --window", explain->perfetto ? "perfetto" : "konata");
   if (!windowed && (explain->window_end || explain->window_tms || explain->window_tps))

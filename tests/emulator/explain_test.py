@@ -323,6 +323,11 @@ def main():
     for name in FILES:
         equal((directory / "fast" / name).read_bytes(), (directory / "reference" / name).read_bytes(), "engines:", name)
         equal((directory / "fast" / name).read_bytes(), (directory / "again" / name).read_bytes(), "two runs:", name)
+    # Checkpoints on the way change nothing.
+    run(directory / "checkpoints", "fast", *machine, *whole, "--window", f"0:{far}", "--checkpoint", "c",
+        "--checkpoint-every", "333")
+    for name in FILES:
+        equal(read(directory / "checkpoints", name), read(directory / "fast", name), "with checkpoints:", name)
     # A series needs no observer: then the engine runs ahead, and its TMs of each other.
     run(directory / "series", "fast", *machine, *whole[2:], files=["series"])
     equal(read(directory / "series", "series"), read(directory / "fast", "series"), "a series alone")
@@ -431,6 +436,7 @@ def main():
     refuse("--series-interval without --series", "--series-interval", "5")
     refuse("--item-buffer without --items", "--item-buffer", "results")
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
+    refuse("--resume: what was before the checkpoint is not known", "--resume", "x", "--trace", "t")
     refuse("only the engines fast and reference know every cycle", "--engine", "functional", "--profile", "x")
     for name in FILES:
         (directory / "full").mkdir(exist_ok=True)
