@@ -5,6 +5,7 @@
      timing-engines-test --seed 1 --count 2000 --jobs 2
      timing-engines-test --seed 4711                         that one
      timing-engines-test --set memory.queue_depth=1 ...      on machines with that
+     timing-engines-test --stop ...                          ends with the first case that differs, as it is
 
    Every case runs in a process of its own, so that a crash or an endless loop of an engine is a finding like others. */
 #include "cases.h"
@@ -24,6 +25,7 @@ struct options {
   unsigned seed, count, jobs;
   const char *set[MOST_KEYS]; /* "key=value": of every case */
   unsigned set_count;
+  bool stop; /* at the first case that differs, as it is */
 };
 
 struct tally {
@@ -102,6 +104,8 @@ static void report(const struct options *options, const struct job *job, const c
   const unsigned kind = job->seed % CASE_KINDS;
   printf("seed %u (%s) differs: %s\n", job->seed, case_kind_names[kind], difference);
   fflush(stdout);
+  if (options->stop)
+    return;
   struct random_case c = prepare(options, job->seed);
   minimise(&c);
   print_case(&c, stdout);
@@ -134,8 +138,11 @@ static void finish(const struct options *options, struct job *job, int status, s
 static void run_all(const struct options *options, struct tally *tally) {
   struct job jobs[MOST_JOBS] = {0};
   unsigned next = 0, running = 0;
-  while (next < options->count || running) {
-    if (next < options->count && running < options->jobs) {
+  while (true) {
+    const unsigned end = options->stop && tally->different ? next : options->count;
+    if (next >= end && !running)
+      break;
+    if (next < end && running < options->jobs) {
       struct job *job = jobs;
       while (job->pid)
         job++;
@@ -166,11 +173,9 @@ static unsigned number(const char *option, const char *text, unsigned least, uns
 
 static struct options parse(int argc, char **argv) {
   static const struct option known[] = {
-      {"seed", required_argument, NULL, 's'},
-      {"count", required_argument, NULL, 'c'},
-      {"jobs", required_argument, NULL, 'j'},
-      {"set", required_argument, NULL, 'k'},
-      {NULL, 0, NULL, 0},
+      {"seed", required_argument, NULL, 's'}, {"count", required_argument, NULL, 'c'},
+      {"jobs", required_argument, NULL, 'j'}, {"set", required_argument, NULL, 'k'},
+      {"stop", no_argument, NULL, 'x'},       {NULL, 0, NULL, 0},
   };
   struct options options = {.seed = 1, .count = 1, .jobs = 1};
   int option;
@@ -191,6 +196,9 @@ static struct options parse(int argc, char **argv) {
         exit(2);
       }
       options.set[options.set_count++] = optarg;
+      break;
+    case 'x':
+      options.stop = true;
       break;
     default:
       exit(2);
@@ -219,7 +227,7 @@ int main(int argc, char **argv) {
   clock_gettime(CLOCK_MONOTONIC, &from);
   run_all(&options, &tally);
   clock_gettime(CLOCK_MONOTONIC, &to);
-  const bool rich = options.count < 100 || options.set_count || is_rich(&tally);
+  const bool rich = options.count < 100 || options.set_count || tally.different || is_rich(&tally);
   printf(
       "seeds %u to %u: %u of %u cases differ; %u ended, %u faulted, %u were stopped; %llu instructions in %llu cycles; "
       "%.1f s%s\n",

@@ -21,7 +21,7 @@ HAND = ["pipeline", "fetch", "units", "memory", "atomics", "beyond", "faults"]
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
 BY_HAND = len(TESTS)
-TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2"], {}), (["timing-state-test"], {})]
+TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {})]
 TARGETS = sorted({test[0][0] for test in TESTS})
 
 
