@@ -43,7 +43,7 @@ struct random_case case_of_seed(unsigned seed) {
     c.count = any_program(c.words);
     break;
   case CASE_WORDS: /* endless loops are possible */
-    c.config = any_machine(any(1, 2), any(1, 4));
+    c.config = any_machine(tms % 2 + 1, tps % 4 + 1);
     any_words(c.words, c.count = 32);
     c.max_cycles = 5000;
     break;

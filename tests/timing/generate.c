@@ -12,6 +12,15 @@ uint32_t any(uint32_t least, uint32_t most) { /* xorshift64* */
   return least + (uint32_t)((random_state * 0x2545F4914F6CDD1Du) >> 33) % (most - least + 1);
 }
 
+/* An operation and registers. (In an initialiser compilers would draw in an order of their own.) */
+static trax_inst any_fields(void) {
+  trax_inst inst = {.op = (trax_op)any(1, TRAX_OP_COUNT - 1)};
+  inst.rd = (uint8_t)any(0, 31);
+  inst.ra = (uint8_t)any(0, 31);
+  inst.rb = (uint8_t)any(0, 31);
+  return inst;
+}
+
 uint32_t any_power(uint32_t least, uint32_t most) {
   uint32_t value = least;
   while (value < most && any(0, 2))
@@ -145,10 +154,13 @@ size_t any_racing_program(uint32_t *words) {
 
 void any_words(uint32_t *words, size_t count) {
   for (size_t i = 0; i < count; i++) {
-    words[i] = any(0, 0x7FFFFFFF) << 1 | any(0, 1);
-    if (any(0, 3)) /* mostly legal: a random operation with random fields */
-      words[i] = trax_encode(
-          (trax_inst){(trax_op)any(1, TRAX_OP_COUNT - 1), any(0, 31), any(0, 31), any(0, 31), (int32_t)any(0, 63) * 4});
+    words[i] = any(0, 0x7FFFFFFF) << 1;
+    words[i] |= any(0, 1);
+    if (any(0, 3)) { /* mostly legal: a random operation with random fields */
+      trax_inst inst = any_fields();
+      inst.imm = (int32_t)any(0, 63) * 4;
+      words[i] = trax_encode(inst);
+    }
   }
 }
 
@@ -203,8 +215,11 @@ static trax_inst with_address(trax_inst inst, int32_t bytes) {
 /* Instruction `at` of a body that ends at `end`; jumps go forward within it. */
 static uint32_t any_instruction(unsigned at, unsigned end) {
   const unsigned left = end - at;
-  trax_inst inst = {(trax_op)any(1, TRAX_OP_COUNT - 1), (uint8_t)any(0, 15), (uint8_t)any(0, 15), (uint8_t)any(0, 15),
-                    (int32_t)any(0, 65535) - 32768};
+  trax_inst inst = any_fields();
+  inst.rd &= 15;
+  inst.ra &= 15;
+  inst.rb &= 15;
+  inst.imm = (int32_t)any(0, 65535) - 32768;
   const trax_op_info *info = &trax_op_table[inst.op];
   const int32_t ahead = 4 * (int32_t)any(1, left < 12 ? left : 12);
   if (info->access_bytes)
