@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#define MOST_LATENCY 1000000u /* of a transfer, as far as anybody wants to know */
+
 static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
   return b ? greatest_common_divisor(b, a % b) : a;
 }
@@ -31,8 +33,8 @@ uint32_t trax_memory_least_latency(const struct trax_config *config) {
   if (config->l2.bytes)
     return config->l2.latency_cycles;
   create_bus(&bus, config);
-  return (uint32_t)divide_up(config->memory.min_transfer_bytes * bus.units_per_byte, bus.units_per_cycle) +
-         config->memory.latency_cycles;
+  const uint64_t transfer = divide_up(config->memory.min_transfer_bytes * bus.units_per_byte, bus.units_per_cycle);
+  return (uint32_t)(transfer < MOST_LATENCY ? transfer : MOST_LATENCY) + config->memory.latency_cycles;
 }
 
 trax_status trax_memory_create(struct trax_memory *memory, const struct trax_config *config,

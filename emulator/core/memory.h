@@ -58,7 +58,8 @@ struct trax_memory {
 
 /* Whether each TM gets back what it requests in the order in which it requests it. */
 bool trax_memory_keeps_order(const struct trax_config *config);
-/* The number of cycles d such that nothing a TM requests in cycle t comes back to it before t + d; at least 1. */
+/* A number of cycles d, at least 1, such that nothing a TM requests in cycle t comes back to it before t + d; the
+   largest one, if that is below a million. */
 uint32_t trax_memory_least_latency(const struct trax_config *config);
 
 trax_status trax_memory_create(struct trax_memory *memory, const struct trax_config *config,

@@ -261,6 +261,12 @@ static void least_latency(void **state) {
   assert_int_equal(trax_memory_least_latency(&config), 1);
   config.l2.bytes = 4096;
   assert_int_equal(trax_memory_least_latency(&config), 20);
+  config = bench_far(1, 1); /* 6,553,600,000 cycles are more than anybody can use */
+  config.memory.bandwidth_gbps = 0.001;
+  config.memory.channels = 16;
+  config.memory.min_transfer_bytes = 4096;
+  config.chip.clock_mhz = 100000;
+  assert_int_equal(trax_memory_least_latency(&config), 1000100);
 }
 
 /* --- units --- */
