@@ -38,6 +38,7 @@ struct trax_fault {
   uint32_t thread, tm, tp;
   uint64_t cycle;
   uint32_t registers[TRAX_NUM_REGISTERS]; /* before the instruction */
+  uint8_t local[TRAX_LOCAL_SIZE];         /* the thread's memory */
 };
 
 const char *trax_fault_text(trax_fault_kind kind);

@@ -98,6 +98,7 @@ void trax_tm_fault(struct trax_tm *tm, unsigned number, uint64_t t, trax_fault_k
   if (inst->ask != TRAX_ASK_OUTSIDE)
     memcpy(&fault->word, tm->machine->space.bytes + tp->pc, sizeof fault->word);
   memcpy(fault->registers, tp->reg, sizeof fault->registers);
+  memcpy(fault->local, tp->local, sizeof fault->local);
 }
 
 /* --- arrivals --- */

@@ -1,6 +1,7 @@
 /* What GDB has no words for: its command `monitor`. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "gdb/stub.h"
+#include "host/backtrace.h"
 #include "host/host.h"
 #include "trax/isa.h"
 
@@ -51,6 +52,16 @@ static bool print_instructions(struct trax_gdb *gdb, const char *arguments, FILE
   return true;
 }
 
+static bool print_where(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  trax_print_backtrace(gdb->chip, gdb->selected, out);
+  return !*arguments;
+}
+
+static bool print_threads(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  trax_print_threads(gdb->chip, out);
+  return !*arguments;
+}
+
 static bool print_help(struct trax_gdb *gdb, const char *arguments, FILE *out);
 
 static const struct {
@@ -61,6 +72,8 @@ static const struct {
     {"stats", "statistics up to here", print_statistics},
     {"registers", "the selected thread's, by our names", print_registers},
     {"disassemble", "[ADDRESS [COUNT]]  instructions from there or the selected thread's pc on", print_instructions},
+    {"where", "the selected thread's callers", print_where},
+    {"threads", "how many threads are where, and which", print_threads},
     {"help", "this", print_help},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };

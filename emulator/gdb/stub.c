@@ -266,7 +266,7 @@ static void stop_if_due(struct trax_gdb *gdb, uint64_t t) {
 
 static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   struct trax_gdb *gdb = watch->context;
-  const uint64_t t = watch->next;
+  const uint64_t t = gdb->begun ? watch->next : chip->begin;
   gdb->chip = chip;
   gdb->cycle = t;
   if (!gdb->begun) {

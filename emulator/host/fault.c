@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "backtrace.h"
 #include "host.h"
 #include "trax/isa.h"
 
@@ -105,6 +106,40 @@ static void print_instruction(const struct trax_fault *fault, FILE *out) {
   fprintf(out, "  %08x  %s\n", fault->word, text);
 }
 
+/* Without frame information: ra is where the caller goes on, and the call is the instruction before; stale once the
+   function has called another. After a jump to nowhere it is right, and what jumped may be known. */
+static size_t print_return_address(const struct trax_host *host, const struct trax_fault *fault,
+                                   struct trax_frame *frame, FILE *out) {
+  const bool is_fresh = fault->kind == TRAX_FAULT_EXECUTE || fault->kind == TRAX_FAULT_MISALIGNED_PC;
+  frame->pc = fault->registers[RA];
+  frame->is_caller = true;
+  if (frame->pc >= TRAX_NULL_END + 4)
+    print_place(host, is_fresh ? "called by" : "ra behind", trax_frame_place(frame), out);
+  return is_fresh;
+}
+
+static void print_callers(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
+  enum { DEPTH = 4096, INNERMOST = 24, OUTERMOST = 4 };
+  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_thread_memory memory = {&machine->space, fault->local};
+  struct trax_frame frame = {.pc = fault->pc};
+  enum trax_unwound last;
+  uint32_t places[DEPTH];
+  if (!host)
+    return;
+  memcpy(frame.registers, fault->registers, sizeof frame.registers);
+  size_t count = trax_callers(host->image, &frame, &memory, places, DEPTH, &last);
+  if (count == 0 && last == TRAX_NO_FRAME_INFO && print_return_address(host, fault, &frame, out))
+    count = trax_callers(host->image, &frame, &memory, places, DEPTH, &last);
+  for (size_t i = 0; i < count; ++i) {
+    print_place(host, "called by", places[i], out);
+    if (i + 1 == INNERMOST && count > INNERMOST + OUTERMOST + 1) {
+      fprintf(out, "  %-*s%zu frames\n", LABEL, "...", count - INNERMOST - OUTERMOST);
+      i = count - OUTERMOST - 1;
+    }
+  }
+}
+
 void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   const struct trax_fault *fault = trax_machine_fault(machine);
   if (fault->kind == TRAX_FAULT_NONE)
@@ -115,9 +150,7 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   print_access(machine, fault, out);
   print_instruction(fault, out);
   print_place(host, "in", fault->pc, out);
-  /* ra is where the caller goes on; the call is the instruction before. Stale once the function has called another. */
-  if (fault->registers[RA] >= TRAX_NULL_END + 4)
-    print_place(host, "ra behind", fault->registers[RA] - 4, out);
+  print_callers(machine, fault, out);
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, "thread", fault->thread, fault->tm, fault->tp,
           fault->cycle);
   for (unsigned i = 0; i < TRAX_NUM_REGISTERS; ++i) {

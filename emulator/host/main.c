@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "backtrace.h"
 #include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
@@ -23,7 +24,7 @@ static void on_signal(int number) {
 static void catch_signals(void) {
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
   sigemptyset(&action.sa_mask);
-  const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+  const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
   for (size_t i = 0; i < sizeof signals / sizeof *signals; ++i) {
     struct sigaction before;
     if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
@@ -49,7 +50,8 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
 }
 
 static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
-  const char *const files[] = {options->stats, options->report, options->gdb_symbols, options->checkpoint.write};
+  const char *const files[] = {options->stats, options->report, options->post_mortem, options->gdb_symbols,
+                               options->checkpoint.write};
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
     if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -137,6 +139,17 @@ static trax_status write_report(const trax_machine *machine, const char *path, t
   return trax_output_commit(&output, error);
 }
 
+static trax_status write_post_mortem(const struct trax_post_mortem *post_mortem, const char *path, trax_error *error) {
+  trax_output output;
+  const char *text = post_mortem ? trax_post_mortem_text(post_mortem) : NULL;
+  if (!text)
+    return trax_fail(error, "%s: out of memory", path);
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fputs(text, output.file);
+  return trax_output_commit(&output, error);
+}
+
 static trax_status write_dump(trax_machine *machine, const char *symbol, const char *path, trax_error *error) {
   const uint8_t *bytes;
   uint32_t size;
@@ -196,6 +209,9 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_machine_destroy(machine);
     return complain(&error);
   }
+  struct trax_post_mortem *post_mortem = NULL;
+  if (options->engine != TRAX_ENGINE_REFERENCE) /* NULL is found out when it is asked for */
+    post_mortem = trax_post_mortem_create(machine, &interrupted, options->post_mortem != NULL, &error);
   status = run(machine, options, &error);
   int result = trax_machine_exit_status(machine) & 0xFF;
   switch (status) {
@@ -210,6 +226,8 @@ static int simulate(const trax_config *config, const struct trax_options *option
   case TRAX_STUCK:
     fflush(stdout);
     fprintf(stderr, "trax-sim: %s%s\n", error.message, machine->has_run ? "; the statistics are partial" : "");
+    if (interrupted == SIGQUIT && post_mortem && trax_post_mortem_text(post_mortem))
+      fputs(trax_post_mortem_text(post_mortem), stderr);
     result = status == TRAX_STUCK ? EXIT_STUCK : EXIT_SIGNAL + interrupted;
     break;
   case TRAX_ERROR:
@@ -220,9 +238,13 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_explain_discard(explain);
   else if (trax_explain_end(explain, &write_error) != TRAX_OK)
     result = complain(&write_error);
+  if (status != TRAX_ERROR && machine->has_run && options->post_mortem &&
+      write_post_mortem(post_mortem, options->post_mortem, &write_error) != TRAX_OK)
+    result = complain(&write_error);
   if (status != TRAX_ERROR && machine->has_run &&
       write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
     result = complain(&write_error);
+  trax_post_mortem_destroy(post_mortem);
   trax_machine_destroy(machine);
   return result;
 }

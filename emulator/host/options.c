@@ -38,6 +38,7 @@ enum option_id {
   OPTION_ENGINE,
   OPTION_SAMPLE,
   OPTION_HOST_THREADS,
+  OPTION_POST_MORTEM,
   OPTION_GDB,
   OPTION_GDB_SYMBOLS,
   OPTION_CHECKPOINT,
@@ -85,6 +86,7 @@ static const struct {
                        "fast (default), reference (the same, slower), sampled (estimates) or functional (no time)"},
     [OPTION_SAMPLE] = {"sample", "KEY=N,...", "--engine sampled, with period, window, warm-up, hold or seed set"},
     [OPTION_HOST_THREADS] = {"host-threads", "N", "threads of the host for the fast engine; default one for each core"},
+    [OPTION_POST_MORTEM] = {"post-mortem", "FILE", "where every thread was when the run ended, as text"},
     [OPTION_GDB] = {"gdb", "PORT", "wait for GDB on a port of the loopback interface; 0 is any free one"},
     [OPTION_GDB_SYMBOLS] = {"gdb-symbols", "FILE", "write PROGRAM as GDB reads it; end, unless there is --gdb"},
     [OPTION_CHECKPOINT] = {"checkpoint", "FILE", "write the run's state when it is stopped, and when the next two say"},
@@ -214,7 +216,7 @@ static trax_status set_sampling(struct trax_options *options, const char *list, 
   uint64_t *const values[] = {&options->sampling.period, &options->sampling.window, &options->sampling.warm_up,
                               &options->sampling.hold, &options->sampling.seed};
   options->engine = TRAX_ENGINE_SAMPLED;
-  while (*list) {
+  for (bool more = true; more;) {
     char item[64];
     const size_t length = strcspn(list, ",");
     snprintf(item, sizeof item, "%.*s", (int)(length < sizeof item ? length : sizeof item - 1), list);
@@ -229,7 +231,8 @@ static trax_status set_sampling(struct trax_options *options, const char *list, 
       return trax_fail(error, "--sample: \"%s\" sets none of period, window, warm-up, hold and seed", item);
     if (parse_number("sample", equals + 1, 1, (uint64_t)1 << 40, values[i], error) != TRAX_OK)
       return TRAX_ERROR;
-    list += length + (list[length] == ',');
+    more = list[length] == ',';
+    list += length + more;
   }
   return TRAX_OK;
 }
@@ -321,6 +324,8 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
       return TRAX_ERROR;
     options->host_threads = (unsigned)number;
     break;
+  case OPTION_POST_MORTEM:
+    return set_once(id, &options->post_mortem, value, error);
   case OPTION_GDB:
     options->gdb = true;
     return parse_number(table[id].name, value, 0, UINT16_MAX, &options->gdb_port, error);
@@ -418,6 +423,8 @@ trax_status trax_options_parse(struct trax_options *options, int count, char **a
     return trax_fail(error, "--checkpoint and --resume are for the fast engine");
   if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
     return trax_fail(error, "no program is given");
+  if (options->post_mortem && options->engine != TRAX_ENGINE_FAST && options->engine != TRAX_ENGINE_FUNCTIONAL)
+    return trax_fail(error, "--post-mortem needs the fast or the functional engine");
   if (options->gdb && options->engine != TRAX_ENGINE_FAST)
     return trax_fail(error, "--gdb debugs in the fast engine, not in the one that --engine names");
   return check_explain(options, error);

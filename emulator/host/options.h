@@ -20,7 +20,7 @@ struct trax_assignment {
 };
 
 struct trax_options {
-  const char *program, *config, *stats, *report, *gdb_symbols; /* NULL: not given */
+  const char *program, *config, *stats, *report, *post_mortem, *gdb_symbols; /* NULL: not given */
   struct trax_assignment *assignments;                         /* in the order of the command line */
   size_t assignment_count;
   uint64_t max_cycles, total_items; /* 0: not given */

@@ -42,4 +42,5 @@ void trax_ref_fault(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, 
     trax_ref_text(tm, tp->pc, &fault->word);
   }
   memcpy(fault->registers, tp->reg, sizeof fault->registers);
+  memcpy(fault->local, tp->local, sizeof fault->local);
 }

@@ -272,11 +272,6 @@ for option in help help-config help-stats version; do
   silent
   [ -s out ] || fail "--$option prints nothing"
 done
-run 0 --help
-for option in profile profile-folded annotate heat heat-lines items item-buffer series series-interval trace perfetto konata \
-  window window-tms window-tps config set bind scene alloc dump stats report max-cycles progress-total engine sample checkpoint checkpoint-at checkpoint-every resume gdb gdb-symbols quiet print-config; do
-  prints "--$option"
-done
 
 # --- interruption: partial statistics, no dumps; the statistics of before are replaced
 rm -f stats.json output.bin out

@@ -430,6 +430,8 @@ class Protocol(unittest.TestCase):
         self.assertEqual(len(client.monitor("disassemble 0x1000 3").splitlines()), 3)
         self.assertIn("r5  a1", client.monitor("registers"))
         self.assertIn("instructions", client.monitor("stats"))
+        self.assertRegex(client.monitor("where"), r"^work at .*threads.c:7\n    called by main at .*\n    called by _start at .*\n$")
+        self.assertRegex(client.monitor("threads"), r"^4 threads, 0 ended\n(4 threads in work at (.*\n){3}    threads 0-3|[1-3] thr)")
         self.assertIn("monitor cycle", client.monitor("help"))
         for command in ("", "cycles", "cycle now", "disassemble x", "disassemble 2", "disassemble 0x1000 5 5"):
             self.assertIn("not understood", client.monitor(command), command)
@@ -441,6 +443,18 @@ class Protocol(unittest.TestCase):
         client.ask(f"Z0,{symbols['threads']['work']:x},4")
         while client.resume()[0] == "T":
             client.monitor("stats")
+        client.end()
+        self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
+
+    def test_resumed(self):
+        """The rest of a run that a checkpoint holds."""
+        stats, checkpoint = (os.path.join(work.name, name) for name in ("resumed.json", "checkpoint"))
+        subprocess.run([SIM, *FOUR, "--checkpoint", checkpoint, "--max-cycles", "200", path("threads")], stderr=subprocess.PIPE)
+        client = self.client("threads", *FOUR, "--resume", checkpoint, "--stats", stats)
+        self.assertEqual(client.cycle(), 200)
+        client.ask(f"Z0,{symbols['threads']['work']:x},4")
+        while client.resume()[0] == "T":
+            self.assertGreater(client.cycle(), 200)
         client.end()
         self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
 

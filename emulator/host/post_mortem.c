@@ -1,0 +1,58 @@
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#include "backtrace.h"
+
+#include <signal.h>
+#include <stdlib.h>
+
+struct trax_post_mortem {
+  struct trax_watch watch;
+  const volatile int *interrupt;
+  bool always;
+  char *text;
+};
+
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+  (void)chip;
+  watch->next = TRAX_NEVER; /* only the end matters */
+  return TRAX_OK;
+}
+
+static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t) {
+  struct trax_post_mortem *post_mortem = watch->context;
+  size_t size;
+  (void)t;
+  if (!post_mortem->always &&
+      !(status == TRAX_INTERRUPTED && post_mortem->interrupt && *post_mortem->interrupt == SIGQUIT))
+    return;
+  FILE *out = open_memstream(&post_mortem->text, &size);
+  if (!out)
+    return;
+  trax_chip_gather(chip);
+  trax_print_threads(chip, out);
+  fclose(out);
+}
+
+struct trax_post_mortem *trax_post_mortem_create(trax_machine *machine, const volatile int *interrupt, bool always,
+                                                 trax_error *error) {
+  struct trax_post_mortem *post_mortem = calloc(1, sizeof *post_mortem);
+  if (!post_mortem) {
+    trax_fail(error, "out of memory");
+    return NULL;
+  }
+  post_mortem->interrupt = interrupt;
+  post_mortem->always = always;
+  post_mortem->watch =
+      (struct trax_watch){.look = look, .end = end, .context = post_mortem, .others = machine->watches};
+  machine->watches = &post_mortem->watch;
+  return post_mortem;
+}
+
+const char *trax_post_mortem_text(const struct trax_post_mortem *post_mortem) {
+  return post_mortem->text;
+}
+
+void trax_post_mortem_destroy(struct trax_post_mortem *post_mortem) {
+  if (post_mortem)
+    free(post_mortem->text);
+  free(post_mortem);
+}

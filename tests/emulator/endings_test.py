@@ -1,0 +1,264 @@
+#!/usr/bin/env python3
+"""How runs end: backtraces of faults, where threads were, signals: usage endings_test.py BINDIR"""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BIN = os.path.abspath(sys.argv.pop(1))
+SIM = os.path.join(BIN, "trax-sim")
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "chains.c")
+ENGINES = ("fast", "reference", "functional")
+
+
+def setUpModule():
+    global folder
+    folder = tempfile.TemporaryDirectory()
+    os.chdir(folder.name)
+    subprocess.run([f"{BIN}/emulator-programs", "."], check=True)
+
+
+def tearDownModule():
+    os.chdir("/")
+    folder.cleanup()
+
+
+def build(where, level, *options):
+    name = f"chains{where}{level}{''.join(options)}.elf"
+    if not os.path.exists(name):
+        subprocess.run([f"{BIN}/clang", "--target=trax", level, f"-DWHERE={where}", *options, "-o", name, SOURCE], check=True)
+    return name
+
+
+def run(*words):
+    done = subprocess.run([SIM, *words], capture_output=True, timeout=120)
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def line_of(text):
+    """Of the source, from 1."""
+    with open(SOURCE) as file:
+        return next(number for number, line in enumerate(file, 1) if text in line)
+
+
+def rows(report):
+    """Pairs of label and text."""
+    return re.findall(r"^  (\S[a-z. ]{0,10}\S)  +(.*)$", report, re.M)
+
+
+class Backtraces(unittest.TestCase):
+    def chain(self, where, level, engine="fast", *options):
+        status, out, err = run("--engine", engine, build(where, level, *(options or ("-g",))))
+        callers = [text for label, text in rows(err) if label == "called by"]
+        return status, err, [re.split(r"[+ ,]", text)[0] for text in callers], callers
+
+    def test_every_engine_and_level(self):
+        for engine in ENGINES:
+            for level in ("-O0", "-O1", "-Os", "-Oz"):
+                status, err, names, callers = self.chain(8, level, engine)
+                self.assertEqual(status, 1)
+                self.assertRegex(err, rf"in +bottom.* at .*chains.c:{line_of('return *p;')}")
+                self.assertEqual(names, ["top"] * 4 + ["main", "_start"], f"{engine} {level}\n{err}")
+                self.assertIn(f"chains.c:{line_of('depth = top(p, n - 1)')}", callers[1])
+                self.assertIn(f"chains.c:{line_of('? 0 : top(p, 3)')}", callers[4])
+
+    def test_inlined(self):
+        status, err, names, callers = self.chain(8, "-O1")
+        self.assertRegex(err, rf"called by +top\S*, middle at .*:{line_of('return bottom(p) + 1;')}\S*\n"
+                              rf" +inlined into top at .*:{line_of('return middle(p) + 2;')}")
+
+    def test_abort(self):
+        status, err, names, callers = self.chain(0, "-O1")
+        self.assertEqual((status, names), (134, ["top"] * 4 + ["main", "_start"]))
+
+    def test_jump_to_nowhere(self):
+        for level in ("-O0", "-O2"):
+            status, err, names, callers = self.chain(4, level)
+            self.assertEqual((status, names), (1, ["jump", "main", "_start"]))
+
+    def test_endless_recursion(self):
+        """In local memory, and in a stack of megabytes: not all frames are shown."""
+        status, err, names, callers = self.chain(1, "-O1")
+        self.assertIn("stack overflow", err)
+        self.assertEqual(names[-2:], ["main", "_start"])
+        self.assertGreater(len(names), 20)
+        status, err, names, callers = self.chain(1, "-O1", "functional", "-g", "-mstack=global", "-Wl,-z,stack-size=65536")
+        self.assertIn("stack overflow", err)
+        self.assertEqual(len(names), 28, err)
+        self.assertRegex(err, r"\n  \.\.\. +\d{4} frames\n")
+
+    def test_global_stack(self):
+        status, err, names, callers = self.chain(8, "-O1", "fast", "-g", "-mstack=global")
+        self.assertEqual(names[-3:], ["top", "main", "_start"], err)
+
+    def test_without_debug_information(self):
+        """Nothing is known of frames: the return address is all there is."""
+        status, err, names, callers = self.chain(8, "-O1", "fast", "-g0")
+        self.assertEqual(names, [])
+        self.assertIn("ra behind   top", err)
+        self.assertNotIn("chains.c", err)
+
+    def test_without_frame_information(self):
+        """Lines are known, but not where a caller is."""
+        with open(build(8, "-O1", "-g"), "rb") as file:
+            data = bytearray(file.read())
+        where = data.index(b".debug_frame\0")
+        data[where : where + 12] = b".debug_gramf"
+        with open("gone.elf", "wb") as file:
+            file.write(data)
+        status, out, err = run("gone.elf")
+        self.assertNotIn("called by", err)
+        self.assertIn("ra behind   top", err)
+
+
+class PostMortem(unittest.TestCase):
+    def groups(self, *words):
+        status, out, err = run("--post-mortem", "pm.txt", *words)
+        with open("pm.txt") as file:
+            return status, file.read()
+
+    def test_groups(self):
+        for engine in ("fast", "functional"):
+            limit = "20000" if engine == "functional" else "3000"
+            status, text = self.groups("--config", "4x32", "--engine", engine, "--max-cycles", limit, build(2, "-O1", "-g"))
+            self.assertEqual(status, 124)
+            blocks = re.split(r"\n(?=\d)", text.rstrip("\n"))
+            self.assertEqual(blocks[0], "128 threads, 1 ended")
+            counts = {}
+            for block in blocks[1:]:
+                first, *others = block.split("\n")
+                count, name = re.match(r"(\d+) threads? in (\w+) at .*chains.c:\d+$", first).groups()
+                self.assertRegex(others[0], r"    called by main at .*chains.c:\d+")
+                self.assertRegex(others[1], r"    called by _start at ")
+                numbers = numbers_of(re.fullmatch(r"    threads? (.*)", others[2])[1])
+                self.assertEqual(len(numbers), int(count))
+                counts.setdefault(name, set()).update(numbers)
+            gate = set(range(0, 20, 3))
+            self.assertEqual(counts, {"one_of_three": gate, "wait_at_gate": set(range(128)) - gate - {25}})
+
+    def test_finished(self):
+        status, text = self.groups("--config", "2x32", "exit3.elf")
+        self.assertEqual((status, text), (3, "64 threads, 64 ended\n"))
+
+    def test_nothing_changes(self):
+        """Looking at the end changes no statistics."""
+        for name, words in (("a", []), ("b", ["--post-mortem", "pm.txt"])):
+            run("--config", "2x32", "--max-cycles", "500", "--stats", f"{name}.json", *words, "mix.elf")
+        figures = []
+        for name in "ab":
+            with open(f"{name}.json") as file:
+                figures.append({key: value for key, value in json.load(file).items() if "host_second" not in key})
+        self.assertEqual(*figures)
+
+    def test_other_engines(self):
+        for engine in ("reference", "sampled"):
+            status, out, err = run("--post-mortem", "x.txt", "--engine", engine, "mix.elf")
+            self.assertEqual(status, 1)
+            self.assertIn("--post-mortem needs the fast or the functional engine", err)
+            self.assertFalse(os.path.exists("x.txt"))
+
+
+def numbers_of(text):
+    """Of "0-3, 7"."""
+    result = []
+    for part in text.split(", "):
+        first, _, last = part.partition("-")
+        result += range(int(first), int(last or first) + 1)
+    return result
+
+
+class Signals(unittest.TestCase):
+    def start(self, *words, **keywords):
+        """A program that prints for ever, once it has begun."""
+        with open("out", "wb") as out:
+            process = subprocess.Popen([SIM, *words], stdout=out, stderr=subprocess.PIPE, **keywords)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        for _ in range(600):
+            if os.path.getsize("out"):
+                return process
+            time.sleep(0.05)
+        self.fail("nothing is printed")
+
+    def end(self, process):
+        return process.wait(timeout=60), process.stderr.read().decode()
+
+    def partial(self, name):
+        with open(name) as file:
+            stats = json.load(file)
+        return stats["status"], stats["partial"], stats["identity"]["holds"]
+
+    def litter(self, *kept):
+        return [name for name in os.listdir(".") if not re.fullmatch(r".*\.elf|out|pm\.txt|[ab]\.json|" + "|".join(kept), name)]
+
+    def test_every_signal(self):
+        """Statistics are written and say that they are partial; buffers are not; nothing half-written is left."""
+        for engine in ENGINES:
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+                with open("s.json", "w") as file:
+                    file.write("of before")
+                process = self.start("--engine", engine, "--stats", "s.json", "--report", "r.txt", "print.elf")
+                process.send_signal(number)
+                status, err = self.end(process)
+                self.assertEqual(status, 128 + number, f"{engine} {number}")
+                self.assertIn("interrupted in cycle", err)
+                self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
+                with open("r.txt") as file:
+                    self.assertIn("partial", file.read())
+                self.assertEqual(self.litter("s.json", "r.txt"), [])
+                for name in ("s.json", "r.txt"):
+                    os.remove(name)
+
+    def test_buffers(self):
+        """What an earlier run left stays."""
+        with open("d.bin", "w") as file:
+            file.write("of before")
+        status, out, err = run("--alloc", "input=64000000", "--alloc", "output=64000000", "--dump", "output=d.bin", "--max-cycles",
+                               "1000", "copy.elf")
+        self.assertEqual(status, 124)
+        with open("d.bin") as file:
+            self.assertEqual(file.read(), "of before")
+        os.remove("d.bin")
+
+    def test_host_threads(self):
+        process = self.start("--config", "4x32", "--host-threads", "3", "--stats", "s.json", "print.elf")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(self.end(process)[0], 130)
+        self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
+        os.remove("s.json")
+
+    def test_quit_tells_where(self):
+        process = self.start("--config", "1x32", "print.elf")
+        process.send_signal(signal.SIGQUIT)
+        status, err = self.end(process)
+        self.assertEqual(status, 131)
+        self.assertRegex(err, r"32 threads, 0 ended\n(\d+ threads? in outer.*\n    threads? .*\n)+$")
+
+    def test_second_signal(self):
+        """While the first one's statistics cannot be written, for nobody reads the pipe."""
+        os.mkfifo("pipe")
+        process = self.start("--stats", "pipe", "print.elf")
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(self.end(process)[0], -signal.SIGINT)
+        os.remove("pipe")
+        self.assertEqual(self.litter(), [])
+
+    def test_ignored_signal(self):
+        """What whoever started it ignores (nohup) stays ignored."""
+        process = self.start("--max-cycles", "2000000", "print.elf",
+                             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(self.end(process)[0], 124)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""Every option that trax-sim --help lists, with good and with bad values: usage options_test.py TRAX_SIM EMULATOR_PROGRAMS
+
+An option that is listed and not here fails the test, and so does one that is here and not listed. What an option does in
+detail is tested where it belongs (cli_test.sh, explain, gdb, ...); here it must do something, and refuse what it cannot do: with
+status 1, one line, nothing on standard output, and no file."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+SIM, PROGRAMS = (os.path.abspath(path) for path in sys.argv[1:])
+failures = 0
+
+
+def fail(message, *run):
+    global failures
+    failures += 1
+    print("FAILED:", message, *(f"\n    {stream}" for stream in run))
+
+
+def run(*words):
+    done = subprocess.run([SIM, *words], capture_output=True, timeout=120, stdin=subprocess.DEVNULL)
+    return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode()
+
+
+class Case:
+    """Words that make sense with the option, on which program; what must hold then; values that are refused."""
+
+    def __init__(self, words, check=None, program="mix.elf", status=0, bad=(), twice=None):
+        self.words, self.check, self.program, self.status, self.bad, self.twice = words, check, program, status, bad, twice
+
+
+def file_holds(name, text):
+    def check(out, err):
+        if not os.path.exists(name):
+            return f"no file {name}"
+        with open(name) as file:
+            return None if re.search(text, file.read()) else f"no {text!r} in {name}"
+
+    return check
+
+
+def exists(name):
+    return lambda out, err: None if os.path.exists(name) and os.path.getsize(name) else f"no {name}"
+
+
+def prints(text):
+    return lambda out, err: None if re.search(text, out) else f"{text!r} is not printed"
+
+
+def says(text):
+    return lambda out, err: None if re.search(text, err) else f"{text!r} is not said"
+
+
+def statistic(name, value, path="stats.json"):
+    def check(out, err):
+        with open(path) as file:
+            found = json.load(file)[name]
+        return None if found == value else f"{name} is {found}, not {value}"
+
+    return check
+
+
+NUMBERS = ("x", "-1", "1.5", "1x", " 1", "99999999999999999999", "0x")
+FILES = ("none/x", "closed")  # neither can be written
+WINDOW = ["--trace", "trace.txt"]
+CASES = {
+    "config": Case(["4x32", "--stats", "stats.json"], statistic("threads", 128), bad=("4x31", "none.cfg", "hello.elf"), twice="1x32"),
+    "set": Case(["chip.tps_per_tm=3", "--stats", "stats.json"], statistic("threads", 3),
+                bad=("chip.tms", "=4", "chip.tms=", "chip.tms=x", "chip.tms=0", "chip.tms=65", "chip.tsm=1", "tms=1")),
+    "bind": Case(["input=in.bin", "--alloc", "output=16", "--dump", "output=out.txt"], file_holds("out.txt", "^0123456789abcdef$"),
+                 "copy.elf", bad=("input", "=in.bin", "input=", "input=none", "nothing=in.bin", "input=closed")),
+    "scene": Case(["in.bin"], says("no symbol scene"), status=1, bad=("none", "closed")),
+    "alloc": Case(["input=0", "--alloc", "output=4", "--dump", "output=out.txt"], file_holds("out.txt", "\0\0\0\0"), "copy.elf",
+                  bad=tuple("input=" + number for number in NUMBERS) + ("input", "=4", "input=4294967296")),
+    "dump": Case(["output=out.txt", "--bind", "input=in.bin", "--alloc", "output=16"], file_holds("out.txt", "^0123456789abcdef$"),
+                 "copy.elf", bad=("output", "=x", "output=", "output=none/x", "output=closed", "nothing=x")),
+    "stats": Case(["stats.json"], statistic("status", "finished"), bad=FILES, twice="b"),
+    "report": Case(["report.txt"], file_holds("report.txt", "Thread-cycles by cause"), bad=FILES, twice="b"),
+    "profile": Case(["out.txt"], file_holds("out.txt", "outer|mix|_start|[0-9]"), bad=FILES, twice="b"),
+    "profile-folded": Case(["out.txt"], file_holds("out.txt", r" \d+\n"), bad=FILES, twice="b"),
+    "annotate": Case(["out.txt"], file_holds("out.txt", "addi"), bad=FILES, twice="b"),
+    "heat": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES, twice="b"),
+    "heat-lines": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES, twice="b"),
+    "items": Case(["out.txt"], file_holds("out.txt", ","), "items.elf", bad=FILES, twice="b"),
+    "item-buffer": Case(["output", "--items", "out.txt", "--bind", "input=in.bin", "--alloc", "output=16"], file_holds("out.txt", ","),
+                        "copy.elf", bad=("nothing",), twice="b"),
+    "series": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES, twice="b"),
+    "series-interval": Case(["100", "--series", "out.txt"], file_holds("out.txt", "(.*\n){4}"), bad=NUMBERS + ("0",)),
+    "trace": Case(["trace.txt"], file_holds("trace.txt", "addi"), bad=FILES, twice="b"),
+    "perfetto": Case(["out.txt", "--window", "0:1000"], file_holds("out.txt", "traceEvents"), bad=FILES, twice="b"),
+    "konata": Case(["out.txt", "--window", "0:1000"], file_holds("out.txt", "Kanata"), bad=FILES, twice="b"),
+    "window": Case(["100:200"] + WINDOW, file_holds("trace.txt", "[0-9]"), bad=("100", "200:100", "x:y", "1:", "-1:5", "1:2:3")),
+    "window-tms": Case(["0"] + WINDOW, file_holds("trace.txt", "addi"), bad=("x", "0-", "3-1", "99", ",", "-1")),
+    "window-tps": Case(["0"] + WINDOW, file_holds("trace.txt", "addi"), bad=("x", "0-", "3-1", "99", ",", "-1")),
+    "max-cycles": Case(["1000"], says("not ended after 1000 cycles"), "spin.elf", 124, NUMBERS + ("0",)),
+    "progress-total": Case(["1000"], None, bad=NUMBERS + ("0",)),
+    "engine": Case(["functional", "--stats", "stats.json"], statistic("cycles", 0), bad=("slow", "Fast", "fastest")),
+    "sample": Case(["window=100", "--engine", "sampled"], None,
+                   bad=("x", "period", "period=", "period=x", "period=0", "nothing=1", "period=1,", "window=-1")),
+    "host-threads": Case(["2", "--config", "2x32", "--stats", "stats.json"], statistic("threads", 64), bad=NUMBERS + ("0", "65")),
+    "checkpoint": Case(["c.bin", "--max-cycles", "100"], exists("c.bin"), "spin.elf", 124, FILES, "b"),
+    "checkpoint-at": Case(["100", "--checkpoint", "c.bin"], exists("c.bin"), bad=NUMBERS + ("0",)),
+    "checkpoint-every": Case(["100", "--checkpoint", "c.bin"], exists("c.bin"), bad=NUMBERS + ("0",)),
+    "resume": Case(["hello.elf"], says("not a checkpoint"), status=1, bad=("none", "closed", "in.bin"), twice="b"),
+    "post-mortem": Case(["out.txt"], file_holds("out.txt", "^1 thread, 1 ended\n$"), bad=FILES, twice="b"),
+    "gdb": Case(["65536"], says("not a whole number from 0 to 65535"), status=1, bad=NUMBERS),  # runs are tests/emulator/gdb's
+    "gdb-symbols": Case(["symbols"], exists("symbols"), bad=FILES, twice="b"),
+    "quiet": Case([], None),
+    "print-config": Case([], prints("latency_cycles")),
+    "help-config": Case([], prints("chip.tms")),
+    "help-stats": Case([], prints("thread_cycles")),
+    "version": Case([], prints(r"^trax-sim \d")),
+    "help": Case([], prints("^usage: trax-sim")),
+}
+
+
+def listed():
+    """The options that --help lists, with the name of their argument or None."""
+    return dict(re.findall(r"^  --([a-z-]+)(?: ([A-Z]\S*))?  +\S", run("--help")[1], re.M))
+
+
+def files():
+    return {name: os.stat(name).st_mtime_ns for name in os.listdir(".")}
+
+
+def refused(name, words, program):
+    before = files()
+    status, out, err = run(*words, program)
+    shown = " ".join(words + [program])
+    if status != 1:
+        fail(f"status {status}, not 1, of: {shown}", out[:300], err)
+    if not re.fullmatch(r"trax-sim: error: [^\n]+\n", err):
+        fail(f"not one line of error is said by: {shown}", err)
+    if out:
+        fail(f"something is printed by: {shown}", out[:300])
+    if files() != before:
+        fail(f"files are left by: {shown}: {set(files().items()) ^ set(before.items())}")
+
+
+def with_value(case, name, value):
+    """The case's words with another value for the option; what an option needs beside it stays."""
+    return [f"--{name}={value}", *case.words[1:]]
+
+
+def try_option(name, argument, case):
+    words = [f"--{name}", *case.words]
+    status, out, err = run(*words, case.program)
+    if status != case.status:
+        fail(f"status {status}, not {case.status}, of: {' '.join(words)} {case.program}", err)
+    elif case.check and (wrong := case.check(out, err)):
+        fail(f"{wrong}: {' '.join(words)} {case.program}", err)
+    for left in ("out.txt", "trace.txt", "stats.json", "report.txt", "symbols", "c.bin"):
+        if os.path.exists(left):
+            os.remove(left)
+    if not argument:
+        refused(name, [f"--{name}=1"], case.program)
+        return
+    refused(name, [f"--{name}="] + case.words[1:], case.program)
+    last = subprocess.run([SIM, case.program, f"--{name}"], capture_output=True)
+    if last.returncode != 1 or f"--{name} needs {argument}".encode() not in last.stderr:
+        fail(f"--{name} without a value", last.stderr)
+    for value in case.bad:
+        refused(name, with_value(case, name, value), case.program)
+    if case.twice:
+        refused(name, words + [f"--{name}", case.twice], case.program)
+
+
+with tempfile.TemporaryDirectory() as directory:
+    os.chdir(directory)
+    subprocess.run([PROGRAMS, "."], check=True)
+    os.mkdir("closed")
+    with open("in.bin", "w") as file:
+        file.write("0123456789abcdef")
+    options = listed()
+    if len(options) < 30:
+        fail(f"--help is not understood: {options}")
+    for name in options.keys() - CASES.keys():
+        fail(f"--{name} has no test: add it to CASES of {os.path.basename(__file__)}")
+    for name in CASES.keys() - options.keys():
+        fail(f"--{name} is tested, but not listed by --help")
+    for name in options.keys() & CASES.keys():
+        try_option(name, options[name] or None, CASES[name])
+    os.chdir("/")
+print(f"{len(CASES)} options, {failures} failures")
+sys.exit(failures > 0)
