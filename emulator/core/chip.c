@@ -47,8 +47,16 @@ void trax_chip_destroy(struct trax_chip *chip) {
   trax_memory_destroy(&chip->memory);
 }
 
-uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm) {
-  return chip->reference ? trax_reference_queued(chip->reference, tm) : chip->tm[tm].queue.count;
+uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm, uint64_t t) {
+  if (chip->reference)
+    return trax_reference_queued(chip->reference, tm);
+  const struct trax_queue *queue = &chip->tm[tm].queue;
+  uint32_t arrived = 0; /* at a TM that looks no more: the run waits for the last transfers only */
+  for (uint32_t i = 0; i < queue->started; i++) {
+    const uint32_t place = queue->heap ? queue->heap[i] : (queue->oldest + i) % queue->depth;
+    arrived += queue->requests[place].completion < t;
+  }
+  return queue->count - arrived;
 }
 
 void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {

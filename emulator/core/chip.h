@@ -52,8 +52,8 @@ void trax_chip_destroy(struct trax_chip *chip);
    for a watch that wants to read them; and hands it the fault that ended the run. */
 void trax_chip_settle(struct trax_chip *chip, uint64_t t);
 
-/* How many places of a TM's memory queue are taken. */
-uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm);
+/* How many places of a TM's memory queue are taken when all cycles before `t` are over. */
+uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm, uint64_t t);
 
 /* Calls those whose time it is to look at the machine before cycle t. *next receives the cycle in which someone looks
    again. */

@@ -83,7 +83,7 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
     series->previous[tm] = counted;
     for (size_t i = 0; i < sizeof total / sizeof(uint64_t); i++)
       ((uint64_t *)&total)[i] += ((const uint64_t *)&rows[tm])[i];
-    queued += chip ? trax_chip_queued(chip, tm) : 0;
+    queued += chip ? trax_chip_queued(chip, tm, end) : 0;
   }
   struct trax_memory_stats memory = machine->stats.memory;
   subtract(&memory, &series->previous_memory, sizeof memory);
@@ -92,7 +92,7 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
     char name[16];
     snprintf(name, sizeof name, "%u", tm);
-    put_row(series, name, end, &rows[tm], NULL, chip ? trax_chip_queued(chip, tm) : 0);
+    put_row(series, name, end, &rows[tm], NULL, chip ? trax_chip_queued(chip, tm, end) : 0);
   }
   series->begin = end;
   free(rows);
