@@ -1,7 +1,10 @@
 /* The loader under libFuzzer: the first file of a case is the executable. It is opened, asked about its symbols and
-   source lines, loaded and run for a while. The word `functional` in the line of options is for that engine. */
+   source lines, copied for a debugger, loaded and run for a while; at its end
+   every thread is unwound. The word `functional` in the line of options is for that engine. */
 #include "core/machine.h"
 #include "fuzz_case.h"
+#include "gdb/gdb.h"
+#include "host/backtrace.h"
 #include "host/host.h"
 #include "host/util.h"
 
@@ -49,7 +52,11 @@ static void run(trax_machine *machine, const char *words, FILE *nowhere) {
   const trax_run_options options = {.output = nowhere,
                                     .max_cycles = 2000,
                                     .engine = strstr(words, "functional") ? TRAX_ENGINE_FUNCTIONAL : TRAX_ENGINE_FAST};
+  struct trax_post_mortem *post_mortem = trax_post_mortem_create(machine, NULL, true, &error);
   const trax_status status = trax_machine_run(machine, &options, &error);
+  if (!post_mortem || touch(trax_post_mortem_text(post_mortem)) == 0)
+    abort();
+  trax_post_mortem_destroy(post_mortem);
   if (status == TRAX_FAULT)
     trax_machine_print_fault(machine, nowhere);
   if (status == TRAX_ERROR) {
@@ -73,6 +80,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   trax_machine *machine = trax_machine_create(config, &error);
   if (machine && current && trax_machine_load_elf(machine, "program.elf", &error) == TRAX_OK) {
     sum += ask(trax_host_of(machine)->image);
+    if (trax_gdb_write_symbols("program.elf", "/dev/null", &error) == TRAX_ERROR && !error.message[0])
+      abort();
     run(machine, fuzz_case.options, nowhere);
   } else if (machine && current && !error.message[0]) {
     abort(); /* refused without a reason */
