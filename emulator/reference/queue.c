@@ -104,7 +104,7 @@ static bool read_word(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
 /* Looks at a TP in its turn. False: it needs a place and gets none. */
 static bool serve(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   if (trax_ref_ends_thread(tp))
-    return trax_ref_write_last_run(tm, tp);
+    return trax_ref_write_run(tm, tp);
   if (!trax_ref_accesses_memory(tp) || trax_ref_accesses_local(tp))
     return true; /* it asks for nothing here */
   if (trax_ref_is(tp, TRAX_IS_STORE))

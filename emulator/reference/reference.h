@@ -195,7 +195,8 @@ void trax_ref_data_arrives(struct trax_ref_tm *tm, uint32_t line, uint64_t t);
 
 /* --- Stores and write combining: stores.c. False: it needs a place and gets none. --- */
 bool trax_ref_store(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
-bool trax_ref_write_last_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
+/* Writes the run in the buffer, if there is one. */
+bool trax_ref_write_run(struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 
 /* --- Memory queue: queue.c --- */
 void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t);

@@ -11,8 +11,7 @@ static uint32_t greatest(uint32_t a, uint32_t b) {
   return a > b ? a : b;
 }
 
-/* A place for the run in the buffer, if there is one. */
-static bool write_run(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+bool trax_ref_write_run(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   const uint32_t bytes = tp->run_end - tp->run_begin;
   return bytes == 0 ||
          trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .address = tp->run_begin, .bytes = bytes});
@@ -34,7 +33,7 @@ static bool write(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
     tp->run_end = greatest(tp->run_end, end);
     return true;
   }
-  if (!write_run(tm, tp))
+  if (!trax_ref_write_run(tm, tp))
     return false;
   tp->run_begin = begin;
   tp->run_end = end;
@@ -52,12 +51,5 @@ bool trax_ref_store(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
   } else {
     tm->stats->store_misses++;
   }
-  return true;
-}
-
-bool trax_ref_write_last_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
-  if (!write_run(tm, tp))
-    return false;
-  tp->run_begin = tp->run_end = 0;
   return true;
 }

@@ -17,9 +17,10 @@ import sys
 from mutants_list import MUTANTS
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-HAND = ["pipeline", "fetch", "units", "memory", "atomics", "beyond", "faults"]
+HAND = ["pipeline", "fetch", "units", "memory", "atomics", "faults"]
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
+TESTS += [(["timing-beyond-test"], {})]
 BY_HAND = len(TESTS)
 TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {})]
 TARGETS = sorted({test[0][0] for test in TESTS})

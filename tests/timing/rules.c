@@ -84,6 +84,9 @@ const struct rule *timing_rules(size_t *count) {
        "102 103 104 105 106 107 108 109 212 213", "icache_miss=204", NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, NOP, HALT);
   RULE("Fetch", "a line that is on its way is not asked for again", FAR, "chip.tps_per_tm=2", 105, NONE, "104 / 104",
        "icache_miss=208", HALT);
+  /* The same line for the second cache comes 4 cycles later. */
+  RULE("Fetch", "a line serves the TPs of the cache that asked for it", FAR, "chip.tps_per_tm=2 icache.tps_per_cache=1",
+       109, NONE, "104 / 108", "icache_miss=212", HALT);
   /* TP 0's line has the only place in 0..103. */
   RULE("Fetch", "a miss needs a place in the memory queue", FAR,
        "chip.tps_per_tm=2 icache.tps_per_cache=1 memory.queue_depth=1", 209, NONE, "104 / 208",
@@ -157,9 +160,9 @@ const struct rule *timing_rules(size_t *count) {
        "icache_miss=32 int_mul_conflict=240", R(MULH, 1, 0, 0), HALT);
   RULE("Units", "comparisons and conversions execute on the adder", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 6, NONE,
        "1 3 4 / 2 4 5", "icache_miss=2 fp_add_conflict=3", R(FMIN, 1, 0, 0), R1(FCVT_W_S, 2, 0), HALT);
-  RULE("Units", "or, with fpu.compare_units, on the TP's own units", NEAR,
-       "chip.tps_per_tm=2 fpu.compare_units=true " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3", "icache_miss=2",
-       R(FMIN, 1, 0, 0), R1(FCVT_W_S, 2, 0), HALT);
+  RULE("Units", "or, with fpu.compare_units, on the TP's own units, but additions do not", NEAR,
+       "chip.tps_per_tm=2 fpu.compare_units=true " LOCKSTEP, 6, NONE, "1 2 3 4 / 1 2 4 5",
+       "icache_miss=2 fp_add_conflict=1", R(FMIN, 1, 0, 0), R1(FCVT_W_S, 2, 0), R(FADD, 3, 0, 0), HALT);
   RULE("Units", "the TM's FPDIV/iSQRT unit is taken for its latency", NEAR, "chip.tps_per_tm=4 " LOCKSTEP, 27, NONE,
        "1 2 / 9 10 / 17 18 / 25 26", "icache_miss=4 special_conflict=48", R(FDIV, 1, 0, 0), HALT);
   RULE("Units", "as many are served as there are free units", NEAR,
@@ -220,6 +223,11 @@ const struct rule *timing_rules(size_t *count) {
        "104 105 209 210 314 315 316 317 421 422 423 424 528 529", "icache_miss=104 wait_memory=412", U(LUI, 1, 1),
        I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), I(LW, 2, 1, 4), R(ADD, 0, 2, 2),
        I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 68), R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  /* Two sets of two: lines 0, 2 and 4 are in one. */
+  RULE("Data cache", "a line has its set by its number", FAR, "dcache.bytes=256 dcache.ways=2", 526, NONE,
+       "104 105 209 210 314 315 419 420 524 525", "icache_miss=104 wait_memory=412", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       R(ADD, 0, 2, 2), I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 256), R(ADD, 0, 2, 2), I(LW, 2, 1, 0),
+       R(ADD, 0, 2, 2), HALT);
   /* A 105, B 210, A hits, C 317 takes B's place, A hits. */
   RULE("Data cache", "or the least recently used line is replaced", FAR,
        "dcache.bytes=128 dcache.ways=2 dcache.lru=true", 425, NONE, "104 105 209 210 314 315 316 317 421 422 423 424",
@@ -271,6 +279,12 @@ const struct rule *timing_rules(size_t *count) {
        NONE, "104 105 106 107 108 420 421 / 104 105 106 107 212 524 525 / 104 105 106 107 316 628 629",
        "icache_miss=312 memory_queue_full=1245", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 6),
        R(ADD, 1, 1, 2), I(LW, 3, 1, 0), I(LW, 4, 1, 192), HALT);
+  /* TP 2 has the place in 108..208. TPs 0 and 1 ask from 109 on; TP 0 comes behind TP 2. */
+  RULE("Memory queue", "the turn goes on behind the last TP that took a place", FAR,
+       "chip.tps_per_tm=3 memory.queue_depth=1", 312, NONE,
+       "104 105 106 107 108 209 210 / 104 105 106 107 108 310 311 / 104 105 106 107 108 109",
+       "icache_miss=312 memory_queue_full=301", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(ADDI, 3, 2, -2),
+       B(BEQ, 3, 0, 8), NOP, I(LWNT, 4, 1, 0), HALT);
   RULE("Memory queue", "the second of two that miss a line in one cycle merges", FAR,
        "chip.tps_per_tm=2 dcache.tps_per_bank=1", 214, NONE,
        "104 105 106 107 108 212 213 / 104 105 106 107 108 212 213", "icache_miss=208 wait_memory=206", U(LUI, 1, 1),
