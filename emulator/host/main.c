@@ -11,6 +11,7 @@
 #include "options.h"
 #include "progress.h"
 #include "util.h"
+#include "watchdog.h"
 
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
 
@@ -119,7 +120,10 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
       run_options.output = shared;
   }
   struct trax_checkpoint *checkpoint = NULL;
+  struct trax_watchdog *watchdog = NULL;
   trax_status status = trax_checkpoint_begin(&checkpoint, machine, &options->checkpoint, error);
+  if (status == TRAX_OK && options->watchdog && !(watchdog = trax_watchdog_begin(machine, options->watchdog)))
+    status = trax_fail(error, "out of memory");
   if (status == TRAX_OK)
     status = options->gdb ? debug(machine, &run_options, (unsigned)options->gdb_port, error)
                           : trax_machine_run(machine, &run_options, error);
@@ -128,6 +132,9 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
   if (run_options.output != stdout)
     fclose(run_options.output);
   trax_progress_clear(&line);
+  if (watchdog)
+    trax_watchdog_print(watchdog, stderr);
+  trax_watchdog_end(watchdog);
   return status;
 }
 

@@ -34,6 +34,7 @@ enum option_id {
   OPTION_WINDOW_TMS,
   OPTION_WINDOW_TPS,
   OPTION_MAX_CYCLES,
+  OPTION_WATCHDOG,
   OPTION_PROGRESS_TOTAL,
   OPTION_ENGINE,
   OPTION_SAMPLE,
@@ -81,6 +82,8 @@ static const struct {
     [OPTION_WINDOW_TMS] = {"window-tms", "LIST", "its TMs, as in 0,2-3; default all"},
     [OPTION_WINDOW_TPS] = {"window-tps", "LIST", "its TPs in each of these TMs; default all"},
     [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
+    [OPTION_WATCHDOG] = {"watchdog", "N",
+                         "the same when for N cycles no thread ends and no ray, item or output is seen"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
     [OPTION_ENGINE] = {"engine", "NAME",
                        "fast (default), reference (the same, slower), sampled (estimates) or functional (no time)"},
@@ -113,9 +116,11 @@ void trax_options_help(FILE *out) {
              table[i].argument ? table[i].argument : "");
     fprintf(out, "  %-24s %s\n", option, table[i].meaning);
   }
-  fprintf(out, "\nExit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
-               "124 if --max-cycles ends it, 130 if it is interrupted. Without --stats and --report nothing but\n"
-               "the program's output is printed; faults and errors go to standard error.\n");
+  fprintf(
+      out,
+      "\nExit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
+      "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report nothing but\n"
+      "the program's output is printed; faults and errors go to standard error.\n");
 }
 
 static const char *option_name(const void *context, size_t i) {
@@ -315,6 +320,8 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return add_scene(options, value, error);
   case OPTION_MAX_CYCLES:
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->max_cycles, error);
+  case OPTION_WATCHDOG:
+    return parse_number(table[id].name, value, 1, UINT64_MAX / 2, &options->watchdog, error);
   case OPTION_PROGRESS_TOTAL:
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->total_items, error);
   case OPTION_ENGINE:
@@ -421,6 +428,8 @@ trax_status trax_options_parse(struct trax_options *options, int count, char **a
     return trax_fail(error, "--checkpoint-at and --checkpoint-every need --checkpoint");
   if ((checkpoint->write || checkpoint->resume) && options->engine != TRAX_ENGINE_FAST)
     return trax_fail(error, "--checkpoint and --resume are for the fast engine");
+  if (options->watchdog && options->engine == TRAX_ENGINE_FUNCTIONAL)
+    return trax_fail(error, "--watchdog needs an engine with cycles, not functional");
   if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
     return trax_fail(error, "no program is given");
   if (options->post_mortem && options->engine != TRAX_ENGINE_FAST && options->engine != TRAX_ENGINE_FUNCTIONAL)

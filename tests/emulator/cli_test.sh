@@ -175,6 +175,21 @@ refuse "need --checkpoint" --checkpoint-at 5 hello.elf
 refuse "need --checkpoint" --checkpoint-every 5 hello.elf
 refuse "are for the fast engine" --checkpoint c.bin --engine functional hello.elf
 
+# --- watchdog: the same from both engines
+for engine in fast reference; do
+  run 124 --engine $engine --config 2x32 --watchdog 10000 --stats stats.json idle.elf
+  says "no thread has ended, and no ray, item or output was seen, between the cycles 10000 and 20000"
+  says "64 threads, as 0: issued "
+  says " icache_bank_conflict "
+  says "the statistics are partial"
+  grep -q '"cycles": 20000,' stats.json || fail "stats.json of the watchdog"
+done
+run 124 --max-cycles 30000 --watchdog 10000 spin.elf # which counts items
+says "has not ended after 30000 cycles"
+run 3 --watchdog 10000 exit3.elf
+refuse "--watchdog needs an engine with cycles" --watchdog 5 --engine functional hello.elf
+refuse '--watchdog: "0" is not' --watchdog 0 hello.elf
+
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
 refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf

@@ -49,6 +49,11 @@ static struct elf_file spin(void) {
   return simple(text, COUNT(text), "", 1, false);
 }
 
+static struct elf_file idle(void) {
+  const uint32_t text[] = {I(ADDI, A0, A0, 1), J(ZERO, -4)};
+  return simple(text, COUNT(text), "", 1, false);
+}
+
 static struct elf_file print(void) {
   const uint32_t text[] = {I(ADDI, A0, ZERO, '.'), T(A0, TRAX_TRAP_PUTC), J(ZERO, -4)};
   return simple(text, COUNT(text), "", 1, false);
@@ -99,9 +104,10 @@ static const struct {
   const char *name;
   struct elf_file (*make)(void);
 } programs[] = {{"hello", hello}, {"exit3", exit3}, {"null", null}, {"abort", abort_program}, {"spin", spin},
-                {"items", items}, {"copy", copy},   {"mix", mix},   {"print", print}};
+                {"items", items}, {"copy", copy},   {"mix", mix},   {"print", print},
+                {"idle", idle}};
 
-const char *const program_names[] = {"hello", "exit3", "null", "abort", "spin", "items", "copy", "mix", "print", NULL};
+const char *const program_names[] = {"hello", "exit3", "null", "abort", "spin", "items", "copy", "mix", "print", "idle", NULL};
 
 struct elf_file program_file(const char *name) {
   for (size_t i = 0; i < COUNT(programs); ++i)

@@ -9,6 +9,7 @@
      null    its third instruction loads from the null page; has lines and the symbol `outer`
      abort   aborts with the message "out of luck"
      spin    never ends; counts items
+     idle    never ends, and nobody sees what it does
      items   finishes 1000 items
      copy    copies the buffer `input` to the buffer `output`, words; also has __trax_heap and __trax_heap_end
      mix     every thread 50 times: every kind of unit, memory and atomics; counts a ray each time

@@ -1,0 +1,161 @@
+#include "watchdog.h"
+
+#include "core/chip.h"
+#include "host.h"
+#include "reference/reference.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct trax_watchdog {
+  struct trax_machine *machine;
+  struct trax_watch watch;
+  uint64_t cycles; /* from one look to the next */
+  uint64_t looked; /* cycle of the last look */
+  uint64_t progress, issued;
+  struct trax_tp_stats *charges; /* [threads]: as of the last look; then what has been charged since */
+  uint32_t *pc;                  /* [threads]: when the run was ended */
+  bool barked, asleep;           /* asleep: no instruction was issued either */
+};
+
+/* Instructions that count as progress, and all. */
+static void count(const struct trax_machine *machine, uint64_t *progress, uint64_t *issued) {
+  *progress = *issued = 0;
+  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++)
+    for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
+      const uint64_t instructions = machine->tm_stats[tm].instructions[op];
+      *issued += instructions;
+      *progress += op == TRAX_OP_TRAP || op == TRAX_OP_HALT ? instructions : 0;
+    }
+}
+
+static void note_places(struct trax_watchdog *watchdog, struct trax_chip *chip) {
+  const uint32_t tps = chip->machine->config.chip.tps_per_tm;
+  trax_chip_gather(chip);
+  for (uint32_t tm = 0; tm < chip->tms; tm++)
+    for (uint32_t tp = 0; tp < tps; tp++)
+      watchdog->pc[tm * tps + tp] = chip->tm ? chip->tm[tm].tp[tp].pc : chip->reference->tm[tm].tp[tp].pc;
+}
+
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+  struct trax_watchdog *watchdog = watch->context;
+  const struct trax_machine *machine = chip->machine;
+  const uint64_t t = watch->next, progress = watchdog->progress, issued = watchdog->issued;
+  trax_chip_settle(chip, t);
+  count(machine, &watchdog->progress, &watchdog->issued);
+  watchdog->barked = watchdog->progress == progress && t > chip->begin + watchdog->cycles;
+  if (!watchdog->barked) {
+    memcpy(watchdog->charges, machine->tp_stats, machine->stats.threads * sizeof *watchdog->charges);
+    watchdog->looked = t;
+    watch->next = t + watchdog->cycles;
+    return TRAX_OK;
+  }
+  watchdog->asleep = watchdog->issued == issued;
+  for (uint64_t i = 0; i < machine->stats.threads; i++)
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      watchdog->charges[i].cycles[cause] = machine->tp_stats[i].cycles[cause] - watchdog->charges[i].cycles[cause];
+  note_places(watchdog, chip);
+  return TRAX_STUCK;
+}
+
+struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles) {
+  struct trax_watchdog *watchdog = calloc(1, sizeof *watchdog);
+  if (!watchdog)
+    return NULL;
+  watchdog->machine = machine;
+  watchdog->cycles = cycles;
+  watchdog->charges = calloc(machine->stats.threads, sizeof *watchdog->charges);
+  watchdog->pc = calloc(machine->stats.threads, sizeof *watchdog->pc);
+  watchdog->watch = (struct trax_watch){.look = look, .context = watchdog, .others = machine->watches};
+  machine->watches = &watchdog->watch;
+  if (watchdog->charges && watchdog->pc)
+    return watchdog;
+  trax_watchdog_end(watchdog);
+  return NULL;
+}
+
+bool trax_watchdog_barked(const struct trax_watchdog *watchdog) {
+  return watchdog->barked;
+}
+
+/* --- the statement --- */
+
+/* What a thread did for most of the time, other than to issue; ISSUED if that was all. */
+static trax_cause main_cause(const struct trax_watchdog *watchdog, uint64_t thread) {
+  const uint64_t *cycles = watchdog->charges[thread].cycles;
+  trax_cause most = TRAX_CAUSE_ISSUED;
+  for (unsigned cause = 1; cause < TRAX_CAUSE_COUNT; cause++)
+    if (cycles[cause] > (most == TRAX_CAUSE_ISSUED ? 0 : cycles[most]))
+      most = (trax_cause)cause;
+  return most;
+}
+
+static const struct trax_symbol *symbol_of(const struct trax_watchdog *watchdog, uint64_t thread) {
+  const struct trax_host *host = trax_host_of(watchdog->machine);
+  return host ? trax_image_symbol_at(host->image, watchdog->pc[thread]) : NULL;
+}
+
+static bool alike(const struct trax_watchdog *watchdog, uint64_t a, uint64_t b) {
+  return main_cause(watchdog, a) == main_cause(watchdog, b) && symbol_of(watchdog, a) == symbol_of(watchdog, b);
+}
+
+static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, FILE *out) {
+  static const char *const names[TRAX_CAUSE_COUNT] = {
+#define NAME(ID, NAME, ...) NAME,
+      TRAX_CAUSES(NAME)
+#undef NAME
+  };
+  const struct trax_host *host = trax_host_of(watchdog->machine);
+  const trax_cause cause = main_cause(watchdog, first);
+  uint64_t threads = 0, issued = 0, waited = 0, all = 0;
+  for (uint64_t i = first; i < watchdog->machine->stats.threads; i++)
+    if (alike(watchdog, first, i)) {
+      threads++;
+      issued += watchdog->charges[i].cycles[TRAX_CAUSE_ISSUED];
+      waited += cause == TRAX_CAUSE_ISSUED ? 0 : watchdog->charges[i].cycles[cause];
+      for (unsigned k = 0; k < TRAX_CAUSE_COUNT; k++)
+        all += watchdog->charges[i].cycles[k];
+    }
+  fprintf(out, "  %" PRIu64 " thread%s, as %" PRIu64 ": issued %.0f %%", threads, threads > 1 ? "s" : "", first,
+          100 * (double)issued / (double)all);
+  if (cause != TRAX_CAUSE_ISSUED)
+    fprintf(out, ", %s %.0f %%", names[cause], 100 * (double)waited / (double)all);
+  const struct trax_symbol *symbol = symbol_of(watchdog, first);
+  fprintf(out, "; at 0x%08x", watchdog->pc[first]);
+  if (symbol)
+    fprintf(out, " in %s+0x%x", symbol->name, watchdog->pc[first] - symbol->address);
+  struct trax_source_line line;
+  if (host && trax_image_lines(host->image, watchdog->pc[first], &line, 1))
+    fprintf(out, " at %s:%d", line.file, line.line);
+  fprintf(out, "\n");
+}
+
+void trax_watchdog_print(const struct trax_watchdog *watchdog, FILE *out) {
+  if (!watchdog->barked)
+    return;
+  fprintf(out,
+          "no thread has ended, and no ray, item or output was seen, between the cycles %" PRIu64 " and %" PRIu64
+          "%s\n",
+          watchdog->looked, watchdog->watch.next, watchdog->asleep ? "; no instruction was issued" : "");
+  for (uint64_t i = 0; i < watchdog->machine->stats.threads; i++) {
+    uint64_t before = 0;
+    while (before < i && !alike(watchdog, before, i))
+      before++;
+    if (before == i)
+      print_threads(watchdog, i, out);
+  }
+}
+
+void trax_watchdog_end(struct trax_watchdog *watchdog) {
+  if (!watchdog)
+    return;
+  struct trax_watch **link = &watchdog->machine->watches;
+  while (*link && *link != &watchdog->watch)
+    link = &(*link)->others;
+  if (*link)
+    *link = watchdog->watch.others;
+  free(watchdog->charges);
+  free(watchdog->pc);
+  free(watchdog);
+}
