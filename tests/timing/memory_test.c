@@ -301,6 +301,39 @@ static void streaming_reaches_the_bandwidth(void **state) {
   }
 }
 
+/* A store past the cache and a load of the same word in one cycle, 109: the effects happen in the TPs' order. */
+static void effects_of_one_cycle(void **state) {
+  (void)state;
+  const struct trax_config config = bench_far(1, 2);
+  for (int writer = 0; writer < 2; writer++)
+    for (unsigned observed = 0; observed < 2; observed++) {
+      const uint32_t program[] = {U(LUI, 1, 1),
+                                  U(RDSR, 2, TRAX_SR_THREAD),
+                                  I(ADDI, 3, 0, 7),
+                                  I(ADDI, 4, 0, writer),
+                                  B(BEQ, 2, 4, 6 * 4),
+                                  I(LW, 5, 1, 0), /* the reader; what follows can run ahead with it */
+                                  NOP,
+                                  NOP,
+                                  S(SW, 5, 1, 64),
+                                  HALT,
+                                  S(SWNT, 3, 1, 0),
+                                  HALT};
+      struct bench bench = bench_begin(&config, program, sizeof program / 4);
+      if (observed) {
+        bench_run(&bench, 0);
+        assert_int_equal(bench.issues.issue[10].cycle, 109);
+        assert_int_equal(bench.issues.issue[11].cycle, 109);
+      } else { /* the fast engine runs further ahead when nobody looks */
+        bench.status = trax_machine_run(bench.machine, NULL, &bench.error);
+      }
+      assert_int_equal(bench.status, TRAX_OK);
+      assert_int_equal(bench_word(&bench, DATA), 7);
+      assert_int_equal(bench_word(&bench, DATA + 64), writer == 0 ? 7 : 0);
+      bench_end(&bench);
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(miss_then_hit),
@@ -315,6 +348,7 @@ int main(void) {
       cmocka_unit_test(stores_go_around),
       cmocka_unit_test(a_full_queue_stops_stores),
       cmocka_unit_test(places_go_round),
+      cmocka_unit_test(effects_of_one_cycle),
       cmocka_unit_test(places_go_round_for_reads_past_the_cache),
       cmocka_unit_test(bandwidth_is_exact),
       cmocka_unit_test(streaming_reaches_the_bandwidth),
