@@ -21,7 +21,6 @@ HAND = ["pipeline", "fetch", "units", "memory", "atomics", "faults"]
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
 TESTS += [(["timing-beyond-test"], {})]
-BY_HAND = len(TESTS)
 TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {})]
 TARGETS = sorted({test[0][0] for test in TESTS})
 

@@ -99,10 +99,10 @@ MUTANTS = [
     # --- the core, for the fast engine ---
     ("core/tm.c", "if (!trax_queue_has_place(&tm->queue))", "if (0)"),
     ("core/tm.c", "trax_arbiter_to_back(&tm->queue_turn, tp);", "trax_arbiter_to_back(&tm->queue_turn, tp - 1);"),
-    ("core/tm.c", "until - t <= TRAX_WHEEL ? until : t + TRAX_WHEEL", "until"),
+    ("core/tm.c", "until - t <= TRAX_WHEEL ? until : t + TRAX_WHEEL", "until - t <= 2 * TRAX_WHEEL ? until : t + TRAX_WHEEL"),
     ("core/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin", "address <= tp->run_end && address + bytes > tp->run_begin"),
     ("core/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
-    ("core/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "unit->interval"),
+    ("core/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "(winner & roots ? unit->interval : unit->root_interval)"),
     ("core/unit.c", "if (unit->free_from[i] <= t)", "if (unit->free_from[i] <= t + 1)"),
     ("core/memory.c", "channel->free_from > now ? channel->free_from : now", "now"),
     ("core/memory.c", "return channel->free_from < (t + 1) * memory->units_per_cycle;", "return channel->free_from <= t * memory->units_per_cycle;"),

@@ -267,6 +267,8 @@ const struct rule *timing_rules(size_t *count) {
   /* The write of 106 is back in 207. */
   RULE("Stores", "halt needs a place for what the buffer holds", FAR, "memory.queue_depth=1", 208, NONE,
        "104 105 106 207", "icache_miss=104 memory_queue_full=100", U(LUI, 1, 1), S(SW, 1, 1, 0), S(SW, 1, 1, 8), HALT);
+  RULE("Stores", "the exit trap writes it too", FAR, "memory.bandwidth_gbps=0.05", 782, NONE, "740 741 742",
+       "icache_miss=740", U(LUI, 1, 1), S(SW, 1, 1, 0), T(0, TRAX_TRAP_EXIT));
   /* TP 0's write of 105 has the place to 206. */
   RULE("Stores", "a store that gets no place waits for it", FAR,
        "chip.tps_per_tm=2 memory.queue_depth=1 memory.write_combining=false", 208, NONE, "104 105 106 / 104 206 207",
