@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "backtrace.h"
+#include "bench_modes.h"
 #include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
@@ -194,6 +195,15 @@ static trax_status write_symbols(const struct trax_options *options, trax_error 
   return options->gdb_symbols ? trax_gdb_write_symbols(options->program, options->gdb_symbols, error) : TRAX_OK;
 }
 
+static int compare_modes(const trax_config *config, const struct trax_options *options) {
+  trax_error error;
+  catch_signals();
+  if ((options->stats && trax_output_check(options->stats, &error) != TRAX_OK) ||
+      trax_bench_modes(config, options, load, &interrupted, stdout, &error) != TRAX_OK)
+    return complain(&error);
+  return EXIT_SUCCESS;
+}
+
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
   catch_signals();
@@ -304,6 +314,8 @@ int main(int count, char **arguments) {
   } else if (options.print_config) {
     trax_config_print(config, stdout);
     result = flush_standard_output(EXIT_SUCCESS);
+  } else if (options.bench_modes) {
+    result = flush_standard_output(compare_modes(config, &options));
   } else {
     result = simulate(config, &options);
   }

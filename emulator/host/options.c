@@ -46,6 +46,7 @@ enum option_id {
   OPTION_CHECKPOINT_AT,
   OPTION_CHECKPOINT_EVERY,
   OPTION_RESUME,
+  OPTION_BENCH_MODES,
   OPTION_QUIET,
   OPTION_PRINT_CONFIG,
   OPTION_HELP_CONFIG,
@@ -97,6 +98,7 @@ static const struct {
     [OPTION_CHECKPOINT_EVERY] = {"checkpoint-every", "N", "before each multiple of N cycles"},
     [OPTION_RESUME] = {"resume", "FILE",
                        "go on with the run of a checkpoint; the other options are to be as they were"},
+    [OPTION_BENCH_MODES] = {"bench-modes", NULL, "run in every mode, and print what each costs and how far off it is"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -348,6 +350,9 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->checkpoint.every, error);
   case OPTION_RESUME:
     return set_once(id, &options->checkpoint.resume, value, error);
+  case OPTION_BENCH_MODES:
+    options->bench_modes = true;
+    break;
   case OPTION_QUIET:
     options->quiet = true;
     break;

@@ -21,7 +21,7 @@ struct trax_assignment {
 
 struct trax_options {
   const char *program, *config, *stats, *report, *post_mortem, *gdb_symbols; /* NULL: not given */
-  struct trax_assignment *assignments;                         /* in the order of the command line */
+  struct trax_assignment *assignments;                                       /* in the order of the command line */
   size_t assignment_count;
   uint64_t max_cycles, watchdog, total_items; /* 0: not given */
   struct trax_explain_options explain;
@@ -33,6 +33,7 @@ struct trax_options {
   struct trax_checkpoint_options checkpoint;
   bool quiet;
   bool print_config;
+  bool bench_modes;
   enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;
 };
 

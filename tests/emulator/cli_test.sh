@@ -190,6 +190,18 @@ run 3 --watchdog 10000 exit3.elf
 refuse "--watchdog needs an engine with cycles" --watchdog 5 --engine functional hello.elf
 refuse '--watchdog: "0" is not' --watchdog 0 hello.elf
 
+# --- modes compared
+run 0 --config 2x32 --stats stats.json mix.elf
+run 0 --config 2x32 --bench-modes --stats modes.json mix.elf
+silent
+[ "$(wc -l <out)" -eq 6 ] || fail "not five modes"
+cycles=$(sed -n 's/^  "cycles": \(.*\),/\1/p' stats.json)
+grep -q "^fast .* $cycles" out || fail "the cycles are others than those of a run by itself"
+grep -q "\"cycles\": $cycles" modes.json || fail "modes.json: cycles"
+[ "$(grep -c '"error"' modes.json)" -eq 3 ] || fail "modes.json: three estimates"
+run 1 --bench-modes null.elf
+says "fast: the run does not finish: access to the null page"
+
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
 refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf

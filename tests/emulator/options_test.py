@@ -98,6 +98,7 @@ CASES = {
     "window-tms": Case(["0"] + WINDOW, file_holds("trace.txt", "addi"), bad=("x", "0-", "3-1", "99", ",", "-1")),
     "window-tps": Case(["0"] + WINDOW, file_holds("trace.txt", "addi"), bad=("x", "0-", "3-1", "99", ",", "-1")),
     "max-cycles": Case(["1000"], says("not ended after 1000 cycles"), "spin.elf", 124, NUMBERS + ("0",)),
+    "bench-modes": Case([], prints("(?s)sampled densely .*functional ")),
     "watchdog": Case(["1000"], says("no thread has ended"), "idle.elf", 124, NUMBERS + ("0",)),
     "progress-total": Case(["1000"], None, bad=NUMBERS + ("0",)),
     "engine": Case(["functional", "--stats", "stats.json"], statistic("cycles", 0), bad=("slow", "Fast", "fastest")),
