@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum {
+  MOST_AHEAD = 8,     /* instructions that a thread is shown ahead of where it is */
   ATTENTION = 100,    /* milliseconds until an interrupt of the program is noticed while the run is stopped */
   LISTEN_CYCLES = 512 /* how often a running program's debugger is listened to */
 };
@@ -21,14 +22,14 @@ static void on_issue(void *context, const struct trax_issue *issue) {
     gdb->observed_before->issue(gdb->observed_before->context, issue);
   if (gdb->phase != GDB_RUNNING)
     return;
-  state->told = false;
-  if (state->stepping && gdb->owed) {
-    gdb->owed = false;
-    return;
-  }
-  if (state->stepping && issue->next_pc - gdb->range_begin >= gdb->range_end - gdb->range_begin)
+  state->told = state->passed != 0;
+  if (state->stepping && gdb->owed)
+    gdb->owed--;
+  else if (state->stepping && issue->next_pc - gdb->range_begin >= gdb->range_end - gdb->range_begin)
     state->events |= TRAX_GDB_STEPPED;
-  if (gdb->break_count && trax_gdb_breaks_at(gdb, issue->next_pc))
+  if (state->passed)
+    state->passed--;
+  else if (gdb->break_count && trax_gdb_breaks_at(gdb, issue->next_pc))
     state->events |= TRAX_GDB_AT_BREAK;
   if (gdb->watch_count)
     trax_gdb_note_access(gdb, thread, issue);
@@ -71,13 +72,30 @@ static void describe_stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_s
   }
 }
 
-/* Where the thread's next instruction will lead it. */
-static uint32_t next_pc(const struct trax_gdb *gdb, uint32_t thread) {
+/* What the thread's next instruction does to it alone, as far as where it goes may depend on that. */
+static void imagine(const struct trax_gdb *gdb, uint32_t thread) {
+  struct trax_tp *tp = trax_gdb_tp(gdb, thread);
+  const struct trax_decoded *inst = tp->inst;
+  bool harmless = inst->ask != TRAX_ASK_END && inst->ask != TRAX_ASK_ILLEGAL && inst->ask != TRAX_ASK_OUTSIDE &&
+                  inst->op != TRAX_OP_TRAP && !inst->is_atomic;
+  if (harmless && inst->ask == TRAX_ASK_MEMORY) {
+    const uint32_t address = tp->reg[inst->ra] + (uint32_t)inst->imm;
+    harmless = trax_tp_check_access(tp, &gdb->machine->space, address) == TRAX_FAULT_NONE &&
+               (!inst->is_store || address >= TRAX_LOCAL_BASE);
+  }
+  if (harmless) {
+    trax_tp_execute(trax_gdb_tm(gdb, thread), thread % gdb->tps, gdb->cycle);
+  } else {
+    tp->pc += 4;
+    tp->inst = trax_text_at(&gdb->chip->text, tp->pc);
+  }
+}
+
+/* Where the thread's next so many instructions will lead it. */
+static uint32_t pc_after(const struct trax_gdb *gdb, uint32_t thread, unsigned instructions) {
   struct trax_tp *tp = trax_gdb_tp(gdb, thread), before = *tp;
-  const uint8_t op = tp->inst->op;
-  if (trax_op_table[op].unit != TRAX_UNIT_CONTROL || op == TRAX_OP_TRAP || op == TRAX_OP_HALT)
-    return tp->pc + 4;
-  trax_tp_execute(trax_gdb_tm(gdb, thread), thread % gdb->tps, gdb->cycle);
+  while (instructions--)
+    imagine(gdb, thread);
   const uint32_t pc = tp->pc;
   *tp = before;
   return pc;
@@ -85,7 +103,8 @@ static uint32_t next_pc(const struct trax_gdb *gdb, uint32_t thread) {
 
 static void stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_signal signal, unsigned event) {
   gdb->phase = GDB_STOPPED;
-  gdb->pretended = gdb->owed = gdb->insisting = false;
+  gdb->ahead = gdb->owed = 0;
+  gdb->insisting = false;
   gdb->selected = gdb->continued = gdb->stopped = thread;
   gdb->thread[thread].told = true;
   gdb->thread[thread].events &= (uint8_t)~event;
@@ -121,15 +140,19 @@ static bool somebody_stops(struct trax_gdb *gdb) {
 
 /* GDB steps a thread over a breakpoint by naming that thread alone, and takes no other's stop meanwhile. If another one
    has to stop first, the step is told as done, at the pc it will lead to, although the instruction has not been issued:
-   no cycle passes, and what stops the other is told when the run is resumed. Not twice in a row: the run must go on. */
+   no cycle passes, and what stops the other is told when the run is resumed. The same again where the next instruction
+   has a breakpoint too, but not for ever: the run must go on. */
 static bool pretend_step(struct trax_gdb *gdb) {
   uint32_t thread;
   if (!gdb->named_only || gdb->insisting || !find_stepping(gdb, &thread) || !trax_gdb_is_alive(gdb, thread) ||
       (gdb->thread[thread].events & TRAX_GDB_STEPPED) || !somebody_stops(gdb))
     return false;
+  const unsigned ahead = gdb->owed + 1;
   stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
-  gdb->pretended_pc = next_pc(gdb, thread);
-  gdb->pretended = true;
+  gdb->ahead = ahead;
+  gdb->ahead_pc = pc_after(gdb, thread, ahead);
+  if (gdb->thread[thread].passed < ahead)
+    gdb->thread[thread].passed = (uint8_t)ahead;
   describe_stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
   tell_stop(gdb);
   return true;
@@ -168,9 +191,9 @@ static void review(struct trax_gdb *gdb, uint32_t thread) {
 
 void trax_gdb_resume(struct trax_gdb *gdb, bool named_only) {
   gdb->named_only = named_only;
-  gdb->owed = gdb->pretended && named_only && gdb->thread[gdb->stopped].stepping;
-  gdb->insisting = gdb->owed;
-  gdb->pretended = false;
+  gdb->owed = named_only && gdb->thread[gdb->stopped].stepping ? gdb->ahead : 0;
+  gdb->insisting = gdb->owed >= MOST_AHEAD;
+  gdb->ahead = 0;
   if (!named_only)
     trax_gdb_forget_breaks(gdb);
   gdb->phase = GDB_RUNNING;

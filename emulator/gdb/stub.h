@@ -26,7 +26,9 @@ struct trax_gdb_thread {
   bool told;      /* the debugger knows of it at this pc: a breakpoint here is not hit again before it has issued */
   bool stepping;  /* stops when it has issued an instruction, and is outside the range */
   uint8_t events; /* of TRAX_GDB_STEPPED ... */
-  char access;    /* of TRAX_GDB_ACCESSED: the watchpoint's type */
+  uint8_t
+      passed;  /* the debugger has seen it behind so many of its next instructions: it is told of no breakpoint there */
+  char access; /* of TRAX_GDB_ACCESSED: the watchpoint's type */
   uint32_t accessed;
 };
 
@@ -76,9 +78,10 @@ struct trax_gdb {
   struct trax_gdb_watch watches[TRAX_GDB_WATCHES];
   uint32_t watch_count;
   bool named_only; /* when the run was resumed only some threads were: breakpoints that are removed hold for others */
-  bool pretended;  /* the thread that stopped last is shown at pretended_pc, where its instruction leads to (stub.c) */
-  uint32_t pretended_pc;
-  bool owed;      /* it steps on from there: this instruction first */
+  unsigned
+      ahead; /* the thread that stopped last is shown at ahead_pc, so many instructions from where it is (stub.c) */
+  uint32_t ahead_pc;
+  unsigned owed;  /* it steps on from there: these instructions first */
   bool insisting; /* until it has stepped, no other's event counts */
   bool eventful;  /* some thread has an event */
   uint32_t range_begin, range_end;

@@ -36,7 +36,7 @@ void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *nam
 uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number) {
   const struct trax_tp *tp = trax_gdb_tp(gdb, thread);
   if (number == TRAX_GDB_PC)
-    return gdb->pretended && thread == gdb->stopped ? gdb->pretended_pc : tp->pc;
+    return gdb->ahead && thread == gdb->stopped ? gdb->ahead_pc : tp->pc;
   const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
   return own ? tp->reg[own] : 0;
 }
@@ -49,7 +49,9 @@ static bool set_pc(struct trax_gdb *gdb, uint32_t thread, uint32_t pc) {
   const struct trax_decoded *inst = trax_text_at(&gdb->chip->text, pc);
   if (inst->ask == TRAX_ASK_OUTSIDE)
     return false;
-  gdb->pretended &= thread != gdb->stopped;
+  gdb->thread[thread].passed = 0;
+  if (thread == gdb->stopped)
+    gdb->ahead = 0;
   if (pc == tp->pc)
     return true;
   tp->pc = pc;

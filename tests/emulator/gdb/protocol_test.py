@@ -12,6 +12,7 @@ import tempfile
 import time
 import unittest
 
+sys.dont_write_bytecode = True  # not beside the sources
 from client import Client, thread_of
 
 BIN = os.path.abspath(sys.argv.pop(1))
@@ -251,6 +252,31 @@ class Protocol(unittest.TestCase):
             stop = client.resume("vCont;c")
         self.assertEqual(stop[:2], ("W", 0))
         self.assertEqual(sorted(visits), [(thread, i) for thread in range(4) for i in (1, 2, 3)])
+        client.end()
+        self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
+
+    def test_breakpoints_on_neighbours(self):
+        """Every thread meets each of three breakpoints in a row, as GDB steps over them."""
+        stats = os.path.join(work.name, "debugged.json")
+        client = self.client("threads", *FOUR, "--stats", stats)
+        work_at = symbols["threads"]["work"]
+        places = [work_at, work_at + 4, work_at + 8]
+        for place in places:
+            client.ask(f"Z0,{place:x},4")
+        visits = []
+        stop = client.resume("vCont;c")
+        while stop[0] == "T":
+            thread, pc = thread_of(stop), int.from_bytes(bytes.fromhex(stop[2]["20"]), "little")
+            visits.append((thread, pc))
+            client.ask(f"z0,{pc:x},4")
+            stop = client.resume(f"vCont;s:{thread + 1:x}")
+            self.assertEqual((stop[:2], thread_of(stop)), (("T", 5), thread))
+            client.ask(f"Z0,{pc:x},4")
+            self.assertEqual(client.register("pc"), pc + 4)
+            if pc == places[-1]:
+                stop = client.resume("vCont;c")
+        self.assertEqual(stop[:2], ("W", 0))
+        self.assertEqual(sorted(visits), sorted((thread, place) for thread in range(4) for place in places for _ in range(3)))
         client.end()
         self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
 
