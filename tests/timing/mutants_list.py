@@ -108,4 +108,206 @@ MUTANTS = [
     ("core/memory.c", "return channel->free_from < (t + 1) * memory->units_per_cycle;", "return channel->free_from <= t * memory->units_per_cycle;"),
     ("core/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
     ("core/cache_tags.h", "(tags->next[set] + 1) & (tags->ways - 1)", "tags->next[set] & (tags->ways - 1)"),
+    # --- More of the fast engine, by rule ---
+    # Stores combine within a block of 64 bytes.
+    ("core/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
+     "(address / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
+    # A store that touches the run's end combines.
+    ("core/tp.c", "address <= tp->run_end &&",
+     "address < tp->run_end &&"),
+    # A store that touches the run's begin combines.
+    ("core/tp.c", "address + bytes >= tp->run_begin;",
+     "address + bytes > tp->run_begin;"),
+    # The first unusable register gives the cause.
+    ("core/tp.c", "{tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd}",
+     "{tp->inst->wait_rb, tp->inst->wait_ra, tp->inst->wait_rd}"),
+    # The special units have one round robin.
+    ("core/unit.c", "trax_arbiter_grant(&unit->turn, askers & ~winners, 1)",
+     "trax_arbiter_grant(&(trax_arbiter){unit->turn}, askers & ~winners, 1)"),
+    # As many operations are accepted as units are free.
+    ("core/unit.c", "i < unit->units && askers",
+     "i < unit->units && !winners && askers"),
+    # The winner goes to the back.
+    ("core/arbiter.h", "(uint8_t)((winner + 1) & 63)",
+     "(uint8_t)(winner & 63)"),
+    # A load needs a free miss register.
+    ("core/dcache.c", "dcache->mshr_count == dcache->mshr_limit ||",
+     "dcache->mshr_count + (dcache->mshr_limit > 1) == dcache->mshr_limit ||"),
+    # A line under way is merged with, whichever it is.
+    ("core/dcache.c", "if (dcache->mshr[i].line == line) {",
+     "if (dcache->mshr[i].line == line && i < 3) {"),
+    # A load that took a place moves the queue's turn.
+    ("core/dcache.c", "  trax_arbiter_to_back(&tm->queue_turn, number);\n  return true;",
+     "  (void)number;\n  return true;"),
+    # The latency of a hit.
+    ("core/dcache.c", "t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT",
+     "t + 1, TRAX_CAUSE_DATA_HIT"),
+    # A load into r0 waits for nobody.
+    ("core/dcache.c", "  if (rd == TRAX_NO_REGISTER)\n    return;",
+     "  if (rd == TRAX_NO_REGISTER && number != 1)\n    return;"),
+    # A fetch without a place is charged to the queue.
+    ("core/icache.c", "trax_tm_charge(tm, tp, TRAX_CAUSE_MEMORY_QUEUE);",
+     "trax_tm_charge(tm, tp, TRAX_CAUSE_ICACHE_MISS);"),
+    # Fetches of a line under way are merged.
+    ("core/icache.c", "tm->stats->icache_merged++;",
+     "tm->stats->icache_misses++;"),
+    # A line serves all that wait for it.
+    ("core/icache.c", "tm->holding |= icache->pending[i].waiting;",
+     "tm->holding |= icache->pending[i].waiting & -icache->pending[i].waiting;"),
+    # Round robin over the TMs.
+    ("core/memory.c", "trax_arbiter_to_back(&memory->turn, number);",
+     "(void)number;"),
+    # A transfer takes bytes / B cycles.
+    ("core/memory.c", "begin + request->bytes * memory->units_per_byte",
+     "begin + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
+    # The latency is added to every transfer.
+    ("core/memory.c", "+ memory->latency;",
+     "+ memory->latency + (request->kind == TRAX_REQUEST_WRITE);"),
+    # A place is taken until the completion.
+    ("core/queue.h", "queue->count < queue->depth;",
+     "queue->count < queue->depth && queue->started < 40;"),
+    # The peak is the largest count.
+    ("core/queue.h", "> queue->peak)",
+     "> queue->peak + 1)"),
+    # A short transfer costs min_transfer_bytes.
+    ("core/tm.c", "request.bytes < tm->config->memory.min_transfer_bytes",
+     "request.bytes < tm->config->memory.min_transfer_bytes && request.kind != TRAX_REQUEST_WRITE"),
+    # Combined stores are counted.
+    ("core/tm.c", "tm->stats->combined_stores++;",
+     "tm->stats->combined_stores += tp->inst->bytes == 4;"),
+    # The run becomes the union.
+    ("core/tm.c", "tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;",
+     "tp->run_begin = tp->run_begin;"),
+    # Who took a place moves the queue's turn.
+    ("core/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_turn, tp);",
+     "  trax_tm_request(tm, request);\n  (void)tp;"),
+    # An atomic increment costs atomic_bytes.
+    ("core/tm.c", ".bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes",
+     "  .bytes = tp->inst->bytes"),
+    # A wait for an atomic increment has its own cause.
+    ("core/tm.c", "atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS",
+     "TRAX_CAUSE_DATA_MISS"),
+    # Of several faults the first TP's is reported.
+    ("core/tm.c", "tm->fault.kind && tm->fault.tp < number",
+     "tm->fault.kind && tm->fault.tp > number"),
+    # A store past the cache does not look into it.
+    ("core/tm.c", "if (!tp->inst->is_nontemporal) {\n    if (trax_cache",
+     "if (tp->inst->bytes) {\n    if (trax_cache"),
+    # Sleepers wake in their cycle, however long they sleep.
+    ("core/tm.c", "if (tm->tp[tp].asleep_until > t)",
+     "if (tm->tp[tp].asleep_until > t + 1)"),
+    # A thread is halted from the cycle after its end.
+    ("core/traps.c", "trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);",
+     "trax_tm_end_thread(tm, tp, t, (int32_t)value);"),
+    # The bank of an instruction.
+    ("core/text.c", "pc / 4 % config->icache.banks",
+     "pc / 8 % config->icache.banks"),
+    # Comparisons on units of the TP's own.
+    ("core/text.c", "config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP)",
+     "config->fpu.compare_units && false"),
+    # The run ends when the bus is idle.
+    ("core/chip.c", "idle_from > t ? idle_from : t;",
+     "idle_from > t ? t : t;"),
+    # What arrives in t is used in t.
+    ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t)",
+     "trax_queue_oldest(&tm->queue)->completion < t)"),
+    # Losers of a fetch are charged.
+    ("fast/cycle.c", "lost->fetch = losers;",
+     "lost->fetch = losers & ~tm->awaiting & ~(losers >> 63 << 63);"),
+    # Loads and stores past the cache ask for no bank.
+    ("fast/cycle.c", "else if (inst->is_nontemporal || inst->is_atomic)\n      asks",
+     "else if (inst->is_atomic)\n      asks"),
+    # A pc that is not a multiple of 4 is misaligned.
+    ("fast/cycle.c", "pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE",
+     "TRAX_FAULT_EXECUTE"),
+    # An illegal instruction faults before its operands are looked at.
+    ("fast/cycle.c", "|| tp->inst->ask == TRAX_ASK_ILLEGAL) {",
+     "|| false) {"),
+    # Losers of integer multipliers are charged.
+    ("fast/cycle.c", "lost->int_mul = askers & ~won;",
+     "lost->int_mul = askers & ~won & ~(askers & -askers);"),
+    # A refused access is charged to the queue.
+    ("fast/cycle.c", "trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);\n    return false;",
+     "return false;"),
+    # Carries of the counters of conflicts.
+    ("fast/cycle.c", "(*plane & term) | (either & carry)",
+     "(*plane & term)"),
+    # Round robin of banks.
+    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS)-1)) |",
+     "(*(WINNERS)-1) |"),
+    # Round robin of units in even groups.
+    ("fast/masks.h", "(asked_groups & ~(winners | (winners - first)))",
+     "(asked_groups & ~(winners - first))"),
+    # The bubble after a taken branch.
+    ("fast/issue.c", "t + 1 + bubble, TRAX_CAUSE_BRANCH",
+     "t + bubble, TRAX_CAUSE_BRANCH"),
+    # Effects happen in the TPs' order.
+    ("fast/issue.c", "(effects = slow & ftm->deferred) != 0",
+     "(effects = 0) != 0"),
+    # The latency of local memory.
+    ("fast/issue.c", "latency = ftm->tm->config->tp.local_latency_cycles;\n    cause",
+     "latency = 1;\n    cause"),
+    # Stores are noted before others may see them.
+    ("fast/issue.c", "tp->address < TRAX_LOCAL_BASE && !ftm->tm->ahead)",
+     "tp->address < TRAX_LOCAL_BASE - 0x80000000u && inst->bytes > 1 && !ftm->tm->ahead)"),
+    # Arrived increments are forgotten.
+    ("fast/head.c", "ftp->atomics &= ~(rest & -rest);",
+     "ftp->atomics = 0;"),
+    # What a burst has not issued did not happen.
+    ("fast/head.c", "ftp->jumps -= next != index + 1;",
+     "(void)next;"),
+    # A line that was replaced is not there.
+    ("fast/head.c", "trax_fast_set_resident(ftm, number, (uint32_t)goes_as, false);",
+     "(void)goes_as;"),
+    # Heads whose line has gone are looked at again.
+    ("fast/head.c", "ftm->smooth &= ~((uint64_t)1 << tp);",
+     "ftm->smooth &= ~((uint64_t)1 << tp) | resident[0];"),
+    # A write calls back those who have run ahead.
+    ("fast/blocks.c", "if (*state == TRAX_BLOCK_LOADED)\n    trax_fast_come_back",
+     "if (*state == TRAX_BLOCK_LOADED && address % 16)\n    trax_fast_come_back"),
+    # Local memory is as it was.
+    ("fast/blocks.c", "memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);",
+     "memcpy(tp->local + undo->offset, &undo->word, 2);"),
+    # A misaligned load ends a burst.
+    ("fast/burst.c", " && !(address & (bytes - 1)) &&\n",
+     " &&\n"),
+    # Blocks that are written are not loaded ahead.
+    ("fast/burst.c", "trax_fast_block_state(fast, address) != TRAX_BLOCK_WRITTEN;",
+     "true;"),
+    # A jump with a bubble is not quick.
+    ("fast/burst.c", "config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0",
+     "config->tp.branch_bubble_cycles > 1 ? TRAX_ASKS_SLOWLY : 0"),
+    # The cycle counter ends a burst.
+    ("fast/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
+     "decoded->imm == TRAX_SR_CYCLEH"),
+    # A TM that has read too early goes back.
+    ("fast/windows.c", "writer->round == windows->round && writer->tm != i)",
+     "writer->round == windows->round && writer->tm != i && writer->tm < 64)"),
+    # A word that several wrote conflicts.
+    ("fast/windows.c", "writer->tm = BY_SEVERAL;",
+     "writer->tm = tm;"),
+    # What was loaded ahead and is written is loaded again.
+    ("fast/windows.c", "  if (*state == TRAX_BLOCK_LOADED)\n    return false;",
+     "  if (*state == TRAX_BLOCK_LOADED && write->bytes)\n    return false;"),
+    # Stores of a cycle in the TMs' order.
+    ("fast/windows.c", "for (uint32_t i = windows->chip->tms; i-- > 0;) {",
+     "for (uint32_t i = 0; i < windows->chip->tms; i++) {"),
+    # Memory is restored.
+    ("fast/windows.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
+     "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
+    # The controller is restored.
+    ("fast/windows.c", "add_region(windows, &chip->memory, sizeof chip->memory);",
+     "add_region(windows, &chip->memory, 0);"),
+    # Increments are noted as writes.
+    ("fast/windows.c", "windows->failed |= !note_writer(windows, address, BY_CONTROLLER);",
+     "(void)address; (void)windows;"),
+    # Requests are shown in their cycle.
+    ("fast/windows.c", "ahead->requests[*request] <= t; ++*request)",
+     "ahead->requests[*request] <= t + 1; ++*request)"),
+    # Stores are performed before the increments of later cycles.
+    ("fast/windows.c", "if (!write_up_to(windows, t))\n      return false;",
+     "if (t == 0 && !write_up_to(windows, t))\n      return false;"),
+    # A TM sees its own stores.
+    ("core/ahead.c", "if (own->round == ahead->round)\n      word",
+     "if (own->round == ahead->round && own->mask == ~0u)\n      word"),
 ]
