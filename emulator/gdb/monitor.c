@@ -3,6 +3,7 @@
 #include "gdb/stub.h"
 #include "host/backtrace.h"
 #include "host/host.h"
+#include "host/statistics.h"
 #include "trax/isa.h"
 
 #include <inttypes.h>
@@ -15,10 +16,35 @@ static bool print_cycle(struct trax_gdb *gdb, const char *arguments, FILE *out) 
   return !*arguments;
 }
 
-static bool print_statistics(struct trax_gdb *gdb, const char *arguments, FILE *out) {
-  gdb->machine->stats.cycles = gdb->cycle;
+/* The machine's counts up to here, summed up as when a run ends. */
+static void sum_up(struct trax_gdb *gdb, struct trax_stats *stats) {
+  const struct trax_machine *machine = gdb->machine;
+  *stats = (struct trax_stats){.cycles = gdb->cycle, .threads = gdb->threads};
   trax_chip_settle(gdb->chip, gdb->cycle);
-  trax_stats_print(gdb->machine, out);
+  for (uint32_t i = 0; i < gdb->chip->tms; i++) {
+    struct trax_tm_stats tm = machine->tm_stats[i];
+    trax_stats_derive(&tm, &machine->config);
+#define ADD(ID, NAME, UNIT, MEANING) stats->total.ID += tm.ID;
+    TRAX_TM_COUNTERS(ADD)
+#undef ADD
+    for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+      stats->total.instructions[op] += tm.instructions[op];
+  }
+  for (uint32_t thread = 0; thread < gdb->threads; thread++)
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      stats->total.cycles[cause] += machine->tp_stats[thread].cycles[cause];
+  stats->instructions = stats->total.cycles[TRAX_CAUSE_ISSUED];
+}
+
+static void print_figure(void *context, const struct trax_figure *figure) {
+  if (figure->value != 0)
+    fprintf(context, "%-32s %.*g %s\n", figure->name, figure->whole ? 20 : 6, figure->value, figure->unit);
+}
+
+static bool print_statistics(struct trax_gdb *gdb, const char *arguments, FILE *out) {
+  struct trax_stats stats;
+  sum_up(gdb, &stats);
+  trax_figures_visit(&stats, NULL, &gdb->machine->config, print_figure, out);
   return !*arguments;
 }
 

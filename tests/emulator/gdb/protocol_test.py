@@ -463,12 +463,19 @@ class Protocol(unittest.TestCase):
             self.assertIn("not understood", client.monitor(command), command)
 
     def test_statistics_between(self):
-        """monitor stats changes nothing."""
+        """monitor stats counts up to here, and changes nothing."""
         stats = os.path.join(work.name, "asked.json")
         client = self.client("threads", *FOUR, "--stats", stats)
         client.ask(f"Z0,{symbols['threads']['work']:x},4")
+        seen = 0
         while client.resume()[0] == "T":
-            client.monitor("stats")
+            told = {line.split()[0]: float(line.split()[1]) for line in client.monitor("stats").splitlines()}
+            causes = sum(value for name, value in told.items() if name.startswith("causes."))
+            self.assertEqual((told["cycles"], causes), (client.cycle(), 4 * client.cycle()))
+            self.assertEqual(told["causes.issued"], told["instructions"])
+            self.assertGreaterEqual(told["instructions"], seen)
+            seen = told["instructions"]
+        self.assertGreater(seen, 100)
         client.end()
         self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
 
