@@ -113,7 +113,8 @@ trax_status trax_chip_look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
 }
 
 trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *options, uint64_t *cycles) {
-  const uint64_t limit = options->max_cycles ? options->max_cycles : TRAX_NEVER;
+  const uint64_t asked = options->max_cycles ? options->max_cycles : TRAX_NEVER;
+  const uint64_t limit = asked > chip->begin ? asked : chip->begin; /* a resumed run may be beyond it already */
   struct trax_poll poll;
   trax_poll_begin(&poll, chip->machine, options);
   poll.context = chip;

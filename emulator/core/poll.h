@@ -9,6 +9,7 @@ struct trax_poll {
   const trax_run_options *options;
   void (*collect)(void *context); /* brings the TMs' statistics up to date; NULL: they always are */
   void *context;
+  uint64_t items_before, instructions_before;
   double begun, reported; /* seconds of the host's clock */
   unsigned countdown;     /* calls until the host is looked at */
 };

@@ -406,14 +406,15 @@ void trax_sampled_finish(struct trax_sampled *sampled, uint64_t t) {
   const double half = trax_student_95(sampled->freedom) * deviation;
   machine->stats.cycles = (uint64_t)llround(cycles);
   machine->fault.cycle += machine->fault.kind ? sampled->chip->skipped : 0;
-  machine->stats.sampling = (struct trax_sampling_stats){.is_sampled = true,
-                                                         .has_interval = sampled->freedom || !sampled->gap_cycles,
-                                                         .asked = sampled->sampling,
-                                                         .windows = sampled->window_total,
-                                                         .low = cycles - half,
-                                                         .high = cycles + half,
-                                                         .detailed_cycles = t,
-                                                         .detailed_instructions = sampled->detailed_instructions};
+  machine->stats.sampling =
+      (struct trax_sampling_stats){.is_sampled = true,
+                                   .has_interval = sampled->freedom || !sampled->gap_cycles,
+                                   .asked = sampled->sampling,
+                                   .windows = sampled->window_total,
+                                   .low = fmax(cycles - half, (double)t), /* it took as long to simulate them */
+                                   .high = cycles + half,
+                                   .detailed_cycles = t,
+                                   .detailed_instructions = sampled->detailed_instructions};
   for (size_t i = 0; i < sampled->words; i++)
     sampled->estimated[i] += (double)sampled->measured[i];
   for (uint32_t i = 0; i < sampled->chip->tms; i++) {

@@ -4,9 +4,10 @@
 #include <inttypes.h>
 
 static void print_time_left(FILE *out, const trax_progress *status) {
-  if (!status->total_items || !status->items || status->items > status->total_items)
+  if (!status->total_items || status->items <= status->items_before || status->items > status->total_items)
     return;
-  double left = status->host_seconds * (double)(status->total_items - status->items) / (double)status->items;
+  double left = status->host_seconds * (double)(status->total_items - status->items) /
+                (double)(status->items - status->items_before);
   uint64_t seconds = (uint64_t)(left + 0.5);
   if (seconds >= 3600)
     fprintf(out, ", %" PRIu64 ":%02u:%02u left", seconds / 3600, (unsigned)(seconds / 60 % 60),
@@ -19,7 +20,8 @@ void trax_progress_show(void *context, const trax_progress *status) {
   struct trax_progress_line *line = context;
   FILE *out = line->terminal;
   double seconds = status->host_seconds - line->last.host_seconds;
-  double rate = seconds > 0 ? (double)(status->instructions - line->last.instructions) / seconds / 1e6 : 0;
+  uint64_t before = line->shown ? line->last.instructions : status->instructions_before;
+  double rate = seconds > 0 ? (double)(status->instructions - before) / seconds / 1e6 : 0;
   fprintf(out, "\r%.2f million cycles, %.1f million instructions/s", (double)status->cycle / 1e6, rate);
   if (status->total_items)
     fprintf(out, ", %" PRIu64 " of %" PRIu64 " items (%.1f %%)", status->items, status->total_items,

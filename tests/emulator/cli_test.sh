@@ -320,6 +320,23 @@ grep -q '"status": "interrupted"' stats.json || fail "stats.json: status"
 grep -q '"holds": true' stats.json || fail "stats.json: identity of an interrupted program"
 no_litter
 
+# Every engine stops; what the fast one leaves goes on.
+for engine in fast sampled functional; do
+  checkpoint=
+  [ $engine != fast ] || checkpoint="--checkpoint stopped.bin"
+  rm -f stats.json
+  env --default-signal=INT "$sim" --engine $engine $checkpoint --stats stats.json spin.elf >out 2>err &
+  sleep 0.5
+  kill -INT $!
+  wait $!
+  status=$?
+  command="spin.elf, interrupted, --engine $engine"
+  [ $status -eq 130 ] || fail "status $status, not 130"
+  grep -q '"status": "interrupted"' stats.json || fail "stats.json of an interrupted program"
+  grep -q '"holds": true' stats.json || fail "stats.json: identity of an interrupted program"
+done
+run 124 --resume stopped.bin --watchdog 1000000000 --max-cycles 1 spin.elf # it is beyond that already
+
 # --- progress: on a terminal only, and gone at the end
 terminal() { script -qec "$*" /dev/null </dev/null >out 2>err; }
 run 124 --max-cycles 3000000 --progress-total 100000000 spin.elf
@@ -332,6 +349,11 @@ prints "million cycles, "
 prints " of 100000000000 items ("
 prints " left"
 [ "$(tr '\r' '\n' <out | grep -c 'million instructions/s')" -ge 1 ] || fail "no progress line"
+for engine in sampled functional; do
+  terminal "$sim" --max-cycles $((cycles * 10)) --engine $engine --progress-total 100000000000 spin.elf
+  prints " of 100000000000 items ("
+  prints "million instructions/s"
+done
 terminal "$sim" --quiet --max-cycles 3000000 spin.elf
 if grep -q 'million cycles' out; then fail "--quiet shows progress"; fi
 terminal "$sim" hello.elf

@@ -71,6 +71,7 @@ typedef struct trax_progress {
   uint64_t instructions;
   uint64_t items;       /* counted by the program's "items" trap */
   uint64_t total_items; /* from options; 0 if unknown */
+  uint64_t items_before, instructions_before; /* of these, what was done before a run that was resumed */
   double host_seconds;
 } trax_progress;
 
