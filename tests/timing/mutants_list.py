@@ -50,11 +50,11 @@ MUTANTS = [
     ("reference/queue.c", "if (trax_ref_ends_thread(tp))", "if (tp->inst.op == TRAX_OP_HALT)"),
     ("reference/queue.c", "atomic ? tm->config->memory.atomic_bytes : 4", "atomic ? 8 : 4"),
     # --- Memory controller ---
-    ("reference/controller.c", "channel->free_from > t * cycle ? channel->free_from : t * cycle", "channel->free_from"),
+    ("reference/controller.c", "channel->free_from > t * cycle ? channel->free_from : t * cycle", "channel->free_from > t * cycle ? t * cycle : channel->free_from"),
     ("reference/controller.c", "(channel->free_from + cycle - 1) / cycle", "channel->free_from / cycle"),
     ("reference/controller.c", "const uint64_t next = (t + 1) * chip", "const uint64_t next = t * chip"),
     ("reference/controller.c", "request->old_value + 1", "request->old_value + 2"),
-    ("reference/run.c", "return trax_ref_buses_idle(chip, t);", "return true;"),
+    ("reference/run.c", "return trax_ref_buses_idle(chip, t);", "return t > 0 || trax_ref_buses_idle(chip, t);"),
     ("reference/controller.c", "miss->came < first) {", "miss->came > first) {"),
     ("reference/controller.c", "request->completion += config->memory.atomic_latency_cycles;", ";"),
     ("reference/controller.c", "(config->l2.bytes ? config->l2.latency_cycles : 0)", "config->l2.latency_cycles"),
@@ -68,7 +68,7 @@ MUTANTS = [
     ("reference/l2.c", "address / config->l2.line_bytes % config->l2.banks", "address / 64 % config->l2.banks"),
     ("reference/lines.c", "if (places[way].used < places[least].used)", "if (places[way].used > places[least].used)"),
     ("reference/lines.c", "  if (found)\n    found->used = ++lines->uses;\n", ""),
-    ("reference/units.c", "i < count; i++", "i < 1; i++"),
+    ("reference/units.c", "i < count; i++", "i < count && i < 1; i++"),
     ("reference/units.c", "config->fpu.mul_tps_per_cluster ? config->fpu.mul_tps_per_cluster : adder_size", "adder_size"),
     # --- Faults ---
     ("reference/faults.c", "if (fault->kind && fault->thread < thread)", "if (fault->kind)"),
@@ -77,7 +77,7 @@ MUTANTS = [
 
     # --- the fast engine: arbiters ---
     ("fast/masks.h", "units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners | (winners - first)));", "units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners - first));"),
-    ("fast/masks.h", "const trax_fast_pair among = preferred | (askers & ~((have - (have >> to_first)) | have));", "const trax_fast_pair among = askers;"),
+    ("fast/masks.h", "const trax_fast_pair among = preferred | (askers & ~((have - (have >> to_first)) | have));", "const trax_fast_pair among = (preferred & ~have) | askers;"),
     ("fast/masks.h", "(group & ~(winner | (winner - 1)))", "(group & ~(winner - 1))"),
     ("fast/masks.h", "for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {", "for (uint32_t unit = 1; unit && all; unit--) {"),
     ("fast/cycle.c", "for (uint32_t port = 0; port < ports; port++)", "for (uint32_t port = 0; port < 1; port++)"),
