@@ -398,9 +398,21 @@ struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_li
   return gdb;
 }
 
+static void leave(struct trax_gdb *gdb) {
+  for (struct trax_watch **watch = &gdb->machine->watches; *watch; watch = &(*watch)->others)
+    if (*watch == &gdb->watch) {
+      *watch = gdb->watch.others;
+      break;
+    }
+  if (gdb->machine->observer == &gdb->observer)
+    gdb->machine->observer = gdb->observed_before;
+}
+
 void trax_gdb_destroy(struct trax_gdb *gdb) {
   if (!gdb)
     return;
+  if (gdb->machine)
+    leave(gdb);
   free(gdb->thread);
   free(gdb->atomics);
   free(gdb);
