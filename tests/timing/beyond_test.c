@@ -298,6 +298,11 @@ static void several_units_of_a_group(void **state) {
     ISSUES(&bench, tp, 1 + tp / 4, 2 + tp / 4);
   bench_end(&bench);
 
+  config.fpu.multipliers_per_cluster = 1; /* adders alone */
+  bench = BENCH(config, R(FADD, 1, 0, 0), HALT);
+  assert_int_equal(bench_total(&bench, TRAX_CAUSE_FP_ADD), 2 * 2 * (0 + 1 + 2 + 3));
+  bench_end(&bench);
+
   /* The winners go to the back: of three TPs with two adders, 0 and 1 in cycle 1; 2 and 0 in 2; 1 and 2 in 3. */
   config.chip.tps_per_tm = 3;
   bench = BENCH(config, R(FADD, 1, 0, 0), R(FADD, 2, 0, 0), HALT);
