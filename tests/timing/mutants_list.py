@@ -80,16 +80,16 @@ MUTANTS = [
     ("fast/masks.h", "const trax_fast_pair among = preferred | (askers & ~((have - (have >> to_first)) | have));", "const trax_fast_pair among = (preferred & ~have) | askers;"),
     ("fast/masks.h", "(group & ~(winner | (winner - 1)))", "(group & ~(winner - 1))"),
     ("fast/masks.h", "for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {", "for (uint32_t unit = 1; unit && all; unit--) {"),
-    ("fast/cycle.c", "for (uint32_t port = 0; port < ports; port++)", "for (uint32_t port = 0; port < 1; port++)"),
+    ("fast/cycle.c", "for (uint32_t port = 0; port < ports; port++)", "for (uint32_t port = 0; port < ports && port < 1; port++)"),
     # --- steps 1 and 2 ---
-    ("fast/cycle.c", "return (woken & tm->holding) | taken_up;", "return woken & tm->holding;"),
+    ("fast/cycle.c", "return (woken & tm->holding) | taken_up;", "return (woken & tm->holding) | (taken_up & 0);"),
     ("fast/cycle.c", "asks = (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks = (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
     ("fast/cycle.c", "ftm->busy_registers[number] &= ~ftm->head[number]->waits;", "ftm->busy_registers[number] = 0;"),
     ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END)\n    asks = TRAX_ASKS_QUEUE;", "if (inst->ask == TRAX_ASK_END)\n    asks = 0;"),
     # --- steps 3 and 4 ---
     ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
     ("fast/cycle.c", "*hits = there & ~ftm->deferred;", "*hits = there;"),
-    ("fast/cycle.c", "    hits = 0; /* serve sees to that */", "    ; /* serve sees to that */"),
+    ("fast/cycle.c", "    hits = 0; /* serve sees to that */", "    hits += 0; /* serve sees to that */"),
     # --- step 5 and the heads ---
     ("fast/issue.c", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/issue.c", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
