@@ -99,7 +99,7 @@ MUTANTS = [
     # --- the core, for the fast engine ---
     ("core/tm.c", "if (!trax_queue_has_place(&tm->queue))", "if (0)"),
     ("core/tm.c", "trax_arbiter_to_back(&tm->queue_turn, tp);", "trax_arbiter_to_back(&tm->queue_turn, tp - 1);"),
-    ("core/tm.c", "until - t <= TRAX_WHEEL ? until : t + TRAX_WHEEL", "until - t <= 2 * TRAX_WHEEL ? until : t + TRAX_WHEEL"),
+    ("core/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
     ("core/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin", "address <= tp->run_end && address + bytes > tp->run_begin"),
     ("core/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
     ("core/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "(winner & roots ? unit->interval : unit->root_interval)"),
