@@ -1,0 +1,216 @@
+/* TMs that run ahead of each other (emulator/fast/windows.h) against the reference engine: what one of them writes
+   while others read, write or increment it, in every order and distance within a window. Threads are quiet for so long
+   that windows are running when it happens, and after it. */
+#include "compare.h"
+
+#include <string.h>
+
+enum {
+  MOST_WORDS = 512,
+  LATENCY = 17,     /* and so about the length of a window */
+  QUIET = 200,      /* turns of a loop of two instructions */
+  AFTERWARDS = 800, /* so many that no state is kept from before when the run ends, which is found cycle by cycle */
+  OTHER = 8,        /* of the same small block as the word at DATA, which this makes one that has been written */
+  RESULTS = 0x100,  /* results of TM i are at DATA + RESULTS + 64 i */
+  WORD = 0,
+};
+
+struct program {
+  uint32_t words[MOST_WORDS];
+  size_t count;
+};
+
+static void emit(struct program *program, uint32_t word) {
+  assert_true(program->count < MOST_WORDS);
+  program->words[program->count++] = word;
+}
+
+static void emit_loop(struct program *program, unsigned turns, uint32_t body) {
+  emit(program, I(ADDI, 3, 0, (int32_t)turns));
+  const size_t loop = program->count;
+  if (body)
+    emit(program, body);
+  emit(program, I(ADDI, 3, 3, -1));
+  emit(program, B(BNE, 3, 0, ((int32_t)loop - (int32_t)program->count) * 4));
+}
+
+/* What a TM does when it is time; r10 is DATA, r11 where its results go, r4 a number of its own. */
+typedef void action(struct program *program);
+
+static void store_word(struct program *program) {
+  emit(program, S(SW, 4, 10, WORD));
+}
+static void store_past_cache(struct program *program) {
+  emit(program, S(SWNT, 4, 10, WORD));
+}
+static void store_first_byte(struct program *program) {
+  emit(program, S(SB, 4, 10, WORD));
+}
+static void store_second_byte(struct program *program) {
+  emit(program, S(SB, 4, 10, WORD + 1));
+}
+static void load_word(struct program *program) {
+  emit(program, I(LW, 5, 10, WORD));
+  emit(program, S(SW, 5, 11, 0));
+}
+static void load_past_cache(struct program *program) {
+  emit(program, I(LWNT, 5, 10, WORD));
+  emit(program, S(SW, 5, 11, 0));
+}
+static void load_second_byte(struct program *program) {
+  emit(program, I(LBU, 5, 10, WORD + 1));
+  emit(program, S(SW, 5, 11, 0));
+}
+/* Its own byte and another TM's. */
+static void store_byte_and_load_word(struct program *program) {
+  store_first_byte(program);
+  for (unsigned i = 0; i < 3; i++)
+    emit(program, NOP);
+  load_word(program);
+}
+static void store_and_load_word(struct program *program) {
+  store_word(program);
+  load_word(program);
+  emit(program, I(LH, 6, 10, WORD + 2));
+  emit(program, S(SW, 6, 11, 4));
+}
+/* The second byte twice. */
+static void store_bytes_and_load_word(struct program *program) {
+  store_second_byte(program);
+  emit(program, I(XORI, 4, 4, 0x27));
+  store_first_byte(program);
+  store_second_byte(program);
+  load_word(program);
+}
+static void increment(struct program *program) {
+  emit(program, I(AINC, 5, 10, WORD));
+  emit(program, S(SW, 5, 11, 0));
+}
+/* A word that it has loaded many times, so that it is loaded ahead. */
+static void add_up(struct program *program) {
+  for (unsigned i = 0; i < 60; i++) {
+    emit(program, I(LW, 5, 10, WORD));
+    emit(program, R(ADD, 6, 6, 5));
+  }
+  emit(program, S(SW, 6, 11, 0));
+}
+static void print(struct program *program) {
+  emit(program, I(ADDI, 5, 4, 'a'));
+  emit(program, T(5, TRAX_TRAP_PUTC));
+}
+static void fault(struct program *program) {
+  emit(program, I(LW, 5, 0, 0));
+}
+static void store_for_long(struct program *program) {
+  for (unsigned i = 0; i < 20; i++)
+    emit(program, S(SW, 4, 10, (int32_t)(WORD + 64 * i)));
+}
+static void end_thread(struct program *program) {
+  emit(program, HALT);
+}
+
+struct scenario {
+  const char *name;
+  bool written;  /* the block has been written before, so that nobody loads it ahead */
+  action *of[3]; /* TM 0, 1, 2 */
+};
+
+static const struct scenario scenarios[] = {
+    {"a load of what another TM stores", true, {store_word, load_word}},
+    {"a load past the cache of what a higher TM stores past it", true, {load_past_cache, store_past_cache}},
+    {"a byte of the word that another TM stores", true, {store_word, load_second_byte}},
+    {"two stores of one word", true, {store_word, store_word}},
+    {"two stores of one word, and a load", true, {store_word, store_word, load_word}},
+    {"bytes of a word by two TMs", true, {store_first_byte, store_second_byte}},
+    {"bytes of a word by two TMs, one of which loads it", true, {store_byte_and_load_word, store_second_byte}},
+    {"bytes of a word by two TMs, and a third one loads it", true, {store_first_byte, store_second_byte, load_word}},
+    {"bytes of a word by one TM, which loads it", true, {store_bytes_and_load_word}},
+    {"a TM's own store", true, {store_and_load_word, load_second_byte}},
+    {"a TM's own store of what nobody has stored", false, {store_and_load_word, NULL}},
+    {"a load of what is incremented", true, {increment, load_word}},
+    {"two increments, and a load", true, {increment, increment, load_past_cache}},
+    {"a store of what is incremented", true, {store_word, increment}},
+    {"an increment of what a higher TM stores", true, {increment, store_word}},
+    {"an increment of what has been loaded ahead", false, {increment, add_up}},
+    {"a store of what has been loaded ahead", false, {add_up, store_word}},
+    {"a store of what has been loaded ahead by itself and another", false, {add_up, add_up, store_word}},
+    {"output", false, {print, print, print}},
+    {"a fault, and stores that must not happen", false, {fault, store_for_long}},
+    {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
+    {"an end, and stores after it", false, {end_thread, store_for_long, load_word}},
+};
+
+static void write_program(struct program *program, const struct scenario *scenario, const unsigned delay[3]) {
+  static const unsigned numbers[3] = {0x1234567, 0x55AA, 0x7F};
+  program->count = 0;
+  emit(program, R(RDSR, 1, 0, 0));
+  program->words[0] = trax_encode((trax_inst){TRAX_OP_RDSR, 1, 0, 0, TRAX_SR_TM});
+  emit(program, U(LUI, 10, DATA >> 16));
+  emit(program, I(SLLI, 11, 1, 6));
+  emit(program, R(ADD, 11, 11, 10));
+  emit(program, I(ADDI, 11, 11, RESULTS));
+  for (unsigned tm = 0; tm < 3; tm++) {
+    emit(program, I(ADDI, 2, 0, (int32_t)tm));
+    const size_t branch = program->count;
+    emit(program, NOP);
+    if (scenario->written)
+      emit(program, S(SW, 0, 10, OTHER));
+    emit(program, U(LUI, 4, (int32_t)(numbers[tm] >> 16)));
+    emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm] & 0x7FF)));
+    if (scenario->of[tm] == add_up)
+      emit_loop(program, QUIET, I(LW, 5, 10, WORD));
+    else
+      emit_loop(program, QUIET, NOP);
+    for (unsigned i = 0; i < delay[tm]; i++)
+      emit(program, NOP);
+    if (scenario->of[tm])
+      scenario->of[tm](program);
+    emit_loop(program, AFTERWARDS, 0);
+    emit(program, I(LWNT, 5, 10, WORD));
+    emit(program, S(SW, 5, 11, 8));
+    emit(program, HALT);
+    program->words[branch] = B(BNE, 1, 2, ((int32_t)program->count - (int32_t)branch) * 4);
+  }
+  emit(program, HALT);
+}
+
+static void check(const struct scenario *scenario, const unsigned delay[3], unsigned window) {
+  struct trax_config config = bench_far(3, 1);
+  config.icache.line_bytes = config.icache.bytes = 4096;
+  config.memory.latency_cycles = window;
+  config.memory.bandwidth_gbps = 100000; /* all have their instructions in the same cycle */
+  config.memory.size_mib = 1;
+  struct program program;
+  write_program(&program, scenario, delay);
+  struct run reference = run_alone(&config, program.words, program.count, TRAX_ENGINE_REFERENCE, 0, 1);
+  struct run fast = run_alone(&config, program.words, program.count, TRAX_ENGINE_FAST, 0, 2);
+  struct difference difference;
+  if (different_runs(&difference, &reference, &fast))
+    fail_msg("%s, after %u, %u and %u cycles more, latency %u: %s", scenario->name, delay[0], delay[1], delay[2],
+             window, difference.text);
+  end(&reference);
+  end(&fast);
+}
+
+static void in_any_order(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
+    for (unsigned first = 0; first < 10; first += 3)
+      for (unsigned second = 0; second < 14; second++)
+        check(&scenarios[i], (unsigned[]){first, second, 5 + second % 3}, LATENCY);
+}
+
+/* Far apart: the other's window may be over, and increments happen late. */
+static void at_any_distance(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
+    for (unsigned distance = 0; distance < 110; distance += 11) {
+      check(&scenarios[i], (unsigned[]){distance, 3, distance / 2}, 16 + distance % 50);
+      check(&scenarios[i], (unsigned[]){3, distance, distance / 2}, 16 + distance % 50);
+    }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(in_any_order), cmocka_unit_test(at_any_distance)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
