@@ -142,8 +142,11 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       *cycles = t;
       return TRAX_INTERRUPTED;
     }
-    if (chip->windows && trax_windows_advance(chip->windows, &t, limit < watched ? limit : watched))
+    const uint64_t begin = t;
+    if (chip->windows && trax_windows_advance(chip->windows, &t, limit < watched ? limit : watched)) {
+      trax_poll_pass(&poll, t > begin ? t - begin : 0);
       continue;
+    }
 
     bool faulted = false;
     for (uint32_t i = 0; i < chip->tms; i++)

@@ -24,4 +24,9 @@ static inline bool trax_poll(struct trax_poll *poll, uint64_t t) {
   return --poll->countdown == 0 && trax_poll_now(poll, t);
 }
 
+/* So many cycles have passed without a look. */
+static inline void trax_poll_pass(struct trax_poll *poll, uint64_t cycles) {
+  poll->countdown = poll->countdown > cycles ? poll->countdown - (unsigned)cycles : 1;
+}
+
 #endif
