@@ -129,6 +129,9 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Operands", "wait for memory and for the data cache", FAR, "dcache.hit_latency_cycles=3", 215, NONE,
        "104 105 209 210 213 214", "icache_miss=104 wait_memory=103 wait_dcache_hit=2", U(LUI, 1, 1), I(LW, 2, 1, 0),
        R(ADD, 3, 2, 2), I(LW, 4, 1, 60), R(ADD, 5, 4, 4), HALT);
+  RULE("Operands", "a hit of two cycles costs its next user one", FAR, "dcache.hit_latency_cycles=2", 214, NONE,
+       "104 105 209 210 212 213", "icache_miss=104 wait_memory=103 wait_dcache_hit=1", U(LUI, 1, 1), I(LW, 2, 1, 0),
+       R(ADD, 3, 2, 2), I(LW, 4, 1, 60), R(ADD, 5, 4, 4), HALT);
   RULE("Operands", "wait for an atomic increment", FAR, "", 208, NONE, "104 105 206 207",
        "icache_miss=104 wait_atomic=100", U(LUI, 1, 1), I(AINC, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
   RULE("Operands", "an illegal instruction faults before its operands are looked at", NEAR, "", 3, ILLEGAL, "1",
