@@ -71,11 +71,28 @@ static void emitSummary(raw_ostream &OS, const Isa &Isa) {
   }
 }
 
+// How the semantics' IMM comes from its field.
+static void describeImmediate(raw_ostream &OS, const Instruction &I) {
+  for (const Field &F : I.Fields) {
+    if (F.Name != "imm" && F.Name != "offset")
+      continue;
+    OS << "\nIMM is bits " << F.Low + F.Width - 1 << ".." << F.Low << ", " << (I.ImmSigned ? "sign" : "zero")
+       << " extended";
+    if (I.ImmScale != 1)
+      OS << ", times " << I.ImmScale;
+    OS << ".";
+    if (I.ImmLimit >= 0)
+      OS << " Values of " << I.ImmLimit << " and above are illegal.";
+    OS << "\n";
+  }
+}
+
 static void emitDetails(raw_ostream &OS, const Isa &Isa) {
   for (const Instruction &I : Isa.Instructions) {
     OS << "### " << I.Mnemonic << "\n\n`" << I.Mnemonic << (I.AssemblerText.empty() ? "" : " ") << I.AssemblerText
        << "`: " << I.Manual << "\n\n";
     drawWord(OS, I);
+    describeImmediate(OS, I);
     OS << "\nSemantics: `" << I.Semantics << "`\n\n";
   }
 }
