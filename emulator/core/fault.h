@@ -7,22 +7,22 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* identifier, what happened in words */
+/* identifier, its word in a signature (docs/isa.md, "Faults"), what happened in words */
 #define TRAX_FAULTS(X)                                                                                                 \
-  X(NONE, "no fault")                                                                                                  \
-  X(NULL_PAGE, "access to the null page")                                                                              \
-  X(STACK_OVERFLOW, "stack overflow")                                                                                  \
-  X(UNMAPPED, "access to an address that is neither global nor local memory")                                          \
-  X(MISALIGNED, "misaligned access")                                                                                   \
-  X(READ_ONLY, "write to read-only memory")                                                                            \
-  X(NOT_GLOBAL, "access past the data cache to local memory")                                                          \
-  X(EXECUTE, "execution outside the program's text")                                                                   \
-  X(MISALIGNED_PC, "jump to an address that is not a multiple of 4")                                                   \
-  X(ILLEGAL, "illegal instruction")                                                                                    \
-  X(ABORT, "abort")
+  X(NONE, "none", "no fault")                                                                                          \
+  X(NULL_PAGE, "null", "access to the null page")                                                                      \
+  X(STACK_OVERFLOW, "stack", "stack overflow")                                                                         \
+  X(UNMAPPED, "unmapped", "access to an address that is neither global nor local memory")                              \
+  X(MISALIGNED, "misaligned", "misaligned access")                                                                     \
+  X(READ_ONLY, "readonly", "write to read-only memory")                                                                \
+  X(NOT_GLOBAL, "local", "access past the data cache to local memory")                                                 \
+  X(EXECUTE, "fetch", "execution outside the program's text")                                                          \
+  X(MISALIGNED_PC, "misaligned-pc", "jump to an address that is not a multiple of 4")                                  \
+  X(ILLEGAL, "illegal", "illegal instruction")                                                                         \
+  X(ABORT, "abort", "abort")
 
 typedef enum trax_fault_kind {
-#define TRAX_FAULT_ENUM(ID, TEXT) TRAX_FAULT_##ID,
+#define TRAX_FAULT_ENUM(ID, NAME, TEXT) TRAX_FAULT_##ID,
   TRAX_FAULTS(TRAX_FAULT_ENUM)
 #undef TRAX_FAULT_ENUM
       TRAX_FAULT_COUNT
@@ -42,5 +42,6 @@ struct trax_fault {
 };
 
 const char *trax_fault_text(trax_fault_kind kind);
+const char *trax_fault_name(trax_fault_kind kind); /* "null" */
 
 #endif

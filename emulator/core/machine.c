@@ -21,11 +21,20 @@ trax_status trax_fail(trax_error *error, const char *format, ...) {
 
 const char *trax_fault_text(trax_fault_kind kind) {
   static const char *const texts[TRAX_FAULT_COUNT] = {
-#define TEXT(ID, WORDS) WORDS,
+#define TEXT(ID, NAME, WORDS) WORDS,
       TRAX_FAULTS(TEXT)
 #undef TEXT
   };
   return texts[kind];
+}
+
+const char *trax_fault_name(trax_fault_kind kind) {
+  static const char *const names[TRAX_FAULT_COUNT] = {
+#define NAME(ID, WORD, WORDS) WORD,
+      TRAX_FAULTS(NAME)
+#undef NAME
+  };
+  return names[kind];
 }
 
 trax_machine *trax_machine_create(const trax_config *config, trax_error *error) {

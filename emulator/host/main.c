@@ -52,8 +52,8 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
 }
 
 static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
-  const char *const files[] = {options->stats, options->report, options->post_mortem, options->gdb_symbols,
-                               options->checkpoint.write};
+  const char *const files[] = {options->stats,       options->report,    options->post_mortem,
+                               options->gdb_symbols, options->signature, options->checkpoint.write};
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
     if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -79,6 +79,8 @@ static trax_status load(trax_machine *machine, const struct trax_options *option
     if (options->assignments[i].kind == TRAX_ASSIGN_DUMP)
       status = trax_machine_read_buffer(machine, options->assignments[i].name, &bytes, &size, error);
   }
+  if (status == TRAX_OK && options->signature)
+    status = trax_machine_check_signature(machine, error);
   return status;
 }
 
@@ -170,9 +172,10 @@ static trax_status write_dump(trax_machine *machine, const char *symbol, const c
 }
 
 /* All that can be written is written, whatever fails; the first failure is reported. Buffers of a run that did not
-   finish are not results. */
-static trax_status write_outputs(trax_machine *machine, const struct trax_options *options, bool finished,
+   finish are not results; a signature is one of a run that ended, be it by a fault. */
+static trax_status write_outputs(trax_machine *machine, const struct trax_options *options, trax_status run,
                                  trax_error *error) {
+  const bool finished = run == TRAX_OK;
   trax_status result = TRAX_OK;
   trax_error reason;
   if (fflush(stdout) != 0 || ferror(stdout))
@@ -180,6 +183,9 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   if (options->stats && trax_stats_write_json(machine, options->stats, &reason) != TRAX_OK && result == TRAX_OK)
     result = trax_fail(error, "%s", reason.message);
   if (options->report && write_report(machine, options->report, &reason) != TRAX_OK && result == TRAX_OK)
+    result = trax_fail(error, "%s", reason.message);
+  if (options->signature && (finished || run == TRAX_FAULT) &&
+      trax_machine_write_signature(machine, options->signature, &reason) != TRAX_OK && result == TRAX_OK)
     result = trax_fail(error, "%s", reason.message);
   for (size_t i = 0; finished && i < options->assignment_count; ++i) {
     const struct trax_assignment *dump = &options->assignments[i];
@@ -258,8 +264,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
   if (status != TRAX_ERROR && machine->has_run && options->post_mortem &&
       write_post_mortem(post_mortem, options->post_mortem, &write_error) != TRAX_OK)
     result = complain(&write_error);
-  if (status != TRAX_ERROR && machine->has_run &&
-      write_outputs(machine, options, status == TRAX_OK, &write_error) != TRAX_OK)
+  if (status != TRAX_ERROR && machine->has_run && write_outputs(machine, options, status, &write_error) != TRAX_OK)
     result = complain(&write_error);
   trax_post_mortem_destroy(post_mortem);
   trax_machine_destroy(machine);

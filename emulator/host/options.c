@@ -16,6 +16,7 @@ enum option_id {
   OPTION_SCENE,
   OPTION_ALLOC,
   OPTION_DUMP,
+  OPTION_SIGNATURE,
   OPTION_STATS,
   OPTION_REPORT,
   OPTION_PROFILE,
@@ -65,6 +66,8 @@ static const struct {
     [OPTION_SCENE] = {"scene", "FILE", "the same as --bind scene=FILE"},
     [OPTION_ALLOC] = {"alloc", "SYMBOL=BYTES", "fill the program's buffer SYMBOL with zeros"},
     [OPTION_DUMP] = {"dump", "SYMBOL=FILE", "write the buffer SYMBOL to a file after the run"},
+    [OPTION_SIGNATURE] = {"signature", "FILE",
+                          "the words from begin_signature to end_signature after the run, and its fault"},
     [OPTION_STATS] = {"stats", "FILE", "statistics as JSON; - is standard output"},
     [OPTION_REPORT] = {"report", "FILE", "statistics as text; - is standard output"},
     [OPTION_PROFILE] = {"profile", "FILE", "thread-cycles by function and by source line"},
@@ -279,6 +282,8 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
   switch (id) {
   case OPTION_CONFIG:
     return set_once(id, &options->config, value, error);
+  case OPTION_SIGNATURE:
+    return set_once(id, &options->signature, value, error);
   case OPTION_STATS:
     return set_once(id, &options->stats, value, error);
   case OPTION_REPORT:

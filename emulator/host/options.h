@@ -20,8 +20,8 @@ struct trax_assignment {
 };
 
 struct trax_options {
-  const char *program, *config, *stats, *report, *post_mortem, *gdb_symbols; /* NULL: not given */
-  struct trax_assignment *assignments;                                       /* in the order of the command line */
+  const char *program, *config, *stats, *report, *post_mortem, *gdb_symbols, *signature; /* NULL: not given */
+  struct trax_assignment *assignments; /* in the order of the command line */
   size_t assignment_count;
   uint64_t max_cycles, watchdog, total_items; /* 0: not given */
   struct trax_explain_options explain;

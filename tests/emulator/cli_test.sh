@@ -108,6 +108,24 @@ grep -q '"status": "stuck"' stats.json || fail "stats.json of a stuck program"
 grep -q '"cycles": 1000,' stats.json || fail "stats.json: --max-cycles"
 
 # --- without time
+# --- signatures
+cat >expected.txt <<'end'
+fedcba98
+0000002a
+fault null pc 00001018 address 00000004
+end
+for engine in reference fast functional sampled; do
+  run 1 --engine $engine --signature signature.txt signature.elf
+  cmp -s expected.txt signature.txt || fail "signature in the engine $engine"
+  rm -f signature.txt
+done
+run 1 --signature - signature.elf
+cmp -s expected.txt out || fail "signature on standard output"
+refuse "copy.elf: the program has no symbol begin_signature, and so no signature" --signature signature.txt copy.elf
+absent signature.txt
+run 124 --signature signature.txt --max-cycles 3 signature.elf
+absent signature.txt
+
 run 0 --engine functional hello.elf
 [ "$(cat out)" = hello ] || fail "hello.elf"
 run 3 --config 4x32 --engine functional exit3.elf

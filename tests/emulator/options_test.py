@@ -79,6 +79,8 @@ CASES = {
                   bad=tuple("input=" + number for number in NUMBERS) + ("input", "=4", "input=4294967296")),
     "dump": Case(["output=out.txt", "--bind", "input=in.bin", "--alloc", "output=16"], file_holds("out.txt", "^0123456789abcdef$"),
                  "copy.elf", bad=("output", "=x", "output=", "output=none/x", "output=closed", "nothing=x")),
+    "signature": Case(["out.txt"], file_holds("out.txt", r"^fedcba98\n0000002a\nfault null pc 00001018 address 00000004\n$"),
+                      "signature.elf", 1, FILES, "b"),
     "stats": Case(["stats.json"], statistic("status", "finished"), bad=FILES, twice="b"),
     "report": Case(["report.txt"], file_holds("report.txt", "Thread-cycles by cause"), bad=FILES, twice="b"),
     "profile": Case(["out.txt"], file_holds("out.txt", "outer|mix|_start|[0-9]"), bad=FILES, twice="b"),

@@ -7,10 +7,8 @@ enum { ZERO, RA, A0 = 4, A1, A2, A3, A4, A5, T0 = 12, T1, T2 };
 #define COUNT(ARRAY) (sizeof(ARRAY) / sizeof *(ARRAY))
 #define J(RD, OFFSET) trax_encode((trax_inst){TRAX_OP_JAL, RD, 0, 0, OFFSET})
 #define R1(OP, RD, RA) trax_encode((trax_inst){TRAX_OP_##OP, RD, RA, 0, 0})
-#define FUNCTION(NAME, WORDS)                                                                                          \
-  { NAME, TEXT, (uint32_t)(WORDS)*4, STT_FUNC, STB_GLOBAL }
-#define OBJECT(NAME, ADDRESS, BYTES)                                                                                   \
-  { NAME, ADDRESS, BYTES, STT_OBJECT, STB_GLOBAL }
+#define FUNCTION(NAME, WORDS) {NAME, TEXT, (uint32_t)(WORDS) * 4, STT_FUNC, STB_GLOBAL}
+#define OBJECT(NAME, ADDRESS, BYTES) {NAME, ADDRESS, BYTES, STT_OBJECT, STB_GLOBAL}
 
 static struct elf_file simple(const uint32_t *text, size_t words, const char *data, size_t data_bytes, bool debug) {
   const struct elf_symbol symbols[] = {FUNCTION("outer", words), OBJECT("text", DATA, (uint32_t)data_bytes)};
@@ -100,14 +98,37 @@ static struct elf_file mix(void) {
   return simple(text, COUNT(text), data, sizeof data, false);
 }
 
+static struct elf_file signature(void) {
+  const uint32_t text[] = {U(LUI, A0, 1),
+                           I(ADDI, A1, ZERO, 42),
+                           U(LUI, A2, 0xFEDD),
+                           I(ADDI, A2, A2, -0x4568),
+                           S(SW, A1, A0, 8),
+                           S(SW, A2, A0, 4),
+                           I(LW, A3, ZERO, 4),
+                           S(SW, ZERO, A0, 4),
+                           HALT};
+  const struct elf_symbol symbols[] = {FUNCTION("_start", COUNT(text)),
+                                       {"begin_signature", DATA + 4, 0, STT_NOTYPE, STB_GLOBAL},
+                                       {"end_signature", DATA + 12, 0, STT_NOTYPE, STB_GLOBAL}};
+  const char data[16] = {0};
+  return elf_write(&(struct elf_program){.text = text,
+                                         .words = COUNT(text),
+                                         .data = data,
+                                         .data_bytes = sizeof data,
+                                         .symbols = symbols,
+                                         .symbol_count = COUNT(symbols)});
+}
+
 static const struct {
   const char *name;
   struct elf_file (*make)(void);
-} programs[] = {{"hello", hello}, {"exit3", exit3}, {"null", null}, {"abort", abort_program}, {"spin", spin},
-                {"items", items}, {"copy", copy},   {"mix", mix},   {"print", print},
-                {"idle", idle}};
+} programs[] = {{"hello", hello}, {"exit3", exit3}, {"null", null},          {"abort", abort_program},
+                {"spin", spin},   {"items", items}, {"copy", copy},          {"mix", mix},
+                {"print", print}, {"idle", idle},   {"signature", signature}};
 
-const char *const program_names[] = {"hello", "exit3", "null", "abort", "spin", "items", "copy", "mix", "print", "idle", NULL};
+const char *const program_names[] = {"hello", "exit3", "null",  "abort", "spin",      "items",
+                                     "copy",  "mix",   "print", "idle",  "signature", NULL};
 
 struct elf_file program_file(const char *name) {
   for (size_t i = 0; i < COUNT(programs); ++i)

@@ -13,7 +13,8 @@
      items   finishes 1000 items
      copy    copies the buffer `input` to the buffer `output`, words; also has __trax_heap and __trax_heap_end
      mix     every thread 50 times: every kind of unit, memory and atomics; counts a ray each time
-     print   prints "." for ever */
+     print   prints "." for ever
+     signature  stores two words, of which end_signature follows the second, and a third, and loads from address 4 */
 extern const char *const program_names[]; /* NULL-terminated */
 
 /* The file of a program; of an unknown name its bytes are NULL. */

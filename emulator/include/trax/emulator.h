@@ -108,6 +108,11 @@ typedef struct trax_run_options {
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
 
 int trax_machine_exit_status(const trax_machine *machine);
+/* What a conformance test compares (docs/isa.md, "Signatures"): the words from the symbol begin_signature to
+   end_signature as eight hexadecimal digits a line, and the fault that ended the run. The first asks, before the run,
+   whether the program has the two; the second writes path, which appears only when it is complete. */
+trax_status trax_machine_check_signature(const trax_machine *machine, trax_error *error);
+trax_status trax_machine_write_signature(const trax_machine *machine, const char *path, trax_error *error);
 /* The report of the fault that ended the run: address, instruction, symbol, source line, thread, TM, cycle, registers. */
 void trax_machine_print_fault(const trax_machine *machine, FILE *out);
 
