@@ -78,13 +78,13 @@ def LH  : InstLoad<22, 2, "lh", [{ RD = trax_sext16(LOAD16(RA + IMM)); }],
 def LHU : InstLoad<23, 2, "lhu", [{ RD = LOAD16(RA + IMM); }], "Load a half word, zero extended; the address must be a multiple of 2.">;
 def LW  : InstLoad<24, 4, "lw", [{ RD = LOAD32(RA + IMM); }], "Load a word; the address must be a multiple of 4.">;
 let IsNontemporal = true in
-def LWNT : InstLoad<25, 4, "lwnt", [{ RD = LOAD32(RA + IMM); }],
+def LWNT : InstLoad<25, 4, "lwnt", [{ RD = LOAD32_GLOBAL(RA + IMM); }],
                     "Load a word past the data cache, from global memory only; the address must be a multiple of 4.">;
 def SB  : InstStore<26, 1, "sb", [{ STORE8(RA + IMM, RB); }], "Store the low byte.">;
 def SH  : InstStore<27, 2, "sh", [{ STORE16(RA + IMM, RB); }], "Store the low half word; the address must be a multiple of 2.">;
 def SW  : InstStore<28, 4, "sw", [{ STORE32(RA + IMM, RB); }], "Store a word; the address must be a multiple of 4.">;
 let IsNontemporal = true in
-def SWNT : InstStore<29, 4, "swnt", [{ STORE32(RA + IMM, RB); }],
+def SWNT : InstStore<29, 4, "swnt", [{ STORE32_GLOBAL(RA + IMM, RB); }],
                      "Store a word past the data cache, to global memory only; the address must be a multiple of 4.">;
 let IsAtomic = true, mayStore = true, hasSideEffects = true in
 def AINC : InstLoad<30, 4, "ainc", [{ RD = ATOMIC_INC(RA + IMM); }],

@@ -83,9 +83,11 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
 #define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
 #define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
 #define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
+#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
 #define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
 #define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
 #define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
+#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
 #define ATOMIC_INC(ADDRESS)                                                                                            \
   (__extension__({                                                                                                     \
     (void)(ADDRESS);                                                                                                   \

@@ -72,9 +72,11 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
 #define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
 #define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
 #define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
+#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
 #define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
 #define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
 #define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
+#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
 #define ATOMIC_INC(ADDRESS)                                                                                            \
   (__extension__({                                                                                                     \
     (void)(ADDRESS);                                                                                                   \
@@ -139,9 +141,11 @@ jumped:
 #undef LOAD8
 #undef LOAD16
 #undef LOAD32
+#undef LOAD32_GLOBAL
 #undef STORE8
 #undef STORE16
 #undef STORE32
+#undef STORE32_GLOBAL
 #undef ATOMIC_INC
 #undef SPECIAL_REGISTER
 #undef TRAP

@@ -83,9 +83,11 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 #define LOAD8(ADDRESS) load(tm, tp, ADDRESS, 1)
 #define LOAD16(ADDRESS) load(tm, tp, ADDRESS, 2)
 #define LOAD32(ADDRESS) load(tm, tp, ADDRESS, 4)
+#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
 #define STORE8(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 1)
 #define STORE16(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 2)
 #define STORE32(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 4)
+#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
 #define SPECIAL_REGISTER(NUMBER) special_register(tm, tp, NUMBER, t)
 #define TRAP(VALUE, CODE) fault = trap(tm, tp, VALUE, CODE)
@@ -112,9 +114,11 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 #undef LOAD8
 #undef LOAD16
 #undef LOAD32
+#undef LOAD32_GLOBAL
 #undef STORE8
 #undef STORE16
 #undef STORE32
+#undef STORE32_GLOBAL
 #undef ATOMIC_INC
 #undef SPECIAL_REGISTER
 #undef TRAP
