@@ -3,6 +3,7 @@
 #define TRAX_DEVICE_RAY_H
 
 #include "bits.h"
+#include "triangle.h"
 
 struct ray {
   /* For boxes. The near planes of a box are its minima where the direction is positive, its maxima where it is
@@ -13,11 +14,7 @@ struct ray {
   float inverse_x, inverse_y, inverse_z;
   uint32_t near_offset_x, near_offset_y, near_offset_z;
 
-  /* For triangles: coordinates are renamed so that the direction's largest component is the third, and sheared and
-     scaled so that the ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
-  uint32_t offset_u, offset_v, offset_w;
-  float origin_u, origin_v, origin_w;
-  float shear_u, shear_v, scale_w;
+  struct triangle_ray triangle;
 };
 
 /* A component of the direction for box tests: zeros, and what is as good as zero, keep their sign and become 2^-30 of
@@ -56,19 +53,7 @@ static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, fl
   ray->near_origin_y = oy + margin_y, ray->far_origin_y = oy - margin_y;
   ray->near_origin_z = oz + margin_z, ray->far_origin_z = oz - margin_z;
 
-  if (size == size_x) {
-    ray->offset_u = 4, ray->offset_v = 8, ray->offset_w = 0;
-    ray->origin_u = oy, ray->origin_v = oz, ray->origin_w = ox;
-    ray->shear_u = dy * inverse_x, ray->shear_v = dz * inverse_x, ray->scale_w = inverse_x;
-  } else if (size == size_y) {
-    ray->offset_u = 8, ray->offset_v = 0, ray->offset_w = 4;
-    ray->origin_u = oz, ray->origin_v = ox, ray->origin_w = oy;
-    ray->shear_u = dz * inverse_y, ray->shear_v = dx * inverse_y, ray->scale_w = inverse_y;
-  } else {
-    ray->offset_u = 0, ray->offset_v = 4, ray->offset_w = 8;
-    ray->origin_u = ox, ray->origin_v = oy, ray->origin_w = oz;
-    ray->shear_u = dx * inverse_z, ray->shear_v = dy * inverse_z, ray->scale_w = inverse_z;
-  }
+  prepare_triangle_ray(&ray->triangle, ox, oy, oz, dx, dy, dz, inverse_x, inverse_y, inverse_z);
 }
 
 #endif

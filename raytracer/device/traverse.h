@@ -1,9 +1,7 @@
 /* Traversal of the BVH: the nearest hit of a ray, or whether there is any.
 
    Boxes are tested plane by plane and left as soon as the ray is known to miss, and all comparisons are of integers: a
-   node costs between 2 and 6 adds and multiplies a child, and a load for each plane. Triangles are tested after Woop,
-   Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013): two triangles that share an edge compute
-   the same value for it with opposite signs, and zero counts as inside, so a ray cannot pass between them. */
+   node costs between 2 and 6 adds and multiplies a child, and a load for each plane. */
 #ifndef TRAX_DEVICE_TRAVERSE_H
 #define TRAX_DEVICE_TRAVERSE_H
 
@@ -13,17 +11,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-struct hit {
-  int32_t distance_bits;  /* float_bits of the parameter along the ray */
-  const char *triangle;   /* struct trax_triangle; NULL: nothing was hit */
-  float weight1, weight2; /* barycentric, of v1 and v2 */
-};
-
 #define BOX_MISSED INT32_MAX
 
-static inline float load_float(const char *address) {
-  return *(const float *)(const void *)address;
-}
 static inline uint32_t load_word(const char *address) {
   return *(const uint32_t *)(const void *)address;
 }
@@ -53,56 +42,6 @@ static inline __attribute__((always_inline)) int32_t enter_box(const struct ray 
   CLIP_TO_SLAB(y, 4);
   CLIP_TO_SLAB(z, 8);
   return enter;
-}
-
-/* Of edge values: not on the same side. Zeros of either sign are on both sides. */
-static inline bool opposite(float a, float b) {
-  uint32_t a_bits = (uint32_t)float_bits(a), b_bits = (uint32_t)float_bits(b);
-  HIDE_ORIGIN(a_bits);
-  HIDE_ORIGIN(b_bits);
-  return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
-}
-
-/* Is the triangle hit before hit->distance_bits? If so *hit becomes this one; if any hit will do, only the answer
- * counts. */
-static inline __attribute__((always_inline)) bool hit_triangle(const struct ray *ray, const char *triangle, bool any,
-                                                               struct hit *hit) {
-  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
-  float aw = load_float(at_w) - ray->origin_w;
-  float bw = load_float(at_w + 12) - ray->origin_w;
-  float cw = load_float(at_w + 24) - ray->origin_w;
-  float au = load_float(at_u) - ray->origin_u - ray->shear_u * aw;
-  float av = load_float(at_v) - ray->origin_v - ray->shear_v * aw;
-  float bu = load_float(at_u + 12) - ray->origin_u - ray->shear_u * bw;
-  float bv = load_float(at_v + 12) - ray->origin_v - ray->shear_v * bw;
-  float cu = load_float(at_u + 24) - ray->origin_u - ray->shear_u * cw;
-  float cv = load_float(at_v + 24) - ray->origin_v - ray->shear_v * cw;
-
-  float edge_a = cu * bv - cv * bu;
-  float edge_b = au * cv - av * cu;
-  if (opposite(edge_a, edge_b))
-    return false;
-  float edge_c = bu * av - bv * au;
-  if (opposite(edge_a, edge_c) || opposite(edge_b, edge_c))
-    return false;
-  float determinant = edge_a + edge_b + edge_c;
-  int32_t size_bits = magnitude(determinant);
-  if (size_bits == 0)
-    return false;
-
-  /* The distance times |determinant|: the division waits until the hit is certain. */
-  float scaled = (edge_a * aw + edge_b * bw + edge_c * cw) * ray->scale_w;
-  int32_t scaled_bits = float_bits(scaled) ^ (float_bits(determinant) & SIGN_BIT);
-  if (scaled_bits <= 0 || scaled_bits >= float_bits(bits_float(hit->distance_bits) * bits_float(size_bits)))
-    return false;
-  if (!any) {
-    float reciprocal = 1.0f / determinant;
-    hit->distance_bits = float_bits(scaled * reciprocal);
-    hit->triangle = triangle;
-    hit->weight1 = edge_b * reciprocal;
-    hit->weight2 = edge_c * reciprocal;
-  }
-  return true;
 }
 
 /* The stack holds the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which
@@ -142,7 +81,7 @@ static inline __attribute__((always_inline)) bool trace_ray(const char *scene, t
     const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
     do {
       HIDE_ORIGIN(triangle); /* else three pointers would be stepped instead of one */
-      if (hit_triangle(ray, triangle, any, hit) && any)
+      if (hit_triangle(&ray->triangle, triangle, any, hit) && any)
         return true;
       triangle += sizeof(struct trax_triangle);
     } while (__builtin_expect_with_probability(triangle != end, 1, 0.5));

@@ -189,7 +189,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     }
     struct ray ray;
     prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], 0);
-    if (!hit_triangle(&ray, (const char *)&triangle, false, &hit))
+    if (!hit_triangle(&ray.triangle, (const char *)&triangle, false, &hit))
       continue;
     struct surface surface;
     struct vector eye = {from[0], from[1], from[2]};
@@ -201,7 +201,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
       way.x = -way.x, way.y = -way.y, way.z = -way.z;
     prepare_ray(&ray, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0);
     struct hit self = {0x7F000000, 0, 0, 0};
-    assert_false(hit_triangle(&ray, (const char *)&triangle, true, &self));
+    assert_false(hit_triangle(&ray.triangle, (const char *)&triangle, true, &self));
     tested++;
   }
   assert_true(tested > 150000);

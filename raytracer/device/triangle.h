@@ -1,0 +1,165 @@
+/* Whether a ray hits a triangle. The method is chosen at compile time, -DTRAX_TRIANGLE=METHOD:
+
+     TRAX_WATERTIGHT        Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013), the
+   default: two triangles that share an edge compute the same value for it with opposite signs, and zero counts as
+   inside, so a ray cannot pass between them. TRAX_MOLLER_TRUMBORE   "Fast, Minimum Storage Ray/Triangle Intersection"
+   (Journal of Graphics Tools 2(1), 1997), to compare: two triangles round their common edge each in its own way.
+
+   docs/robustness.md shows what each gets wrong and what it costs. */
+#ifndef TRAX_DEVICE_TRIANGLE_H
+#define TRAX_DEVICE_TRIANGLE_H
+
+#include "bits.h"
+#include "trax/scene_format.h"
+
+#include <stdbool.h>
+
+#define TRAX_WATERTIGHT 1
+#define TRAX_MOLLER_TRUMBORE 2
+#ifndef TRAX_TRIANGLE
+#define TRAX_TRIANGLE TRAX_WATERTIGHT
+#endif
+
+struct hit {
+  int32_t distance_bits;  /* float_bits of the parameter along the ray */
+  const char *triangle;   /* struct trax_triangle; NULL: nothing was hit */
+  float weight1, weight2; /* barycentric, of v1 and v2 */
+};
+
+static inline float load_float(const char *address) {
+  return *(const float *)(const void *)address;
+}
+
+/* A smaller determinant is taken for zero, or its reciprocal might be infinite. It is twice the triangle's area as seen
+   along the ray, in a scene that is 2^-4 wide at least (trax_normalise). */
+#define LEAST_DETERMINANT_BITS 0x00800000 /* 2^-126 */
+
+/* The ray is in the triangle; does it hit it before hit->distance_bits? scaled is the distance times the determinant:
+   the division waits until the hit is certain. edge1 and edge2 are the weights times the determinant. */
+static inline __attribute__((always_inline)) bool
+accept_hit(const char *triangle, bool any, float scaled, float determinant, float edge1, float edge2, struct hit *hit) {
+  int32_t size_bits = magnitude(determinant);
+  int32_t scaled_bits = float_bits(scaled) ^ (float_bits(determinant) & SIGN_BIT);
+  if (scaled_bits <= 0 || scaled_bits >= float_bits(bits_float(hit->distance_bits) * bits_float(size_bits)))
+    return false;
+  if (!any) {
+    float reciprocal = 1.0f / determinant;
+    hit->distance_bits = float_bits(scaled * reciprocal);
+    hit->triangle = triangle;
+    hit->weight1 = edge1 * reciprocal;
+    hit->weight2 = edge2 * reciprocal;
+  }
+  return true;
+}
+
+#if TRAX_TRIANGLE == TRAX_WATERTIGHT
+
+/* Coordinates are renamed so that the direction's largest component is the third, and sheared and scaled so that the
+   ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
+struct triangle_ray {
+  uint32_t offset_u, offset_v, offset_w;
+  float origin_u, origin_v, origin_w;
+  float shear_u, shear_v, scale_w;
+};
+
+/* inverse_ are the reciprocals of the direction's components, of which only the largest one's is used. */
+static inline void prepare_triangle_ray(struct triangle_ray *ray, float ox, float oy, float oz, float dx, float dy,
+                                        float dz, float inverse_x, float inverse_y, float inverse_z) {
+  int32_t size_x = magnitude(dx), size_y = magnitude(dy), size_z = magnitude(dz);
+  int32_t size = larger(larger(size_x, size_y), size_z);
+  if (size == size_x) {
+    ray->offset_u = 4, ray->offset_v = 8, ray->offset_w = 0;
+    ray->origin_u = oy, ray->origin_v = oz, ray->origin_w = ox;
+    ray->shear_u = dy * inverse_x, ray->shear_v = dz * inverse_x, ray->scale_w = inverse_x;
+  } else if (size == size_y) {
+    ray->offset_u = 8, ray->offset_v = 0, ray->offset_w = 4;
+    ray->origin_u = oz, ray->origin_v = ox, ray->origin_w = oy;
+    ray->shear_u = dz * inverse_y, ray->shear_v = dx * inverse_y, ray->scale_w = inverse_y;
+  } else {
+    ray->offset_u = 0, ray->offset_v = 4, ray->offset_w = 8;
+    ray->origin_u = ox, ray->origin_v = oy, ray->origin_w = oz;
+    ray->shear_u = dx * inverse_z, ray->shear_v = dy * inverse_z, ray->scale_w = inverse_z;
+  }
+}
+
+/* Of edge values: not on the same side. Zeros of either sign are on both sides. */
+static inline bool opposite(float a, float b) {
+  uint32_t a_bits = (uint32_t)float_bits(a), b_bits = (uint32_t)float_bits(b);
+  HIDE_ORIGIN(a_bits);
+  HIDE_ORIGIN(b_bits);
+  return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
+}
+
+/* Is the triangle hit before hit->distance_bits? If so *hit becomes this one; if any hit will do, only the answer
+   counts. */
+static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
+                                                               bool any, struct hit *hit) {
+  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
+  float aw = load_float(at_w) - ray->origin_w;
+  float bw = load_float(at_w + 12) - ray->origin_w;
+  float cw = load_float(at_w + 24) - ray->origin_w;
+  float au = load_float(at_u) - ray->origin_u - ray->shear_u * aw;
+  float av = load_float(at_v) - ray->origin_v - ray->shear_v * aw;
+  float bu = load_float(at_u + 12) - ray->origin_u - ray->shear_u * bw;
+  float bv = load_float(at_v + 12) - ray->origin_v - ray->shear_v * bw;
+  float cu = load_float(at_u + 24) - ray->origin_u - ray->shear_u * cw;
+  float cv = load_float(at_v + 24) - ray->origin_v - ray->shear_v * cw;
+
+  float edge_a = cu * bv - cv * bu;
+  float edge_b = au * cv - av * cu;
+  if (opposite(edge_a, edge_b))
+    return false;
+  float edge_c = bu * av - bv * au;
+  if (opposite(edge_a, edge_c) || opposite(edge_b, edge_c))
+    return false;
+  float determinant = edge_a + edge_b + edge_c;
+  if (magnitude(determinant) < LEAST_DETERMINANT_BITS)
+    return false;
+  return accept_hit(triangle, any, (edge_a * aw + edge_b * bw + edge_c * cw) * ray->scale_w, determinant, edge_b,
+                    edge_c, hit);
+}
+
+#elif TRAX_TRIANGLE == TRAX_MOLLER_TRUMBORE
+
+struct triangle_ray {
+  float origin_x, origin_y, origin_z;
+  float direction_x, direction_y, direction_z;
+};
+
+static inline void prepare_triangle_ray(struct triangle_ray *ray, float ox, float oy, float oz, float dx, float dy,
+                                        float dz, float inverse_x, float inverse_y, float inverse_z) {
+  (void)inverse_x, (void)inverse_y, (void)inverse_z;
+  *ray = (struct triangle_ray){ox, oy, oz, dx, dy, dz};
+}
+
+static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
+                                                               bool any, struct hit *hit) {
+  float ax = load_float(triangle), ay = load_float(triangle + 4), az = load_float(triangle + 8);
+  float fx = load_float(triangle + 24) - ax, fy = load_float(triangle + 28) - ay, fz = load_float(triangle + 32) - az;
+  float px = ray->direction_y * fz - ray->direction_z * fy;
+  float py = ray->direction_z * fx - ray->direction_x * fz;
+  float pz = ray->direction_x * fy - ray->direction_y * fx;
+  float ex = load_float(triangle + 12) - ax, ey = load_float(triangle + 16) - ay, ez = load_float(triangle + 20) - az;
+  float determinant = ex * px + ey * py + ez * pz;
+  int32_t size_bits = magnitude(determinant), sign = float_bits(determinant) & SIGN_BIT;
+  if (size_bits < LEAST_DETERMINANT_BITS)
+    return false;
+  float sx = ray->origin_x - ax, sy = ray->origin_y - ay, sz = ray->origin_z - az;
+
+  /* 0 <= u <= 1 and 0 <= v <= 1 - u, all times |determinant|; a zero of either sign is inside. */
+  float u = bits_float(float_bits(sx * px + sy * py + sz * pz) ^ sign);
+  if ((uint32_t)float_bits(u) > (uint32_t)SIGN_BIT || float_bits(u) > size_bits)
+    return false;
+  float qx = sy * ez - sz * ey, qy = sz * ex - sx * ez, qz = sx * ey - sy * ex;
+  float v = bits_float(float_bits(ray->direction_x * qx + ray->direction_y * qy + ray->direction_z * qz) ^ sign);
+  if ((uint32_t)float_bits(v) > (uint32_t)SIGN_BIT || float_bits(u + v) > size_bits)
+    return false;
+  return accept_hit(triangle, any, fx * qx + fy * qy + fz * qz, determinant, bits_float(float_bits(u) ^ sign),
+                    bits_float(float_bits(v) ^ sign), hit);
+}
+
+#else
+#error "TRAX_TRIANGLE is none of the methods above"
+#endif
+
+#endif
