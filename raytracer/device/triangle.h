@@ -34,17 +34,24 @@ static inline float load_float(const char *address) {
    along the ray, in a scene that is 2^-4 wide at least (trax_normalise). */
 #define LEAST_DETERMINANT_BITS 0x00800000 /* 2^-126 */
 
-/* The ray is in the triangle; does it hit it before hit->distance_bits? scaled is the distance times the determinant:
-   the division waits until the hit is certain. edge1 and edge2 are the weights times the determinant. */
+/* The ray is in the triangle: does it hit it before *hit? scaled is the distance times the determinant: the division
+   waits until the hit is all but certain. edge1 and edge2 are the weights times the determinant. Of equal distances the
+   triangle that comes first in the file wins, whatever the order of traversal: so the first comparison, whose product
+   and reciprocal are within 3 units of 2^-24, must let pass what may turn out to be equal. */
+#define UNITS_OF_DOUBT 4
 static inline __attribute__((always_inline)) bool
 accept_hit(const char *triangle, bool any, float scaled, float determinant, float edge1, float edge2, struct hit *hit) {
   int32_t size_bits = magnitude(determinant);
   int32_t scaled_bits = float_bits(scaled) ^ (float_bits(determinant) & SIGN_BIT);
-  if (scaled_bits <= 0 || scaled_bits >= float_bits(bits_float(hit->distance_bits) * bits_float(size_bits)))
+  if (scaled_bits <= 0 ||
+      scaled_bits > float_bits(bits_float(hit->distance_bits) * bits_float(size_bits)) + UNITS_OF_DOUBT)
     return false;
   if (!any) {
     float reciprocal = 1.0f / determinant;
-    hit->distance_bits = float_bits(scaled * reciprocal);
+    int32_t distance_bits = float_bits(scaled * reciprocal);
+    if (distance_bits > hit->distance_bits || (distance_bits == hit->distance_bits && triangle > hit->triangle))
+      return false;
+    hit->distance_bits = distance_bits;
     hit->triangle = triangle;
     hit->weight1 = edge1 * reciprocal;
     hit->weight2 = edge2 * reciprocal;
