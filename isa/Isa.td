@@ -4,6 +4,7 @@ include "TraxRegisters.td"
 include "TraxUnits.td"
 include "TraxFormats.td"
 include "TraxInstructions.td"
+include "TraxAliases.td"
 
 def TraxInstrInfo : InstrInfo;
 def Trax : Target { let InstructionSet = TraxInstrInfo; }

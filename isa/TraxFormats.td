@@ -3,18 +3,6 @@
 // Every instruction is one 32-bit little-endian word. The major opcode is in bits 31..26; register fields are five bits
 // wide. Bits that no field covers are zero: a word with another value there is illegal.
 //
-//        31    26 25  21 20  16 15  11 10      6 5       0
-//   R   | opcode |  rd  |  ra  |  rb  |    0    |  func   |   register-register
-//   R1  | opcode |  rd  |  ra  |  0   |    0    |  func   |   one operand
-//   I   | opcode |  rd  |  ra  |          imm16           |   immediate, load, jalr
-//   SH  | opcode |  rd  |  ra  |      0      |   imm5     |   shift by a constant
-//   U   | opcode |  rd  |  0   |          imm16           |   upper immediate, special register
-//   S   | opcode |  rb  |  ra  |          imm16           |   store
-//   B   | opcode |  ra  |  rb  |        offset16          |   conditional branch
-//   J   | opcode |  rd  |            offset21             |   jump and link
-//   T   | opcode |  0   |  ra  |          imm16           |   trap
-//   N   | opcode |                   0                    |   no operand
-//
 // The assembler's operand order is the destination first; memory operands are written imm(ra).
 
 //--- operands ---------------------------------------------------------------
@@ -74,17 +62,20 @@ def jaltarget : Operand<OtherVT> {
 
 //--- formats ----------------------------------------------------------------
 
-class TraxFormat<string name> { string FormatName = name; }
-def FormatR  : TraxFormat<"R">;
-def FormatR1 : TraxFormat<"R1">;
-def FormatI  : TraxFormat<"I">;
-def FormatSH : TraxFormat<"SH">;
-def FormatU  : TraxFormat<"U">;
-def FormatS  : TraxFormat<"S">;
-def FormatB  : TraxFormat<"B">;
-def FormatJ  : TraxFormat<"J">;
-def FormatT  : TraxFormat<"T">;
-def FormatN  : TraxFormat<"N">;
+class TraxFormat<string name, string what> {
+  string FormatName = name;
+  string Description = what;
+}
+def FormatR  : TraxFormat<"R", "register-register">;
+def FormatR1 : TraxFormat<"R1", "one operand">;
+def FormatI  : TraxFormat<"I", "immediate, load, jalr">;
+def FormatSH : TraxFormat<"SH", "shift by a constant">;
+def FormatU  : TraxFormat<"U", "upper immediate, special register">;
+def FormatS  : TraxFormat<"S", "store">;
+def FormatB  : TraxFormat<"B", "conditional branch">;
+def FormatJ  : TraxFormat<"J", "jump and link">;
+def FormatT  : TraxFormat<"T", "trap">;
+def FormatN  : TraxFormat<"N", "no operand">;
 
 // The root of every real instruction. Semantics is a C statement over RD (an lvalue), RA, RB, IMM (sign extended where
 // the operand is signed; branch offsets in bytes), PC (address of the instruction), NEXT_PC (an lvalue, PC + 4 on

@@ -9,6 +9,7 @@ include "TraxRegisters.td"
 include "TraxUnits.td"
 include "TraxFormats.td"
 include "TraxInstructions.td"
+include "TraxAliases.td"
 
 // here
 include "TraxSchedule.td"

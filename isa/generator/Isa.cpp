@@ -9,7 +9,9 @@ using namespace llvm;
 
 namespace trax {
 
-static bool flag(const Record *R, StringRef Name) { return R->getValueAsBit(Name); }
+static bool flag(const Record *R, StringRef Name) {
+  return R->getValueAsBit(Name);
+}
 
 // Mask, match and fields from the bits of Inst: a BitInit is fixed, a VarBitInit belongs to a field.
 static void readEncoding(const Record *R, Instruction &I) {
@@ -147,6 +149,23 @@ static void checkFormats(const std::vector<Instruction> &Instructions) {
     }
 }
 
+static void readFormats(RecordKeeper &Records, Isa &Isa) {
+  for (const Instruction &I : Isa.Instructions) {
+    auto HasName = [&](const Format &F) { return F.Name == I.Format; };
+    if (std::find_if(Isa.Formats.begin(), Isa.Formats.end(), HasName) == Isa.Formats.end())
+      Isa.Formats.push_back({I.Format, Records.getDef("Format" + I.Format)->getValueAsString("Description").str()});
+  }
+}
+
+static void readRegisters(RecordKeeper &Records, Isa &Isa) {
+  for (const Record *R : Records.getAllDerivedDefinitions("TraxReg"))
+    Isa.Registers.push_back({unsigned(R->getValueAsListOfInts("DwarfNumbers").front()),
+                             R->getValueAsString("AsmName").str(),
+                             R->getValueAsListOfStrings("AltNames").front().str()});
+  std::sort(Isa.Registers.begin(), Isa.Registers.end(),
+            [](const Register &A, const Register &B) { return A.Number < B.Number; });
+}
+
 Isa readIsa(RecordKeeper &Records) {
   Isa Isa;
   for (const Record *R : Records.getAllDerivedDefinitions("TraxUnit"))
@@ -158,6 +177,9 @@ Isa readIsa(RecordKeeper &Records) {
             [](const Instruction &A, const Instruction &B) { return A.Match < B.Match; });
   checkEncodings(Isa.Instructions);
   checkFormats(Isa.Instructions);
+  readFormats(Records, Isa);
+  readRegisters(Records, Isa);
+  Isa.Aliases = readAliases(Records);
   return Isa;
 }
 

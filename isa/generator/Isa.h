@@ -34,11 +34,30 @@ struct Instruction {
   unsigned opcode() const { return Match >> 26; }
 };
 
+struct Format {
+  std::string Name, Description;
+};
+
+struct Register {
+  unsigned Number;
+  std::string Name, OtherName;
+};
+
+// Another name for an instruction, or for a sequence. Both as assembler text, the expansion in backquotes.
+struct Alias {
+  std::string Syntax, Expansion;
+  bool IsPrinted; // by the disassembler
+};
+
 struct Isa {
   std::vector<Unit> Units;
+  std::vector<Format> Formats;     // in the order of their first instructions
+  std::vector<Register> Registers; // by number
+  std::vector<Alias> Aliases;
   std::vector<Instruction> Instructions; // in the order of their encodings
 };
 
+std::vector<Alias> readAliases(llvm::RecordKeeper &Records);
 Isa readIsa(llvm::RecordKeeper &Records); // fails with the record's location on an inconsistent description
 
 void emitInstructions(llvm::raw_ostream &OS, const Isa &Isa);
@@ -46,6 +65,14 @@ void emitUnits(llvm::raw_ostream &OS, const Isa &Isa);
 void emitSemantics(llvm::raw_ostream &OS, const Isa &Isa);
 void emitCodec(llvm::raw_ostream &OS, const Isa &Isa);
 void emitManual(llvm::raw_ostream &OS, const Isa &Isa, const std::string &TemplatePath);
+// Parts of the manual.
+void drawWord(llvm::raw_ostream &OS, const Instruction &I);
+void emitFormats(llvm::raw_ostream &OS, const Isa &Isa);
+void emitOpcodes(llvm::raw_ostream &OS, const Isa &Isa);
+void emitSpecialCases(llvm::raw_ostream &OS);
+void emitRounding(llvm::raw_ostream &OS);
+void emitConversions(llvm::raw_ostream &OS);
+void emitReducedPrecision(llvm::raw_ostream &OS);
 
 } // namespace trax
 #endif

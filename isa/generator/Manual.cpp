@@ -1,63 +1,16 @@
 // docs/isa.md: the template's text with the instructions filled in.
 
 #include "Isa.h"
+#include "trax/abi.h"
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/Support/MemoryBuffer.h"
 #include "llvm/TableGen/Error.h"
+#include <algorithm>
+#include <functional>
 
 using namespace llvm;
 
 namespace trax {
-
-// One box per run of bits, most significant first, as wide as its contents need.
-static void drawWord(raw_ostream &OS, const Instruction &I) {
-  struct Box {
-    unsigned High, Low;
-    std::string Text;
-  };
-  std::vector<Box> Boxes;
-  auto AddFixed = [&](unsigned High, unsigned Low) {
-    // The opcode and the function code are boxes of their own; zeros between them too.
-    auto Push = [&](unsigned H, unsigned L) {
-      uint32_t Value = (I.Match >> L) & ((uint64_t(1) << (H - L + 1)) - 1);
-      Boxes.push_back({H, L, utostr(Value)});
-    };
-    if (High == 31) {
-      Push(31, 26);
-      if (Low == 26)
-        return;
-      High = 25;
-    }
-    if (Low == 0 && High > 5 && I.Format[0] == 'R') {
-      Push(High, 6);
-      High = 5;
-    }
-    Push(High, Low);
-  };
-  unsigned Next = 31;
-  for (const Field &F : I.Fields) {
-    unsigned High = F.Low + F.Width - 1;
-    if (High < Next)
-      AddFixed(Next, High + 1);
-    Boxes.push_back({High, F.Low, F.Name});
-    Next = F.Low - 1; // wraps after bit 0
-  }
-  if (Next != ~0u)
-    AddFixed(Next, 0);
-
-  std::string Numbers = "   ", Line = "  |";
-  for (const Box &B : Boxes) {
-    std::string Range = utostr(B.High) + (B.High == B.Low ? "" : ".." + utostr(B.Low));
-    size_t Width = std::max(Range.size(), B.Text.size()) + 2;
-    auto Centre = [&](const std::string &Text) {
-      size_t Left = (Width - Text.size()) / 2;
-      return std::string(Left, ' ') + Text + std::string(Width - Text.size() - Left, ' ');
-    };
-    Numbers += Centre(Range) + " ";
-    Line += Centre(B.Text) + "|";
-  }
-  OS << "```\n" << StringRef(Numbers).rtrim() << "\n" << Line << "\n```\n";
-}
 
 static void emitSummary(raw_ostream &OS, const Isa &Isa) {
   OS << "| instruction | format | unit | latency | what |\n| --- | --- | --- | --- | --- |\n";
@@ -91,7 +44,9 @@ static void emitDetails(raw_ostream &OS, const Isa &Isa) {
   for (const Instruction &I : Isa.Instructions) {
     OS << "### " << I.Mnemonic << "\n\n`" << I.Mnemonic << (I.AssemblerText.empty() ? "" : " ") << I.AssemblerText
        << "`: " << I.Manual << "\n\n";
+    OS << "```\n";
     drawWord(OS, I);
+    OS << "```\n";
     describeImmediate(OS, I);
     OS << "\nSemantics: `" << I.Semantics << "`\n\n";
   }
@@ -103,19 +58,74 @@ static void emitUnitTable(raw_ostream &OS, const Isa &Isa) {
     OS << "| " << U.Name << " | " << U.Latency << " | " << U.Description << " |\n";
 }
 
+static void emitRegisters(raw_ostream &OS, const Isa &Isa) {
+  const size_t Columns = 4, Rows = (Isa.Registers.size() + Columns - 1) / Columns;
+  for (size_t Column = 0; Column < Columns; ++Column)
+    OS << "| register | name ";
+  OS << "|\n";
+  for (size_t Column = 0; Column < Columns; ++Column)
+    OS << "| --- | --- ";
+  OS << "|\n";
+  for (size_t Row = 0; Row < Rows; ++Row) {
+    for (size_t At = Row; At < Isa.Registers.size(); At += Rows)
+      OS << "| " << Isa.Registers[At].Name << " | " << Isa.Registers[At].OtherName << " ";
+    OS << "|\n";
+  }
+}
+
+static void emitAliases(raw_ostream &OS, const Isa &Isa) {
+  OS << "| shorthand | stands for | printed by the disassembler |\n| --- | --- | --- |\n";
+  for (const Alias &A : Isa.Aliases)
+    OS << "| `" << A.Syntax << "` | " << A.Expansion << " | " << (A.IsPrinted ? "yes" : "no") << " |\n";
+}
+
+// The template explains by hand what the description only names: nothing of it may be missing there.
+static void checkTemplate(StringRef Text, const std::string &Path, const Isa &Isa) {
+  auto Require = [&](const Twine &Row) {
+    if (!Text.contains(("\n| " + Row).str()))
+      PrintFatalError(Path + ": there is no row '| " + Row + "'");
+  };
+#define ROW(CONSTANT, NAME, NUMBER) Require(Twine(NUMBER) + " | `" NAME "` |");
+  TRAX_SPECIAL_REGISTERS(ROW)
+  TRAX_TRAPS(ROW)
+#undef ROW
+  for (const Instruction &I : Isa.Instructions) {
+    StringRef Rest = I.Semantics;
+    while (!Rest.empty()) {
+      StringRef Word = Rest.take_while([](char C) { return isAlnum(C) || C == '_'; });
+      Rest = Rest.drop_front(std::max<size_t>(Word.size(), 1));
+      if (!Word.empty() && Rest.starts_with("("))
+        Require("`" + Word + "(");
+    }
+  }
+}
+
 void emitManual(raw_ostream &OS, const Isa &Isa, const std::string &TemplatePath) {
   auto Buffer = MemoryBuffer::getFile(TemplatePath);
   if (!Buffer)
     PrintFatalError(TemplatePath + ": " + Buffer.getError().message());
   StringRef Text = (*Buffer)->getBuffer();
+  checkTemplate(Text, TemplatePath, Isa);
+  const std::pair<StringRef, std::function<void()>> Parts[] = {
+      {"@REGISTERS@", [&] { emitRegisters(OS, Isa); }},
+      {"@SPECIAL-CASES@", [&] { emitSpecialCases(OS); }},
+      {"@ROUNDING@", [&] { emitRounding(OS); }},
+      {"@CONVERSIONS@", [&] { emitConversions(OS); }},
+      {"@REDUCED-PRECISION@", [&] { emitReducedPrecision(OS); }},
+      {"@FORMATS@", [&] { emitFormats(OS, Isa); }},
+      {"@OPCODES@", [&] { emitOpcodes(OS, Isa); }},
+      {"@ALIASES@", [&] { emitAliases(OS, Isa); }},
+      {"@SUMMARY@", [&] { emitSummary(OS, Isa); }},
+      {"@UNITS@", [&] { emitUnitTable(OS, Isa); }},
+      {"@INSTRUCTIONS@", [&] { emitDetails(OS, Isa); }},
+  };
   while (!Text.empty()) {
     auto [Line, Rest] = Text.split('\n');
-    if (Line == "@SUMMARY@")
-      emitSummary(OS, Isa);
-    else if (Line == "@UNITS@")
-      emitUnitTable(OS, Isa);
-    else if (Line == "@INSTRUCTIONS@")
-      emitDetails(OS, Isa);
+    auto Part = std::find_if(std::begin(Parts), std::end(Parts), [Line = Line](auto &P) { return P.first == Line; });
+    if (Part != std::end(Parts))
+      Part->second();
+    else if (Line.starts_with("@"))
+      PrintFatalError(TemplatePath + ": there is no part " + Line);
     else
       OS << Line << "\n";
     Text = Rest;
