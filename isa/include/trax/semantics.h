@@ -100,7 +100,7 @@ static inline uint32_t trax_fcvt_s_w(uint32_t a) { return trax_from_float((float
 static inline uint32_t trax_fcvt_s_wu(uint32_t a) { return trax_from_float((float)a); }
 
 /* rSqrt of IEEE 754-2019, 9.2, correctly rounded. Rounding the binary64 estimate once more is exact for every binary32
-   operand: no reciprocal root lies so near a midpoint (tests/isa/arithmetic_test.c proves it with integers). */
+   operand: no reciprocal root lies so near a midpoint (isa-exhaustive compares all of them with integers). */
 static inline uint32_t trax_frsqrt(uint32_t a) {
   if (trax_is_nan(a) || (a >> 31 && a != 0x80000000u))
     return TRAX_CANONICAL_NAN;
@@ -109,15 +109,16 @@ static inline uint32_t trax_frsqrt(uint32_t a) {
   return trax_from_float((float)(1.0 / sqrt((double)trax_to_float(a))));
 }
 
-/* A result of a unit that keeps only `bits` bits of significand (24 = binary32 itself), rounded to nearest even. NaN,
-   infinity and subnormals pass unchanged; a carry out of the largest binade gives infinity. */
+/* A result of a unit that keeps only `bits` bits of significand, 1 to 24 (24 = binary32 itself), rounded to nearest even; a
+   tie at one bit, where neither neighbour is even, goes to the greater magnitude (IEEE 754-2019, 4.3.1). NaN, infinity and
+   subnormals pass unchanged; a carry out of the largest binade gives infinity. */
 static inline uint32_t trax_reduce_precision(uint32_t a, unsigned bits) {
   uint32_t exponent = a >> 23 & 0xFFu;
   if (bits >= 24 || exponent == 0xFFu || exponent == 0)
     return a;
   unsigned drop = 24 - bits;
   uint32_t half = 1u << (drop - 1);
-  uint32_t odd = a >> drop & 1u;
+  uint32_t odd = (a | 0x800000u) >> drop & 1u; /* the leading bit, which the encoding leaves out, is the last of one */
   return (a + half - 1 + odd) >> drop << drop;
 }
 
