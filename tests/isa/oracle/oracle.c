@@ -284,8 +284,6 @@ uint32_t oracle_fcvt_s_wu(uint32_t a) {
 
 uint32_t oracle_reduce(uint32_t value, unsigned bits) {
   struct datum x = unpack(value);
-  if (x.kind == NOT_A_NUMBER)
-    return CANONICAL_NAN;
   if (x.kind != FINITE || (value & INFINITY_BITS) == 0) /* the latter: subnormal */
     return value;
   /* As a multiple of the last place of a significand of `bits` bits. */

@@ -42,7 +42,8 @@ uint32_t oracle_fcvt_s_w(uint32_t a);
 uint32_t oracle_fcvt_s_wu(uint32_t a);
 
 /* The result `value` of a unit of `bits` significant bits, 1 to 24 (docs/timing.md, special.precision_bits): a normal
-   number is rounded to nearest, ties to even; subnormal numbers, zeros and infinities pass. */
+   number is rounded to nearest, ties to even; all else passes. With one bit there is no even neighbour, and a
+   tie goes to the greater magnitude [4.3.1]. */
 uint32_t oracle_reduce(uint32_t value, unsigned bits);
 
 #ifdef __cplusplus

@@ -132,7 +132,7 @@ static void test_nan_is_canonical(void **state) {
     IS(QNAN, oracle_frsqrt(a));
     IS(QNAN, oracle_fsqrt_rounded(a));
     IS(0, oracle_fcvt_w_s(a) | oracle_fcvt_wu_s(a));
-    IS(QNAN, oracle_reduce(a, 8));
+    IS(a, oracle_reduce(a, 8));
   }
 }
 
@@ -216,7 +216,7 @@ static void test_reduced_precision(void **state) {
   IS(0x3F800000, oracle_reduce(0x3F800800, 12));
   IS(0x3F802000, oracle_reduce(0x3F801800, 12));
   IS(ONE, oracle_reduce(THREE_HALVES - 1, 1));
-  IS(TWO, oracle_reduce(THREE_HALVES, 1)); /* 1 or 2, as multiples of 1 */
+  IS(TWO, oracle_reduce(THREE_HALVES, 1)); /* with one digit neither is even: the greater */
   IS(FOUR, oracle_reduce(THREE, 1));
   IS(INF, oracle_reduce(GREATEST, 12));
   IS(NEG(INF), oracle_reduce(NEG(0x7F400000), 1));
@@ -280,7 +280,9 @@ static uint32_t saturated(double least, double greatest) {
 }
 
 static uint32_t reduced(uint32_t bits, unsigned precision) {
-  if (mpfr_nan_p(x) || (bits & INF) == 0)
+  if (mpfr_nan_p(x))
+    return bits;
+  if ((bits & INF) == 0)
     return get(x);
   mpfr_t narrow;
   mpfr_init2(narrow, precision);
