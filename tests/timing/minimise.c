@@ -69,26 +69,30 @@ static bool is_relative(trax_op op) {
   return trax_op_table[op].flags & TRAX_IS_BRANCH && op != TRAX_OP_JALR;
 }
 
-/* Without the instructions [begin, end); branches go where they went, or behind what is gone. */
-static struct random_case without(const struct random_case *c, size_t begin, size_t end) {
-  struct random_case result = *c;
-  result.count = 0;
-  memset(result.words, 0, sizeof result.words);
-  for (size_t i = 0; i < c->count; i++) {
+size_t without_words(const uint32_t *words, size_t count, size_t begin, size_t end, uint32_t *result) {
+  size_t left = 0;
+  for (size_t i = 0; i < count; i++) {
     if (i >= begin && i < end)
       continue;
-    trax_inst inst = trax_decode(c->words[i]);
+    trax_inst inst = trax_decode(words[i]);
     const int64_t target = (int64_t)i + inst.imm / 4;
-    if (is_relative(inst.op) && target >= 0 && target <= (int64_t)c->count) {
+    if (is_relative(inst.op) && target >= 0 && target <= (int64_t)count) {
       const int64_t gone_before_target = target <= (int64_t)begin ? 0
                                          : target >= (int64_t)end ? (int64_t)(end - begin)
                                                                   : target - (int64_t)begin;
       const int64_t gone_before = i < begin ? 0 : (int64_t)(end - begin);
       inst.imm = (int32_t)(4 * (target - gone_before_target - ((int64_t)i - gone_before)));
-      result.words[result.count++] = trax_encode(inst);
+      result[left++] = trax_encode(inst);
     } else
-      result.words[result.count++] = c->words[i];
+      result[left++] = words[i];
   }
+  return left;
+}
+
+static struct random_case without(const struct random_case *c, size_t begin, size_t end) {
+  struct random_case result = *c;
+  memset(result.words, 0, sizeof result.words);
+  result.count = without_words(c->words, c->count, begin, end, result.words);
   return result;
 }
 

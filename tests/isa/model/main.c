@@ -36,7 +36,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     options->memory_mib = (uint32_t)number(state, "memory-mib", text, 1, 4095);
     return 0;
   case 'b':
-    options->precision = (uint32_t)number(state, "precision", text, 2, 24);
+    options->precision = (uint32_t)number(state, "precision", text, 1, 24);
     return 0;
   case 'l':
     options->limit = number(state, "limit", text, 1, UINT64_MAX);
