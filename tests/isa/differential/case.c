@@ -163,7 +163,8 @@ static bool accept(const struct model_isa *isa, struct differential_case *c, con
 }
 
 static bool reduce_words(const struct model_isa *isa, struct differential_case *c) {
-  const size_t first = c->kind == PROGRAM_TOGETHER ? c->prologue : 0; /* without it threads would meet */
+  const bool alone = c->config.chip.tms * c->config.chip.tps_per_tm == 1;
+  const size_t first = alone ? 0 : c->prologue; /* without it threads would meet */
   bool reduced = false;
   for (size_t size = c->count / 2; size; size /= 2)
     for (size_t i = first; i + size <= c->count && c->count > size;) {

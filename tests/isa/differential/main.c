@@ -24,6 +24,7 @@ enum { MOST_JOBS = 64, RANDOM_WORDS = 300 /* of an instruction */ };
 
 struct options {
   unsigned seed, count, jobs;
+  bool stop;
   const char *manual, *words;
 };
 
@@ -33,7 +34,7 @@ struct tally {
   uint64_t instructions, executed[TRAX_OP_COUNT];
 };
 
-static void run_case(const struct model_isa *isa, unsigned seed, struct tally *tally) {
+static void run_case(const struct options *options, const struct model_isa *isa, unsigned seed, struct tally *tally) {
   struct differential_case c;
   struct differential_outcome outcome;
   tally->seed = seed;
@@ -47,8 +48,11 @@ static void run_case(const struct model_isa *isa, unsigned seed, struct tally *t
     tally->executed[op] += outcome.executed[op];
   if (*outcome.difference.text) {
     tally->different++;
-    differential_minimise(isa, &c);
     printf("seed %u (%s): %s\n", seed, program_kind_names[c.kind], outcome.difference.text);
+    fflush(stdout);
+    if (options->stop)
+      _exit(0);
+    differential_minimise(isa, &c);
     differential_compare(isa, &c, &outcome);
     printf("made smaller: %s\n", outcome.difference.text);
     differential_print(&c, stdout);
@@ -87,7 +91,7 @@ static unsigned run_jobs(const struct options *options, const struct model_isa *
     }
     if (pids[job] == 0) {
       for (unsigned i = job; i < options->count; i += options->jobs)
-        run_case(isa, options->seed + i, &tallies[job]);
+        run_case(options, isa, options->seed + i, &tallies[job]);
       _exit(0);
     }
   }
@@ -219,6 +223,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case 'j':
     options->jobs = number(state, "jobs", text, 1, MOST_JOBS);
     return 0;
+  case 'x':
+    options->stop = true;
+    return 0;
   case 'd':
     options->manual = text;
     return 0;
@@ -234,6 +241,7 @@ int main(int argc, char **argv) {
       {"seed", 's', "N", 0, "of the first program; default 1", 0},
       {"count", 'c', "N", 0, "programs; default 1", 0},
       {"jobs", 'j', "N", 0, "processes; default 1", 0},
+      {"stop", 'x', NULL, 0, "end with the first program that differs, as it is", 0},
       {"manual", 'd', "FILE", 0, "instead of the project's docs/isa.md", 0},
       {"words", 'w', "FILE", 0, "run nothing, write the programs' words and every format's extremes", 0},
       {0}};

@@ -15,7 +15,7 @@ enum {
   COMMON = 0x8000,     /* offset in DATA: 16 kB of corner values */
   COMMON_BYTES = 0x4000,
   COMMON_COUNTERS = 0xC000, /* offset in DATA: 64 bytes */
-  REGION = 40,              /* elements of the outermost region */
+  REGION = 60,              /* elements of the outermost region */
   MOST_ELEMENTS = 64,
   ENOUGH = MOST_WORDS / 2 /* words: no further elements */
 };
@@ -55,7 +55,12 @@ static uint32_t any_corner(void) {
       /* where conversions saturate, and where floats leave out integers */
       0x4B000000, 0x4B7FFFFF, 0x4B800000, 0x4EFFFFFF, 0x4F000000, 0xCF000000, 0xCF000001, 0x4F7FFFFF, 0x4F800000,
       0x01000001, 0x01000003, 0x7FFFFFBF, 0x7FFFFFC0, 0xFFFFFF7F, 0xFFFFFF80, 0xFEFFFFFF};
+  static const uint32_t foremost[] = {0,          1,          0xFFFFFFFF, 0x80000000, 0x7FFFFFFF,
+                                      32,         0x7F800000, 0xFF800000, 0x7FC00000, 0x7F800001,
+                                      0x3F800000, 0x00000001, 0x7F7FFFFF, 0x00800000};
   const uint32_t power = 1u << any(0, 31);
+  if (one_in(2))
+    return foremost[any(0, sizeof foremost / sizeof *foremost - 1)];
   switch (any(0, 7)) {
   case 0:
     return power;
@@ -139,6 +144,14 @@ static bool computes(trax_op op) {
   return info->flags & TRAX_WRITES_RD && !info->access_bytes && !(info->flags & TRAX_IS_BRANCH) && op != TRAX_OP_RDSR;
 }
 
+static void emit_corner(struct program *program, unsigned reg) {
+  if (one_in(3))
+    emit_constant(program, reg, any_corner());
+  else
+    emit(program, I(LW, reg, program->role[CONSTANTS], 4 * (int32_t)any(0, COMMON_BYTES / 4 - 1)));
+}
+
+/* Of corner values as often as of what earlier ones left: results soon have none. */
 static void emit_computation(struct program *program) {
   trax_op op;
   do
@@ -151,6 +164,14 @@ static void emit_computation(struct program *program) {
   const trax_format format = trax_op_table[op].format;
   if (format == TRAX_FORMAT_I || format == TRAX_FORMAT_U || format == TRAX_FORMAT_SH)
     inst.imm = any_immediate(op);
+  if (one_in(2)) {
+    inst.ra = (uint8_t)any_value_register(program);
+    emit_corner(program, inst.ra);
+  }
+  if (trax_op_table[op].flags & TRAX_READS_RB && one_in(2)) {
+    inst.rb = (uint8_t)any_value_register(program);
+    emit_corner(program, inst.rb);
+  }
   emit(program, trax_encode(inst));
 }
 
@@ -362,10 +383,7 @@ static void emit_element(struct program *program, unsigned depth) {
     emit_memory(program);
     break;
   case 4:
-    emit_constant(program, any_value_register(program), any_corner());
-    break;
-  case 5: /* of the common words, all of them corner values */
-    emit(program, I(LW, any_destination(program), program->role[CONSTANTS], 4 * (int32_t)any(0, COMMON_BYTES / 4 - 1)));
+    emit_corner(program, any_value_register(program));
     break;
   case 6:
     emit_increment(program);
@@ -384,7 +402,8 @@ static void emit_element(struct program *program, unsigned depth) {
       emit_loop(program, depth);
     break;
   default:
-    emit_computation(program);
+    for (unsigned left = any(1, 5); left; left--)
+      emit_computation(program);
   }
 }
 
@@ -457,13 +476,8 @@ static void emit_prologue(struct program *program) {
   emit(program, U(LUI, scratch, DATA >> 16));
   emit(program, R(ADD, own, own, scratch));
   emit_constant(program, constants, DATA + COMMON);
-  for (unsigned i = 0; i < 12; i++) {
-    const unsigned reg = any_value_register(program);
-    if (one_in(2))
-      emit(program, I(LW, reg, constants, 4 * (int32_t)any(0, COMMON_BYTES / 4 - 1)));
-    else
-      emit_constant(program, reg, any_corner());
-  }
+  for (unsigned i = 0; i < 12; i++)
+    emit_corner(program, any_value_register(program));
 }
 
 static void emit_epilogue(struct program *program) {
@@ -500,7 +514,7 @@ size_t any_differential_program(enum program_kind kind, uint32_t memory_end, uin
   choose_roles(&program);
   emit_prologue(&program);
   *prologue = program.count;
-  emit_region(&program, any(4, REGION), 0);
+  emit_region(&program, any(8, REGION), 0);
   if (kind == PROGRAM_ALONE && one_in(3)) {
     emit_fault(&program);
     emit_region(&program, any(1, 8), 0);

@@ -4,7 +4,7 @@
 
 #include "generate.h" /* tests/timing: a source of numbers, a bench's memory */
 
-enum { MOST_WORDS = 1024, MOST_PROGRAM_THREADS = 24 };
+enum { MOST_WORDS = 2048, MOST_PROGRAM_THREADS = 24 };
 
 /* What a program may do that depends on the order of threads, or ends the machine. */
 enum program_kind {
