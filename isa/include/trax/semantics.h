@@ -11,8 +11,13 @@
 #include <stdint.h>
 #include <string.h>
 
-#ifdef __FAST_MATH__
-#error "trax/semantics.h needs strict IEEE arithmetic: do not compile it with -ffast-math"
+/* What can be seen of the compiler's flags; tests/isa/oracle/builds.py looks at the flags themselves. */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) ||                         \
+    defined(__NO_SIGNED_ZEROS__) || __FINITE_MATH_ONLY__
+#error "trax/semantics.h needs strict IEEE arithmetic: do not compile it with -ffast-math or parts of it"
+#endif
+#if __FLT_EVAL_METHOD__ != 0
+#error "trax/semantics.h needs binary32 without excess precision: do not compile it for the x87"
 #endif
 
 #define TRAX_CANONICAL_NAN 0x7FC00000u
@@ -109,9 +114,9 @@ static inline uint32_t trax_frsqrt(uint32_t a) {
   return trax_from_float((float)(1.0 / sqrt((double)trax_to_float(a))));
 }
 
-/* A result of a unit that keeps only `bits` bits of significand, 1 to 24 (24 = binary32 itself), rounded to nearest even; a
-   tie at one bit, where neither neighbour is even, goes to the greater magnitude (IEEE 754-2019, 4.3.1). NaN, infinity and
-   subnormals pass unchanged; a carry out of the largest binade gives infinity. */
+/* A result of a unit that keeps only `bits` bits of significand, 1 to 24 (24 = binary32 itself), rounded to nearest even;
+   a tie at one bit, where neither neighbour is even, goes to the greater magnitude (IEEE 754-2019, 4.3.1). NaN, infinity
+   and subnormals pass unchanged; a carry out of the largest binade gives infinity. */
 static inline uint32_t trax_reduce_precision(uint32_t a, unsigned bits) {
   uint32_t exponent = a >> 23 & 0xFFu;
   if (bits >= 24 || exponent == 0xFFu || exponent == 0)
