@@ -220,6 +220,8 @@ void emitReducedPrecision(raw_ostream &OS) {
       {0x3F812345, "between two results"},
       {0x3F800800, "a tie at 12 bits, to the even one below"},
       {0x3F801800, "a tie at 12 bits, to the even one above"},
+      {0x3FC00000, "a tie at 1 bit"},
+      {0x40400000, "a tie at 1 bit"},
       {0x3FFFFFFF, "the carry moves to the next binade"},
       {0x7F7FFFFF, "the carry out of the largest binade gives infinity"},
       {0x80800001, "the sign stays"},
@@ -228,7 +230,7 @@ void emitReducedPrecision(raw_ostream &OS) {
       {Sign | Infinity, "-inf"},
       {NaN, "NaN"},
   };
-  const unsigned Bits[] = {24, 23, 12, 8};
+  const unsigned Bits[] = {24, 23, 12, 8, 1};
   OS << "| rounded to 24 bits |";
   for (unsigned B : Bits)
     if (B != 24)
