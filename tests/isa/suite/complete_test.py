@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""An instruction without a test, or without a condition's, stops the build: complete_test.py TRAX_ISA_GEN ISA_FOLDER INSTRUCTIONS_INC LLVM_INCLUDE...
+
+Copies of the description with one more instruction, of each format, one less, and one renamed."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import coverage
+from build import all_programs, count
+from description import DescriptionError, read_constants, read_instructions
+
+GENERATOR, ISA, TABLE, *INCLUDES = sys.argv[1:]
+HERE = os.path.dirname(os.path.realpath(__file__))
+MORE = [
+    ('def ROTL : InstR<1, 12, "rotl", UnitInt, [{ RD = RA << RB; }], "Rotate.">;', "rotl (ROTL) has no test"),
+    ('def CLZ : InstR1<5, 4, "clz", UnitInt, [{ RD = RA; }], "Count.">;', "clz (CLZ) has no test"),
+    ('def MULI : InstI<18, "muli", [{ RD = RA * IMM; }], "Multiply.">;', "muli (MULI) has no test"),
+    ('def LWX : InstLoad<31, 4, "lwx", [{ RD = LOAD32(RA + IMM); }], "Load.">;', "lwx (LWX) has no test"),
+    ('def BALWAYS : InstB<43, "balways", [{ NEXT_PC = PC + IMM; }], "Branch.">;', "balways (BALWAYS) has no test"),
+    ('def AUIPC : InstU<19, "auipc", uimm16, UnitInt, [{ RD = PC + (IMM << 16); }], "Add.">;', "auipc (AUIPC) has no test"),
+]
+failures = 0
+
+
+def build(change):
+    """What build.py --check says of a changed description."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name in os.listdir(ISA):
+            if name.endswith(".td"):
+                shutil.copy(os.path.join(ISA, name), folder)
+        path = os.path.join(folder, "TraxInstructions.td")
+        with open(path) as file:
+            text = file.read()
+        with open(path, "w") as file:
+            file.write(change(text))
+        table = os.path.join(folder, "instructions.inc")
+        includes = [word for include in [folder, *INCLUDES] for word in ("-I", include)]
+        subprocess.run([GENERATOR, "-gen=instructions", *includes, os.path.join(folder, "Isa.td"), "-o", table], check=True)
+        return subprocess.run([sys.executable, "-B", os.path.join(HERE, "build.py"), "--check", table,
+                               os.path.join(ISA, "include/trax/abi.h"), "none", "none"], capture_output=True, text=True)
+
+
+def expect(what, change, message):
+    global failures
+    done = build(change)
+    if (done.returncode != 0) != bool(message) or message not in done.stderr:
+        failures += 1
+        print(f"FAILED: {what}: status {done.returncode}, {done.stderr!r}, not {message!r}")
+
+
+expect("the description as it is", lambda text: text, "")
+for definition, message in MORE:
+    expect(definition, lambda text: text + definition + "\n", message)
+expect("without fmin", lambda text: re.sub(r"(?s)def FMIN .*?;\n(?=def)", "", text), "FMIN has tests")
+
+# A condition that loses its cases, one after the other.
+instructions, constants = read_instructions(TABLE), read_constants(os.path.join(ISA, "include/trax/abi.h"))
+counts, _ = count(instructions, all_programs(instructions, constants), constants)
+cells = 0
+for mnemonic, row in counts.items():
+    for condition in list(row):
+        fewer = counts | {mnemonic: {name: cases for name, cases in row.items() if name != condition}}
+        try:
+            coverage.check(instructions, fewer, constants)
+            failures += 1
+            print(f"FAILED: {mnemonic} without {condition} is complete")
+        except DescriptionError as error:
+            cells += 1
+            if str(error) != f"{mnemonic} has no test of: {condition}":
+                failures += 1
+                print(f"FAILED: {mnemonic} without {condition}: {error}")
+print(f"{cells} cells of the table, {failures} failures")
+sys.exit(failures > 0)

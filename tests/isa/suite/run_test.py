@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""tests/isa/run notices what an implementation does wrong: run_test.py RUN TRAX_SIM SUITE
+
+Implementations that break what trax-sim writes."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+RUN, SIM, SUITE = (os.path.abspath(path) for path in sys.argv[1:])
+failures = 0
+
+# Each is given the words of the run's command; `sim` runs trax-sim, `signature` is its file.
+BROKEN = {
+    "right": "sim",
+    "word": "sim; sed -i '3s/^......../0bad0bad/' $signature",
+    "last": "sim; sed -i '$d' $signature",
+    "longer": "sim; echo 00000000 >>$signature",
+    "fault": "sim; echo 'fault illegal pc 00001000 address 00000000' >>$signature",
+    "fault_pc": "sim; sed -i 's/pc [0-9a-f]*/pc 00000004/' $signature",
+    "nothing": "exit 3",
+    "silent": "sim >/dev/null",
+    "status": "sim; exit 7",
+    "hangs": "exec sleep 60",
+    "empty": "sim; : >$signature",
+}
+TEMPLATE = "{emulator} {signature} {image} {tms} {tps}"
+
+
+def run(*words):
+    done = subprocess.run([RUN, *words], capture_output=True, text=True, timeout=60)
+    return done.returncode, done.stdout, done.stderr
+
+
+def fail(message, *shown):
+    global failures
+    failures += 1
+    print("FAILED:", message, *shown, sep="\n    ")
+
+
+def expect(what, status, pattern, *words):
+    found, out, err = run("--suite", SUITE, *words)
+    if found != status or not re.search(pattern, err if status == 2 else out):
+        fail(f"{what}: status {found}, not {status}, or not {pattern!r}", out, err)
+
+
+def broken(name, status, pattern, only, *words):
+    expect(name, status, pattern, "--emulator", f"./{name}", "--command", TEMPLATE, "--only", only, *words)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    for name, body in BROKEN.items():
+        with open(name, "w") as file:
+            file.write(f'#!/bin/sh\nsignature=$1\nsim() {{ {SIM} --set chip.tms=$tms --set chip.tps_per_tm=$tps --set memory.size_mib=16 '
+                       f'--signature $signature $image; }}\nimage=$2 tms=$3 tps=$4\n{body}\n')
+        os.chmod(name, 0o755)
+    broken("right", 0, r"^sub +\d+ images +[\d,]+ cases  ok\n.*\d+ of \d+ images pass", "^sub")
+    broken("word", 1, r"sub +\d+ images.*7 FAILED\n    sub: word 2 \(values\) is 0bad0bad, not [0-9a-f]{8}", "^sub$")
+    broken("last", 1, r"sub: word \d+ \(bystanders\) is not there, not [0-9a-f]{8}", "^sub$")
+    broken("longer", 1, r"sub: word \d+ is 00000000, not there", "^sub$")
+    broken("fault", 1, r"sub: the end is fault illegal pc 00001000 address 00000000, not there", "^sub$")
+    broken("fault_pc", 1, r"lw-faults-null_first: the end is fault null pc 00000004 .*, not fault null pc [0-9a-f]{8} address 00000000", "^lw-faults-null")
+    broken("nothing", 1, "sub: no signature, status 3", "^sub$")
+    broken("silent", 1, "trap: it prints b'', not b'", "^trap$")
+    broken("silent", 0, "pass", "^trap$", "--ignore-output")
+    broken("status", 1, "sub: exit status 7, not 0", "^sub$")
+    broken("status", 0, "pass", "^sub$", "--ignore-status")
+    broken("hangs", 1, "sub: not ended after 0.2 s", "^sub$", "--timeout", "0.2")
+    broken("empty", 1, "sub: word 0 .* is not there", "^sub$")
+    broken("empty", 1, "stopped at the first mismatch", "^lw", "--first")
+    broken("word", 1, r"\Asub\nsub-illegal-bit6\n", "^sub$", "--names")
+    broken("right", 0, r"\A\Z", "^sub$", "--names")
+    expect("trax-sim by the default command", 0, "pass", "--emulator", SIM, "--only", "^rdsr$", "--machine", "--engine functional")
+    expect("a list", 0, r"(?m)^xor: xor: .*values \d+", "--emulator", SIM, "--list")
+    right = ("--emulator", "./right", "--command", TEMPLATE)
+    expect("no name", 2, "no name matches nonsense", *right, "--only", "nonsense")
+    expect("no pattern", 2, "--only: \\(: ", *right, "--only", "(")
+    expect("no folder", 2, "none/suite.json: no suite", *right, "--suite", "none")
+    expect("no emulator", 2, "./none: cannot be run", "--emulator", "./none", "--command", TEMPLATE, "--only", "^sub$")
+    expect("a bad template", 2, r"\{nothing\}: only", "--emulator", "./right", "--command", "{emulator} {nothing}", "--only", "^sub$")
+    expect("no jobs", 2, "--jobs and --timeout", *right, "--jobs", "0")
+    expect("several jobs", 0, "pass", *right, "--only", "^and", "--jobs", "4")
+    os.chdir("/")
+print(f"{failures} failures")
+sys.exit(failures > 0)
