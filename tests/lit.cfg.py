@@ -54,6 +54,7 @@ config.substitutions += [
     ("%trax_bin", config.trax_bin),
     ("%trax_source", config.trax_source_root),
     ("%trax_build", config.trax_build_root),
+    ("%llvm_include", config.llvm_include),
     ("%{path}", config.environment["PATH"]),
     ("%python", config.python),
     ("%cmake", config.cmake),

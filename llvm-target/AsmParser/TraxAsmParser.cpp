@@ -98,7 +98,10 @@ public:
     return Value && !TraxII::getTrapName(unsigned(*Value)).empty();
   }
   bool isImm32() const { return getConstant().has_value(); }
-  bool isSymbol() const { return Kind == Imm && !isa<TraxMCExpr>(Expr) && !getConstant(); }
+  bool isSymbol() const {
+    int64_t Value; // whatever its size, a number is no symbol
+    return Kind == Imm && !isa<TraxMCExpr>(Expr) && !Expr->evaluateAsAbsolute(Value);
+  }
   bool isBrTarget() const { return isTarget<18>(); }
   bool isJalTarget() const { return isTarget<23>(); }
 
