@@ -46,11 +46,17 @@ INLINE struct divided divide(uint32_t n, uint32_t d) {
 /* Division of several words, after Moeller and Granlund, "Improved division by invariant integers", IEEE Transactions
    on Computers 60 (2011). Divisors are normalised: the top bit is set. */
 
+/* 2^63/d - 6 < result <= 2^63/d, for d > 2^31; what is 2^32 for d = 2^31 may become 0. */
+INLINE uint32_t reciprocal_q63(uint32_t d) {
+  uint32_t x = (uint32_t)(reciprocal_seed(d) * 0x1p63f);
+  x += mul_high(x, 0x7FFFFFFFu - mul_high(d, x)) << 1;
+  x += mul_high(x, 0x7FFFFFFFu - mul_high(d, x)) << 1;
+  return x;
+}
+
 /* floor((2^64 - 1) / d) - 2^32. */
 INLINE uint32_t reciprocal_2by1(uint32_t d) {
-  uint32_t x = (uint32_t)(reciprocal_seed(d) * 0x1p63f); /* 2^63/d, from below */
-  x += mul_high(x, 0x7FFFFFFFu - mul_high(d, x)) << 1;
-  x += mul_high(x, 0x7FFFFFFFu - mul_high(d, x)) << 1;
+  uint32_t x = reciprocal_q63(d);
   uint32_t v = x < 0x80000000u ? 0 : x << 1; /* without the leading 2^32, which 2^64/d exceeds for every d */
   uint64_t rest = ~(mul_wide(v, d) + ((uint64_t)d << 32));
   v += high_word(rest);

@@ -3,7 +3,7 @@
 
 Each polynomial interpolates its function at Chebyshev points of the interval where it is used, which is within a small factor of
 the best approximation of its degree; the comment beside it gives the greatest error found on a dense grid, against series summed
-to 60 digits. Run it again after changing a degree:  ./coefficients.py > coefficients.h
+to 60 digits. Run it again after changing a degree:  ./coefficients.py | clang-format-19 > coefficients.h
 """
 
 from decimal import Decimal, getcontext, localcontext
@@ -55,6 +55,41 @@ def sin_tail(z):
 def cos_tail(z):
     """(1 - cos r) / z for z = r^2"""
     return series(D(1) / 2, lambda k: D(-1) / ((2 * k + 1) * (2 * k + 2)), z)
+
+
+def sinh_tail(z):
+    """(sinh(r)/r - 1) / z for z = r^2"""
+    return series(D(1) / 6, lambda k: D(1) / ((2 * k + 2) * (2 * k + 3)), z)
+
+
+def cosh_tail(z):
+    """(cosh r - 1) / z for z = r^2"""
+    return series(D(1) / 2, lambda k: D(1) / ((2 * k + 1) * (2 * k + 2)), z)
+
+
+def tanh_tail(z):
+    """(1 - tanh(r)/r) / z for z = r^2: tanh(r)/r = (1 + z sinh_tail) / (1 + z cosh_tail)"""
+    return (cosh_tail(z) - sinh_tail(z)) / (1 + z * cosh_tail(z))
+
+
+def asinh_tail(z):
+    """(1 - asinh(s)/s) / z for z = s^2, by the binomial series of its derivative"""
+    total, term, k = D(0), D(1) / 2, 1
+    while abs(term) > D(10) ** -62:
+        total += term / (2 * k + 1)
+        term *= -z * (2 * k + 1) / (2 * k + 2)
+        k += 1
+    return total
+
+
+def atanh_tail(z):
+    """(atanh(x)/x - 1) / z for z = x^2"""
+    total, power, k = D(0), D(1), 0
+    while power > D(10) ** -62:
+        total += power / (2 * k + 3)
+        power *= z
+        k += 1
+    return total
 
 
 def atan_tail(z):
@@ -201,6 +236,15 @@ def main():
                     lambda z: z, "error in cos", True)
     emit_polynomial("atan_coefficients", "(1 - atan(t)/t) / t^2 in t^2, |t| <= tan(pi/8)", atan_tail, 0, atan_limit, 6, 33,
                     lambda z: z, "relative error in atan", True)
+    emit_polynomial("sinh_coefficients", "(sinh(r)/r - 1) / r^2 in r^2, |r| < 1", sinh_tail, 0, 1, 4, 34, lambda z: z,
+                    "relative error in sinh")
+    emit_polynomial("cosh_coefficients", "(cosh r - 1) / r^2 in r^2, |r| < 1", cosh_tail, 0, 1, 4, 32, lambda z: z, "error in cosh")
+    emit_polynomial("tanh_coefficients", "(1 - tanh(r)/r) / r^2 in r^2, |r| < 1/2", tanh_tail, 0, D("0.25"), 5, 33, lambda z: z,
+                    "relative error in tanh", True)
+    emit_polynomial("asinh_coefficients", "(1 - asinh(s)/s) / s^2 in s^2, |s| < 1/2", asinh_tail, 0, D("0.25"), 6, 34, lambda z: z,
+                    "relative error in asinh", True)
+    emit_polynomial("atanh_coefficients", "(atanh(x)/x - 1) / x^2 in x^2, |x| < 1/2", atanh_tail, 0, D("0.25"), 7, 33, lambda z: z,
+                    "relative error in atanh")
     limit = D(2) ** D("-5.9")
     emit_polynomial("log2_coefficients", "-(log2(1 + r) - r/ln 2) / r^2, |r| < 2^-5.9", log2_tail, -limit, limit, 5, 31,
                     lambda r: r * r, "error in log2", True)
@@ -227,6 +271,7 @@ def main():
     emit_constant("PI_OVER_4", "pi/4", PI / 4, 32)
     emit_constant("PI_64", "pi", PI, 62)
     emit_constant("LOG2_E", "1/ln 2", 1 / LN2, 63)
+    emit_constant("LOG2_E_LESS_1", "1/ln 2 - 1", 1 / LN2 - 1, 32)
     emit_constant("LN_2", "ln 2", LN2, 64)
     emit_constant("LOG10_2", "log10 2", LN2 / D(10).ln(), 65)
     print("#endif")

@@ -23,10 +23,6 @@
 #define __ieee754_log10 log10
 #define __ieee754_sinh sinh
 #define __ieee754_sqrt sqrt
-#define __ieee754_acoshf acoshf
-#define __ieee754_atanhf atanhf
-#define __ieee754_coshf coshf
-#define __ieee754_sinhf sinhf
 #define __ieee754_sqrtf sqrtf
 
 /* This one, 60 units in the last place off, is not used. */

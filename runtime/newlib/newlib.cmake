@@ -34,7 +34,7 @@ set(NEWLIB_C
   common/exp common/exp2 common/exp_data common/log common/log_data common/log2 common/log2_data common/pow
   common/pow_log_data common/math_err
   # binary32
-  math/ef_sinh math/ef_cosh math/sf_tanh math/sf_asinh math/ef_acosh math/ef_atanh math/sf_erf
+  math/sf_erf
   common/sf_expm1 common/sf_log1p common/math_errf
   # complex
   complex/cephes_subr complex/cephes_subrf)

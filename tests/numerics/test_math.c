@@ -36,12 +36,12 @@
   X(logf, 0.53, log)                                                                                                   \
   X(log2f, 0.52, log2)                                                                                                 \
   X(log10f, 0.53, log10)                                                                                               \
-  X(sinhf, 1.85, sinh)                                                                                                 \
-  X(coshf, 1.85, cosh)                                                                                                 \
-  X(tanhf, 2.2, tanh)                                                                                                  \
-  X(asinhf, 1.7, asinh)                                                                                                \
-  X(acoshf, 1.95, acosh)                                                                                               \
-  X(atanhf, 1.75, atanh)                                                                                               \
+  X(sinhf, 0.52, sinh)                                                                                                 \
+  X(coshf, 0.53, cosh)                                                                                                 \
+  X(tanhf, 0.53, tanh)                                                                                                  \
+  X(asinhf, 0.53, asinh)                                                                                                \
+  X(acoshf, 0.53, acosh)                                                                                               \
+  X(atanhf, 0.53, atanh)                                                                                               \
   X(expm1f, 0.82, expm1)                                                                                               \
   X(log1pf, 0.85, log1p)                                                                                               \
   X(cbrtf, 0.51, cbrt)                                                                                                 \

@@ -25,6 +25,11 @@ static void check_reciprocal(uint32_t d) {
   expect(product <= (uint64_t)1 << 32 && ((uint64_t)1 << 32) - product < 2 * (uint64_t)d, "reciprocal", d);
 }
 
+static void check_reciprocal_q63(uint32_t d) {
+  uint64_t exact = ((uint64_t)1 << 63) / d, x = reciprocal_q63(d);
+  expect(x <= exact && exact - x < 6, "reciprocal_q63", d);
+}
+
 static void check_reciprocal_2by1(uint32_t d) {
   expect(reciprocal_2by1(d) == (uint32_t)(UINT64_MAX / d - ((uint64_t)1 << 32)), "reciprocal_2by1", d);
 }
@@ -56,6 +61,8 @@ int main(int argc, char **argv) {
     check_reciprocal((uint32_t)d);
     if (d >> 31)
       check_reciprocal_2by1((uint32_t)d);
+    if (d > 1u << 31)
+      check_reciprocal_q63((uint32_t)d);
   }
   for (int bit = 0; bit < 32; bit++) /* powers of two and their neighbours, where the float estimate is at its worst */
     for (int64_t near = -300; near <= 300; near++) {

@@ -1,6 +1,6 @@
 /* trax-accuracy: how accurate the runtime's binary32 functions are; docs/accuracy.md has the results.
 
-     trax-accuracy --output FILE [FUNCTION...]   all 2^32 operands, or 2^30 sets of several; rows that FILE already has
+     trax-accuracy --output FILE [FUNCTION...]   all 2^32 operands, or 2^28 sets of several; rows that FILE already has
    and that still hold are kept, so a run that was stopped goes on where it was trax-accuracy --sample N [FUNCTION...]
    the first N operands of a sequence that begins with special values; prints rows trax-accuracy --check FILE [--sample
    N]     compares a sample with FILE, and the greatest errors where FILE has them
@@ -35,7 +35,7 @@ static void fail(const char *format, ...) {
   "function,operands,max_ulp,at,not_rounded_correctly,beyond_1_ulp,wrong_special_values,wrong_order,host_ulp,"         \
   "results\n"
 #define WHOLE ((uint64_t)1 << 32)
-#define PAIRS ((uint64_t)1 << 30)
+#define PAIRS ((uint64_t)1 << 28)
 enum { ROW = 256 };
 
 struct row {
