@@ -22,6 +22,7 @@ from image import Image
 from instructions import ROWS, check_rows, programs
 
 MEMORY_MIB = 16
+TIMEOUT = 60  # seconds, of one program
 
 
 class BuildError(Exception):
@@ -29,7 +30,10 @@ class BuildError(Exception):
 
 
 def run(*words, statuses=(0,)):
-    done = subprocess.run(words, capture_output=True, timeout=120, stdin=subprocess.DEVNULL)
+    try:
+        done = subprocess.run(words, capture_output=True, timeout=TIMEOUT, stdin=subprocess.DEVNULL)
+    except subprocess.TimeoutExpired:
+        raise BuildError(f"{' '.join(words)}: not ended after {TIMEOUT} s") from None
     if done.returncode not in statuses:
         raise BuildError(f"{' '.join(words)}: status {done.returncode}\n{done.stderr.decode(errors='replace')[:2000]}")
     return done
@@ -110,7 +114,7 @@ def all_programs(instructions, constants):
     made = []
     for inst in instructions:
         made += programs(inst, constants) + fault_programs(inst, ROWS[inst.name], instructions, limits, constants)
-    return made + unused_programs(instructions) + features.programs()
+    return made + unused_programs(instructions) + features.programs(instructions)
 
 
 def count(instructions, made, constants):

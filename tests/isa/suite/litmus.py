@@ -1,0 +1,135 @@
+"""Litmus tests of the memory order (docs/isa.md, "Order"): a few accesses of two to four threads, many times with other delays. What is
+counted is how often an outcome came that no rule allows; the result is 0. Which of the allowed outcomes come is no part of it.
+
+In the names of the tests x and y are words of lines of their own, 0 at first; the threads 0 and 1 belong to one TM, 2 and 3 to another."""
+
+from dataclasses import dataclass
+
+from program import Program
+
+ROUNDS = 48
+STRIDE = 256  # bytes for each round's x and y, on new lines
+THREADS = 4
+
+
+@dataclass(frozen=True)
+class Test:
+    """threads: {number: lines}, with r8, r9 the addresses of x and y, r10, r11 (0 at first) what is observed, r12 = 1, r13 = 2.
+    forbidden: [{place: value}]: (thread, "r10"), "x" or "y"."""
+
+    name: str
+    rule: str
+    threads: dict
+    forbidden: list
+
+
+def _use(register):
+    return f"add r0, {register}, r0"
+
+
+def _wait(address):
+    return [f"{{label}}:  lwnt r14, 0({address})", "beq r14, r0, {label}"]
+
+
+def tests():
+    made = []
+    for where, writer, reader in (("of one TM", 0, 1), ("of two TMs", 0, 2), ("of two TMs, downwards", 3, 1)):
+        for store in ("sw", "swnt"):
+            made.append(Test(f"message passing, {store}, threads {where}", "stores keep their order",
+                             {writer: [f"{store} r12, 0(r8)", f"{store} r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
+                             [{(reader, "r10"): 1, (reader, "r11"): 0}]))
+        made.append(Test(f"message passing, a byte of it, threads {where}", "stores keep their order",
+                         {writer: ["sb r12, 3(r8)", "sh r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
+                         [{(reader, "r10"): 1, (reader, "r11"): 0}]))
+        made.append(Test(f"message waited for, threads {where}", "stores are performed in finite time",
+                         {writer: ["sw r12, 0(r8)", "sw r12, 0(r9)"], reader: [*_wait("r9"), "lw r11, 0(r8)"]}, [{(reader, "r11"): 0}]))
+        made.append(Test(f"coherence of loads, threads {where}", "loads past the cache keep their order",
+                         {writer: ["sw r12, 0(r8)", "sw r13, 0(r8)"], reader: ["lwnt r10, 0(r8)", "lwnt r11, 0(r8)"]},
+                         [{(reader, "r10"): 1, (reader, "r11"): 0}, {(reader, "r10"): 2, (reader, "r11"): 0},
+                          {(reader, "r10"): 2, (reader, "r11"): 1}]))
+        made.append(Test(f"load buffering, used, threads {where}", "a result used is a load performed",
+                         {writer: ["lwnt r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"]},
+                         [{(writer, "r10"): 1, (reader, "r10"): 1}]))
+        made.append(Test(f"two stores each, threads {where}", "stores keep their order",
+                         {writer: ["sw r12, 0(r8)", "sw r13, 0(r9)"], reader: ["swnt r12, 0(r9)", "swnt r13, 0(r8)"]}, [{"x": 1, "y": 1}]))
+        made.append(Test(f"a store behind what was seen, threads {where}", "stores keep their order",
+                         {writer: ["sw r13, 0(r8)", "sw r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"]},
+                         [{(reader, "r10"): 1, "x": 2}]))
+        made.append(Test(f"a store behind an increment, threads {where}", "an increment waited for is performed",
+                         {writer: ["ainc r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
+                         [{(reader, "r10"): 1, (reader, "r11"): 0}]))
+        made.append(Test(f"an increment behind a store, threads {where}", "stores keep their order",
+                         {writer: ["sw r12, 0(r8)", "ainc r10, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
+                         [{(reader, "r10"): 1, (reader, "r11"): 0}]))
+        made.append(Test(f"increments of one word, threads {where}", "an increment is one step",
+                         {writer: ["ainc r10, 0(r8)", "ainc r11, 0(r8)"], reader: ["ainc r10, 0(r8)", "ainc r11, 0(r8)"]},
+                         [{(writer, a): n, (reader, b): n} for a in ("r10", "r11") for b in ("r10", "r11") for n in range(4)] +
+                         [{"x": n} for n in range(4)]))
+    made.append(Test("independent reads of independent writes", "there is one order",
+                     {0: ["sw r12, 0(r8)"], 2: ["sw r12, 0(r9)"], 1: ["lwnt r10, 0(r8)", "lwnt r11, 0(r9)"],
+                      3: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
+                     [{(1, "r10"): 1, (1, "r11"): 0, (3, "r10"): 1, (3, "r11"): 0}]))
+    for first, second, third in ((0, 1, 2), (2, 0, 3), (1, 3, 0)):
+        made.append(Test(f"handed on, threads {first}, {second}, {third}", "there is one order",
+                         {first: ["sw r12, 0(r8)"], second: [*_wait("r8"), "sw r12, 0(r9)"], third: [*_wait("r9"), "lwnt r11, 0(r8)"]},
+                         [{(third, "r11"): 0}]))
+    made.append(Test("plain loads within a TM", "the threads of a TM share its cache",
+                     {0: ["lw r14, 0(r8)", "sw r12, 0(r8)", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", "lw r10, 0(r9)", "lw r11, 0(r8)"]},
+                     [{(1, "r10"): 1, (1, "r11"): 0}]))
+    return made
+
+
+def one(test, index, common):
+    program = Program(f"litmus-{index}", "memory order", 2, 2)
+    program.lines += common
+    program.place("_start")
+    program.emit("rdsr r4, thread", "addi r5, r0, 0", "addi r12, r0, 1", "addi r13, r0, 2")
+    program.address("r6", "words")
+    program.address("r7", "seen")
+    program.address("r28", "arrived")
+    program.emit("slli r14, r4, 3", "add r7, r7, r14", "slli r15, r4, 2", "addi r15, r15, 3")
+    program.place("Lround")
+    program.emit(f"barrier {THREADS}", "addi r10, r0, 0", "addi r11, r0, 0", "addi r8, r6, 0", "addi r9, r6, 128")
+    # A delay of its own for each thread and round.
+    program.emit("mul r14, r5, r15", "andi r14, r14, 31")
+    program.place("Ldelay")
+    program.emit("addi r14, r14, -1", "bge r14, r0, Ldelay")
+    for thread, lines in test.threads.items():
+        behind, label = program.label(), program.label("Lwait")
+        program.emit(f"addi r14, r0, {thread}", f"bne r4, r14, {behind}")
+        for line in lines:
+            place, colon, rest = line.format(label=label).partition(":  ")
+            if colon:
+                program.place(place)
+            program.emit(rest if colon else place)
+        program.emit("jal r0, Lkeep")
+        program.place(behind)
+    program.place("Lkeep")
+    program.emit("sw r10, 0(r7)", "sw r11, 4(r7)", f"addi r6, r6, {STRIDE}", "addi r7, r7, 32", "addi r5, r5, 1", f"addi r14, r0, {ROUNDS}",
+                 "bne r5, r14, Lround", f"barrier {THREADS}", "beq r4, r0, Lcount", "halt")
+    program.place("Lcount")
+    program.rebase()
+    program.address("r6", "words")
+    program.address("r7", "seen")
+    program.emit(f"addi r5, r0, {ROUNDS}", "addi r20, r0, 0")
+    program.place("Lnext")
+    for outcome in test.forbidden:
+        allowed = program.label()
+        for place, value in outcome.items():
+            if isinstance(place, tuple):
+                program.emit(f"lwnt r14, {8 * place[0] + (4 if place[1] == 'r11' else 0)}(r7)")
+            else:
+                program.emit(f"lwnt r14, {0 if place == 'x' else 128}(r6)")
+            program.emit(f"addi r15, r0, {value}", f"bne r14, r15, {allowed}")
+        program.emit("addi r20, r20, 1")
+        program.place(allowed)
+    program.emit(f"addi r6, r6, {STRIDE}", "addi r7, r7, 32", "addi r5, r5, -1", "bne r5, r0, Lnext")
+    program.store("r20")
+    program.case(f"{test.rule}: {test.name}", ROUNDS)
+    program.end()
+    program.sections += ["  .bss", "  .p2align 8", f"words: .zero {ROUNDS * STRIDE}", f"seen: .zero {ROUNDS * 32}", "  .p2align 6", "arrived: .zero 64"]
+    return program
+
+
+def programs(common):
+    return [one(test, index, common) for index, test in enumerate(tests())]
