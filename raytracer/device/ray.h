@@ -24,6 +24,13 @@ static inline float away_from_zero(float component, int32_t least_bits) {
   return bits_float(larger(magnitude(component), least_bits) | (float_bits(component) & SIGN_BIT));
 }
 
+/* What brings a direction of any length but 0 into the range that prepare_ray asks for: a power of two, so distances
+   along the scaled direction are those along the direction divided by it. Rays of the ray tracer need none. */
+static inline float direction_scale(float dx, float dy, float dz) {
+  int32_t exponent = larger(larger(magnitude(dx), magnitude(dy)), magnitude(dz)) & 0x7F800000;
+  return bits_float(larger(0x7F000000 - exponent, 0x00800000));
+}
+
 /* Prepares the ray that starts at (ox, oy, oz); the direction need not have unit length, but its largest component must
    be within 2^-21 and 2^40, so that the product below neither vanishes nor overflows. */
 static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, float dx, float dy, float dz,

@@ -11,7 +11,7 @@
 
 struct surface {
   struct vector point;  /* where the shadow ray starts */
-  struct vector normal; /* towards the viewer; its largest component within 1 and 4 */
+  struct vector normal; /* towards the viewer; its largest component at most 1 */
   float inverse_length; /* of the normal */
   uint32_t material;
 };
@@ -37,7 +37,7 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   struct vector e = {b.x - a.x, b.y - a.y, b.z - a.z}, f = {c.x - a.x, c.y - a.y, c.z - a.z};
   struct vector n = {e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
 
-  /* By a power of two to about unit length, so that no square below leaves the range of floats; then towards the
+  /* By a power of two to 1 at most, so that no square below leaves the range of floats; then towards the
      viewer. A needle's normal may vanish in rounding. */
   struct vector sight = {a.x - eye.x, a.y - eye.y, a.z - eye.z};
   int32_t size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
@@ -47,22 +47,35 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   }
   int32_t exponent = size & 0x7F800000;
   int32_t away = ~float_bits(dot(n, sight)) & SIGN_BIT;
-  float scale = bits_float((0x7F000000 - exponent) | away);
+  float scale = bits_float((0x7E800000 - exponent) | away);
   n.x *= scale, n.y *= scale, n.z *= scale;
 
   int32_t position = larger(larger(magnitude(a.x), magnitude(a.y)), magnitude(a.z));
   int32_t edge = larger(larger(larger(magnitude(e.x), magnitude(e.y)), larger(magnitude(e.z), magnitude(f.x))),
                         larger(magnitude(f.y), magnitude(f.z)));
   float inverse_length = trax_rsqrt(dot(n, n));
-  float offset = (bits_float(position) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE) * inverse_length;
+  float bound = bits_float(position) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
+  float offset = bound * inverse_length;
+
+  /* Half as far back along the sight, but not beyond the eye: nothing is in between, so this leads away from every
+     surface near by, where the normal in a corner may lead along another wall, or into it. */
   float weight1 = hit->weight1, weight2 = hit->weight2;
-  surface->point.x = a.x + (weight1 * e.x + weight2 * f.x + offset * n.x);
-  surface->point.y = a.y + (weight1 * e.y + weight2 * f.y + offset * n.y);
-  surface->point.z = a.z + (weight1 * e.z + weight2 * f.z + offset * n.z);
+  struct vector inside = {weight1 * e.x + weight2 * f.x, weight1 * e.y + weight2 * f.y, weight1 * e.z + weight2 * f.z};
+  sight.x += inside.x, sight.y += inside.y, sight.z += inside.z;
+  int32_t far = larger(larger(magnitude(sight.x), magnitude(sight.y)), magnitude(sight.z)) & 0x7F800000;
+  int32_t back_bits = float_bits(bits_float(0x7E800000 - far) * bound);
+  float back = bits_float(back_bits < float_bits(1.0f) ? back_bits : float_bits(1.0f));
+  surface->point.x = a.x + (inside.x + (offset * n.x - back * sight.x));
+  surface->point.y = a.y + (inside.y + (offset * n.y - back * sight.y));
+  surface->point.z = a.z + (inside.z + (offset * n.z - back * sight.z));
   surface->normal = n;
   surface->inverse_length = inverse_length;
   surface->material = load_word(hit->triangle + 36);
 }
+
+/* How much less far than the light the shadow ray goes, in units of the distance's last place: what rounding may put a
+   surface in front of the light that has it in its plane. */
+#define LIGHT_SLACK 64
 
 struct light {
   struct vector direction; /* unit length */
@@ -76,7 +89,7 @@ static inline void aim_at_light(struct light *light, const struct surface *surfa
   float inverse = trax_rsqrt(square);
   float cosine = dot(surface->normal, way) * surface->inverse_length * inverse;
   light->direction.x = way.x * inverse, light->direction.y = way.y * inverse, light->direction.z = way.z * inverse;
-  light->distance_bits = float_bits(square * inverse);
+  light->distance_bits = float_bits(square * inverse) - LIGHT_SLACK;
   /* A light within 2^-40 of the point has no direction to speak of. */
   light->cosine_bits = float_bits(square) >= float_bits(0x1p-80f) ? float_bits(cosine) : 0;
 }

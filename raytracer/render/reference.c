@@ -87,8 +87,11 @@ static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_
   double facing = dot(normal, direction) < 0 ? 1 / length : -1 / length;
   normal = (struct double3){facing * normal.x, facing * normal.y, facing * normal.z};
   struct double3 point = plus_scaled(plus_scaled(v0, primary.hit.u, e), primary.hit.v, f);
-  double offset = 0x1p-22 * greatest(v0) + 0x1p-17 * fmax(greatest(e), greatest(f)); /* as in device/shade.h */
-  point = plus_scaled(point, offset, normal);
+  /* As in device/shade.h: along the normal and back along the sight. */
+  double offset = 0x1p-22 * greatest(v0) + 0x1p-17 * fmax(greatest(e), greatest(f));
+  struct double3 sight = minus(point, from(params->eye));
+  double back = fmin(0.5 * offset / exp2(floor(log2(greatest(sight)))), 1);
+  point = plus_scaled(plus_scaled(point, offset, normal), -back, sight);
 
   struct double3 way = minus(from(params->light), point);
   double distance = sqrt(dot(way, way));

@@ -1,0 +1,48 @@
+/* What a ray hits, in exact rational arithmetic, and whether an answer in binary32 is right, or wrong by no more than
+   rounding explains. */
+#ifndef TRAX_EXTREME_EXACT_H
+#define TRAX_EXTREME_EXACT_H
+
+#include "query.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct exact_triangle {
+  float vertex[3][3];
+};
+
+/* Everything in the scene's own unit of length; the program worked on it scaled by 2^exponent (trax_normalise). */
+struct exact_scene {
+  const struct exact_triangle *triangles;
+  uint32_t count;
+  int exponent;
+  float light[3];
+};
+
+/* An answer about a ray. With a light both rays are judged. */
+struct exact_answer {
+  int64_t triangle; /* -1: none */
+  float distance;   /* of the parameter along the direction times 2^direction_exponent, in the scaled scene */
+  int direction_exponent;
+  enum query_light light;
+};
+
+/* Counts of rays. */
+struct exact_tally {
+  uint64_t judged;
+  uint64_t hits;        /* that hit something exactly: a closed triangle, in front of the origin */
+  uint64_t missed;      /* hit something and the answer is: nothing */
+  uint64_t wrong;       /* another triangle than the nearest one, or one where there is none */
+  uint64_t unexplained; /* of both, those that the error bound of the watertight test does not cover */
+  uint64_t lit;         /* whose nearest hit sees the light exactly */
+  uint64_t leaks;       /* lit in the answer though something is in between, or the light is behind the triangle */
+  uint64_t acne;        /* not lit in the answer though they see the light */
+  double worst_ulp;     /* of the distance, in units of the last place, where the triangle is right */
+};
+
+/* Of several answers about one ray each is counted in the tally of its own. */
+void exact_judge(struct exact_tally *tallies, const struct exact_scene *scene, const struct query_ray *ray,
+                 const struct exact_answer *answers, unsigned count);
+
+#endif

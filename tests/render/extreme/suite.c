@@ -1,0 +1,390 @@
+/* The extreme suite: each case's rays by each method, judged exactly; natively and on the emulated machine.
+   Usage: render-extreme --program-directory DIRECTORY [--case NAME] [--rays N] [--csv FILE]
+   N rays for each case, 100 N for those of which it takes many; 1000 without the option.
+   Prints a table in Markdown. Exit status 1 if the default method does what it must not: see check_row. */
+#include "../../../raytracer/device/camera.h"
+#include "../../../raytracer/device/ray.h"
+#include "cases.h"
+#include "core/machine.h"
+#include "exact.h"
+#include "machines.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { METHODS = 3, EMULATED_RAYS = 192, CHUNK = 1 << 18, NATIVE_THREADS = 2 };
+#define JUDGED_PAIRS 4e6 /* rays times triangles */
+
+static const struct method {
+  const char *name;
+  query_function *trace;
+  const char *program;
+  bool plain_boxes; /* not widened */
+} methods[METHODS] = {
+    {"watertight", query_watertight, "query-watertight.elf", false},
+    {"Moeller-Trumbore", query_moller_trumbore, "query-moller-trumbore.elf", false},
+    {"watertight, boxes as they are", query_watertight, "query-watertight.elf", true},
+};
+
+struct row {
+  struct exact_tally tally;
+  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner;
+  uint64_t cycles, emulated;
+};
+
+struct prepared {
+  struct setup setup;
+  struct trax_scene scene;
+  struct trax_frame frame; /* of cases with pictures */
+  struct query_params params;
+  struct query_ray *rays; /* in the scaled scene */
+  struct exact_scene exact;
+  struct exact_triangle *triangles;
+};
+
+static void die(const char *name, const trax_error *error) {
+  fprintf(stderr, "render-extreme: error: %s: %s\n", name, error ? error->message : "out of memory");
+  exit(1);
+}
+
+static void *allocate(size_t size) {
+  void *memory = calloc(1, size ? size : 1);
+  if (!memory)
+    die("rays", NULL);
+  return memory;
+}
+
+/* --- preparing a case --- */
+
+static void copy_triangles(struct prepared *prepared) {
+  const struct trax_scene *scene = &prepared->scene;
+  prepared->triangles = allocate(scene->triangle_count * sizeof *prepared->triangles);
+  for (uint32_t i = 0; i < scene->triangle_count; i++) {
+    const struct trax_triangle *triangle = &scene->triangles[i];
+    memcpy(prepared->triangles[i].vertex[0], triangle->v0, sizeof triangle->v0);
+    memcpy(prepared->triangles[i].vertex[1], triangle->v1, sizeof triangle->v1);
+    memcpy(prepared->triangles[i].vertex[2], triangle->v2, sizeof triangle->v2);
+  }
+}
+
+/* The rays' extremes decide how the scene is scaled, and how far boxes are widened: no ray starts beyond them. */
+static void prepare(struct prepared *prepared, const struct extreme_case *extreme, uint32_t rays, uint32_t seed) {
+  trax_error error;
+  memset(prepared, 0, sizeof *prepared);
+  struct setup *setup = &prepared->setup;
+  setup->seed = seed;
+  extreme->make(setup, rays);
+  setup->build.allow_empty = true;
+  if (setup->premade.bytes) {
+    prepared->scene = setup->premade;
+    setup->premade.bytes = NULL;
+  } else if (trax_scene_build(&prepared->scene, &setup->mesh, &setup->build, &error) != TRAX_OK) {
+    die(extreme->name, &error);
+  }
+  copy_triangles(prepared);
+
+  bool picture = setup->width > 0;
+  struct trax_view view = picture ? setup->view : view_from(0, 0, 0, 0, 0, -1, 60, 0, 0, 0);
+  float low[3], high[3];
+  for (int axis = 0; axis < 3; axis++) {
+    low[axis] = high[axis] = picture ? view.eye[axis] : setup->ray_count ? setup->rays[0].origin[axis] : 0;
+    for (uint32_t i = 0; i < setup->ray_count; i++) {
+      low[axis] = fminf(low[axis], setup->rays[i].origin[axis]);
+      high[axis] = fmaxf(high[axis], setup->rays[i].origin[axis]);
+    }
+    view.eye[axis] = fabsf(low[axis]) > fabsf(high[axis]) ? low[axis] : high[axis];
+    view.light[axis] = setup->light[axis];
+  }
+  int exponent = normalise(&prepared->scene, &view);
+  prepared->exact = (struct exact_scene){prepared->triangles, prepared->scene.triangle_count, exponent, {0, 0, 0}};
+  memcpy(prepared->exact.light, setup->light, sizeof setup->light);
+
+  prepared->params.shadows = picture || (extreme->flags & CASE_SHADOWS);
+  memcpy(prepared->params.light, view.light, sizeof view.light);
+  struct trax_frame_options options = {picture ? setup->width : 1, picture ? setup->height : 1, TRAX_DEFAULT_AMBIENT,
+                                       TRAX_DEFAULT_BACKGROUND};
+  for (int corner = 0; corner < 8; corner++) {
+    for (int axis = 0; axis < 3; axis++)
+      view.eye[axis] = ldexpf(corner >> axis & 1 ? high[axis] : low[axis], exponent);
+    trax_frame_release(&prepared->frame);
+    if (trax_frame_init(&prepared->frame, &prepared->scene, &view, &options, &error) != TRAX_OK)
+      die(extreme->name, &error);
+    prepared->params.box_margin = fmaxf(prepared->params.box_margin, prepared->frame.params->box_margin);
+  }
+  if (picture) {
+    free(setup->rays);
+    setup->ray_count = setup->width * setup->height;
+    setup->rays = allocate(setup->ray_count * sizeof *setup->rays);
+    for (uint32_t i = 0; i < setup->ray_count; i++) {
+      struct vector way = camera_direction(prepared->frame.params, i % setup->width, i / setup->width);
+      memcpy(setup->rays[i].origin, setup->view.eye, sizeof setup->view.eye);
+      memcpy(setup->rays[i].direction, (float[]){way.x, way.y, way.z}, 3 * sizeof(float));
+    }
+  }
+  prepared->params.count = setup->ray_count;
+  prepared->rays = allocate(setup->ray_count * sizeof *prepared->rays);
+  for (uint32_t i = 0; i < setup->ray_count; i++) {
+    prepared->rays[i] = setup->rays[i];
+    for (int axis = 0; axis < 3; axis++)
+      prepared->rays[i].origin[axis] = ldexpf(setup->rays[i].origin[axis], exponent);
+  }
+}
+
+static void release(struct prepared *prepared) {
+  trax_frame_release(&prepared->frame);
+  trax_scene_release(&prepared->scene);
+  free(prepared->rays);
+  free(prepared->triangles);
+  setup_release(&prepared->setup);
+}
+
+/* --- tracing --- */
+
+struct share {
+  pthread_t thread;
+  const struct method *method;
+  const struct prepared *prepared;
+  const struct query_params *params;
+  struct query_answer *answers;
+  uint32_t first, last;
+};
+
+static void *trace_share(void *argument) {
+  const struct share *share = argument;
+  share->method->trace(share->prepared->scene.bytes, share->params, share->prepared->rays, share->answers, share->first,
+                       share->last);
+  return NULL;
+}
+
+static struct query_answer *trace(const struct prepared *prepared, const struct method *method) {
+  struct query_params params = prepared->params;
+  if (method->plain_boxes)
+    params.box_margin = 0;
+  struct query_answer *answers = allocate(params.count * sizeof *answers);
+  struct share shares[NATIVE_THREADS];
+  for (uint32_t i = 0; i < NATIVE_THREADS; i++) {
+    shares[i] = (struct share){.method = method,
+                               .prepared = prepared,
+                               .params = &params,
+                               .answers = answers,
+                               .first = (uint32_t)((uint64_t)params.count * i / NATIVE_THREADS),
+                               .last = (uint32_t)((uint64_t)params.count * (i + 1) / NATIVE_THREADS)};
+    if (pthread_create(&shares[i].thread, NULL, trace_share, &shares[i]) != 0)
+      die("threads", NULL);
+  }
+  for (int i = 0; i < NATIVE_THREADS; i++)
+    pthread_join(shares[i].thread, NULL);
+  return answers;
+}
+
+/* The first rays again, on the emulated machine: the same bits. */
+static void emulate(struct row *row, const struct prepared *prepared, const struct method *method,
+                    const char *directory, const struct query_answer *native) {
+  char program[4096];
+  snprintf(program, sizeof program, "%s/%s", directory, method->program);
+  struct query_params params = prepared->params;
+  params.count = params.count < EMULATED_RAYS ? params.count : EMULATED_RAYS;
+  if (method->plain_boxes)
+    params.box_margin = 0;
+  struct query_answer answers[EMULATED_RAYS];
+  trax_error error;
+  if (machine_trace(program, &prepared->scene, &params, prepared->rays, answers, &row->cycles, &error) != TRAX_OK)
+    die(method->program, &error);
+  row->emulated = params.count;
+  for (uint32_t i = 0; i < params.count; i++)
+    row->twin_differs += memcmp(&answers[i], &native[i], sizeof answers[i]) != 0;
+}
+
+/* --- judging --- */
+
+static bool finite_answer(const struct query_answer *answer) {
+  float distance = bits_float((int32_t)answer->distance_bits);
+  return isfinite(distance) && isfinite(answer->weight1) && isfinite(answer->weight2) && isfinite(answer->origin[0]) &&
+         isfinite(answer->origin[1]) && isfinite(answer->origin[2]);
+}
+
+static int64_t triangle_number(const struct trax_scene *scene, uint32_t offset) {
+  return offset
+             ? (int64_t)((offset - scene->header->sections[TRAX_SCENE_TRIANGLES].offset) / sizeof(struct trax_triangle))
+             : -1;
+}
+
+/* Is there a triangle at the same place with a lower number? */
+static bool has_lower_duplicate(const struct prepared *prepared, int64_t number) {
+  const struct trax_scene *scene = &prepared->scene;
+  for (uint32_t i = 0; i < scene->triangle_count; i++)
+    if (scene->source_ids[i] < scene->source_ids[number] &&
+        !memcmp(&prepared->triangles[i], &prepared->triangles[number], sizeof prepared->triangles[i]))
+      return true;
+  return false;
+}
+
+static void count_all(struct row *row, const struct prepared *prepared, const struct extreme_case *extreme,
+                      const struct query_answer *answers) {
+  row->rays += prepared->params.count;
+  for (uint32_t i = 0; i < prepared->params.count; i++) {
+    int64_t number = triangle_number(&prepared->scene, answers[i].triangle);
+    row->escapes += (extreme->flags & CASE_CLOSED) && number < 0;
+    row->not_finite += !finite_answer(&answers[i]);
+    row->wrong_winner += (extreme->flags & CASE_DUPLICATES) && number >= 0 && has_lower_duplicate(prepared, number);
+  }
+}
+
+static void judge(struct row rows[METHODS], const struct prepared *prepared,
+                  struct query_answer *const answers[METHODS]) {
+  double most = JUDGED_PAIRS / fmax(1, prepared->exact.count);
+  uint32_t judged = most < prepared->params.count ? (uint32_t)most : prepared->params.count;
+  struct exact_tally tallies[METHODS];
+  for (int m = 0; m < METHODS; m++)
+    tallies[m] = rows[m].tally;
+  for (uint32_t i = 0; i < judged; i++) {
+    const struct query_ray *ray = &prepared->setup.rays[i];
+    struct exact_answer answer[METHODS];
+    int exponent = ilogbf(direction_scale(ray->direction[0], ray->direction[1], ray->direction[2]));
+    for (int m = 0; m < METHODS; m++)
+      answer[m] = (struct exact_answer){.triangle = triangle_number(&prepared->scene, answers[m][i].triangle),
+                                        .distance = bits_float((int32_t)answers[m][i].distance_bits),
+                                        .direction_exponent = exponent,
+                                        .light = (enum query_light)answers[m][i].light};
+    exact_judge(tallies, &prepared->exact, ray, answer, METHODS);
+  }
+  for (int m = 0; m < METHODS; m++)
+    rows[m].tally = tallies[m];
+}
+
+static void run_case(struct row rows[METHODS], const struct extreme_case *extreme, uint64_t rays,
+                     const char *directory) {
+  memset(rows, 0, METHODS * sizeof *rows);
+  if (extreme->flags & CASE_MANY_RAYS)
+    rays *= 100;
+  uint32_t seed = 1;
+  for (uint64_t done = 0; done < rays; done += CHUNK, seed++) {
+    struct prepared prepared;
+    struct query_answer *answers[METHODS];
+    prepare(&prepared, extreme, (uint32_t)(rays - done < CHUNK ? rays - done : CHUNK), seed);
+    for (int m = 0; m < METHODS; m++) {
+      answers[m] = trace(&prepared, &methods[m]);
+      count_all(&rows[m], &prepared, extreme, answers[m]);
+      if (done == 0)
+        emulate(&rows[m], &prepared, &methods[m], directory, answers[m]);
+    }
+    if (done == 0)
+      judge(rows, &prepared, answers);
+    if (done == 0 && prepared.setup.width > 0) {
+      trax_error error;
+      if (machine_pictures(directory, &prepared.frame, extreme->flags & CASE_HARDWARE, &error) != TRAX_OK)
+        die(extreme->name, &error);
+    }
+    for (int m = 0; m < METHODS; m++)
+      free(answers[m]);
+    release(&prepared);
+  }
+}
+
+/* --- the report --- */
+
+static void print_row(FILE *csv, const struct extreme_case *extreme, const struct method *method,
+                      const struct row *row) {
+  const struct exact_tally *t = &row->tally;
+  printf("| %s | %s | %llu | %llu | %llu | %llu | %llu | %llu | %llu | %.2g | %.0f |\n", extreme->name, method->name,
+         (unsigned long long)row->rays, (unsigned long long)row->escapes, (unsigned long long)t->missed,
+         (unsigned long long)t->wrong, (unsigned long long)t->unexplained, (unsigned long long)t->leaks,
+         (unsigned long long)t->acne, t->worst_ulp, row->emulated ? (double)row->cycles / (double)row->emulated : 0.0);
+  if (csv)
+    fprintf(csv, "%s,\"%s\",%llu,%llu,%llu,%llu,%llu,%llu,%llu,%llu,%llu,%llu,%.9g,%llu,%llu\n", extreme->name,
+            method->name, (unsigned long long)row->rays, (unsigned long long)row->escapes,
+            (unsigned long long)t->judged, (unsigned long long)t->hits, (unsigned long long)t->missed,
+            (unsigned long long)t->wrong, (unsigned long long)t->unexplained, (unsigned long long)t->lit,
+            (unsigned long long)t->leaks, (unsigned long long)t->acne, t->worst_ulp, (unsigned long long)row->emulated,
+            (unsigned long long)row->cycles);
+  fflush(stdout);
+}
+
+static unsigned complain(const char *name, const char *what, uint64_t count) {
+  if (count)
+    fprintf(stderr, "FAILED: %s: %s: %llu rays\n", name, what, (unsigned long long)count);
+  return count != 0;
+}
+
+/* What the default method must never do. The others must agree with their emulated twins, too. */
+static unsigned check_row(const struct extreme_case *extreme, const struct row *row, bool is_default) {
+  const char *name = extreme->name;
+  unsigned failures = complain(name, "the emulated machine answers otherwise", row->twin_differs);
+  if (!is_default)
+    return failures;
+  failures += complain(name, "wrong beyond what rounding explains", row->tally.unexplained);
+  if (!(extreme->flags & CASE_BELOW_ROUNDING)) {
+    failures += complain(name, "left a closed surface", row->escapes);
+    failures += complain(name, "light where there is none", row->tally.leaks);
+    failures += complain(name, "shadow where there is none", row->tally.acne);
+  }
+  failures += complain(name, "infinity or NaN", row->not_finite);
+  failures += complain(name, "not the first of several triangles at one place", row->wrong_winner);
+  return failures;
+}
+
+int main(int argc, char **argv) {
+  static const struct option names[] = {{"program-directory", required_argument, NULL, 'p'},
+                                        {"case", required_argument, NULL, 'c'},
+                                        {"rays", required_argument, NULL, 'r'},
+                                        {"csv", required_argument, NULL, 'o'},
+                                        {NULL, 0, NULL, 0}};
+  const char *directory = ".", *only = NULL, *csv_path = NULL;
+  uint64_t rays = 1000;
+  int option;
+  while ((option = getopt_long(argc, argv, "", names, NULL)) != -1) {
+    if (option == 'p')
+      directory = optarg;
+    else if (option == 'c')
+      only = optarg;
+    else if (option == 'r')
+      rays = strtoull(optarg, NULL, 10);
+    else if (option == 'o')
+      csv_path = optarg;
+    else
+      return 1;
+  }
+  FILE *csv = csv_path ? fopen(csv_path, "w") : NULL;
+  if (csv_path && !csv) {
+    perror(csv_path);
+    return 1;
+  }
+  if (csv)
+    fprintf(csv, "case,method,rays,escapes,judged,hits,missed,wrong,unexplained,lit,leaks,acne,worst_ulp,emulated_rays,"
+                 "cycles\n");
+  printf("| case | method | rays | escapes | missed | wrong | unexplained | leaks | acne | worst ulp | cycles/ray |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  unsigned failures = 0, run = 0;
+  uint64_t faults[METHODS] = {0};
+  for (unsigned i = 0; i < extreme_case_count; i++) {
+    if (only && strcmp(only, extreme_cases[i].name) != 0)
+      continue;
+    struct row rows[METHODS];
+    run_case(rows, &extreme_cases[i], rays, directory);
+    for (int m = 0; m < METHODS; m++) {
+      print_row(csv, &extreme_cases[i], &methods[m], &rows[m]);
+      failures += check_row(&extreme_cases[i], &rows[m], m == 0);
+      faults[m] += rows[m].escapes + rows[m].tally.unexplained;
+    }
+    run++;
+  }
+  if (csv && fclose(csv) != 0) {
+    perror(csv_path);
+    failures++;
+  }
+  if (run == 0) {
+    fprintf(stderr, "render-extreme: error: no case is called %s\n", only);
+    return 1;
+  }
+  if (!only) /* cases that no method could fail would prove nothing */
+    for (int m = 1; m < METHODS; m++)
+      if (faults[m] == 0) {
+        fprintf(stderr, "FAILED: nothing is too hard for %s\n", methods[m].name);
+        failures++;
+      }
+  printf("\n%u cases, %u failures\n", run, failures);
+  return failures > 0;
+}
