@@ -13,9 +13,15 @@ static const float default_traversal_cost = 1, default_intersection_cost = 1;
 /* One thread and one instruction set: the surface areas are rounded in the same way on every host. */
 static const char device_options[] = "threads=1,isa=sse2,start_threads=0,set_affinity=0";
 
+/* Deep enough for every tree that surface areas lead to; what is too deep for the device is rebuilt afterwards. Embree
+   itself would give up where it comes near its limit with many triangles left. */
+#define BUILDER_DEPTH 1000
+
 /* What the callbacks make; Embree's allocator owns it. */
 struct built_node {
   uint32_t triangle_count; /* 0: an inner node */
+  uint32_t below;          /* triangles of the subtree */
+  uint32_t height;         /* most inner nodes from here to a leaf */
   struct built_node *child[2];
   uint32_t triangles[];
 };
@@ -68,31 +74,6 @@ static bool on_progress(void *pointer, double fraction) {
   return !(options->interrupt && *options->interrupt);
 }
 
-/* Copies the subtree depth first; false when it is deeper than allowed or malformed. depth counts the inner nodes
-   above. */
-static bool number_nodes(struct scene_tree *tree, const struct built_node *built, unsigned depth, unsigned max_depth) {
-  uint32_t index = tree->node_count++;
-  struct scene_tree_node *node = &tree->nodes[index];
-  node->triangle_count = built->triangle_count;
-  if (built->triangle_count) {
-    memcpy(node->triangles, built->triangles, built->triangle_count * sizeof built->triangles[0]);
-    if (built->triangle_count > tree->max_leaf)
-      tree->max_leaf = built->triangle_count;
-    return true;
-  }
-  if (++depth > max_depth || !built->child[0] || !built->child[1])
-    return false;
-  if (depth > tree->max_depth)
-    tree->max_depth = depth;
-  tree->inner_count++;
-  for (int i = 0; i < 2; i++) {
-    node->child[i] = tree->node_count;
-    if (!number_nodes(tree, built->child[i], depth, max_depth))
-      return false;
-  }
-  return true;
-}
-
 static void fill_primitives(struct RTCBuildPrimitive *primitives, const struct trax_mesh *mesh) {
   for (uint32_t i = 0; i < mesh->triangle_count; i++) {
     struct scene_box box = scene_empty_box();
@@ -106,6 +87,161 @@ static void fill_primitives(struct RTCBuildPrimitive *primitives, const struct t
                                                .upper_z = box.max[2],
                                                .primID = i};
   }
+}
+
+/* --- numbering, depth first, and rebuilding what is too deep --- */
+
+struct numbering {
+  struct scene_tree *tree;
+  const struct RTCBuildPrimitive *primitives; /* by triangle */
+  unsigned max_depth, max_leaf;
+  uint32_t *triangles; /* of a subtree to be rebuilt: room for all */
+};
+
+/* False if the builder left something out. Recursion is bounded by BUILDER_DEPTH. */
+static bool measure_built(struct built_node *node) {
+  node->below = node->triangle_count;
+  node->height = 0;
+  if (node->triangle_count)
+    return true;
+  for (int i = 0; i < 2; i++) {
+    struct built_node *child = node->child[i];
+    if (!child || !measure_built(child))
+      return false;
+    node->below += child->below;
+    node->height = child->height + 1 > node->height ? child->height + 1 : node->height;
+  }
+  return true;
+}
+
+/* The least height of a tree over so many triangles. */
+static unsigned least_height(uint32_t triangles, unsigned max_leaf) {
+  unsigned height = 0;
+  while ((uint64_t)max_leaf << height < triangles)
+    height++;
+  return height;
+}
+
+static struct scene_tree_node *add_node(struct scene_tree *tree, unsigned depth, const uint32_t *triangles,
+                                        uint32_t triangle_count) {
+  struct scene_tree_node *node = &tree->nodes[tree->node_count++];
+  node->triangle_count = triangle_count;
+  if (triangle_count) {
+    memcpy(node->triangles, triangles, triangle_count * sizeof *triangles);
+    if (triangle_count > tree->max_leaf)
+      tree->max_leaf = triangle_count;
+  } else {
+    tree->inner_count++;
+    if (depth + 1 > tree->max_depth)
+      tree->max_depth = depth + 1;
+  }
+  return node;
+}
+
+static uint32_t *collect(uint32_t *end, const struct built_node *built) {
+  for (uint32_t i = 0; i < built->triangle_count; i++)
+    *end++ = built->triangles[i];
+  for (int i = 0; i < 2 && built->triangle_count == 0; i++)
+    end = collect(end, built->child[i]);
+  return end;
+}
+
+struct sort_key {
+  double place; /* twice the middle of the triangle's box */
+  uint32_t triangle;
+};
+
+static int compare_keys(const void *a, const void *b) {
+  const struct sort_key *left = a, *right = b;
+  if (left->place != right->place)
+    return left->place < right->place ? -1 : 1;
+  return left->triangle < right->triangle ? -1 : left->triangle > right->triangle;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+  const uint32_t *left = a, *right = b;
+  return *left < *right ? -1 : *left > *right;
+}
+
+static double middle(const struct RTCBuildPrimitive *primitive, int axis) {
+  return (double)(&primitive->lower_x)[axis] + (double)(&primitive->upper_x)[axis];
+}
+
+/* Halves the triangles by number, along the axis on which their middles are spread furthest, until they fit in leaves:
+   the least height there is. False when out of memory. */
+static bool add_balanced(struct numbering *numbering, uint32_t *triangles, uint32_t count, unsigned depth) {
+  if (count <= numbering->max_leaf) {
+    qsort(triangles, count, sizeof *triangles, compare_numbers);
+    add_node(numbering->tree, depth, triangles, count);
+    return true;
+  }
+  int widest = 0;
+  double most = -1;
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+      double place = middle(&numbering->primitives[triangles[i]], axis);
+      low = fmin(low, place), high = fmax(high, place);
+    }
+    if (high - low > most)
+      most = high - low, widest = axis;
+  }
+  struct sort_key *keys = malloc(count * sizeof *keys);
+  if (!keys)
+    return false;
+  for (uint32_t i = 0; i < count; i++)
+    keys[i] = (struct sort_key){middle(&numbering->primitives[triangles[i]], widest), triangles[i]};
+  qsort(keys, count, sizeof *keys, compare_keys);
+  for (uint32_t i = 0; i < count; i++)
+    triangles[i] = keys[i].triangle;
+  free(keys);
+  struct scene_tree_node *node = add_node(numbering->tree, depth, NULL, 0);
+  const uint32_t half = (count + 1) / 2;
+  node->child[0] = numbering->tree->node_count;
+  if (!add_balanced(numbering, triangles, half, depth + 1))
+    return false;
+  node->child[1] = numbering->tree->node_count;
+  return add_balanced(numbering, triangles + half, count - half, depth + 1);
+}
+
+/* depth counts the inner nodes above. A subtree is rebuilt where its children would have no room left for any tree over
+   their triangles: as far down as possible. */
+static bool number_nodes(struct numbering *numbering, const struct built_node *built, unsigned depth) {
+  if (built->triangle_count) {
+    add_node(numbering->tree, depth, built->triangles, built->triangle_count);
+    return true;
+  }
+  if (depth + built->height > numbering->max_depth)
+    for (int i = 0; i < 2; i++)
+      if (depth + 1 + least_height(built->child[i]->below, numbering->max_leaf) > numbering->max_depth) {
+        uint32_t *end = collect(numbering->triangles, built);
+        return add_balanced(numbering, numbering->triangles, (uint32_t)(end - numbering->triangles), depth);
+      }
+  struct scene_tree_node *node = add_node(numbering->tree, depth, NULL, 0);
+  for (int i = 0; i < 2; i++) {
+    node->child[i] = numbering->tree->node_count;
+    if (!number_nodes(numbering, built->child[i], depth + 1))
+      return false;
+  }
+  return true;
+}
+
+static trax_status make_tree(struct scene_tree *tree, struct built_node *root, const struct trax_mesh *mesh,
+                             struct RTCBuildPrimitive *primitives, unsigned max_depth, unsigned max_leaf,
+                             trax_error *error) {
+  if (!measure_built(root) || least_height(mesh->triangle_count, max_leaf) > max_depth)
+    return scene_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf",
+                      max_depth, max_leaf);
+  struct numbering numbering = {tree, primitives, max_depth, max_leaf, NULL};
+  bool good = true;
+  if (root->height > max_depth) {
+    fill_primitives(primitives, mesh); /* the builder sorts and splits its own */
+    numbering.triangles = malloc(mesh->triangle_count * sizeof *numbering.triangles);
+    good = numbering.triangles != NULL;
+  }
+  good = good && number_nodes(&numbering, root, 0);
+  free(numbering.triangles);
+  return good ? TRAX_OK : scene_out_of_memory(error, "BVH");
 }
 
 static trax_status check_options(const struct trax_build_options *options, trax_error *error) {
@@ -145,8 +281,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
     arguments.maxBranchingFactor = 2;
-    /* Embree counts the leaf's level too. */
-    arguments.maxDepth = max_depth + 1;
+    arguments.maxDepth = BUILDER_DEPTH;
     arguments.maxLeafSize = options->max_leaf ? options->max_leaf : default_max_leaf;
     arguments.traversalCost = options->traversal_cost > 0 ? options->traversal_cost : default_traversal_cost;
     arguments.intersectionCost =
@@ -160,15 +295,16 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     arguments.createLeaf = create_leaf;
     arguments.buildProgress = on_progress;
     arguments.userPtr = &context;
-    const struct built_node *root = rtcBuildBVH(&arguments);
+    struct built_node *root = rtcBuildBVH(&arguments);
     enum RTCError code = rtcGetDeviceError(device);
     if (options->interrupt && *options->interrupt)
       result = TRAX_INTERRUPTED;
     else if (code == RTC_ERROR_OUT_OF_MEMORY)
       result = scene_out_of_memory(error, "BVH");
-    else if (!root || context.failed || !number_nodes(tree, root, 0, max_depth))
-      result = scene_fail(error, "BVH: no tree of at most %u levels with at most %u triangles in a leaf (Embree: %d)",
-                          max_depth, arguments.maxLeafSize, (int)code);
+    else if (!root || context.failed)
+      result = scene_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
+    else
+      result = make_tree(tree, root, mesh, primitives, max_depth, arguments.maxLeafSize, error);
   }
   free(primitives);
   if (bvh)

@@ -97,18 +97,23 @@ static void test_shapes(void **state) {
       }
 }
 
-/* Triangles that no plane separates, and a row in which each is a fraction of the one before. */
+/* Triangles that no plane separates, a row in which each is a fraction of the one before, and one through so many
+   octaves that surface areas alone lead to a tree far deeper than allowed. */
 static void test_awkward_meshes(void **state) {
   (void)state;
-  struct trax_mesh same = {0}, row = {0};
+  struct trax_mesh same = {0}, row = {0}, nest = {0};
   for (int i = 0; i < 5000; i++)
     mesh_triangle(&same, (float[]){0, 0, 0}, (float[]){1, 0, 0}, (float[]){0, 1, 0}, 0);
   float x = 1e17f;
   for (int i = 0; i < 120; i++, x *= 0.45f)
     mesh_triangle(&row, (float[]){x, 0, 0}, (float[]){x, x, 0}, (float[]){x * 1.1f, 0, x}, 0);
-  const struct trax_mesh *meshes[] = {&same, &row};
-  for (int m = 0; m < 2; m++)
-    for (unsigned depth = m ? 8 : 13; depth <= TRAX_SCENE_MAX_DEPTH; depth += 5) {
+  for (int i = 0; i < 5000; i++) {
+    x = exp2f(59 - 0.0358f * (float)i);
+    mesh_triangle(&nest, (float[]){x, 0, 0}, (float[]){0, x, 0}, (float[]){0, 0, x}, 0);
+  }
+  const struct trax_mesh *meshes[] = {&same, &row, &nest};
+  for (int m = 0; m < 3; m++)
+    for (unsigned depth = m == 1 ? 8 : 11; depth <= TRAX_SCENE_MAX_DEPTH; depth += 5) {
       struct trax_scene scene;
       build_good(&scene, meshes[m], &(struct trax_build_options){.max_depth = depth});
       check_shape(&scene, meshes[m]);
@@ -122,6 +127,7 @@ static void test_awkward_meshes(void **state) {
   assert_contains(error.message, "at most 3 levels");
   trax_mesh_release(&same);
   trax_mesh_release(&row);
+  trax_mesh_release(&nest);
 }
 
 static void test_extreme_scales(void **state) {
