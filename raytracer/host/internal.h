@@ -84,15 +84,20 @@ struct scene_tree {
     uint32_t triangle_count; /* 0: an inner node */
     union {
       uint32_t child[2];
-      uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh, ascending */
+      uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh */
     };
-  } * nodes; /* depth first, the root first */
+  } *nodes; /* depth first, the root first */
   uint32_t node_count, inner_count, max_depth, max_leaf;
 };
 
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 void scene_tree_release(struct scene_tree *tree);
+
+/* --- duplicates.c --- */
+
+/* Has triangles whose vertices are the same stand in the tree, depth first, in the order of their numbers. */
+trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error);
 
 /* --- order.c --- */
 

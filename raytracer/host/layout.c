@@ -212,8 +212,10 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     return result;
   struct palette palette = {0};
   uint32_t *positions = NULL;
-  result = scene_order_nodes(&positions, &tree, mesh, options->cache_lines ? options->cache_lines : default_cache_lines,
-                             error);
+  result = scene_order_duplicates(&tree, mesh, error);
+  if (result == TRAX_OK)
+    result = scene_order_nodes(&positions, &tree, mesh,
+                               options->cache_lines ? options->cache_lines : default_cache_lines, error);
   if (result == TRAX_OK) {
     result = make_palette(&palette, mesh, error);
     if (result == TRAX_OK)

@@ -1,8 +1,10 @@
+#define _GNU_SOURCE /* mkstemps */
 #include "cases.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* --- rays --- */
 
@@ -490,11 +492,11 @@ static void make_layers_4(struct setup *setup, uint32_t rays) {
 
 /* --- depth --- */
 
-/* Triangles each a little smaller than the one before, down through 200 octaves: surface areas alone would make a tree
+/* Triangles each a little smaller than the one before, down through 179 octaves: surface areas alone lead to a tree
    far deeper than the device's stack. */
 static void make_deep(struct setup *setup, uint32_t rays) {
-  for (int i = 0; i < 20000; i++) {
-    float size = exp2f(59 - 0.0095f * (float)i);
+  for (int i = 0; i < 5000; i++) {
+    float size = exp2f(59 - 0.0358f * (float)i);
     triangle_at(setup, (float[]){size, 0, 0}, (float[]){0, size, 0}, (float[]){0, 0, size});
   }
   for (uint32_t i = 0; i < rays; i++) {
@@ -511,6 +513,59 @@ static void make_chain(struct setup *setup, uint32_t rays) {
     float from[3] = {any(setup), any(setup), i & 1 ? 5 : -60}, at[3] = {2 * any(setup), 2 * any(setup), -20};
     aim(setup, from, at);
   }
+}
+
+/* --- vertices that are no points --- */
+
+static void fail(const char *what) {
+  fprintf(stderr, "render-extreme: error: nonfinite: %s\n", what);
+  exit(1);
+}
+
+/* A closed surface with further triangles that have a NaN, an infinity or 10^20 in a vertex: the importer refuses them,
+   naming their count and the first, and leaves them out if asked to. */
+static void make_nonfinite(struct setup *setup, uint32_t rays) {
+  static const char *const bad[] = {"nan", "inf", "-inf", "1e20", "-nan"};
+  struct setup good = {0};
+  add_globe(&good, 4, &(struct globe){{0, 0, 0}, 1, 0});
+  char path[] = "/tmp/render-extreme-XXXXXX.ply";
+  int descriptor = mkstemps(path, 4);
+  FILE *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
+  if (!file)
+    fail("no temporary file");
+  const uint32_t count = good.mesh.triangle_count, bad_count = sizeof bad / sizeof *bad;
+  fprintf(file,
+          "ply\nformat ascii 1.0\nelement vertex %u\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face %u\nproperty list uchar int vertex_indices\nend_header\n",
+          3 * count + bad_count, count + bad_count);
+  for (uint32_t i = 0; i < 3 * count; i++)
+    fprintf(file, "%.9g %.9g %.9g\n", (double)good.mesh.vertices[i][0], (double)good.mesh.vertices[i][1],
+            (double)good.mesh.vertices[i][2]);
+  for (uint32_t i = 0; i < bad_count; i++)
+    fprintf(file, "%s %s 0\n", i & 1 ? "0" : bad[i], i & 1 ? bad[i] : "0");
+  for (uint32_t i = 0; i < count; i++) {
+    if (i >= 7 && i < 7 + bad_count) /* the first of them is number 7 */
+      fprintf(file, "3 0 1 %u\n", 3 * count + i - 7);
+    fprintf(file, "3 %u %u %u\n", 3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  fclose(file);
+
+  const char *const paths[] = {path};
+  struct trax_import_options options = {.in_process = true};
+  struct trax_import_report report;
+  trax_error error;
+  if (trax_mesh_import(&setup->mesh, paths, 1, &options, &report, &error) != TRAX_ERROR)
+    fail("imported");
+  if (!strstr(error.message, "5 of 133 triangles") || !strstr(error.message, "the first is triangle 7 "))
+    fail(error.message);
+  options.drop_nonfinite = true;
+  if (trax_mesh_import(&setup->mesh, paths, 1, &options, &report, &error) != TRAX_OK)
+    fail(error.message);
+  if (report.nonfinite != bad_count || setup->mesh.triangle_count != count)
+    fail("not all of them are left out");
+  unlink(path);
+  setup_release(&good);
+  aim_from_within(setup, nowhere, 0.4f, rays);
 }
 
 /* --- shadows --- */
@@ -673,13 +728,14 @@ const struct extreme_case extreme_cases[] = {
     {"empty", "a scene of no triangle", make_nothing, 0},
     {"degenerate", "points, lines and slivers in a closed surface", make_degenerate, CASE_CLOSED},
     {"vanishing", "triangles of 10^-21 in a scene of 1", make_vanishing_determinants, CASE_CLOSED},
+    {"nonfinite", "NaN and infinity in vertices, left out when asked for", make_nonfinite, CASE_CLOSED},
     {"duplicates", "every triangle seven times", make_duplicates, CASE_CLOSED | CASE_DUPLICATES},
     {"duplicates-alone", "the same, one triangle a leaf", make_duplicates_alone, CASE_CLOSED | CASE_DUPLICATES},
     {"layers-1", "layers 1 ulp apart", make_layers_1, 0},
     {"layers-2", "layers 2 ulp apart", make_layers_2, 0},
     {"layers-3", "layers 3 ulp apart", make_layers_3, 0},
     {"layers-4", "layers 4 ulp apart", make_layers_4, 0},
-    {"deep", "20,000 triangles through 190 octaves: depth beyond the stack", make_deep, 0},
+    {"deep", "5,000 triangles through 179 octaves: depth beyond the stack", make_deep, 0},
     {"deepest", "a chain that fills the stack", make_chain, 0},
     {"grazing-shadows", "a globe of 3,200 triangles in grazing light", make_grazing_globe, CASE_SHADOWS},
     {"grazing-shadows-away", "the same, 1000 radii from the origin", make_grazing_globe_away, CASE_SHADOWS},
