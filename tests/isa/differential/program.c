@@ -164,7 +164,10 @@ static void emit_computation(struct program *program) {
   const trax_format format = trax_op_table[op].format;
   if (format == TRAX_FORMAT_I || format == TRAX_FORMAT_U || format == TRAX_FORMAT_SH)
     inst.imm = any_immediate(op);
-  if (one_in(2)) {
+  if (format == TRAX_FORMAT_I && one_in(4)) { /* beside the immediate */
+    inst.ra = (uint8_t)any_value_register(program);
+    emit_constant(program, inst.ra, (uint32_t)inst.imm + any(0, 2) - 1);
+  } else if (one_in(2)) {
     inst.ra = (uint8_t)any_value_register(program);
     emit_corner(program, inst.ra);
   }
@@ -311,10 +314,12 @@ static void emit_fault(struct program *program) {
     emit_access(program, op, program->role[OWN], (int32_t)any(0, OWN_WORDS - 4));
     break;
   case 4: /* read-only */
-    emit_access_to(program, op, one_in(2) ? any_between(RODATA, RODATA + 63) : any_between(TEXT, TEXT + 255));
+    emit_access_to(program, one_in(2) ? TRAX_OP_SB : op,
+                   one_in(2) ? any_between(RODATA, RODATA + 63) : any_between(TEXT, TEXT + 255));
     break;
   case 5: /* local, or misaligned */
-    emit_access_to(program, global_only[any(0, 2)], any_between(TRAX_LOCAL_BASE, 0xFFFFFFFF));
+    emit_access_to(program, global_only[any(0, 2)],
+                   any_between(TRAX_LOCAL_BASE, 0xFFFFFFFF) & (one_in(4) ? 0xFFFFFFFF : 0xFFFFFFFC));
     break;
   case 6: /* a jump to nowhere, or to a pc that is none */
     emit_constant(program, reg, one_in(3) ? any_corner() : any_between(TEXT - 8, TEXT + 4 * MOST_WORDS));
@@ -351,13 +356,29 @@ static void emit_fault(struct program *program) {
 
 static void emit_region(struct program *program, unsigned elements, unsigned depth);
 
+/* Counts down by one, and goes back as one of the branches says; a few turns. */
 static void emit_loop(struct program *program, unsigned depth) {
-  const unsigned counter = program->role[depth == 0 ? OUTER_LOOP : INNER_LOOP];
-  emit(program, I(ADDI, counter, 0, (int32_t)any(1, 5)));
+  const unsigned counter = program->role[depth == 0 ? OUTER_LOOP : INNER_LOOP], constants = program->role[CONSTANTS];
+  const struct {
+    unsigned base; /* the counter begins so far above this register's value, */
+    int32_t above;
+    trax_op back; /* and these compare it in the end */
+    unsigned ra, rb;
+  } loops[] = {{0, (int32_t)any(1, 5), TRAX_OP_BNE, counter, 0},
+               {0, 1, TRAX_OP_BEQ, counter, 0},
+               {0, (int32_t)any(1, 5), TRAX_OP_BLT, 0, counter},
+               {0, (int32_t)any(1, 5), TRAX_OP_BGE, counter, 0},
+               {0, (int32_t)any(1, 5), TRAX_OP_BLTU, 0, counter},
+               {constants, (int32_t)any(1, 5), TRAX_OP_BGEU, counter, constants}};
+  const unsigned kind = any(0, sizeof loops / sizeof *loops - 1);
+  emit(program, I(ADDI, counter, loops[kind].base, loops[kind].above));
   const size_t begin = program->count;
   emit_region(program, any(1, 8), depth + 1);
   emit(program, I(ADDI, counter, counter, -1));
-  emit(program, B(BNE, counter, 0, 4 * ((int32_t)begin - (int32_t)program->count)));
+  emit(program, trax_encode((trax_inst){.op = loops[kind].back,
+                                        .ra = (uint8_t)loops[kind].ra,
+                                        .rb = (uint8_t)loops[kind].rb,
+                                        .imm = 4 * ((int32_t)begin - (int32_t)program->count)}));
 }
 
 /* A call of what is behind the next instructions, through a register: the link of a jal, and a distance in two parts.
