@@ -1,11 +1,12 @@
 /* The ray tracer that every TP runs: pixel by pixel, a ray from the eye, and a ray from what it hits towards the light.
-   Compiled for the TP, and unchanged for the host as the native twin: the pictures are the same bit for bit, since only
-   operations that both round alike are used, in the order written.
+   Compiled for the TP, for one picture or for any (run.h), and unchanged for the host as the native twin: the pictures
+   are the same bit for bit, since only operations that both round alike are used, in the order written.
 
    The machine shapes the code. Eight TPs share an adder, which also compares floats, and a data-cache bank; a TM shares
    one divider: so comparisons are of integers, planes and edges are tested one by one, and a pixel takes few divisions.
  */
 #include "camera.h"
+#include "run.h"
 #include "shade.h"
 #include "traverse.h"
 #include "trax/render_params.h"
@@ -17,12 +18,16 @@ unsigned next_slot; /* shared by all threads: the atomic increment hands out the
 
 #define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
 
-/* The pixel's word, and how many rays it took. Both rays go through one copy of the traversal, so that the program fits
-   in the instruction cache. */
-static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *frame, uint32_t x,
-                                                                   uint32_t y, unsigned *rays) {
-  const char *bytes = scene.data;
-  struct vector origin = {frame->eye[0], frame->eye[1], frame->eye[2]}, direction = camera_direction(frame, x, y);
+/* The pixel's word. All rays go through one copy of the traversal, so that the program fits in the instruction cache. */
+static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
+                                                                   struct pixel pixel) {
+  struct vector sum = {0, 0, 0};
+  uint32_t sample = 0;
+
+next_sample:
+  HIDE_ORIGIN(pixel.packed); /* or x and y would be kept apart */
+  struct place place = NEEDS(run, SAMPLES) ? sample_place(sample) : PIXEL_MIDDLE;
+  struct vector origin = {run->eye[0], run->eye[1], run->eye[2]}, direction = camera_direction(run, pixel, place);
   struct hit hit = {FARTHEST_BITS, NULL, 0, 0};
   const float *colour = NULL;
   float light = 0, lit = 0;
@@ -30,43 +35,63 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
 
   for (;;) {
     struct ray ray;
-    prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, frame->box_margin);
+    prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin);
     HIDE_ORIGIN(shadow); /* or the loop would be unrolled into two copies */
-    bool found = trace_ray(bytes, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
-    HIDE_ORIGIN(frame); /* what it has is loaded again when needed, not kept during the traversal */
-    *rays = 1 + shadow;
-    if (shadow)
-      return shade(colour, found ? light : light + lit);
+    bool found = trace_ray(scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
+    LOAD_AGAIN(run);
+    if (shadow) {
+      if (!found)
+        light += lit;
+      break;
+    }
     if (!found)
-      return frame->background;
+      break;
 
     struct surface surface;
     struct light way;
-    struct vector eye = {frame->eye[0], frame->eye[1], frame->eye[2]};
+    struct vector eye = {run->eye[0], run->eye[1], run->eye[2]};
     find_surface(&surface, &hit, eye);
-    aim_at_light(&way, &surface, frame->light);
-    colour = ((const struct trax_palette_entry *)(frame + 1))[surface.material].colour;
-    light = ambient_light(frame, &surface);
+    aim_at_light(&way, &surface, run->light);
+    uint32_t material = NEEDS(run, MATERIALS) ? triangle_material(hit.triangle) : 0;
+    colour = RUN_PALETTE(run)[material].colour;
+    light = ambient_light(run, &surface);
     if (way.cosine_bits <= 0)
-      return shade(colour, light);
-    lit = frame->light_strength * bits_float(way.cosine_bits);
+      break;
+    lit = run->light_strength * bits_float(way.cosine_bits);
+    if (!NEEDS(run, SHADOWS)) {
+      light += lit;
+      break;
+    }
     origin = surface.point, direction = way.direction;
     hit = (struct hit){way.distance_bits, NULL, 0, 0};
     shadow = 1;
   }
+
+  trax_count_rays(1 + shadow);
+  if (!NEEDS(run, SAMPLES))
+    return colour ? shade(colour, light) : run->background;
+  if (colour)
+    add_light(&sum, colour, light);
+  else
+    add_pixel(&sum, run->background);
+  if (++sample < run->samples)
+    goto next_sample;
+  return mean_pixel(&sum, run->sample_weight);
 }
 
 int main(void) {
-  const struct trax_render_params *frame = params.data;
-  unsigned *pixels = image.data;
+  const struct trax_render_params *run = RUN_PARAMS;
   uint32_t slot;
-  while ((slot = trax_atomic_inc(&next_slot)) < frame->slot_count) {
-    uint32_t x, y;
-    if (!slot_pixel(frame, slot, &x, &y))
+  check_scene_address(scene.data);
+  while ((slot = trax_atomic_inc(&next_slot)) < run->slot_count) {
+    struct pixel pixel;
+    HIDE_ORIGIN(slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
+    if (!slot_pixel(run, slot, &pixel))
       continue;
-    unsigned *pixel = &pixels[y * frame->width + x], rays;
-    trax_store_nt(pixel, render_pixel(frame, x, y, &rays));
-    trax_count_rays(rays);
+    uint32_t word = render_pixel(run, pixel);
+    HIDE_ORIGIN(pixel.packed);
+    LOAD_AGAIN(run);
+    trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
     trax_count_items(1);
   }
   return 0;

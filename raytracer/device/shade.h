@@ -13,7 +13,6 @@ struct surface {
   struct vector point;  /* where the shadow ray starts */
   struct vector normal; /* towards the viewer; its largest component at most 1 */
   float inverse_length; /* of the normal */
-  uint32_t material;
 };
 
 static inline float dot(struct vector a, struct vector b) {
@@ -70,7 +69,10 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   surface->point.z = a.z + (inside.z + (offset * n.z - back * sight.z));
   surface->normal = n;
   surface->inverse_length = inverse_length;
-  surface->material = load_word(hit->triangle + 36);
+}
+
+static inline uint32_t triangle_material(const char *triangle) {
+  return load_word(triangle + 36);
 }
 
 /* How much less far than the light the shadow ray goes, in units of the distance's last place: what rounding may put a
@@ -100,14 +102,44 @@ static inline float ambient_light(const struct trax_render_params *frame, const 
   return frame->ambient + dot(surface->normal, fill) * surface->inverse_length;
 }
 
+/* The square root, and 2^-20 for what is nearly 0 or less: a whole number of pixel values is still 0. */
+static inline float root_of_light(float light) {
+  light = bits_float(larger(float_bits(light), float_bits(0x1p-40f)));
+  return light * trax_rsqrt(light);
+}
+
+static inline uint32_t pixel_of(float red, float green, float blue) {
+  return (uint32_t)(int32_t)(red + 0.5f) | (uint32_t)(int32_t)(green + 0.5f) << 8 |
+         (uint32_t)(int32_t)(blue + 0.5f) << 16 | 0xFF000000u;
+}
+
 /* Gamma 2: the palette has the square roots of the colours. */
 static inline uint32_t shade(const float *colour, float light) {
-  light = bits_float(larger(float_bits(light), float_bits(0x1p-40f)));
-  float root = light * trax_rsqrt(light);
-  uint32_t red = (uint32_t)(int32_t)(colour[0] * root + 0.5f);
-  uint32_t green = (uint32_t)(int32_t)(colour[1] * root + 0.5f);
-  uint32_t blue = (uint32_t)(int32_t)(colour[2] * root + 0.5f);
-  return red | green << 8 | blue << 16 | 0xFF000000u;
+  float root = root_of_light(light);
+  return pixel_of(colour[0] * root, colour[1] * root, colour[2] * root);
+}
+
+/* --- several samples: sums of squared pixel values, which are linear in the light --- */
+
+static inline void add_light(struct vector *sum, const float *colour, float light) {
+  sum->x += colour[0] * colour[0] * light;
+  sum->y += colour[1] * colour[1] * light;
+  sum->z += colour[2] * colour[2] * light;
+}
+
+static inline float squared_byte(uint32_t value) {
+  float number = (float)(int32_t)(value & 255);
+  return number * number;
+}
+
+static inline void add_pixel(struct vector *sum, uint32_t pixel) {
+  sum->x += squared_byte(pixel);
+  sum->y += squared_byte(pixel >> 8);
+  sum->z += squared_byte(pixel >> 16);
+}
+
+static inline uint32_t mean_pixel(const struct vector *sum, float weight) {
+  return pixel_of(root_of_light(sum->x * weight), root_of_light(sum->y * weight), root_of_light(sum->z * weight));
 }
 
 #endif

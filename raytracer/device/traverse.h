@@ -6,6 +6,7 @@
 #define TRAX_DEVICE_TRAVERSE_H
 
 #include "ray.h"
+#include "run.h"
 #include "trax/scene_format.h"
 
 #include <stdbool.h>
@@ -45,7 +46,7 @@ static inline __attribute__((always_inline)) int32_t enter_box(const struct ray 
 }
 
 /* The stack holds the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which
-   the host checks. */
+   the host checks; TRAX_STACK_ENTRIES is that or what the scene takes. */
 struct stack_entry {
   trax_scene_ref reference;
   int32_t enter; /* where the ray enters its box */
@@ -55,13 +56,13 @@ struct stack_entry {
    tell the register allocator what matters: rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(const char *scene, trax_scene_ref reference,
                                                             const struct ray *ray, bool any, struct hit *hit) {
-  struct stack_entry stack[TRAX_SCENE_MAX_DEPTH], *top = stack;
+  struct stack_entry stack[TRAX_STACK_ENTRIES], *top = stack;
 
   if (reference == 0)
     return false;
   for (;;) {
     while (__builtin_expect_with_probability(TRAX_SCENE_REF_COUNT(reference) == 0, 1, 0.95)) {
-      const char *node = scene + reference;
+      const char *node = scene_at(scene, reference);
       int32_t enter0 = enter_box(ray, node, 0, hit->distance_bits);
       int32_t enter1 = enter_box(ray, node, 1, hit->distance_bits);
       if (enter0 <= enter1) {
@@ -77,7 +78,7 @@ static inline __attribute__((always_inline)) bool trace_ray(const char *scene, t
       }
     }
 
-    const char *triangle = scene + TRAX_SCENE_REF_OFFSET(reference);
+    const char *triangle = scene_at(scene, TRAX_SCENE_REF_OFFSET(reference));
     const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
     do {
       HIDE_ORIGIN(triangle); /* else three pointers would be stepped instead of one */

@@ -50,8 +50,10 @@ static trax_status check_header(const struct checker *checker, const struct trax
   if (header->file_size % TRAX_SCENE_ALIGNMENT != 0)
     return scene_fail(error, "%s: the size, %u bytes, is not a multiple of %u", name, header->file_size,
                       TRAX_SCENE_ALIGNMENT);
-  if (header->reserved[0] || header->reserved[1])
-    return scene_fail(error, "%s: reserved words of the header are not zero", name);
+  if (header->base)
+    return scene_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
+  if (header->reserved)
+    return scene_fail(error, "%s: the reserved word of the header is not zero", name);
   return TRAX_OK;
 }
 

@@ -143,6 +143,37 @@ static void set_tiles(struct trax_render_params *params) {
   params->row_multiplier = (uint32_t)(((uint64_t)1 << (31 + params->row_shift)) / across + 1);
 }
 
+/* --- features --- */
+
+static uint32_t features_of(const struct trax_frame_options *options, const struct trax_scene *scene) {
+  uint32_t features = 0;
+#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) features |= (QUESTION) ? 1u << TRAX_FEATURE_##NAME : 0;
+#include "trax/features.def"
+#undef TRAX_FEATURE
+  return features;
+}
+
+const char *trax_feature_name(enum trax_feature feature) {
+  static const char *const names[] = {
+#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) TEXT,
+#include "trax/features.def"
+#undef TRAX_FEATURE
+  };
+  return names[feature];
+}
+
+uint32_t trax_feature_sections(uint32_t features) {
+#define SECTION(KIND) (1u << TRAX_SCENE_##KIND)
+  uint32_t sections = SECTION(NODES) | SECTION(TRIANGLES);
+#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS)                                                                         \
+  if (features >> TRAX_FEATURE_##NAME & 1)                                                                             \
+    sections |= (SECTIONS);
+#include "trax/features.def"
+#undef TRAX_FEATURE
+#undef SECTION
+  return sections;
+}
+
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error) {
   if (options->width < 1 || options->width > TRAX_RENDER_MAX_SIDE || options->height < 1 ||
@@ -151,6 +182,8 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
                      TRAX_RENDER_MAX_SIDE);
   if (!(options->ambient >= 0 && options->ambient <= 1))
     return trax_fail(error, "ambient light of %g: it must be 0 to 1", (double)options->ambient);
+  if (options->samples < 1 || options->samples > TRAX_RENDER_MAX_SAMPLES)
+    return trax_fail(error, "%u samples: there must be 1 to %u", options->samples, TRAX_RENDER_MAX_SAMPLES);
   size_t size = sizeof(struct trax_render_params) + scene->material_count * sizeof(struct trax_palette_entry);
   if (size > UINT32_MAX || !(frame->params = calloc(1, size)))
     return trax_fail(error, "out of memory for %u materials", scene->material_count);
@@ -161,6 +194,9 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   params->width = options->width;
   params->height = options->height;
   params->background = options->background;
+  params->samples = options->samples;
+  params->sample_weight = 1 / (float)options->samples;
+  params->features = features_of(options, scene);
   params->box_margin = box_margin(scene->header, view->eye);
   set_camera(params, view);
   set_ambient(params, view, options->ambient);

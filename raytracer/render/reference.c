@@ -46,14 +46,23 @@ static double greatest(struct double3 v) {
   return fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
 }
 
-static uint32_t shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
+/* Squared pixel values, which are linear in the light. */
+static struct double3 shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
   const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame->params + 1);
   const struct trax_render_params *params = frame->params;
   double light = params->ambient + dot(normal, from(params->fill)) + params->light_strength * lit;
-  uint32_t pixel = 0xFF000000u;
-  for (int channel = 0; channel < 3; channel++)
-    pixel |= (uint32_t)floor(palette[material].colour[channel] * sqrt(light) + 0.5) << 8 * channel;
-  return pixel;
+  struct double3 colour = from(palette[material].colour);
+  return (struct double3){colour.x * colour.x * light, colour.y * colour.y * light, colour.z * colour.z * light};
+}
+
+static struct double3 squares(uint32_t pixel) {
+  double red = pixel & 255, green = pixel >> 8 & 255, blue = pixel >> 16 & 255;
+  return (struct double3){red * red, green * green, blue * blue};
+}
+
+static uint32_t pixel_of(struct double3 squares) {
+  return (uint32_t)floor(sqrt(squares.x) + 0.5) | (uint32_t)floor(sqrt(squares.y) + 0.5) << 8 |
+         (uint32_t)floor(sqrt(squares.z) + 0.5) << 16 | 0xFF000000u;
 }
 
 static struct RTCRay make_ray(struct double3 origin, struct double3 direction, float far) {
@@ -67,9 +76,15 @@ static struct RTCRay make_ray(struct double3 origin, struct double3 direction, f
                          .mask = 0xFFFFFFFFu};
 }
 
-static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
+static bool needs(const struct trax_render_params *params, enum trax_feature feature) {
+  return params->features >> feature & 1;
+}
+
+/* The light through a place of a pixel. */
+static struct double3 trace_sample(struct reference *reference, struct pixel pixel, struct place place,
+                                   uint64_t *rays) {
   const struct trax_render_params *params = reference->frame->params;
-  struct vector camera = camera_direction(params, x, y);
+  struct vector camera = camera_direction(params, pixel, place);
   struct double3 direction = {camera.x, camera.y, camera.z};
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -78,7 +93,7 @@ static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_
   rtcIntersect1(reference->scene, &context, &primary);
   ++*rays;
   if (primary.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-    return params->background;
+    return squares(params->background);
 
   const struct trax_triangle *triangle = &reference->frame->scene->triangles[primary.hit.primID];
   struct double3 v0 = from(triangle->v0), e = minus(from(triangle->v1), v0), f = minus(from(triangle->v2), v0);
@@ -98,11 +113,21 @@ static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_
   double cosine = distance > 0 ? fmin(dot(normal, way) / distance, 1) : 0;
   if (!(cosine > 0))
     return shade(reference->frame, triangle->material, normal, 0);
+  if (!needs(params, TRAX_FEATURE_SHADOWS))
+    return shade(reference->frame, triangle->material, normal, cosine);
   struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
   struct RTCRay shadow = make_ray(point, towards, (float)distance);
   rtcOccluded1(reference->scene, &context, &shadow);
   ++*rays;
   return shade(reference->frame, triangle->material, normal, shadow.tfar < 0 ? 0 : cosine);
+}
+
+static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
+  const struct trax_render_params *params = reference->frame->params;
+  struct double3 sum = {0, 0, 0};
+  for (uint32_t sample = 0; sample < params->samples; sample++)
+    sum = plus_scaled(sum, 1.0 / params->samples, trace_sample(reference, pixel_at(x, y), sample_place(sample), rays));
+  return pixel_of(sum);
 }
 
 static void *render_rows(void *argument) {

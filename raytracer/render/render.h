@@ -42,6 +42,11 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
                             const struct trax_frame_options *options, trax_error *error);
 void trax_frame_release(struct trax_frame *frame);
 
+/* Its name in reports. */
+const char *trax_feature_name(enum trax_feature feature);
+/* The sections of the scene that are read for these features: 1 << enum trax_scene_section_kind each. */
+uint32_t trax_feature_sections(uint32_t features);
+
 /* --- pictures --- */
 
 struct trax_picture {

@@ -25,16 +25,18 @@ static void test_slots_are_pixels(void **state) {
   for (uint32_t width = 1; width <= 300; width += width < 40 ? 1 : 13)
     for (uint32_t height = 1; height <= 300; height += height < 20 ? 1 : 29) {
       struct trax_frame frame;
-      struct trax_frame_options options = {width, height, 0, 0};
+      struct trax_frame_options options = {width, height, 0, 0, 1, true};
       trax_error error;
       assert_int_equal(trax_frame_init(&frame, &scene, &view, &options, &error), TRAX_OK);
       memset(seen, 0, 300 * 300);
       uint32_t found = 0;
-      for (uint32_t slot = 0, x, y; slot < frame.params->slot_count; slot++)
-        if (slot_pixel(frame.params, slot, &x, &y)) {
-          assert_int_equal(seen[y * width + x]++, 0);
+      for (uint32_t slot = 0; slot < frame.params->slot_count; slot++) {
+        struct pixel pixel;
+        if (slot_pixel(frame.params, slot, &pixel)) {
+          assert_int_equal(seen[pixel_y(pixel) * width + pixel_x(pixel)]++, 0);
           found++;
         }
+      }
       assert_int_equal(found, width * height);
       trax_frame_release(&frame);
     }
@@ -51,20 +53,20 @@ static void test_slots_of_large_pictures(void **state) {
   build(&scene, &mesh, NULL);
   for (uint32_t width = 1; width <= TRAX_RENDER_MAX_SIDE; width++) {
     struct trax_frame frame;
-    struct trax_frame_options options = {width, TRAX_RENDER_MAX_SIDE, 0, 0};
+    struct trax_frame_options options = {width, TRAX_RENDER_MAX_SIDE, 0, 0, 1, true};
     trax_error error;
     assert_int_equal(trax_frame_init(&frame, &scene, &view, &options, &error), TRAX_OK);
     const struct trax_render_params *params = frame.params;
     uint32_t per_tile = params->tile_log2_width + params->tile_log2_height;
     for (uint32_t row = 1; row <= TRAX_RENDER_MAX_SIDE >> params->tile_log2_height; row += 61) {
-      uint32_t x, y;
+      struct pixel pixel;
       uint32_t tile = row * params->tiles_across; /* the first of this row, and the last of the one above */
-      slot_pixel(params, tile << per_tile, &x, &y);
-      assert_int_equal(x, 0);
-      assert_int_equal(y, row << params->tile_log2_height);
-      slot_pixel(params, (tile - 1) << per_tile, &x, &y);
-      assert_int_equal(x, (params->tiles_across - 1) << params->tile_log2_width);
-      assert_int_equal(y, (row - 1) << params->tile_log2_height);
+      slot_pixel(params, tile << per_tile, &pixel);
+      assert_int_equal(pixel_x(pixel), 0);
+      assert_int_equal(pixel_y(pixel), row << params->tile_log2_height);
+      slot_pixel(params, (tile - 1) << per_tile, &pixel);
+      assert_int_equal(pixel_x(pixel), (params->tiles_across - 1) << params->tile_log2_width);
+      assert_int_equal(pixel_y(pixel), (row - 1) << params->tile_log2_height);
     }
     trax_frame_release(&frame);
   }

@@ -249,7 +249,7 @@ CHANGE(used_reserve) {
   UNUSED, nodes[4].reserved[1] = 1;
 }
 CHANGE(used_header_reserve) {
-  UNUSED, header->reserved[0] = 1;
+  UNUSED, header->reserved = 1;
 }
 
 static void test_messages(void **state) {
@@ -281,7 +281,7 @@ static void test_messages(void **state) {
   expect(unknown_section, "section 5 is of an unknown kind");
   expect(other_records, "nodes: records of 32 bytes instead of 64");
   expect(used_reserve, "node 4: reserved words are not zero");
-  expect(used_header_reserve, "reserved words of the header are not zero");
+  expect(used_header_reserve, "the reserved word of the header is not zero");
 }
 
 /* A chain deeper than the device's stack is refused, however well it is made. */

@@ -29,7 +29,7 @@ struct result kernel_run(void) {
     float light = ambient_light(params, &surface);
     if (way.cosine_bits > 0)
       light += params->light_strength * bits_float(way.cosine_bits);
-    uint32_t pixel = shade(frame.palette[surface.material].colour, light);
+    uint32_t pixel = shade(frame.palette[triangle_material(hits[i].triangle)].colour, light);
     checksum = mix(checksum, pixel);
     sum += (float)(int32_t)(pixel & 255);
   }

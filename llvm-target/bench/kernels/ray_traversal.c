@@ -11,7 +11,7 @@ void kernel_setup(void) {
 /* A function of its own, as 512 bytes of stack have no room for everything at once. */
 __attribute__((noinline)) static bool trace(const struct trax_render_params *params, unsigned x, unsigned y,
                                             struct hit *found) {
-  struct vector direction = camera_direction(params, x, y);
+  struct vector direction = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
   struct ray ray;
   struct hit hit = {0x7F000000, NULL, 0, 0};
   prepare_ray(&ray, params->eye[0], params->eye[1], params->eye[2], direction.x, direction.y, direction.z,

@@ -13,7 +13,7 @@ struct result kernel_run(void) {
   uint32_t checksum = 0;
   float sum = 0;
   for (unsigned i = 0; i < 16; i++) {
-    struct vector direction = camera_direction(params, 4 * i + 2, 18 + i);
+    struct vector direction = camera_direction(params, pixel_at(4 * i + 2, 18 + i), PIXEL_MIDDLE);
     struct ray ray;
     struct hit hit = {0x7F000000, NULL, 0, 0};
     prepare_ray(&ray, params->eye[0], params->eye[1], params->eye[2], direction.x, direction.y, direction.z,

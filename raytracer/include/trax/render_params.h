@@ -11,6 +11,15 @@
 #include <stdint.h>
 
 #define TRAX_RENDER_MAX_SIDE 16384u /* pixels */
+#define TRAX_RENDER_MAX_SAMPLES 4096u
+
+/* Bits of trax_render_params.features; features.def says what they are. */
+enum trax_feature {
+#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) TRAX_FEATURE_##NAME,
+#include "trax/features.def"
+#undef TRAX_FEATURE
+  TRAX_FEATURE_COUNT
+};
 
 /* Pixels are handed out in tiles, so that the threads that share a data cache look at neighbouring parts of the scene.
    Slot s is pixel s % 2^(tile_log2_width + tile_log2_height), row by row, of tile s / 2^(...), row by row. Slots past
@@ -23,8 +32,8 @@ struct trax_render_params {
   uint32_t tiles_across;
   uint32_t row_multiplier, row_shift;
 
-  /* The ray through the middle of pixel (x, y), (0, 0) at the top left, has the direction
-     corner + (x + 1/2) * step_x + (y + 1/2) * step_y: not of unit length, but 1 along the view's direction. */
+  /* The ray through the point (x, y) of the picture, in pixels from the top left, has the direction
+     corner + x * step_x + y * step_y: not of unit length, but 1 along the view's direction. */
   float eye[3], corner[3], step_x[3], step_y[3];
 
   /* A surface with the unit normal n, turned towards the viewer, sends back light_strength * cosine (0 in shadow)
@@ -35,6 +44,10 @@ struct trax_render_params {
 
   float box_margin;    /* how far the traversal widens boxes, scene units; see frame.c */
   uint32_t background; /* a pixel as in `image` */
+  uint32_t features;   /* what the picture needs: 1 << enum trax_feature each */
+
+  uint32_t samples;    /* rays from the eye through a pixel */
+  float sample_weight; /* 1 / samples */
 };
 
 /* A material's colour as it is stored in the picture: 255 * sqrt(diffuse), since the picture has gamma 2. */
@@ -43,7 +56,7 @@ struct trax_palette_entry {
   uint32_t reserved; /* zero */
 };
 
-_Static_assert(sizeof(struct trax_render_params) == 30 * 4, "no padding");
+_Static_assert(sizeof(struct trax_render_params) == 33 * 4, "no padding");
 _Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
 
 #endif

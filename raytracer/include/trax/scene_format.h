@@ -60,7 +60,9 @@ struct trax_scene_header {
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
   float bounds_min[3];     /* of all triangles; zeros if there are none */
   float bounds_max[3];
-  uint32_t reserved[2]; /* zero */
+  uint32_t base;     /* 0: references are offsets, as in every file. Otherwise they are addresses in the device's memory,
+                        which has the scene at this one (render/device_scene.c) */
+  uint32_t reserved; /* zero */
   struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
 };
 

@@ -1,0 +1,67 @@
+/* What the program knows of its run. The general program finds everything in its parameters. A specialised one is compiled
+   behind a file of constants (render/specialise.c writes it) that has
+
+     TRAX_SPECIALISED_FEATURES   the features that the picture needs
+     TRAX_STACK_ENTRIES          as many as this scene takes
+     trax_constants              the parameters, whose loads the compiler folds into the instructions
+
+   and its scene's references are addresses, which saves an addition for each node and leaf. */
+#ifndef TRAX_DEVICE_RUN_H
+#define TRAX_DEVICE_RUN_H
+
+#include "bits.h"
+#include "trax/render_params.h"
+#include "trax/scene_format.h"
+
+#include <trax.h>
+
+extern struct trax_buffer scene, params, image;
+
+#ifdef TRAX_SPECIALISED_FEATURES
+#define RUN_FEATURES(run) TRAX_SPECIALISED_FEATURES
+#else
+#define RUN_FEATURES(run) ((run)->features)
+#endif
+
+/* Does the picture need what features.def calls NAME? */
+#define NEEDS(run, NAME) ((RUN_FEATURES(run) >> TRAX_FEATURE_##NAME & 1u) != 0)
+
+#ifndef TRAX_STACK_ENTRIES
+#define TRAX_STACK_ENTRIES TRAX_SCENE_MAX_DEPTH
+#endif
+
+#if defined TRAX_SPECIALISED_FEATURES && !defined TRAX_PARAMS_IN_MEMORY
+#define RUN_PARAMS (&trax_constants.params)
+#define RUN_PALETTE(run)                                                                                               \
+  (NEEDS(run, MATERIALS) ? PALETTE_BEHIND((const struct trax_render_params *)params.data) : &trax_constants.palette)
+#define LOAD_AGAIN(run) ((void)0)
+#else
+#define RUN_PARAMS ((const struct trax_render_params *)params.data)
+#define RUN_PALETTE(run) PALETTE_BEHIND(run)
+/* What comes of *run is loaded from here on, not kept in a register across what lies before. */
+#define LOAD_AGAIN(run) HIDE_ORIGIN(run)
+#endif
+#define PALETTE_BEHIND(params) ((const struct trax_palette_entry *)((params) + 1))
+
+/* What a reference leads to, without its low three bits. */
+static inline const char *scene_at(const char *scene_bytes, uint32_t offset) {
+#ifdef TRAX_SPECIALISED_FEATURES
+  (void)scene_bytes;
+  return (const char *)offset;
+#else
+  return scene_bytes + offset;
+#endif
+}
+
+#ifdef TRAX_SPECIALISED_FEATURES
+static inline void check_scene_address(const struct trax_scene_header *header) {
+  if (header->base != (uint32_t)header)
+    trax_abort("the scene's references are addresses of another place than where it is bound");
+}
+#else
+static inline void check_scene_address(const struct trax_scene_header *header) {
+  (void)header;
+}
+#endif
+
+#endif
