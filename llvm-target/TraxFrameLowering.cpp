@@ -38,6 +38,12 @@ bool TraxFrameLowering::hasReservedCallFrame(const MachineFunction &MF) const {
   return !MF.getFrameInfo().hasVarSizedObjects();
 }
 
+/// What never returns owes its caller no register, and twelve words are a lot of 512 bytes. A function that calls
+/// others would lose its own return address with them, and a debugger the way to the callers.
+bool TraxFrameLowering::enableCalleeSaveSkip(const MachineFunction &MF) const {
+  return !MF.getFrameInfo().hasCalls();
+}
+
 bool TraxFrameLowering::leavesSPAlone(const MachineFunction &MF) const {
   const MachineFrameInfo &MFI = MF.getFrameInfo();
   return !MFI.hasCalls() && !MFI.adjustsStack() && !hasFP(MF);

@@ -32,6 +32,7 @@ public:
   Register getInitialCFARegister(const MachineFunction &) const override { return Trax::R2; }
   /// CFIInstrInserter does it, which also knows of prologues in the middle of a function.
   bool enableCFIFixup(MachineFunction &) const override { return false; }
+  bool enableCalleeSaveSkip(const MachineFunction &MF) const override;
   bool enableShrinkWrapping(const MachineFunction &) const override { return true; }
 
   void emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB) const override;

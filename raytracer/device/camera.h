@@ -37,9 +37,9 @@ static inline bool slot_pixel(const struct trax_render_params *frame, uint32_t s
   return x < frame->width && y < frame->height;
 }
 
-/* Where in its pixel the ray number `sample` goes through, from the pixel's upper left corner. The first is in the middle;
-   the others follow the sequence R2 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018): any number
-   of them is spread evenly. In integers, so exact. */
+/* Where in its pixel the ray number `sample` goes through, from the pixel's upper left corner. The first is in the
+   middle; the others follow the sequence R2 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018):
+   any number of them is spread evenly. In integers, so exact. */
 struct place {
   float x, y;
 };

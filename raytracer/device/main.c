@@ -18,7 +18,8 @@ unsigned next_slot; /* shared by all threads: the atomic increment hands out the
 
 #define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
 
-/* The pixel's word. All rays go through one copy of the traversal, so that the program fits in the instruction cache. */
+/* The pixel's word. All rays go through one copy of the traversal, so that the program fits in the instruction cache.
+ */
 static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
                                                                    struct pixel pixel) {
   struct vector sum = {0, 0, 0};
@@ -79,6 +80,10 @@ next_sample:
   return mean_pixel(&sum, run->sample_weight);
 }
 
+/* On the TP it ends its thread: what does not return need not save its caller's registers. */
+#ifdef __trax__
+__attribute__((noreturn))
+#endif
 int main(void) {
   const struct trax_render_params *run = RUN_PARAMS;
   uint32_t slot;
@@ -94,5 +99,9 @@ int main(void) {
     trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
     trax_count_items(1);
   }
+#ifdef __trax__
+  trax_halt();
+#else
   return 0;
+#endif
 }

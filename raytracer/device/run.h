@@ -1,5 +1,5 @@
-/* What the program knows of its run. The general program finds everything in its parameters. A specialised one is compiled
-   behind a file of constants (render/specialise.c writes it) that has
+/* What the program knows of its run. The general program finds everything in its parameters. A specialised one is
+   compiled behind a file of constants (render/specialise.c writes it) that has
 
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
      TRAX_STACK_ENTRIES          as many as this scene takes

@@ -165,7 +165,7 @@ const char *trax_feature_name(enum trax_feature feature) {
 uint32_t trax_feature_sections(uint32_t features) {
 #define SECTION(KIND) (1u << TRAX_SCENE_##KIND)
   uint32_t sections = SECTION(NODES) | SECTION(TRIANGLES);
-#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS)                                                                         \
+#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS)                                                                   \
   if (features >> TRAX_FEATURE_##NAME & 1)                                                                             \
     sections |= (SECTIONS);
 #include "trax/features.def"

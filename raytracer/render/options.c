@@ -18,6 +18,8 @@ static const char usage[] =
     "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
     "                          without it the whole scene is framed\n"
+    "      --samples N         rays from the eye through every pixel, 1 to 4096 (default 1)\n"
+    "      --no-shadows        the light shines through everything\n"
     "      --ambient X         light everywhere, 0 to 1 (default 0.12)\n"
     "      --background RRGGBB colour where there is nothing, hexadecimal (default 98a8b8)\n"
     "      --config CHIP|FILE  the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)\n"
@@ -36,6 +38,11 @@ static const char usage[] =
     "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
     "                          99.9 % of the pixels are within 2/255 of the reference\n"
     "      --program FILE.elf  another program for the TPs than the one that comes with trax\n"
+    "      --no-specialise     the program that can render every picture, instead of one compiled for this one\n"
+    "      --cache DIR         where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
+    "                          or .cache/trax/programs in the home directory)\n"
+    "      --report            renders with both programs and prints what each takes; exit status 1 if the pictures\n"
+    "                          are not the same bit for bit\n"
     "      --keep DIR          keeps what the program reads, and the trax-sim command that runs it\n"
     "  -q, --quiet             prints errors only\n"
     "  -h, --help\n"
@@ -44,6 +51,8 @@ static const char usage[] =
 enum {
   OPT_SIZE = 256,
   OPT_VIEW,
+  OPT_SAMPLES,
+  OPT_NO_SHADOWS,
   OPT_AMBIENT,
   OPT_BACKGROUND,
   OPT_CONFIG,
@@ -58,6 +67,9 @@ enum {
   OPT_THREADS,
   OPT_COMPARE,
   OPT_PROGRAM,
+  OPT_NO_SPECIALISE,
+  OPT_CACHE,
+  OPT_REPORT,
   OPT_KEEP,
   OPT_VERSION
 };
@@ -65,6 +77,8 @@ enum {
 static const struct option long_options[] = {{"output", required_argument, NULL, 'o'},
                                              {"size", required_argument, NULL, OPT_SIZE},
                                              {"view", required_argument, NULL, OPT_VIEW},
+                                             {"samples", required_argument, NULL, OPT_SAMPLES},
+                                             {"no-shadows", no_argument, NULL, OPT_NO_SHADOWS},
                                              {"ambient", required_argument, NULL, OPT_AMBIENT},
                                              {"background", required_argument, NULL, OPT_BACKGROUND},
                                              {"config", required_argument, NULL, OPT_CONFIG},
@@ -79,6 +93,9 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"threads", required_argument, NULL, OPT_THREADS},
                                              {"compare", no_argument, NULL, OPT_COMPARE},
                                              {"program", required_argument, NULL, OPT_PROGRAM},
+                                             {"no-specialise", no_argument, NULL, OPT_NO_SPECIALISE},
+                                             {"cache", required_argument, NULL, OPT_CACHE},
+                                             {"report", no_argument, NULL, OPT_REPORT},
                                              {"keep", required_argument, NULL, OPT_KEEP},
                                              {"quiet", no_argument, NULL, 'q'},
                                              {"help", no_argument, NULL, 'h'},
@@ -164,6 +181,23 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_VIEW:
     options->view = value;
     return TRAX_OK;
+  case OPT_SAMPLES:
+    if (!parse_number(&value, TRAX_RENDER_MAX_SAMPLES, &options->frame.samples) || *value != '\0' ||
+        options->frame.samples == 0)
+      return trax_fail(error, "--samples: expected a number from 1 to %u", TRAX_RENDER_MAX_SAMPLES);
+    return TRAX_OK;
+  case OPT_NO_SHADOWS:
+    options->frame.shadows = false;
+    return TRAX_OK;
+  case OPT_NO_SPECIALISE:
+    options->no_specialise = true;
+    return TRAX_OK;
+  case OPT_CACHE:
+    options->cache = value;
+    return TRAX_OK;
+  case OPT_REPORT:
+    options->report = true;
+    return TRAX_OK;
   case OPT_AMBIENT:
     if (!parse_fraction(value, &options->frame.ambient))
       return trax_fail(error, "--ambient %s: expected a number from 0 to 1", value);
@@ -245,7 +279,13 @@ static trax_status check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--profile, --profile-folded, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
       return trax_fail(error, "--config, --set, --program and --keep need the emulator");
+    if (options->cache || options->report || options->no_specialise)
+      return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
   }
+  if (options->no_specialise && (options->cache || options->report))
+    return trax_fail(error, "--cache and --report are about the specialised program; --no-specialise asks for none");
+  if (options->program && (options->cache || options->report))
+    return trax_fail(error, "--cache and --report are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
   if (options->threads && options->engine != ENGINE_NATIVE && options->engine != ENGINE_FAST)
@@ -254,8 +294,12 @@ static trax_status check(const struct options *options, trax_error *error) {
 }
 
 enum options_result options_parse(struct options *options, int argc, char **argv, trax_error *error) {
-  *options = (struct options){
-      .frame = {.width = 1280, .height = 720, .ambient = TRAX_DEFAULT_AMBIENT, .background = TRAX_DEFAULT_BACKGROUND}};
+  *options = (struct options){.frame = {.width = 1280,
+                                        .height = 720,
+                                        .ambient = TRAX_DEFAULT_AMBIENT,
+                                        .background = TRAX_DEFAULT_BACKGROUND,
+                                        .samples = 1,
+                                        .shadows = true}};
   opterr = 0;
   for (int which; (which = getopt_long(argc, argv, ":o:qh", long_options, NULL)) != -1;) {
     if (which == '?' || which == ':') {

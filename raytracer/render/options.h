@@ -20,7 +20,8 @@ struct options {
   const char *config;
   const char *view; /* NULL: framed automatically */
   const char *stats, *keep, *program;
-  const char *cost; /* what --cost-picture and --cost-values show */
+  const char *cache; /* of specialised programs; NULL: the user's */
+  const char *cost;  /* what --cost-picture and --cost-values show */
   const char *cost_picture, *cost_values;
   struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */
@@ -28,7 +29,7 @@ struct options {
   struct trax_frame_options frame;
   enum engine engine;
   unsigned threads; /* of the fast engine and the native twin; 0: as many as the host has */
-  bool compare, quiet;
+  bool compare, quiet, report, no_specialise;
 };
 
 enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG };

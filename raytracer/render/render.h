@@ -26,6 +26,8 @@ struct trax_frame_options {
   uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
   float ambient;          /* of the light: what surfaces send back that the light does not reach, 0 to 1 */
   uint32_t background;    /* a pixel */
+  uint32_t samples;       /* rays from the eye through a pixel, 1 to TRAX_RENDER_MAX_SAMPLES */
+  bool shadows;           /* false: the light shines through everything */
 };
 
 #define TRAX_DEFAULT_AMBIENT 0.12f
@@ -46,6 +48,48 @@ void trax_frame_release(struct trax_frame *frame);
 const char *trax_feature_name(enum trax_feature feature);
 /* The sections of the scene that are read for these features: 1 << enum trax_scene_section_kind each. */
 uint32_t trax_feature_sections(uint32_t features);
+
+/* --- device_scene.c: the scene in the device's memory --- */
+
+struct trax_device_scene {
+  unsigned char *bytes; /* from malloc */
+  uint32_t size;
+};
+
+/* With the sections that the frame's features need. */
+trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct trax_frame *frame, trax_error *error);
+void trax_device_scene_release(struct trax_device_scene *scene);
+/* Makes addresses of the references of a scene that the device has at `address`. */
+void trax_scene_relocate(void *bytes, uint32_t address);
+
+/* --- specialise.c: the program for the TPs --- */
+
+#define TRAX_PATH_SIZE 4096
+
+struct trax_program {
+  char path[TRAX_PATH_SIZE];
+  bool specialised; /* its scene has the needed sections only, and addresses as references */
+};
+
+struct trax_specialise_options {
+  const char *root;              /* where trax is installed: bin, lib/trax */
+  const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
+  const volatile int *interrupt; /* polled; may be NULL */
+};
+
+/* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
+   TRAX_OK with why in note, and *program is as it was. TRAX_ERROR: a cache that was asked for cannot be written. */
+trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
+                                    const struct trax_specialise_options *options, char note[256], trax_error *error);
+
+/* $XDG_CACHE_HOME/trax/programs, or .cache/trax/programs in the home directory; false if there is neither. */
+bool trax_program_cache(char path[TRAX_PATH_SIZE]);
+
+struct trax_program_size {
+  uint32_t code_bytes;
+  uint32_t stack_bytes; /* the frames of all functions: no path through a program without recursion takes more */
+};
+trax_status trax_program_measure(struct trax_program_size *size, const char *path, trax_error *error);
 
 /* --- pictures --- */
 
@@ -125,17 +169,21 @@ trax_status trax_costs_write_picture(const struct trax_costs *costs, const struc
                                      const char *path, trax_error *error);
 void trax_costs_print(const struct trax_costs *costs, const struct trax_cost_summary *summary, FILE *out);
 
-/* simulated.c: the program on a machine made by the caller, which keeps it for its statistics. */
+/* --- simulated.c: the program on a machine made by the caller, which keeps it for its statistics --- */
+
 struct trax_explain_options;
 
 struct trax_simulated_options {
-  const char *program;
   trax_run_options run;
   const struct trax_explain_options *explain; /* NULL: nothing is explained */
   struct trax_costs *costs;                   /* to fill; NULL: not wanted */
 };
 
-trax_status trax_render_simulated(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
-                                  const struct trax_simulated_options *options, trax_error *error);
+/* Loads the program and binds what it reads. */
+trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
+                                const struct trax_program *program, trax_error *error);
+/* Runs what was loaded. */
+trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
+                               const struct trax_simulated_options *options, trax_error *error);
 
 #endif

@@ -1,6 +1,8 @@
 /* The picture as the emulated machine renders it. */
 #include "core/machine.h"
 #include "explain/explain.h"
+#include "host/host.h"
+#include "host/image.h"
 #include "render.h"
 
 #include <string.h>
@@ -23,28 +25,54 @@ static trax_status run(trax_machine *machine, const struct trax_simulated_option
   return status;
 }
 
-trax_status trax_render_simulated(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
-                                  const struct trax_simulated_options *options, trax_error *error) {
-  uint32_t width = frame->params->width, height = frame->params->height, size = 4 * width * height;
+/* References become addresses where the scene is, in the machine's memory. */
+static trax_status relocate(trax_machine *machine, trax_error *error) {
+  const uint8_t *bytes;
+  uint32_t size;
+  if (trax_machine_read_buffer(machine, "scene", &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  const uint32_t address = (uint32_t)(bytes - machine->space.bytes);
+  trax_scene_relocate(machine->space.bytes + address, address);
+  return TRAX_OK;
+}
+
+trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
+                                const struct trax_program *program, trax_error *error) {
+  const uint32_t size = 4 * frame->params->width * frame->params->height;
+  struct trax_device_scene scene = {0};
   if (frame->scene->size > UINT32_MAX)
     return trax_fail(error, "the scene of %zu bytes exceeds the machine's address space", frame->scene->size);
-  trax_status status = trax_machine_load_elf(machine, options->program, error);
-  if (status == TRAX_OK)
+  trax_status status = trax_machine_load_elf(machine, program->path, error);
+  if (status == TRAX_OK && program->specialised) {
+    status = trax_device_scene_init(&scene, frame, error);
+    if (status == TRAX_OK)
+      status = trax_machine_bind(machine, "scene", scene.bytes, scene.size, error);
+    if (status == TRAX_OK)
+      status = relocate(machine, error);
+    trax_device_scene_release(&scene);
+  } else if (status == TRAX_OK) {
     status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
-  if (status == TRAX_OK)
+  }
+  /* A program whose constants are all folded has none. */
+  if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "params"))
     status = trax_machine_bind(machine, "params", frame->params, frame->params_size, error);
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "image", NULL, size, error);
-  if (status == TRAX_OK)
-    status = run(machine, options, error);
+  return status;
+}
+
+trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
+                               const struct trax_simulated_options *options, trax_error *error) {
+  const uint32_t width = frame->params->width, height = frame->params->height;
+  trax_status status = run(machine, options, error);
   if (status != TRAX_OK)
     return status;
-  int exit_status = trax_machine_exit_status(machine);
+  const int exit_status = trax_machine_exit_status(machine);
   if (exit_status != 0)
-    return trax_fail(error, "%s ended with status %d", options->program, exit_status);
+    return trax_fail(error, "the program ended with status %d", exit_status);
   const uint8_t *bytes;
-  uint32_t bytes_size;
-  status = trax_machine_read_buffer(machine, "image", &bytes, &bytes_size, error);
+  uint32_t size;
+  status = trax_machine_read_buffer(machine, "image", &bytes, &size, error);
   if (status == TRAX_OK)
     status = trax_picture_init(picture, width, height, error);
   if (status == TRAX_OK)

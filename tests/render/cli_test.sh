@@ -9,6 +9,7 @@ trap 'rm -rf "$work"' EXIT
 out=$work/out err=$work/err # of the last command
 mkdir "$work/here" && cd "$work/here" || exit 1
 failures=0
+export XDG_CACHE_HOME="$work/cache"
 
 fail() {
   echo "FAILED: $*"
@@ -53,6 +54,9 @@ done
 refuse '--engine gpu' "$render" "$box" -o x.png --engine gpu
 refuse '--ambient 2' "$render" "$box" -o x.png --ambient 2
 refuse '--ambient nan' "$render" "$box" -o x.png --ambient nan
+for samples in 0 4097 2.5 '' -1; do
+  refuse '--samples' "$render" "$box" -o x.png --samples "$samples"
+done
 refuse '--background' "$render" "$box" -o x.png --background 12345g
 refuse '--set bandwidth: expected KEY=VALUE' "$render" "$box" -o x.png --set bandwidth
 refuse '--threads' "$render" "$box" -o x.png --engine native --threads 0
@@ -60,6 +64,12 @@ refuse '--stats needs the emulator' "$render" "$box" -o x.png --engine native --
 refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --config 4x32
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --cost-picture c.png
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --profile p.txt
+refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --report
+refuse 'need the emulator' "$render" "$box" -o x.png --engine native --no-specialise
+refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --report
+refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --cache here
+refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --report
+refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
 refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
 refuse '--cost without' "$render" "$box" -o x.png --cost cycles
 
@@ -102,6 +112,16 @@ accept "$render" "$box" -o b.png $native --size 32x24 --ambient 0.5
 "$compare" -q a.png b.png && fail "other ambient light makes no difference"
 "$render" --help | grep -q -- --compare || fail "--help"
 "$render" --version | grep -q '^trax-render [0-9]' || fail "--version"
+
+# Samples: their own picture, near the reference's of as many; shadows: brighter without.
+for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows'; do
+  # shellcheck disable=SC2086
+  accept "$render" "$box" -o b.png $native --size 32x24 $options
+  "$compare" -q a.png b.png && fail "$options makes no difference"
+  # shellcheck disable=SC2086
+  accept "$render" "$box" -o reference.png --engine embree --view "$source/box.view" --size 32x24 $options
+  accept "$compare" b.png reference.png --within 2 --at-least 99
+done
 
 # --- comparison
 refuse 'two pictures' "$compare" a.png

@@ -8,6 +8,7 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 failures=0
+export XDG_CACHE_HOME="$work/cache"
 bunny=/usr/share/glmark2/models/bunny.obj
 
 fail() {
@@ -85,10 +86,89 @@ tail -c 9216 x.pfm | od -An -v -tf4 -w256 | tac | tr -s ' ' '\n' | grep . | awk 
 sed 1d fast-cycles.csv | cut -d, -f3 | awk '{ printf "%.0f\n", $1 }' | cmp -s - pfm.values || fail "PFM and CSV differ"
 head -n 2 x.pfm | tr '\n' ' ' | grep -qx 'Pf 64 36 ' || fail "x.pfm begins with $(head -n 2 x.pfm)"
 
+# A program for one picture and the one for all: the same bits from both engines, and what is left out is out.
+# both ARGUMENTS...: --report finds the same picture, with less of stack and scene; what it printed stays in .out.
+both() {
+  "$bin/trax-render" "$@" -o x.png --report --compare >.out 2>.err || fail "$*: status $?: $(cat .out .err)"
+  grep -q '^pictures    identical in every bit$' .out || fail "$*: $(cat .out)"
+  awk '/^bytes of (scene|stack)/ && $5 + 0 > $4 + 0 { exit 1 }' .out || fail "$*: the specialised is larger: $(cat .out)"
+  awk '/^bytes of code/ && $5 > 4096 { exit 1 }' .out || fail "$*: more than the instruction cache: $(cat .out)"
+}
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
+both "$source/box.obj" $view --size 64x36
+grep -q '^features .* shadows materials$' .out || fail "box: $(cat .out)"
+both "$source/box.obj" $view --size 64x36 --engine reference --config 1x32
+both "$source/box.obj" $view --size 40x30 --no-shadows
+grep -q '^features .* all  materials$' .out || fail "box without shadows: $(cat .out)"
+both "$source/box.obj" $view --size 20x30 --samples 3
+both "$source/box.obj" $view --size 20x30 --samples 4 --no-shadows --ambient 0 --background 102030
+both triangle.obj --size 30x20
+both "$source/box.obj" --size 1x1 --samples 2 # more threads than pixels
+[ -r $bunny ] && both $bunny --view bunny --size 64x36
+# What the compiler folds is not what a less precise divider would compute.
+"$bin/trax-render" triangle.obj --size 1x1 --config 1x32 --set special.precision_bits=8 -o x.png --report >.out 2>.err ||
+  fail "8 bits of precision: $(cat .out .err)"
+
+# Compiled once, by whichever of several processes comes first; an option of the picture makes another program.
+programs() { find "$1" -name '*.elf' | wc -l; }
+for run in 1 2 3; do
+  "$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --cache cached -o parallel$run.png --quiet >.out$run 2>&1 &
+done
+wait
+cat .out1 .out2 .out3 | grep . && fail "three at once: $(cat .out1 .out2 .out3)"
+[ "$(programs cached)" -eq 1 ] || fail "three at once: $(ls cached)"
+ls cached | grep -qvE '^[0-9a-f]{32}\.(elf|h)$' && fail "left in the cache: $(ls cached)"
+before=$(cat cached/*.elf | cksum)
+for run in 1 2; do
+  "$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --cache cached -o x.png -q || fail "from the cache"
+done
+[ "$(cat cached/*.elf | cksum)" = "$before" ] || fail "a program in the cache was compiled again"
+rm cached/*.elf
+"$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --cache cached -o x.png -q || fail "a cache without programs"
+[ "$(cat cached/*.elf | cksum)" = "$before" ] || fail "the same source gives another program"
+"$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --cache cached -o x.png -q --background 000000 || fail "black"
+[ "$(programs cached)" -eq 2 ] || fail "another background: $(ls cached)"
+# 256 programs stay, those used last.
+for number in $(seq 100 399); do
+  name=cached/00000000000000000000000000000$number
+  : >$name.elf && : >$name.h && touch -d "2020-01-01 00:00:$((number % 60))" $name.elf
+done
+"$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --cache cached -o x.png -q --background 000001 || fail "a full cache"
+[ "$(programs cached)" -eq 256 ] || fail "$(programs cached) programs in the cache instead of 256"
+[ "$(find cached -name '*.elf' -size +1k | wc -l)" -eq 3 ] || fail "programs in use were removed: $(ls -l cached | head)"
+
+# Without a compiler, or a place for programs, the general program renders, and a line says why.
+mkdir -p bare/bin bare/lib/trax
+cp "$bin/trax-render" bare/bin && cp "$bin/../lib/trax/trax-raytracer.elf" bare/lib/trax
+note() {
+  pattern=$1
+  shift
+  "$@" "$source/box.obj" $view --size 64x36 -o x.png >.out 2>.err || fail "$*: status $?: $(cat .err)"
+  grep -q "^trax-render: note: the general program .*$pattern" .err || fail "$*: no note: $(cat .err)"
+  "$bin/trax-compare" -q x.png box.png || fail "$*: another picture"
+}
+note 'bin/clang' bare/bin/trax-render
+note '/dev/null/trax' env XDG_CACHE_HOME=/dev/null "$bin/trax-render"
+note 'neither XDG_CACHE_HOME nor HOME' env -u XDG_CACHE_HOME -u HOME "$bin/trax-render"
+bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o x.png --report >.out 2>.err && fail "a report without a compiler"
+grep -q 'no specialised program' .err || fail "a report without a compiler: $(cat .err)"
+"$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
+[ -s .err ] && fail "--no-specialise has a note: $(cat .err)"
+"$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"
+
 # What --keep writes runs by itself to the same picture.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept
 TRAX_SIM=$bin/trax-sim sh kept/run.sh >.out 2>.err || fail "run.sh: $(cat .err)"
 [ "$(wc -c <kept/image.raw)" -eq 576 ] || fail "image.raw has $(wc -c <kept/image.raw) bytes"
+cp kept/image.raw specialised.raw
+same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept --no-specialise
+TRAX_SIM=$bin/trax-sim sh kept/run.sh >.out 2>.err || fail "run.sh, general: $(cat .err)"
+cmp -s kept/image.raw specialised.raw || fail "run.sh: the general program's picture is another"
+# A scene that was made for another place in memory is refused, not traversed.
+same "$source/box.obj" $view --size 16x9 --config 1x32 --keep moved
+sed -i 's/--bind scene=scene.trax --alloc image=576/--alloc image=576 --bind scene=scene.trax/; s/--bind scene=scene.trax --bind params=params.bin/--bind params=params.bin --bind scene=scene.trax/' moved/run.sh
+TRAX_SIM=$bin/trax-sim sh moved/run.sh >.out 2>.err && fail "a scene at another address: no error"
+grep -q 'addresses of another place' .err || fail "a scene at another address: $(cat .err)"
 
 # Faults and wrong programs end in an error, without a picture.
 refuse() {

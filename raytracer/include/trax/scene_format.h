@@ -30,7 +30,7 @@
 #define TRAX_SCENE_MAX_DEPTH 40u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
 
 typedef uint32_t trax_scene_ref;
-#define TRAX_SCENE_REF_COUNT(ref) ((ref)&7u)     /* triangles of a leaf; 0: an inner node */
+#define TRAX_SCENE_REF_COUNT(ref) ((ref) & 7u)   /* triangles of a leaf; 0: an inner node */
 #define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
 
 enum trax_scene_section_kind {
@@ -60,8 +60,8 @@ struct trax_scene_header {
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
   float bounds_min[3];     /* of all triangles; zeros if there are none */
   float bounds_max[3];
-  uint32_t base;     /* 0: references are offsets, as in every file. Otherwise they are addresses in the device's memory,
-                        which has the scene at this one (render/device_scene.c) */
+  uint32_t base; /* 0: references are offsets, as in every file. Otherwise they are addresses in the device's memory,
+                    which has the scene at this one (render/device_scene.c) */
   uint32_t reserved; /* zero */
   struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
 };

@@ -1,0 +1,72 @@
+/* The scene as a specialised program reads it: the sections that its picture needs, and references as addresses. */
+#include "core/machine.h"
+#include "render.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+static uint32_t round_up(uint32_t bytes) {
+  return (bytes + TRAX_SCENE_ALIGNMENT - 1) & ~(TRAX_SCENE_ALIGNMENT - 1);
+}
+
+/* References lead to nodes and triangles, so these must stay where they are: they do if they come first, as
+   trax_scene_build has them. Of another file nothing is left out. */
+static bool in_order(const struct trax_scene_header *header) {
+  uint32_t end = sizeof *header;
+  for (unsigned kind = 0; kind <= TRAX_SCENE_TRIANGLES; kind++) {
+    if (header->sections[kind].count && header->sections[kind].offset != end)
+      return false;
+    end += round_up(header->sections[kind].size);
+  }
+  return true;
+}
+
+trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct trax_frame *frame, trax_error *error) {
+  const uint32_t needed = trax_feature_sections(frame->params->features);
+  const unsigned char *file = frame->scene->bytes;
+  struct trax_scene_header header = *frame->scene->header;
+  *scene = (struct trax_device_scene){.bytes = malloc(header.file_size)};
+  if (!scene->bytes)
+    return trax_fail(error, "out of memory for a scene of %u bytes", header.file_size);
+  if (!in_order(&header)) {
+    memcpy(scene->bytes, file, header.file_size);
+    scene->size = header.file_size;
+    return TRAX_OK;
+  }
+  uint32_t end = sizeof header;
+  for (unsigned kind = 0; kind < TRAX_SCENE_SECTIONS; kind++) {
+    struct trax_scene_section *section = &header.sections[kind];
+    if (!(needed >> kind & 1) || section->count == 0) {
+      *section = (struct trax_scene_section){0};
+      continue;
+    }
+    const uint32_t rounded = round_up(section->size);
+    memcpy(scene->bytes + end, file + section->offset, section->size);
+    memset(scene->bytes + end + section->size, 0, rounded - section->size);
+    section->offset = end;
+    end += rounded;
+  }
+  header.file_size = end;
+  header.checksum = 0; /* it is no file */
+  memcpy(scene->bytes, &header, sizeof header);
+  scene->size = end;
+  return TRAX_OK;
+}
+
+void trax_device_scene_release(struct trax_device_scene *scene) {
+  free(scene->bytes);
+  *scene = (struct trax_device_scene){0};
+}
+
+void trax_scene_relocate(void *bytes, uint32_t address) {
+  struct trax_scene_header *header = bytes;
+  const struct trax_scene_section *section = &header->sections[TRAX_SCENE_NODES];
+  struct trax_bvh_node *nodes = (struct trax_bvh_node *)(void *)((unsigned char *)bytes + section->offset);
+  for (uint32_t i = 0; i < section->count; i++)
+    for (int child = 0; child < 2; child++)
+      nodes[i].child[child] += address;
+  if (header->root)
+    header->root += address;
+  header->base = address;
+}

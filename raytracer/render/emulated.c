@@ -1,0 +1,317 @@
+#include "emulated.h"
+
+#include "core/machine.h"
+#include "host/host.h"
+#include "host/util.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The folder above this program's own. */
+static bool installation(char root[TRAX_PATH_SIZE]) {
+  char self[TRAX_PATH_SIZE - 4];
+  ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+  if (length <= 0)
+    return false;
+  self[length] = '\0';
+  *strrchr(self, '/') = '\0';
+  char resolved[TRAX_PATH_SIZE];
+  snprintf(resolved, sizeof resolved, "%s/..", self);
+  return realpath(resolved, root) != NULL;
+}
+
+/* --- the program --- */
+
+bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix) {
+  char root[TRAX_PATH_SIZE];
+  if (!installation(root))
+    return false;
+  int written = snprintf(path, TRAX_PATH_SIZE, "%s/%s/%s%s", root, folder, name, suffix);
+  return written > 0 && written < TRAX_PATH_SIZE && access(path, R_OK) == 0;
+}
+
+static trax_status general_program(struct trax_program *program, const struct options *options, trax_error *error) {
+  program->specialised = false;
+  if (options->program) {
+    if (snprintf(program->path, sizeof program->path, "%s", options->program) >= (int)sizeof program->path)
+      return trax_fail(error, "the path of the program is too long");
+    return TRAX_OK;
+  }
+  if (!installed_file(program->path, "lib/trax", "trax-raytracer", ".elf"))
+    return trax_fail(error, "%s is missing; --program names another one", program->path);
+  return TRAX_OK;
+}
+
+/* The specialised program, or, with a note, the general one. */
+static trax_status find_program(struct trax_program *program, const struct options *options,
+                                const struct trax_frame *frame, const volatile int *interrupt, trax_error *error) {
+  trax_status status = general_program(program, options, error);
+  if (status != TRAX_OK || options->program || options->no_specialise)
+    return status;
+  char root[TRAX_PATH_SIZE], note[256] = "its own place is not known";
+  struct trax_specialise_options specialise = {root, options->cache, interrupt};
+  if (installation(root))
+    status = trax_program_specialise(program, frame, &specialise, note, error);
+  if (status == TRAX_OK && !program->specialised && !options->quiet)
+    fprintf(stderr, "trax-render: note: the general program renders, there is no specialised one: %s\n", note);
+  return status;
+}
+
+/* --- the machine --- */
+
+static trax_status make_config(trax_config *config, const struct options *options, const struct trax_frame *frame,
+                               trax_error *error) {
+  trax_status status = trax_config_load(config, options->config ? options->config : "4x32", error);
+  if (status != TRAX_OK)
+    return status;
+  /* The machine's memory grows with what is rendered, unless it is set. */
+  uint64_t bytes = frame->scene->size + frame->params_size + 4ull * frame->params->width * frame->params->height;
+  uint64_t mib = (bytes >> 20) + 2;
+  if (mib > 1024) {
+    char text[32];
+    snprintf(text, sizeof text, "%llu", (unsigned long long)mib);
+    status = trax_config_set(config, "memory.size_mib", text, error);
+  }
+  for (size_t i = 0; i < options->setting_count && status == TRAX_OK; i++)
+    status = trax_config_set(config, options->settings[i].key, options->settings[i].value, error);
+  return status == TRAX_OK ? trax_config_check(config, error) : status;
+}
+
+static void show_run(void *context, const trax_progress *status) {
+  char detail[96];
+  double seconds = status->host_seconds > 0 ? status->host_seconds : 1;
+  snprintf(detail, sizeof detail, "%.1f M cycles, %.1f M instructions/s", 1e-6 * (double)status->cycle,
+           1e-6 * (double)status->instructions / seconds);
+  double fraction = status->total_items ? (double)status->items / (double)status->total_items : -1;
+  progress_show(context, "rendering", fraction, detail);
+}
+
+static trax_status write_bytes(const char *directory, const char *name, const void *bytes, size_t size,
+                               trax_error *error) {
+  char path[TRAX_PATH_SIZE];
+  if (snprintf(path, sizeof path, "%s/%s", directory, name) >= (int)sizeof path)
+    return trax_fail(error, "%s: the path is too long", directory);
+  trax_output output;
+  trax_status status = trax_output_open(&output, path, error);
+  if (status != TRAX_OK)
+    return status;
+  if (fwrite(bytes, 1, size, output.file) != size) {
+    trax_output_discard(&output);
+    return trax_fail(error, "%s: %s", path, strerror(errno));
+  }
+  return trax_output_commit(&output, error);
+}
+
+/* A word for the shell, in quotes. */
+static void quote(FILE *out, const char *word) {
+  fputc('\'', out);
+  for (; *word; word++)
+    if (*word == '\'')
+      fputs("'\\''", out);
+    else
+      fputc(*word, out);
+  fputc('\'', out);
+}
+
+/* The files that the program reads, and the command that runs it on them. */
+static trax_status keep_inputs(const struct options *options, const struct trax_frame *frame,
+                               const struct trax_program *program, trax_machine *machine, trax_error *error) {
+  if (mkdir(options->keep, 0777) != 0 && errno != EEXIST)
+    return trax_fail(error, "%s: %s", options->keep, strerror(errno));
+  const bool has_params = trax_image_symbol(trax_host_of(machine)->image, "params") != NULL;
+  char *text = NULL;
+  size_t size = 0;
+  FILE *command = open_memstream(&text, &size);
+  if (!command)
+    return trax_fail(error, "out of memory");
+  fputs("#!/bin/sh\n# Renders into image.raw: R, G, B, A bytes, row by row.\ncd \"$(dirname \"$0\")\" || exit 1\n"
+        "exec \"${TRAX_SIM:-trax-sim}\" --config ",
+        command);
+  quote(command, options->config ? options->config : "4x32");
+  for (size_t i = 0; i < options->setting_count; i++) {
+    fprintf(command, " --set %s=", options->settings[i].key);
+    quote(command, options->settings[i].value);
+  }
+  fprintf(command,
+          " --bind scene=scene.trax%s --alloc image=%u --dump image=image.raw "
+          "--progress-total %u \"$@\" ",
+          has_params ? " --bind params=params.bin" : "", 4 * frame->params->width * frame->params->height,
+          frame->params->width * frame->params->height);
+  fputs("program.elf\n", command);
+  fclose(command);
+  const uint8_t *scene;
+  uint32_t scene_bytes;
+  uint8_t *elf = NULL;
+  size_t elf_bytes;
+  trax_status status = trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error);
+  if (status == TRAX_OK)
+    status = write_bytes(options->keep, "scene.trax", scene, scene_bytes, error);
+  if (status == TRAX_OK)
+    status = trax_read_file(program->path, TRAX_IMAGE_LIMIT, &elf, &elf_bytes, error);
+  if (status == TRAX_OK)
+    status = write_bytes(options->keep, "program.elf", elf, elf_bytes, error);
+  free(elf);
+  if (status == TRAX_OK && has_params)
+    status = write_bytes(options->keep, "params.bin", frame->params, frame->params_size, error);
+  if (status == TRAX_OK)
+    status = write_bytes(options->keep, "run.sh", text, size, error);
+  free(text);
+  return status;
+}
+
+static double statistic(const trax_machine *machine, const char *name) {
+  double value = 0;
+  trax_stats_get(machine, name, &value);
+  return value;
+}
+
+struct figures {
+  struct trax_program_size size;
+  double scene_bytes, instructions, cycles, memory_bytes;
+};
+
+static void print_machine(const trax_machine *machine) {
+  printf("cycles      %.0f (%.3f ms)\n", statistic(machine, "cycles"), 1e3 * statistic(machine, "seconds"));
+  printf("rays        %.0f, %.2f million per second\n", statistic(machine, "rays"), statistic(machine, "mrps"));
+}
+
+static trax_status measure(struct figures *figures, const struct trax_program *program, trax_machine *machine,
+                           trax_error *error) {
+  const uint8_t *scene;
+  uint32_t scene_bytes;
+  if (trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error) != TRAX_OK)
+    return TRAX_ERROR;
+  figures->scene_bytes = scene_bytes;
+  figures->instructions = statistic(machine, "instructions");
+  figures->cycles = statistic(machine, "cycles");
+  figures->memory_bytes = statistic(machine, "memory.bytes");
+  return trax_program_measure(&figures->size, program->path, error);
+}
+
+static trax_status write_costs(const struct trax_costs *costs, const struct options *options, trax_error *error) {
+  struct trax_cost_summary summary;
+  trax_status status = trax_costs_summarise(costs, &summary, error);
+  if (status == TRAX_OK && options->cost_picture)
+    status = trax_costs_write_picture(costs, &summary, options->cost_picture, error);
+  if (status == TRAX_OK && options->cost_values)
+    status = trax_costs_write(costs, options->cost_values, error);
+  if (status == TRAX_OK && !options->quiet)
+    trax_costs_print(costs, &summary, stdout);
+  return status;
+}
+
+/* One picture by one program. figures may be NULL. */
+static trax_status run_program(struct trax_picture *picture, const struct options *options,
+                               const struct trax_frame *frame, const struct trax_program *program,
+                               struct progress *progress, const volatile int *interrupt, struct figures *figures,
+                               trax_error *error) {
+  trax_config *config = trax_config_create();
+  trax_status status = config ? make_config(config, options, frame, error) : trax_fail(error, "out of memory");
+  trax_machine *machine = status == TRAX_OK ? trax_machine_create(config, error) : NULL;
+  if (status == TRAX_OK)
+    status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
+  if (status == TRAX_OK && options->keep)
+    status = keep_inputs(options, frame, program, machine, error);
+  if (status == TRAX_OK) {
+    struct trax_costs costs = {0};
+    struct trax_simulated_options run = {
+        .explain = &options->explain,
+        .run = {.output = stderr,
+                .total_items = (uint64_t)frame->params->width * frame->params->height,
+                .progress = show_run,
+                .progress_context = progress,
+                .interrupt = interrupt,
+                .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST,
+                .host_threads = options->threads}};
+    if (options->cost_picture || options->cost_values) {
+      run.costs = &costs;
+      status = trax_costs_init(&costs, frame->params->width, frame->params->height,
+                               options->cost ? options->cost : "cycles", error);
+    }
+    if (status == TRAX_OK)
+      status = trax_simulated_run(picture, frame, machine, &run, error);
+    progress_clear(progress);
+    if (status == TRAX_FAULT)
+      trax_machine_print_fault(machine, stderr);
+    if (status == TRAX_OK && figures)
+      status = measure(figures, program, machine, error);
+    if (status == TRAX_OK && !figures && !options->quiet)
+      print_machine(machine);
+    if (status == TRAX_OK && options->stats)
+      status = trax_stats_write_json(machine, options->stats, error);
+    if (status == TRAX_OK && run.costs)
+      status = write_costs(&costs, options, error);
+    trax_costs_release(&costs);
+  }
+  trax_machine_destroy(machine);
+  trax_config_destroy(config);
+  return status;
+}
+
+/* --- both ways --- */
+
+static void print_row(const char *name, double general, double specialised) {
+  printf("%-26s %15.0f %15.0f  %+6.2f %%\n", name, general, specialised,
+         general > 0 ? 100 * (specialised / general - 1) : 0);
+}
+
+static void print_report(const struct figures *general, const struct figures *specialised, uint32_t features) {
+  printf("features                               all ");
+  for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)
+    if (features >> feature & 1)
+      printf(" %s", trax_feature_name(feature));
+  printf("\nprogram                            general     specialised    change\n");
+  print_row("instructions of code", general->size.code_bytes / 4, specialised->size.code_bytes / 4);
+  print_row("bytes of code", general->size.code_bytes, specialised->size.code_bytes);
+  print_row("bytes of stack", general->size.stack_bytes, specialised->size.stack_bytes);
+  print_row("bytes of scene", general->scene_bytes, specialised->scene_bytes);
+  print_row("instructions run", general->instructions, specialised->instructions);
+  print_row("cycles", general->cycles, specialised->cycles);
+  print_row("bytes from and to memory", general->memory_bytes, specialised->memory_bytes);
+}
+
+static trax_status report(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
+                          const struct trax_program *specialised, struct progress *progress,
+                          const volatile int *interrupt, bool *agrees, trax_error *error) {
+  struct options plain = *options; /* what explains or keeps the run is about the specialised program */
+  plain.stats = plain.keep = plain.cost_picture = plain.cost_values = NULL;
+  plain.explain = (struct trax_explain_options){0};
+  struct trax_program program;
+  struct trax_picture other = {0};
+  struct figures figures[2];
+  trax_status status = general_program(&program, options, error);
+  if (status == TRAX_OK)
+    status = run_program(&other, &plain, frame, &program, progress, interrupt, &figures[0], error);
+  if (status == TRAX_OK)
+    status = run_program(picture, options, frame, specialised, progress, interrupt, &figures[1], error);
+  if (status == TRAX_OK) {
+    struct trax_difference difference;
+    trax_picture_compare(&difference, picture, &other, 0);
+    print_report(&figures[0], &figures[1], frame->params->features);
+    if (difference.unequal)
+      printf("pictures    %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
+             (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
+    else
+      printf("pictures    identical in every bit\n");
+    *agrees = difference.unequal == 0;
+  }
+  trax_picture_release(&other);
+  return status;
+}
+
+trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
+                    struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
+  struct trax_program program;
+  progress_show(progress, "compiling", -1, NULL);
+  trax_status status = find_program(&program, options, frame, interrupt, error);
+  if (status != TRAX_OK)
+    return status;
+  if (!options->report)
+    return run_program(picture, options, frame, &program, progress, interrupt, NULL, error);
+  if (!program.specialised)
+    return trax_fail(error, "--report: there is no specialised program to report on");
+  return report(picture, options, frame, &program, progress, interrupt, agrees, error);
+}

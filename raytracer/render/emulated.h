@@ -1,0 +1,18 @@
+/* trax-render's emulated machine: which program it runs, on what chip, and what is told about the run. */
+#ifndef TRAX_RENDER_EMULATED_H
+#define TRAX_RENDER_EMULATED_H
+
+#include "options.h"
+#include "progress.h"
+
+#include <stdbool.h>
+
+/* What the installation has, next to this program: ../FOLDER/NAME with its suffix. False if it cannot be read. */
+bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix);
+
+/* The picture, and what the options want to know of the run. With --report two pictures, by the general program and by
+   the specialised one, and *agrees becomes false if they differ. */
+trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
+                    struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error);
+
+#endif

@@ -1,0 +1,346 @@
+/* Programs for one picture: the device's source behind a file of constants (device/run.h), compiled when it is needed
+   and kept under the hash of all that it is made from. */
+#include "core/machine.h"
+#include "host/util.h"
+#include "render.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+/* More are not kept: a program is some 30 kB, most of it debug information. */
+#define MOST_PROGRAMS 256
+
+static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
+enum { FLAG_COUNT = sizeof flags / sizeof *flags };
+
+/* What of the installation decides about the program. */
+static const char *const ingredients[] = {
+    "bin/clang",
+    "bin/trax-ld",
+    "lib/trax/crt0.o",
+    "lib/trax/libc.a",
+    "lib/trax/libgcc.a",
+    "lib/trax/libm.a",
+    "lib/trax/include/trax.h",
+    "lib/trax/raytracer/bits.h",
+    "lib/trax/raytracer/camera.h",
+    "lib/trax/raytracer/main.c",
+    "lib/trax/raytracer/ray.h",
+    "lib/trax/raytracer/run.h",
+    "lib/trax/raytracer/shade.h",
+    "lib/trax/raytracer/traverse.h",
+    "lib/trax/raytracer/triangle.h",
+    "lib/trax/raytracer/trax/features.def",
+    "lib/trax/raytracer/trax/render_params.h",
+    "lib/trax/raytracer/trax/scene_format.h",
+};
+
+static bool join(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix) {
+  int length = snprintf(path, TRAX_PATH_SIZE, "%s/%s%s", folder, name, suffix);
+  return length > 0 && length < TRAX_PATH_SIZE;
+}
+
+/* --- the constants --- */
+
+/* As words, so that every bit is kept and no field is forgotten. */
+static char *constants_text(const struct trax_frame *frame) {
+  const struct {
+    struct trax_render_params params;
+    struct trax_palette_entry palette;
+  } constants = {*frame->params, frame->scene->material_count ? *(const struct trax_palette_entry *)(frame->params + 1)
+                                                              : (struct trax_palette_entry){{0}, 0}};
+  uint32_t words[sizeof constants / 4];
+  memcpy(words, &constants, sizeof words);
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    return NULL;
+  const uint32_t depth = frame->scene->header->max_depth;
+  fprintf(out,
+          "/* One picture's constants; device/run.h says what they are. */\n"
+          "#include \"trax/render_params.h\"\n\n"
+          "#define TRAX_SPECIALISED_FEATURES 0x%Xu /*",
+          constants.params.features);
+  for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)
+    if (constants.params.features >> feature & 1)
+      fprintf(out, " %s", trax_feature_name(feature));
+  fprintf(out,
+          " */\n"
+          "#define TRAX_STACK_ENTRIES %u\n\n"
+          "static const union {\n"
+          "  uint32_t words[%zu];\n"
+          "  struct {\n"
+          "    struct trax_render_params params;\n"
+          "    struct trax_palette_entry palette; /* the first */\n"
+          "  };\n"
+          "} trax_constants __attribute__((unused)) = {{",
+          depth ? depth : 1, sizeof words / sizeof *words);
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    fprintf(out, "%s0x%08Xu,", i % 6 ? " " : "\n    ", words[i]);
+  fputs("\n}};\n", out);
+  return fclose(out) == 0 ? text : NULL;
+}
+
+/* --- the key --- */
+
+static trax_status hash_file(XXH3_state_t *state, const char *root, const char *name, trax_error *error) {
+  char path[TRAX_PATH_SIZE];
+  uint8_t *bytes;
+  size_t size;
+  if (!join(path, root, name, ""))
+    return trax_fail(error, "%s: the path is too long", name);
+  if (trax_read_file(path, (size_t)1 << 30, &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  XXH3_128bits_update(state, name, strlen(name) + 1);
+  XXH3_128bits_update(state, &size, sizeof size);
+  XXH3_128bits_update(state, bytes, size);
+  free(bytes);
+  return TRAX_OK;
+}
+
+/* Of the compiler's library, which is large and the distribution's, size and date stand for the content. */
+static void hash_library(XXH3_state_t *state, const char *path) {
+  struct stat status = {0};
+  stat(path, &status);
+  const int64_t identity[] = {status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+  XXH3_128bits_update(state, identity, sizeof identity);
+}
+
+static trax_status make_key(char key[33], const char *root, const char *constants, trax_error *error) {
+  XXH3_state_t *state = XXH3_createState();
+  if (!state)
+    return trax_fail(error, "out of memory");
+  XXH3_128bits_reset(state);
+  trax_status status = TRAX_OK;
+  for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients && status == TRAX_OK; i++)
+    status = hash_file(state, root, ingredients[i], error);
+  hash_library(state, TRAX_LLVM_LIBRARY);
+  for (size_t i = 0; i < FLAG_COUNT; i++)
+    XXH3_128bits_update(state, flags[i], strlen(flags[i]) + 1);
+  XXH3_128bits_update(state, constants, strlen(constants));
+  const XXH128_hash_t hash = XXH3_128bits_digest(state);
+  snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
+  XXH3_freeState(state);
+  return status;
+}
+
+/* --- the cache --- */
+
+bool trax_program_cache(char path[TRAX_PATH_SIZE]) {
+  const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+  if (base && base[0] == '/') /* others are to be ignored: XDG Base Directory Specification */
+    return join(path, base, "trax/programs", "");
+  return home && home[0] == '/' && join(path, home, ".cache/trax/programs", "");
+}
+
+static bool make_folders(const char *path) {
+  char part[TRAX_PATH_SIZE];
+  if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part)
+    return false;
+  for (char *slash = part + 1; (slash = strchr(slash, '/')); *slash++ = '/') {
+    *slash = '\0';
+    if (mkdir(part, 0777) != 0 && errno != EEXIST)
+      return false;
+  }
+  return (mkdir(part, 0777) == 0 || errno == EEXIST) && access(path, W_OK | X_OK) == 0;
+}
+
+struct kept {
+  char name[64];
+  struct timespec used;
+};
+
+static int by_use(const void *a, const void *b) {
+  const struct kept *x = a, *y = b;
+  if (x->used.tv_sec != y->used.tv_sec)
+    return x->used.tv_sec < y->used.tv_sec ? 1 : -1;
+  return x->used.tv_nsec < y->used.tv_nsec ? 1 : x->used.tv_nsec > y->used.tv_nsec ? -1 : strcmp(x->name, y->name);
+}
+
+/* Removes what has not been used longest. What another process removes at the same time is gone all the same. */
+static void prune(const char *cache) {
+  DIR *folder = opendir(cache);
+  struct kept *kept = NULL;
+  size_t count = 0, capacity = 0;
+  for (const struct dirent *entry; folder && (entry = readdir(folder));) {
+    const size_t length = strlen(entry->d_name);
+    struct stat status;
+    if (length != 32 + 4 || strcmp(entry->d_name + 32, ".elf") != 0 ||
+        fstatat(dirfd(folder), entry->d_name, &status, 0) != 0)
+      continue;
+    if (count == capacity) {
+      struct kept *more = realloc(kept, (capacity = 2 * capacity + 64) * sizeof *kept);
+      if (!more)
+        break;
+      kept = more;
+    }
+    memcpy(kept[count].name, entry->d_name, length + 1);
+    kept[count++].used = status.st_mtim;
+  }
+  if (count > MOST_PROGRAMS) {
+    qsort(kept, count, sizeof *kept, by_use);
+    for (size_t i = MOST_PROGRAMS; i < count; i++) {
+      unlinkat(dirfd(folder), kept[i].name, 0);
+      memcpy(kept[i].name + 32, ".h", 3);
+      unlinkat(dirfd(folder), kept[i].name, 0);
+    }
+  }
+  free(kept);
+  if (folder)
+    closedir(folder);
+}
+
+/* --- compiling --- */
+
+/* The first line of what the compiler said, or how it ended. */
+static void first_line(char line[160], int descriptor, int status) {
+  char text[160];
+  ssize_t got = pread(descriptor, text, sizeof text - 1, 0);
+  text[got > 0 ? got : 0] = '\0';
+  text[strcspn(text, "\n")] = '\0';
+  if (text[0])
+    snprintf(line, 160, "%s", text);
+  else if (WIFSIGNALED(status))
+    snprintf(line, 160, "%s", strsignal(WTERMSIG(status)));
+  else
+    snprintf(line, 160, "exit status %d", WEXITSTATUS(status));
+}
+
+/* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
+static trax_status compile(const char *root, const char *constants, const char *output, bool params_in_memory,
+                           const volatile int *interrupt, trax_error *error) {
+  char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
+  if (!join(clang, root, "bin/clang", "") || !join(include, root, "lib/trax/raytracer", "") ||
+      !join(source, root, "lib/trax/raytracer/main.c", ""))
+    return trax_fail(error, "%s: the path is too long", root);
+  const char *arguments[FLAG_COUNT + 16], **next = arguments;
+  *next++ = clang;
+  for (size_t i = 0; i < FLAG_COUNT; i++)
+    *next++ = flags[i];
+  *next++ = "-I";
+  *next++ = include;
+  if (params_in_memory)
+    *next++ = "-DTRAX_PARAMS_IN_MEMORY";
+  *next++ = "-include";
+  *next++ = constants;
+  *next++ = source;
+  *next++ = "-o";
+  *next++ = output;
+  *next = NULL;
+
+  FILE *said = tmpfile();
+  if (!said)
+    return trax_fail(error, "no temporary file: %s", strerror(errno));
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent)
+      _exit(127);
+    dup2(fileno(said), STDERR_FILENO);
+    dup2(fileno(said), STDOUT_FILENO);
+    execv(clang, (char *const *)arguments);
+    _exit(127);
+  }
+  trax_status result = TRAX_OK;
+  int status = 0;
+  if (child < 0)
+    result = trax_fail(error, "the compiler does not start: %s", strerror(errno));
+  for (const struct timespec pause = {.tv_nsec = 2000000}; result == TRAX_OK;) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child)
+      break;
+    if (ended < 0 && errno != EINTR)
+      result = trax_fail(error, "the compiler is lost: %s", strerror(errno));
+    else if (interrupt && *interrupt) {
+      kill(child, SIGTERM);
+      while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+      result = TRAX_INTERRUPTED;
+    } else {
+      nanosleep(&pause, NULL);
+    }
+  }
+  if (result == TRAX_OK && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) {
+    char line[160];
+    first_line(line, fileno(said), status);
+    result = trax_fail(error, "%s", line);
+  }
+  fclose(said);
+  return result;
+}
+
+/* Into the cache, aside and renamed. If constants take so many registers that the stack overflows, the parameters stay
+   in memory. */
+static trax_status build(const char *root, const char *constants, const char *program, const volatile int *interrupt,
+                         trax_error *error) {
+  char temporary[TRAX_PATH_SIZE];
+  if (!join(temporary, program, "", "XXXXXX"))
+    return trax_fail(error, "%s: the path is too long", program);
+  temporary[strlen(program)] = '.';
+  const int descriptor = mkstemp(temporary);
+  if (descriptor < 0)
+    return trax_fail(error, "%s: %s", temporary, strerror(errno));
+  close(descriptor);
+  trax_status status = compile(root, constants, temporary, false, interrupt, error);
+  if (status == TRAX_ERROR)
+    status = compile(root, constants, temporary, true, interrupt, error);
+  if (status == TRAX_OK && rename(temporary, program) != 0)
+    status = trax_fail(error, "%s: %s", program, strerror(errno));
+  if (status != TRAX_OK)
+    unlink(temporary);
+  return status;
+}
+
+trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
+                                    const struct trax_specialise_options *options, char note[256], trax_error *error) {
+  char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE], header[TRAX_PATH_SIZE];
+  trax_error reason;
+  note[0] = '\0';
+  if (options->cache && snprintf(cache, sizeof cache, "%s", options->cache) >= (int)sizeof cache)
+    return trax_fail(error, "--cache: the path is too long");
+  if (!options->cache && !trax_program_cache(cache)) {
+    snprintf(note, 256, "no place for compiled programs: neither XDG_CACHE_HOME nor HOME is set");
+    return TRAX_OK;
+  }
+  char *constants = constants_text(frame);
+  if (!constants)
+    return trax_fail(error, "out of memory");
+  trax_status status = make_key(key, options->root, constants, &reason);
+  if (status == TRAX_OK && !make_folders(cache)) {
+    status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
+    if (options->cache) {
+      free(constants);
+      return trax_fail(error, "--cache %s", reason.message);
+    }
+  }
+  if (status == TRAX_OK && (!join(elf, cache, key, ".elf") || !join(header, cache, key, ".h")))
+    status = trax_fail(&reason, "%s: the path is too long", cache);
+  if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
+    status = trax_write_file(header, constants, strlen(constants), &reason);
+    if (status == TRAX_OK)
+      status = build(options->root, header, elf, options->interrupt, &reason);
+    if (status == TRAX_OK)
+      prune(cache);
+  }
+  free(constants);
+  if (status == TRAX_INTERRUPTED)
+    return status;
+  if (status != TRAX_OK) {
+    snprintf(note, 256, "%.255s", reason.message);
+    return TRAX_OK;
+  }
+  memcpy(program->path, elf, sizeof elf);
+  program->specialised = true;
+  return TRAX_OK;
+}
