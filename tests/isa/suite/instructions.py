@@ -49,12 +49,11 @@ ROWS = {
 
 def check_rows(instructions):
     names = {inst.name for inst in instructions}
-    for inst in instructions:
-        if inst.name not in ROWS:
-            raise DescriptionError(f"{inst.mnemonic} ({inst.name}) has no test: add a row to tests/isa/suite/instructions.py")
-    for name in ROWS:
-        if name not in names:
-            raise DescriptionError(f"{name} has tests in tests/isa/suite/instructions.py, but the description does not have it")
+    wrong = [f"{inst.mnemonic} ({inst.name}) has no test: add a row to tests/isa/suite/instructions.py" for inst in instructions
+             if inst.name not in ROWS]
+    wrong += [f"{name} has tests in tests/isa/suite/instructions.py, but the description does not have it" for name in ROWS if name not in names]
+    if wrong:
+        raise DescriptionError("\n".join(wrong))
 
 
 _SYNTAXES = {  # by format, the operands for which there are conditions

@@ -5,9 +5,11 @@ Implementations that break what trax-sim writes."""
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 RUN, SIM, SUITE = (os.path.abspath(path) for path in sys.argv[1:])
 failures = 0
@@ -23,7 +25,7 @@ BROKEN = {
     "nothing": "exit 3",
     "silent": "sim >/dev/null",
     "status": "sim; exit 7",
-    "hangs": "exec sleep 60",
+    "hangs": "sleep 60",
     "empty": "sim; : >$signature",
 }
 TEMPLATE = "{emulator} {signature} {image} {tms} {tps}"
@@ -83,6 +85,12 @@ with tempfile.TemporaryDirectory() as folder:
     expect("a bad template", 2, r"\{nothing\}: only", "--emulator", "./right", "--command", "{emulator} {nothing}", "--only", "^sub$")
     expect("no jobs", 2, "--jobs and --timeout", *right, "--jobs", "0")
     expect("several jobs", 0, "pass", *right, "--only", "^and", "--jobs", "4")
+    interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    time.sleep(0.7)
+    interrupted.send_signal(signal.SIGINT)
+    _, err = interrupted.communicate(timeout=10)
+    if interrupted.returncode != 130 or err:
+        fail(f"interrupted: status {interrupted.returncode}", err.decode())
     os.chdir("/")
 print(f"{failures} failures")
 sys.exit(failures > 0)
