@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""tests/isa/run notices what an implementation does wrong: run_test.py RUN TRAX_SIM SUITE
+"""tests/isa/run notices what an implementation does wrong: run_test.py RUN TRAX_SIM BUILD
 
-Implementations that break what trax-sim writes."""
+Implementations that break what trax-sim writes; programs that expect something else; the suite as it is installed."""
 
 import os
 import re
@@ -11,7 +11,10 @@ import sys
 import tempfile
 import time
 
-RUN, SIM, SUITE = (os.path.abspath(path) for path in sys.argv[1:])
+from image import Image
+
+RUN, SIM, BUILD = (os.path.abspath(path) for path in sys.argv[1:])
+SUITE = os.path.join(BUILD, "isa-suite")
 failures = 0
 
 # Each is given the words of the run's command; `sim` runs trax-sim, `signature` is its file.
@@ -46,6 +49,17 @@ def expect(what, status, pattern, *words):
     found, out, err = run("--suite", SUITE, *words)
     if found != status or not re.search(pattern, err if status == 2 else out):
         fail(f"{what}: status {found}, not {status}, or not {pattern!r}", out, err)
+
+
+def own_comparison(word, status):
+    """The status of a program that expects another word there."""
+    image = Image(os.path.join(SUITE, "sub.elf"))
+    if word is not None:
+        image.set_words(image.symbols["expected"] + 4 * word, [0x0BAD0BAD])
+    image.save("changed.elf")
+    found = subprocess.run([SIM, "--engine", "functional", "changed.elf"]).returncode
+    if found != status:
+        fail(f"with another word {word} expected the program ends with status {found}, not {status}")
 
 
 def broken(name, status, pattern, only, *words):
@@ -85,6 +99,12 @@ with tempfile.TemporaryDirectory() as folder:
     expect("a bad template", 2, r"\{nothing\}: only", "--emulator", "./right", "--command", "{emulator} {nothing}", "--only", "^sub$")
     expect("no jobs", 2, "--jobs and --timeout", *right, "--jobs", "0")
     expect("several jobs", 0, "pass", *right, "--only", "^and", "--jobs", "4")
+    for word, status in ((None, 0), (0, 1), (1, 2), (253, 254), (254, 255), (255, 255), (1500, 255)):
+        own_comparison(word, status)
+    subprocess.run(["cmake", "--install", BUILD, "--component", "isa-suite", "--prefix", "installed"], stdout=subprocess.DEVNULL, check=True)
+    done = subprocess.run(["installed/isa-suite/run", "--emulator", SIM, "--only", "^or$"], capture_output=True, text=True)
+    if done.returncode or "pass" not in done.stdout:
+        fail("the installed suite", done.stdout, done.stderr)
     interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     time.sleep(0.7)
     interrupted.send_signal(signal.SIGINT)

@@ -12,10 +12,10 @@ def read_special(inst, constants):
         raise ValueError("a special register has no test: add it to tests/isa/suite/system.py")
     program = Program(inst.mnemonic, inst.mnemonic, tms, tps)
     program.begin()
-    threads, row = tms * tps, 64
+    threads, row = tms * tps, 128
     first = program.reserve(threads * row)
     thread = constants["TRAX_SR_THREAD"]
-    program.emit(inst.text("r29", i=thread), "slli r28, r29, 8")
+    program.emit(inst.text("r29", i=thread), "slli r28, r29, 9")
     program.address("r27", f"begin_signature+{4 * first}")
     program.emit("add r27, r27, r28")
     at = 0
@@ -45,13 +45,20 @@ def read_special(inst, constants):
         keep("r6")
         program.case("cycle counters", 2)
     program.case("every special register", 2)
+    for number in range(1, 30):
+        if number != 27:
+            program.constant(f"r{number}", 0x01010101 * number)
+    program.emit(inst.text("r9", i=constants["TRAX_SR_THREADS"]))
+    for number in range(30):
+        if number != 27:  # an address that only this thread has
+            keep(f"r{number}")
+    program.case("bystanders")
     # The last thread to come here compares.
     program.address("r4", "arrived")
     program.emit("ainc r5, 0(r4)", f"addi r6, r0, {threads - 1}", "beq r5, r6, Llast", "trap r0, exit")
     program.place("Llast")
     program.sections += ['  .section .counter, "aw", @progbits', "arrived: .word 0"]
     program.end()
-    program.case("bystanders")
     return [program]
 
 
