@@ -67,7 +67,7 @@ def branch_registers(program, inst):
     program.fill(lambda n: n * 0x01000193 & 0xFFFFFFFF)
     for operand in "ab":
         for number in range(32):
-            for value in (1, 0x80000000):
+            for value in (1, 0x80000000, 0x40000000):  # less, greater, equal
                 other = source.choice([n for n in range(8, 30) if n != number])
                 ra, rb = (number, other) if operand == "a" else (other, number)
                 branch_to(program, inst, value, 0x40000000, False, f"every r{operand}", f"r{ra}", f"r{rb}")
@@ -220,6 +220,12 @@ def jump_indirect(inst, row):
         program.place(target)
         outcome(program, f"every r{operand}")
     jump_to(program, jump("r0", "r4"), "r0", "rd is r0")
+    target = program.label()
+    program.address("r4", target)
+    program.emit(inst.text("r0", "r4"))
+    program.place(target)
+    program.emit("addi r6, r0, 0")  # at once
+    outcome(program, "rd is r0")
     program.case("every rd")
     for _ in range(3):
         jump_to(program, jump("r4", "r4"), "r4", "rd = ra")

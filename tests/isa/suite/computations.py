@@ -1,5 +1,6 @@
 """Instructions that compute a register from registers and an immediate: formats R, R1, I, SH, and U's lui."""
 
+import itertools
 import random
 
 from program import Program
@@ -82,10 +83,10 @@ def aliases(program, inst, row):
     if two:
         zeros |= {"rb is r0": ("r6", "r4", "r0"), "ra = rb is r0": ("r6", "r0", "r0"), "all are r0": ("r0", "r0", "r0")}
     for condition, (d, a, b) in (patterns | zeros).items():
-        for _ in range(12):
+        for number in range(12):
             immediate = source.choice(list(immediates_of(inst)))
-            program.constant("r4", source.choice(row.corners))
-            program.constant("r5", source.choice(row.corners))
+            program.constant("r4", source.choice(row.corners) if number % 4 != 1 else 0)
+            program.constant("r5", source.choice(row.corners) if number % 4 != 2 else 0)
             program.constant("r6", POISON)
             program.emit(inst.text(d, a, b, immediate))
             program.store(d)
@@ -95,21 +96,32 @@ def aliases(program, inst, row):
             program.case(condition)
 
 
+# Values for the first and the second operand, from two that they have otherwise: so that whichever register is read in the place of
+# the right one, one of the results differs, be it only a truth value.
+_VARIANTS = [lambda a, b: (a, b), lambda a, b: (b, b), lambda a, b: (0, b), lambda a, b: (a, 0), lambda a, b: (b - 1, b), lambda a, b: (b + 1, b)]
+
+
 def every_register(program, inst):
     """Every register as every operand, the others holding other values."""
     program.fill(lambda n: value_of(inst, n))
     for operand in inst.syntax.replace(",", ""):
         if operand not in "dab":
             continue
-        for number in range(32):
-            source = random.Random(f"{inst.name} {operand} {number}")
+        for number, variant in itertools.product(range(32), _VARIANTS if inst.format in ("R", "I") else _VARIANTS[:1]):
+            source = random.Random(f"{inst.name} {operand} {number} {_VARIANTS.index(variant)}")
             a, b, d = source.sample([n for n in range(1, 30) if n != number], 3)
             chosen = {"d": d, "a": a, "b": b} | {operand: number}
             immediate = source.choice([i for i in immediates_of(inst) if i not in (0, -1)] or [0])
+            if variant is not _VARIANTS[0]:
+                second = immediate if inst.format == "I" else value_of(inst, chosen["b"])
+                for register, value in zip("ab", variant(value_of(inst, chosen["a"]), second)):
+                    if chosen[register] and register in inst.syntax:
+                        program.constant(f"r{chosen[register]}", value)
             program.emit(inst.text(*(f"r{chosen[field]}" for field in "dab"), immediate))
             program.store(f"r{chosen['d']}")
-            if 0 < chosen["d"] < 30:
-                program.constant(f"r{chosen['d']}", value_of(inst, chosen["d"]))
+            for field in "dab":
+                if 0 < chosen[field] < 30 and field in inst.syntax and (field == "d" or variant is not _VARIANTS[0]):
+                    program.constant(f"r{chosen[field]}", value_of(inst, chosen[field]))
             program.case(f"every r{operand}")
 
 

@@ -139,6 +139,8 @@ def access_program(inst):
     if inst.flags & {"IS_STORE", "IS_ATOMIC"}:
         at("readonly_data", "readonly", "constants+4")
         at("readonly_text", "readonly", "readonly_text")
+        if size < 4:
+            at("readonly_middle", "readonly", f"constants+{4 + size}")
         if size > 1:
             at("readonly_misaligned", ("misaligned", "order of faults"), "constants+5")
     if not has_local(inst):
@@ -186,6 +188,7 @@ def trap_program(inst, constants):
     program.data += ['message: .asciz "the end"']
     abort, puts = constants["TRAX_TRAP_ABORT"], constants["TRAX_TRAP_PUTS"]
     program.entry("abort", "code abort", [inst.text(a="r4", i=abort)], [("r4", "message")])
+    program.entry("abort_odd", "code abort", [inst.text(a="r4", i=abort)], [("r4", "message+1")])
     program.entry("abort_silently", "code abort", [inst.text(a="r0", i=abort)])
     program.entry("abort_nowhere", "code abort", [inst.text(a="r4", i=abort)], [("r4", 0x80000000)])
     for name, address, condition in (("null", 0, "null"), ("null_last", NULL_END - 1, "null"), ("end", MEMORY_END, "unmapped"),

@@ -36,14 +36,16 @@ def read_special(inst, constants):
     program.emit("addi r26, r27, 0", inst.text("r27", i=constants["TRAX_SR_TP"]), "addi r4, r27, 0", "addi r27, r26, 0")
     keep("r4")
     program.case("every rd")
-    # Time never goes back: not within a register, nor in the number that both make.
+    # Time never goes back: not within a register, nor in the number that both make. Two reads are at least a cycle apart.
     for _ in range(4):
         program.emit(inst.text("r4", i=cycle_high), inst.text("r5", i=cycle), inst.text("r6", i=cycle_high), inst.text("r7", i=cycle))
         program.emit("sltu r8, r7, r5", "sltu r9, r6, r4", "slt r10, r6, r4", "or r8, r8, r9", "or r8, r8, r10")
+        program.emit("sltu r10, r5, r7")
         keep("r8")
         keep("r4")
         keep("r6")
-        program.case("cycle counters", 2)
+        keep("r10")
+        program.case("cycle counters", 3)
     program.case("every special register", 2)
     for number in range(1, 30):
         if number != 27:
