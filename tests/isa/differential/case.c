@@ -22,11 +22,6 @@ void differential_case_of_seed(struct differential_case *c, unsigned seed) {
   c->data_seed = random_state;
 }
 
-static void fill_data(const struct differential_case *c, uint8_t *bytes) {
-  random_state = c->data_seed;
-  program_data(bytes);
-}
-
 /* --- runs --- */
 
 struct model_run {
@@ -37,7 +32,8 @@ struct model_run {
   size_t output_bytes;
 };
 
-static void run_model(const struct model_isa *isa, const struct differential_case *c, struct model_run *run) {
+static void run_model(const struct model_isa *isa, const struct differential_case *c, const uint8_t *initial,
+                      struct model_run *run) {
   const uint64_t size = (uint64_t)c->config.memory.size_mib << 20;
   uint8_t *text, *data;
   run->machine = model_create(isa, c->config.chip.tms, c->config.chip.tps_per_tm, size, &run->error);
@@ -48,7 +44,7 @@ static void run_model(const struct model_isa *isa, const struct differential_cas
   assert_true(model_map(run->machine, DATA, DATA_BYTES, MODEL_READ | MODEL_WRITE, &data, &run->error));
   assert_true(model_map(run->machine, RODATA, 64, MODEL_READ, NULL, &run->error));
   memcpy(text, c->words, 4 * c->count);
-  fill_data(c, data);
+  memcpy(data, initial, DATA_BYTES);
   model_set_entry(run->machine, TEXT);
   run->machine->precision = c->config.special.precision_bits;
   run->machine->output = output;
@@ -56,11 +52,11 @@ static void run_model(const struct model_isa *isa, const struct differential_cas
   fclose(output);
 }
 
-static void run_engine(const struct differential_case *c, trax_engine engine, struct run *run) {
+static void run_engine(const struct differential_case *c, const uint8_t *initial, trax_engine engine, struct run *run) {
   *run = (struct run){.bench = bench_begin(&c->config, c->words, c->count)};
   FILE *output = open_memstream(&run->output, &run->output_bytes);
   assert_non_null(output);
-  fill_data(c, run->bench.machine->space.bytes + DATA);
+  memcpy(run->bench.machine->space.bytes + DATA, initial, DATA_BYTES);
   /* Far more cycles than the model's instructions take at any latency. */
   const trax_run_options options = {
       .output = output, .engine = engine, .max_cycles = 20000 * (uint64_t)MOST_INSTRUCTIONS, .host_threads = 1};
@@ -117,16 +113,19 @@ void differential_compare(const struct model_isa *isa, const struct differential
     const char *name;
   } engines[] = {
       {TRAX_ENGINE_REFERENCE, "reference"}, {TRAX_ENGINE_FAST, "fast"}, {TRAX_ENGINE_FUNCTIONAL, "functional"}};
+  static uint8_t initial[DATA_BYTES];
   struct model_run model = {0};
   memset(outcome, 0, sizeof *outcome);
-  run_model(isa, c, &model);
+  random_state = c->data_seed;
+  program_data(initial);
+  run_model(isa, c, initial, &model);
   outcome->unended = model.end == MODEL_LIMIT;
   outcome->fault = model.machine->fault.kind;
   outcome->instructions = model.machine->instructions;
   for (unsigned i = 0; i < sizeof engines / sizeof *engines && !outcome->unended && !*outcome->difference.text; i++) {
     struct run run;
     struct difference difference;
-    run_engine(c, engines[i].engine, &run);
+    run_engine(c, initial, engines[i].engine, &run);
     if (different_end(&difference, &run, &model))
       differs(&outcome->difference, "engine %s and the model: %.400s", engines[i].name, difference.text);
     if (i == 0)
