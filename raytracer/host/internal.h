@@ -54,6 +54,11 @@ static inline float scene_clamp_colour(float value) {
   return value > 0 ? (value < 1 ? value : 1) : 0;
 }
 
+/* --- forest.c --- */
+
+/* A mesh of 174,117 triangles; other seeds give other forests. */
+trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_error *error);
+
 /* --- polygon.c --- */
 
 /* Memory that is used again from one polygon to the next; zeroed at first. */

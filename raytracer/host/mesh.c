@@ -22,11 +22,36 @@ void trax_mesh_release(struct trax_mesh *mesh) {
   *mesh = (struct trax_mesh){0};
 }
 
+static const char generated_prefix[] = "generate:";
+
 const float trax_default_diffuse[3] = {0.75f, 0.75f, 0.75f};
+
+/* What is made, not read: "forest" or "forest:SEED". */
+static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                            trax_error *error) {
+  static const char name[] = "forest";
+  const char *what = path + sizeof generated_prefix - 1, *rest = what + sizeof name - 1;
+  uint64_t seed = 0;
+  bool good = strncmp(what, name, sizeof name - 1) == 0 && (*rest == '\0' || *rest == ':');
+  if (good && *rest == ':') {
+    char *end;
+    errno = 0;
+    seed = strtoull(rest + 1, &end, 10);
+    good = rest[1] >= '0' && rest[1] <= '9' && *end == '\0' && errno == 0;
+  }
+  if (!good)
+    return scene_fail(error, "%s: expected %sforest, or %sforest:SEED with a whole number below 2^64", path,
+                      generated_prefix, generated_prefix);
+  trax_status result = scene_generate_forest(mesh, seed, error);
+  report->source_triangles = mesh->triangle_count;
+  return result;
+}
 
 trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                             trax_error *error) {
   *mesh = (struct trax_mesh){0};
+  if (strncmp(path, generated_prefix, sizeof generated_prefix - 1) == 0)
+    return generate(mesh, path, report, error);
   char *name = scene_unpacked_name(path);
   if (!name)
     return scene_out_of_memory(error, path);

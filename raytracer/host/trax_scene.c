@@ -17,7 +17,7 @@ static const char usage[] =
     "       trax-scene --check SCENE [--stats] [--stats-json FILE]\n"
     "Imports meshes (PLY, OBJ with MTL, glTF, GLB and what else assimp reads, also as .xz or .gz), merges them, "
     "builds\n"
-    "the BVH and writes a scene file.\n"
+    "the BVH and writes a scene file. The mesh generate:forest[:SEED] is made by the program itself.\n"
     "  -o, --output SCENE           where to write; an existing file is replaced at once or stays as it is\n"
     "      --check SCENE            no import: check a scene file completely\n"
     "      --stats                  print what was read and built\n"

@@ -12,7 +12,7 @@ static const char usage[] =
     "Usage: trax-render [options] MESH [MESH ...] -o PICTURE.png\n"
     "\n"
     "Renders meshes, or one scene file (.trax), on the emulated ray-tracing accelerator: a ray from the eye through\n"
-    "every pixel, and a shadow ray towards one point light.\n"
+    "every pixel, and a shadow ray towards one point light. generate:forest[:SEED] is a mesh made on the spot.\n"
     "\n"
     "  -o, --output FILE.png   the picture\n"
     "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"

@@ -504,13 +504,43 @@ static void test_interrupt(void **state) {
   assert_null(mesh.vertices);
 }
 
+/* As many triangles as the fairy forest, none degenerate, and the same to the bit on every host and by every compiler.
+ */
+static void test_forest(void **state) {
+  (void)state;
+  const struct {
+    const char *path;
+    uint32_t vertices; /* CRC-32 of their coordinates */
+  } forests[] = {{"generate:forest", 0x8B33E0BC}, {"generate:forest:18446744073709551615", 0x9EAB12FB}};
+  for (size_t i = 0; i < sizeof forests / sizeof forests[0]; i++) {
+    struct trax_mesh mesh;
+    struct trax_import_report report;
+    import_good(&mesh, forests[i].path, &report);
+    assert_int_equal(mesh.triangle_count, 174117);
+    assert_int_equal(report.source_triangles, 174117);
+    assert_int_equal(report.degenerate, 0);
+    uint32_t vertices = (uint32_t)crc32(0, (const void *)mesh.vertices, mesh.vertex_count * sizeof *mesh.vertices);
+    assert_int_equal(vertices, forests[i].vertices);
+    trax_mesh_release(&mesh);
+  }
+  static const char *const wrong[] = {
+      "generate:",         "generate:wood",      "generate:forests",   "generate:forest:",
+      "generate:forest:x", "generate:forest:1x", "generate:forest:-1", "generate:forest:18446744073709551616"};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    struct trax_mesh mesh;
+    trax_error error;
+    assert_int_equal(trax_mesh_import(&mesh, &wrong[i], 1, NULL, NULL, &error), TRAX_ERROR);
+    assert_contains(error.message, "expected generate:forest");
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_text_formats),     cmocka_unit_test(test_binary_ply), cmocka_unit_test(test_ply_types),
-      cmocka_unit_test(test_compressed),       cmocka_unit_test(test_gltf),       cmocka_unit_test(test_obj_syntax),
-      cmocka_unit_test(test_concave_polygons), cmocka_unit_test(test_materials),  cmocka_unit_test(test_merge),
-      cmocka_unit_test(test_degenerate),       cmocka_unit_test(test_nonfinite),  cmocka_unit_test(test_bad_meshes),
-      cmocka_unit_test(test_bad_files),        cmocka_unit_test(test_interrupt),
+      cmocka_unit_test(test_forest),     cmocka_unit_test(test_text_formats),     cmocka_unit_test(test_binary_ply),
+      cmocka_unit_test(test_ply_types),  cmocka_unit_test(test_compressed),       cmocka_unit_test(test_gltf),
+      cmocka_unit_test(test_obj_syntax), cmocka_unit_test(test_concave_polygons), cmocka_unit_test(test_materials),
+      cmocka_unit_test(test_merge),      cmocka_unit_test(test_degenerate),       cmocka_unit_test(test_nonfinite),
+      cmocka_unit_test(test_bad_meshes), cmocka_unit_test(test_bad_files),        cmocka_unit_test(test_interrupt),
   };
   return cmocka_run_group_tests_name("scene import", tests, NULL, NULL);
 }

@@ -76,10 +76,10 @@ struct trax_import_report {
 extern const float trax_default_diffuse[3];
 
 /* Reads and merges the files: anything assimp knows (PLY, OBJ with MTL, glTF and GLB among them), plain or compressed
-   as .xz or .gz. Node transforms are applied and polygons cut into triangles, in the order of the files. The importer
-   runs in a child process, so that a file on which it crashes is an error like any other. report may be NULL. Errors:
-   what cannot be read or is no mesh, indices out of range, vertices that are not finite (unless dropped), overrides
-   that match no material. A mesh without triangles is no error here. */
+   as .xz or .gz; or "generate:forest", see docs/raytracer.md. Node transforms are applied and polygons cut into
+   triangles, in the order of the files. The importer runs in a child process, so that a file on which it crashes is an
+   error like any other. report may be NULL. Errors: what cannot be read or is no mesh, indices out of range, vertices
+   that are not finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
                              const struct trax_import_options *options, struct trax_import_report *report,
                              trax_error *error);
