@@ -20,7 +20,7 @@ packages=(
   llvm-19 llvm-19-dev llvm-19-tools libclang-19-dev libclang-common-19-dev clang-19 libc++-19-dev
   libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev        # linker, emulator
   libassimp-dev libembree-dev libpng-dev liblzma-dev zlib1g-dev          # ray tracer's host side
-  libcmocka-dev libmpfr-dev gdb gdb-multiarch                                          # tests
+  libcmocka-dev libgmp-dev libmpfr-dev gdb gdb-multiarch                                          # tests
   newlib-source                                                          # the mathematical functions of binary64
   csmith libcsmith-dev lib32gcc-12-dev libc6-dev-i386                    # tests: random programs, and a host of 32 bits
   glmark2-data                                                           # the demo's bunny

@@ -4,8 +4,8 @@
 
 #include "trax/scene.h"
 
-/* Larger coordinates make the products of a ray's arithmetic overflow binary32: treated as infinite. */
-#define SCENE_MAX_COORDINATE 1e18f
+/* Larger coordinates are treated as infinite: Embree takes none beyond 1.844e18. */
+#define SCENE_MAX_COORDINATE 0x1.8p60f
 
 /* Writes the message and returns TRAX_ERROR. error may be NULL. */
 trax_status scene_fail(trax_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -397,6 +397,9 @@ static void test_nonfinite(void **state) {
   assert_int_equal(report.nonfinite, 4);
   trax_mesh_release(&mesh);
   /* A vertex that no triangle has does not matter. */
+  import_good(&mesh, test_text("large.obj", "v 0 0 0\nv 1.2e18 0 0\nv 0 -1.7e18 0\nf 1 2 3\n"), NULL); /* 2^60 fits */
+  assert_int_equal(mesh.triangle_count, 1);
+  trax_mesh_release(&mesh);
   import_good(&mesh, test_text("unused.obj", "v nan 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n"), NULL);
   trax_mesh_release(&mesh);
 }
