@@ -86,15 +86,18 @@ static trax_status compare_with(const struct trax_picture *expected, const struc
 }
 
 static trax_status compare_machine(const struct trax_picture *expected, const struct trax_frame *frame,
-                                   const char *program, unsigned number, trax_error *error) {
+                                   const char *path, unsigned number, trax_error *error) {
   struct trax_picture picture = {0};
   char what[64];
   trax_machine *machine = make_machine(machines[number].preset, machines[number].settings, error);
   if (!machine)
     return TRAX_ERROR;
-  const struct trax_simulated_options options = {.program = program,
-                                                 .run = {.max_cycles = MAX_CYCLES, .host_threads = 1}};
-  trax_status status = trax_render_simulated(&picture, frame, machine, &options, error);
+  struct trax_program program = {.specialised = false};
+  snprintf(program.path, sizeof program.path, "%s", path);
+  const struct trax_simulated_options options = {.run = {.max_cycles = MAX_CYCLES, .host_threads = 1}};
+  trax_status status = trax_simulated_load(machine, frame, &program, error);
+  if (status == TRAX_OK)
+    status = trax_simulated_run(&picture, frame, machine, &options, error);
   trax_machine_destroy(machine);
   snprintf(what, sizeof what, "machine %u", number);
   if (status == TRAX_OK)

@@ -105,8 +105,8 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
 
   prepared->params.shadows = picture || (extreme->flags & CASE_SHADOWS);
   memcpy(prepared->params.light, view.light, sizeof view.light);
-  struct trax_frame_options options = {picture ? setup->width : 1, picture ? setup->height : 1, TRAX_DEFAULT_AMBIENT,
-                                       TRAX_DEFAULT_BACKGROUND};
+  struct trax_frame_options options = {
+      picture ? setup->width : 1, picture ? setup->height : 1, TRAX_DEFAULT_AMBIENT, TRAX_DEFAULT_BACKGROUND, 1, true};
   for (int corner = 0; corner < 8; corner++) {
     for (int axis = 0; axis < 3; axis++)
       view.eye[axis] = ldexpf(corner >> axis & 1 ? high[axis] : low[axis], exponent);
@@ -120,7 +120,8 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
     setup->ray_count = setup->width * setup->height;
     setup->rays = allocate(setup->ray_count * sizeof *setup->rays);
     for (uint32_t i = 0; i < setup->ray_count; i++) {
-      struct vector way = camera_direction(prepared->frame.params, i % setup->width, i / setup->width);
+      struct vector way =
+          camera_direction(prepared->frame.params, pixel_at(i % setup->width, i / setup->width), PIXEL_MIDDLE);
       memcpy(setup->rays[i].origin, setup->view.eye, sizeof setup->view.eye);
       memcpy(setup->rays[i].direction, (float[]){way.x, way.y, way.z}, 3 * sizeof(float));
     }
