@@ -1,0 +1,3 @@
+"""Mutants that no signature can show, by name (a pattern of the shell), and why."""
+
+EQUIVALENT = []
