@@ -86,11 +86,14 @@ def run(program, tests, memory_mib, numbers, options):
     process = subprocess.Popen([program, tests, str(memory_mib), str(options.jobs)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     process.stdin.write("".join(f"{number}\n" for number in numbers))
     process.stdin.close()
-    for line in process.stdout:
-        number, image = line.rstrip("\n").split("\t")
-        noticed[int(number)] = image
-        progress.step()
-    progress.end()
+    try:
+        for line in process.stdout:
+            number, image = line.rstrip("\n").split("\t")
+            noticed[int(number)] = image
+            progress.step()
+    finally:
+        process.terminate() if process.poll() is None and len(noticed) < len(numbers) else None
+        progress.end()
     if process.wait() or len(noticed) != len(numbers):
         sys.exit(f"{program}: status {process.returncode}, {len(noticed)} of {len(numbers)} mutants were tried")
     return noticed

@@ -16,7 +16,6 @@ typedef enum kind {
   FREE_FUNCTION, /* function `bit` of opcode `op` is a nop */
   FREE_OPCODE,   /* opcode `op` is a nop */
   UNSIGNED_IMM,  /* the immediate is not sign extended */
-  SIGNED_IMM,    /* the immediate is sign extended */
   UNSCALED_IMM,  /* the immediate counts bytes */
   LIMIT,         /* a number from the limit on is taken modulo 8, */
   LIMIT_BYTE,    /* of 256 and more modulo 256 */
@@ -82,8 +81,6 @@ static void add_fields(trax_op op, const trax_op_info *info) {
     add((decoding){UNSIGNED_IMM, op, 0, immediate});
   if (strchr(info->syntax, 'p'))
     add((decoding){UNSCALED_IMM, op, 0, immediate});
-  if (info->format == TRAX_FORMAT_SH)
-    add((decoding){SIGNED_IMM, op, 0, immediate});
   if (has_limit(op)) {
     add((decoding){LIMIT, op, 0, immediate});
     add((decoding){LIMIT_BYTE, op, 0, immediate});
@@ -134,6 +131,7 @@ void trax_decoding_mutant(unsigned index, struct trax_mutant_text *text) {
   const trax_op_info *info = free_word ? NULL : &trax_op_table[mutant->op];
   snprintf(text->mnemonic, sizeof text->mnemonic, "%s", free_word ? "" : info->mnemonic);
   char *const what = text->what;
+  char *const image = text->image;
   const size_t size = sizeof text->what;
   switch (mutant->kind) {
   case FIELD_BIT:
@@ -142,18 +140,18 @@ void trax_decoding_mutant(unsigned index, struct trax_mutant_text *text) {
     break;
   case RESERVED_BIT:
     snprintf(what, size, "bit %u of the word is not looked at", mutant->bit);
+    snprintf(image, sizeof text->image, "%s-illegal-bit%u", info->mnemonic, mutant->bit);
     break;
   case FREE_FUNCTION:
     snprintf(what, size, "opcode %u, function %u is a nop", mutant->op, mutant->bit);
+    snprintf(image, sizeof text->image, "unused-functions-%u-function%u", mutant->op, mutant->bit);
     break;
   case FREE_OPCODE:
     snprintf(what, size, "opcode %u is a nop", mutant->op);
+    snprintf(image, sizeof text->image, "unused-opcodes-opcode%u_zeros", mutant->op);
     break;
   case UNSIGNED_IMM:
     snprintf(what, size, "the immediate is zero extended");
-    break;
-  case SIGNED_IMM:
-    snprintf(what, size, "the immediate is sign extended");
     break;
   case UNSCALED_IMM:
     snprintf(what, size, "the offset counts bytes");
@@ -183,9 +181,6 @@ static trax_inst decode_wrongly(const decoding *mutant, uint32_t word, trax_inst
     return right;
   case UNSCALED_IMM:
     right.imm /= 4;
-    return right;
-  case SIGNED_IMM:
-    right.imm = word & (field ^ field >> 1) ? right.imm - (int32_t)field - 1 : right.imm;
     return right;
   default:
     return right;

@@ -16,6 +16,7 @@ extern unsigned trax_mutant; /* the one in force */
 struct trax_mutant_text {
   char mnemonic[16]; /* "" if no single instruction's */
   char what[96];
+  char image[48]; /* the name of one that is likely to notice; "" if none in particular */
 };
 
 /* How many there are of each sort, and the texts of one: `index` counts from 0 within the sort. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 static const struct trax_mutant_text texts[] = {
-#define STATEMENT_MUTANT(MNEMONIC, WHAT) {MNEMONIC, WHAT},
+#define STATEMENT_MUTANT(MNEMONIC, WHAT) {MNEMONIC, WHAT, ""},
 #include "statements.inc"
 #undef STATEMENT_MUTANT
 };
