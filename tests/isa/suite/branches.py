@@ -147,13 +147,8 @@ def branching(inst, row):
 # --- jumps
 
 
-def link(program, register):
-    """A link register's value is an address, and the same in every implementation."""
-    program.store(register)
-
-
 def jump_to(program, line, d, condition):
-    """Forward and backward; stores where it led and the link. line(label): assembly."""
+    """Forward and backward; stores the link, an address and the same in every implementation, and where it led. line(label): assembly."""
     for backward in (False, True):
         target, done, start = program.label(), program.label(), program.label()
         program.emit("addi r6, r0, 2")
@@ -168,8 +163,7 @@ def jump_to(program, line, d, condition):
             program.place(target)
             program.emit("addi r6, r6, 1")
         program.place(done)
-        link(program, d)
-        program.emit("addi r6, r6, 0")
+        program.store(d)
         outcome(program, condition)
         program.case("backward" if backward else "forward")
 
@@ -185,11 +179,11 @@ def jump_and_link(inst, row):
     program.place(target)
     outcome(program, "every rd")
     program.emit(inst.text("r0", p="4"), "addi r6, r0, 0")
-    link(program, "r0")
+    program.store("r0")
     outcome(program, "rd is r0")
     near(program, lambda label: inst.text("r0", p=label), "distance")
     far(program, lambda label: inst.text("r9", p=label), 0x600000, 1 << 22, "distance")
-    link(program, "r9")
+    program.store("r9")
     program.reach(64)
     program.fill(lambda n: 0x01010101 * n)
     program.emit(inst.text("r12", p="4"))

@@ -51,8 +51,8 @@ class Builder:
     def reference(self, name, program):
         """The model's signature of an image, as lines; with the status at its end."""
         path = os.path.join(self.folder, name)
-        done = run(self.model, "--memory-mib", str(MEMORY_MIB), "--tms", str(program.tms), "--tps", str(program.tps), "--signature", path + ".signature", path + ".elf",
-                   statuses=range(256))
+        done = run(self.model, "--memory-mib", str(MEMORY_MIB), "--tms", str(program.tms), "--tps", str(program.tps), "--signature",
+                   path + ".signature", path + ".elf", statuses=range(256))
         if not os.path.exists(path + ".signature"):
             raise BuildError(f"{name}: the model has made no signature\n{done.stderr.decode(errors='replace')[:2000]}")
         with open(path + ".signature") as file:
@@ -83,7 +83,9 @@ class Builder:
                 raise BuildError(f"{name}: not a fault of the kind {wanted} in the model: {lines[-1]}")
             if lines[0] != "0000600d" or "0000600d" in lines[1:]:
                 raise BuildError(f"{name}: in the model, what is before the end has not happened, or what is behind it has")
-            tests.append(self.test(name, program, conditions, program.statuses.get(label), b""))
+            if done.returncode != (program.statuses[label] if label in program.statuses else 134 if wanted == "abort" else 1):
+                raise BuildError(f"{name}: in the model it ends with status {done.returncode}")
+            tests.append(self.test(name, program, conditions, done.returncode, b""))
         return tests
 
     def single(self, program, image):

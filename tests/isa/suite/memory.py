@@ -2,7 +2,7 @@
 
 import random
 
-from computations import IMMEDIATES, POISON
+from computations import IMMEDIATES
 from operands import INTEGERS
 from program import UNWRITTEN, Program
 
