@@ -15,6 +15,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 enum { METHODS = 3, EMULATED_RAYS = 192, CHUNK = 1 << 18, NATIVE_THREADS = 2 };
 #define JUDGED_PAIRS 2e6 /* rays times triangles */
@@ -257,6 +259,24 @@ static void judge(struct row rows[METHODS], const struct prepared *prepared,
     rows[m].tally = tallies[m];
 }
 
+/* On a terminal. */
+static void show_progress(const char *name, uint64_t done, uint64_t rays) {
+  static time_t begun;
+  if (!isatty(STDERR_FILENO))
+    return;
+  if (done == 0)
+    begun = time(NULL);
+  fprintf(stderr, "\r\33[K%s: %llu of %llu rays", name, (unsigned long long)done, (unsigned long long)rays);
+  if (done > 0)
+    fprintf(stderr, ", %.0f s left", difftime(time(NULL), begun) * (double)(rays - done) / (double)done);
+  fflush(stderr);
+}
+
+static void clear_progress(void) {
+  if (isatty(STDERR_FILENO))
+    fputs("\r\33[K", stderr);
+}
+
 static void run_case(struct row rows[METHODS], const struct extreme_case *extreme, uint64_t rays,
                      const char *directory) {
   memset(rows, 0, METHODS * sizeof *rows);
@@ -264,6 +284,7 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
     rays *= 100;
   uint32_t seed = 1;
   for (uint64_t done = 0; done < rays; done += CHUNK, seed++) {
+    show_progress(extreme->name, done, rays);
     struct prepared prepared;
     struct query_answer *answers[METHODS];
     prepare(&prepared, extreme, (uint32_t)(rays - done < CHUNK ? rays - done : CHUNK), seed);
@@ -357,6 +378,16 @@ static unsigned check_row(const struct extreme_case *extreme, const struct row *
   return failures;
 }
 
+static uint64_t parse_rays(const char *text) {
+  char *end;
+  unsigned long long rays = strtoull(text, &end, 10);
+  if (*text < '0' || *text > '9' || *end || rays == 0 || rays > 1000000000) {
+    fprintf(stderr, "render-extreme: error: --rays %s: expected 1 to 1000000000\n", text);
+    exit(1);
+  }
+  return rays;
+}
+
 int main(int argc, char **argv) {
   static const struct option names[] = {{"program-directory", required_argument, NULL, 'p'},
                                         {"case", required_argument, NULL, 'c'},
@@ -372,7 +403,7 @@ int main(int argc, char **argv) {
     else if (option == 'c')
       only = optarg;
     else if (option == 'r')
-      rays = strtoull(optarg, NULL, 10);
+      rays = parse_rays(optarg);
     else if (option == 'o')
       csv_path = optarg;
     else
@@ -395,6 +426,7 @@ int main(int argc, char **argv) {
       continue;
     struct row rows[METHODS];
     run_case(rows, &extreme_cases[i], rays, directory);
+    clear_progress();
     print_row(&extreme_cases[i], rows);
     if (csv)
       write_csv(csv, &extreme_cases[i], rows);
