@@ -13,6 +13,7 @@
 
 #include <argp.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -33,6 +34,13 @@ struct tally {
   unsigned cases[PROGRAM_KINDS], faults[MODEL_FAULT_ABORT + 1], unended, different;
   uint64_t instructions, executed[TRAX_OP_COUNT];
 };
+
+static volatile sig_atomic_t interrupted; /* Ctrl-C: what was done so far is reported */
+
+static void interrupt(int signal) {
+  (void)signal;
+  interrupted = 1;
+}
 
 static void run_case(const struct options *options, const struct model_isa *isa, unsigned seed, struct tally *tally) {
   struct differential_case c;
@@ -90,7 +98,7 @@ static unsigned run_jobs(const struct options *options, const struct model_isa *
       exit(1);
     }
     if (pids[job] == 0) {
-      for (unsigned i = job; i < options->count; i += options->jobs)
+      for (unsigned i = job; i < options->count && !interrupted; i += options->jobs)
         run_case(options, isa, options->seed + i, &tallies[job]);
       _exit(0);
     }
@@ -98,18 +106,28 @@ static unsigned run_jobs(const struct options *options, const struct model_isa *
   while (left) {
     int status;
     const pid_t pid = waitpid(-1, &status, isatty(STDERR_FILENO) ? WNOHANG : 0);
+    if (pid < 0) { /* a signal came: to the others too, unless it went to all */
+      for (unsigned job = 0; job < options->jobs; job++)
+        if (pids[job])
+          kill(pids[job], SIGINT);
+      continue;
+    }
     if (pid == 0) {
       show_progress(options, tallies, begin);
       nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
       continue;
     }
     left--;
-    for (unsigned job = 0; job < options->jobs; job++)
-      if (pids[job] == pid && status != 0) {
-        printf("seed %u: the job ended with %s %d\n", tallies[job].seed, WIFSIGNALED(status) ? "signal" : "status",
-               WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
-        lost++;
-      }
+    for (unsigned job = 0; job < options->jobs; job++) {
+      if (pids[job] != pid)
+        continue;
+      pids[job] = 0;
+      if (status == 0)
+        continue;
+      printf("seed %u: the job ended with %s %d\n", tallies[job].seed, WIFSIGNALED(status) ? "signal" : "status",
+             WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
+      lost++;
+    }
   }
   if (isatty(STDERR_FILENO))
     fprintf(stderr, "\n");
@@ -174,12 +192,15 @@ static int run_all(const struct options *options) {
     perror("isa-differential");
     return 1;
   }
+  const struct sigaction on_interrupt = {.sa_handler = interrupt};
+  sigaction(SIGINT, &on_interrupt, NULL);
+  sigaction(SIGTERM, &on_interrupt, NULL);
   const unsigned lost = run_jobs(options, isa, tallies);
   const struct tally sum = sum_of(tallies, options->jobs);
-  const bool all = print_sum(&sum) || options->count < 100; /* so few need not have every instruction */
+  const bool all = print_sum(&sum) || options->count < 100 || interrupted; /* so few need not have every instruction */
   munmap(tallies, MOST_JOBS * sizeof *tallies);
   model_isa_free(isa);
-  return lost || sum.different || !all;
+  return lost || sum.different || !all ? 1 : interrupted ? 130 : 0;
 }
 
 static int write_all(const struct options *options) {

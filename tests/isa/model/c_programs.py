@@ -41,7 +41,7 @@ def machine_of(flags):
             result += ["--tms", chip[1], "--tps", chip[2]]
         elif option == "--set" and key in known:
             result += [known[key], number]
-        else:
+        elif option != "--max-cycles":
             return None
     return result
 
