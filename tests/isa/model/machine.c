@@ -84,21 +84,6 @@ static enum model_fault_kind fetch(const struct model_machine *machine, uint32_t
   return MODEL_FAULT_FETCH;
 }
 
-static void read_operands(struct model_execution *execution, uint32_t word) {
-  const struct model_instruction *instruction = execution->instruction;
-  for (unsigned i = 0; i < MODEL_FIELDS; i++) {
-    const unsigned width = instruction->field[i].width;
-    if (width)
-      execution->operand[i] = word >> instruction->field[i].low & ((1u << width) - 1);
-  }
-  uint32_t *imm = &execution->operand[MODEL_FIELD_IMM];
-  const unsigned width = instruction->field[MODEL_FIELD_IMM].width;
-  if (instruction->imm_signed && *imm >> (width - 1))
-    *imm -= 1u << width;
-  if (width)
-    *imm *= instruction->imm_scale;
-}
-
 static void fault(struct model_machine *machine, struct model_thread *thread, enum model_fault_kind kind,
                   uint32_t address) {
   thread->ended = true;
@@ -120,7 +105,7 @@ static bool step(struct model_machine *machine, struct model_thread *thread, str
     fault(machine, thread, MODEL_FAULT_ILLEGAL, 0);
     return true;
   }
-  read_operands(&execution, word);
+  model_operands(execution.instruction, word, execution.operand);
   model_execute(&execution, execution.instruction->semantics);
   machine->instructions++;
   if (execution.undefined)

@@ -296,3 +296,13 @@ const struct model_instruction *model_decode(const struct model_isa *isa, uint32
   }
   return NULL;
 }
+
+void model_operands(const struct model_instruction *instruction, uint32_t word, uint32_t operand[MODEL_FIELDS]) {
+  const unsigned width = instruction->field[MODEL_FIELD_IMM].width;
+  for (unsigned i = 0; i < MODEL_FIELDS; i++)
+    operand[i] = word >> instruction->field[i].low & (uint32_t)((UINT64_C(1) << instruction->field[i].width) - 1);
+  uint32_t *imm = &operand[MODEL_FIELD_IMM];
+  if (instruction->imm_signed && width && *imm >> (width - 1))
+    *imm -= (uint32_t)(UINT64_C(1) << width);
+  *imm *= instruction->imm_scale;
+}

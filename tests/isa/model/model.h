@@ -48,6 +48,8 @@ struct model_isa *model_isa_read(const char *path, struct model_error *error);
 void model_isa_free(struct model_isa *isa);
 /* NULL: the word is illegal. */
 const struct model_instruction *model_decode(const struct model_isa *isa, uint32_t word);
+/* Register numbers, and IMM's value; 0 for what the instruction lacks. */
+void model_operands(const struct model_instruction *instruction, uint32_t word, uint32_t operand[MODEL_FIELDS]);
 
 /* --- the machine: machine.c, memory.c --- */
 
