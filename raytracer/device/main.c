@@ -52,11 +52,14 @@ next_sample:
     struct light way;
     struct vector eye = {run->eye[0], run->eye[1], run->eye[2]};
     find_surface(&surface, &hit, eye);
+    struct vector flat = surface.normal;
+    if (NEEDS(run, SMOOTH))
+      smooth_surface(&surface, &hit, run->normals_distance);
     aim_at_light(&way, &surface, run->light);
     uint32_t material = NEEDS(run, MATERIALS) ? triangle_material(hit.triangle) : 0;
     colour = RUN_PALETTE(run)[material].colour;
     light = ambient_light(run, &surface);
-    if (way.cosine_bits <= 0)
+    if (way.cosine_bits <= 0 || (NEEDS(run, SMOOTH) && float_bits(dot(flat, way.direction)) <= 0))
       break;
     lit = run->light_strength * bits_float(way.cosine_bits);
     if (!NEEDS(run, SHADOWS)) {

@@ -71,6 +71,20 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   surface->inverse_length = inverse_length;
 }
 
+/* Replaces the normal by that of the smooth surface, on the same side of the triangle. */
+static inline void smooth_surface(struct surface *surface, const struct hit *hit, uint32_t normals_distance) {
+  const float *n0 = (const float *)(const void *)(hit->triangle + normals_distance), *n1 = n0 + 3, *n2 = n0 + 6;
+  float weight1 = hit->weight1, weight2 = hit->weight2;
+  struct vector n = {n0[0] + (weight1 * (n1[0] - n0[0]) + weight2 * (n2[0] - n0[0])),
+                     n0[1] + (weight1 * (n1[1] - n0[1]) + weight2 * (n2[1] - n0[1])),
+                     n0[2] + (weight1 * (n1[2] - n0[2]) + weight2 * (n2[2] - n0[2]))};
+  int32_t side = float_bits(dot(n, surface->normal)) & SIGN_BIT;
+  n.x = bits_float(float_bits(n.x) ^ side), n.y = bits_float(float_bits(n.y) ^ side);
+  n.z = bits_float(float_bits(n.z) ^ side);
+  surface->normal = n;
+  surface->inverse_length = trax_rsqrt(bits_float(larger(float_bits(dot(n, n)), float_bits(0x1p-40f))));
+}
+
 static inline uint32_t triangle_material(const char *triangle) {
   return load_word(triangle + 36);
 }

@@ -254,6 +254,8 @@ static trax_status check_options(const struct trax_build_options *options, trax_
   if (!(options->traversal_cost >= 0 && options->intersection_cost >= 0 && isfinite(options->traversal_cost) &&
         isfinite(options->intersection_cost)))
     return scene_fail(error, "costs are positive numbers");
+  if (!(options->crease_degrees >= 0 && options->crease_degrees <= 180))
+    return scene_fail(error, "the crease is an angle up to 180 degrees, not %g", (double)options->crease_degrees);
   return TRAX_OK;
 }
 

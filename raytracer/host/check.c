@@ -27,6 +27,7 @@ static const struct {
     [TRAX_SCENE_TRIANGLES] = {"triangles", sizeof(struct trax_triangle)},
     [TRAX_SCENE_MATERIALS] = {"materials", sizeof(struct trax_material)},
     [TRAX_SCENE_SOURCE_IDS] = {"source ids", sizeof(uint32_t)},
+    [TRAX_SCENE_NORMALS] = {"normals", sizeof(struct trax_triangle_normals)},
 };
 
 static trax_status check_header(const struct checker *checker, const struct trax_scene_header *header, size_t size) {
@@ -91,6 +92,13 @@ static trax_status check_sections(const struct checker *checker, const struct tr
                       header->triangle_count);
   if (ids && ids != triangles)
     return scene_fail(checker->error, "%s: %u source ids for %u triangles", checker->name, ids, triangles);
+  const struct trax_scene_section *normals = &header->sections[TRAX_SCENE_NORMALS];
+  if (normals->count && normals->count != triangles)
+    return scene_fail(checker->error, "%s: %u normals for %u triangles", checker->name, normals->count, triangles);
+  const struct trax_scene_section *before = &header->sections[TRAX_SCENE_TRIANGLES];
+  if (normals->count && normals->offset != (before->offset + before->size + TRAX_SCENE_ALIGNMENT - 1) /
+                                               TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT)
+    return scene_fail(checker->error, "%s: the normals are not right behind the triangles", checker->name);
   return TRAX_OK;
 }
 
@@ -111,6 +119,13 @@ static trax_status check_triangles(const struct checker *checker) {
       return scene_fail(checker->error, "%s: triangle %u: material %u is out of range (%u materials)", checker->name, i,
                         triangle->material, view->material_count);
   }
+  for (uint32_t i = 0; view->normals && i < view->triangle_count; i++)
+    for (int corner = 0; corner < 3; corner++) {
+      const float *n = view->normals[i].corner[corner];
+      const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+      if (!(square > 0.99f && square < 1.01f))
+        return scene_fail(checker->error, "%s: triangle %u: a normal is not of length 1", checker->name, i);
+    }
   for (uint32_t i = 0; i < view->material_count; i++)
     for (int channel = 0; channel < 3; channel++)
       if (!(view->materials[i].diffuse[channel] >= 0 && view->materials[i].diffuse[channel] <= 1))
@@ -220,6 +235,7 @@ trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t
                                      .header = header,
                                      .nodes = section_view(header, TRAX_SCENE_NODES),
                                      .triangles = section_view(header, TRAX_SCENE_TRIANGLES),
+                                     .normals = section_view(header, TRAX_SCENE_NORMALS),
                                      .materials = section_view(header, TRAX_SCENE_MATERIALS),
                                      .source_ids = section_view(header, TRAX_SCENE_SOURCE_IDS),
                                      .node_count = sections[TRAX_SCENE_NODES].count,

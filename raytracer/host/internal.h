@@ -59,6 +59,12 @@ static inline float scene_clamp_colour(float value) {
 /* A mesh of 174,117 triangles; other seeds give other forests. */
 trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_error *error);
 
+/* --- normals.c --- */
+
+/* crease_cosine: of the angle by which faces around a corner may differ and still be one surface. */
+trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
+                                 uint32_t count, double crease_cosine, trax_error *error);
+
 /* --- polygon.c --- */
 
 /* Memory that is used again from one polygon to the next; zeroed at first. */

@@ -31,6 +31,8 @@ static const char usage[] =
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
     "      --cache-lines N          order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first\n"
+    "      --smooth                 normals for smooth shading\n"
+    "      --crease DEGREES         edges sharper than this stay edges, up to 180 (default %d)\n"
     "      --no-source-ids          leave out each triangle's number in the mesh\n"
     "  -q, --quiet                  no progress and no notes\n"
     "  -h, --help                   this text\n";
@@ -203,6 +205,17 @@ static bool parse_cost(const char *option, const char *text, float *value) {
   return true;
 }
 
+static bool parse_crease(const char *text, float *degrees) {
+  char *end;
+  float number = strtof(text, &end);
+  if (end == text || *end || !(number > 0) || number > 180) {
+    complain("--crease: '%s' is not an angle above 0 and up to 180 degrees", text);
+    return false;
+  }
+  *degrees = number;
+  return true;
+}
+
 /* [NAME=]R,G,B; text is cut at the last '='. */
 static bool parse_diffuse(char *text, struct trax_material_override *override) {
   char *equals = strrchr(text, '=');
@@ -237,6 +250,8 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     traversal,
     intersection,
     cache,
+    smooth,
+    crease,
     no_ids
   };
   static const struct option options[] = {{"output", required_argument, NULL, 'o'},
@@ -252,6 +267,8 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"traversal-cost", required_argument, NULL, traversal},
                                           {"intersection-cost", required_argument, NULL, intersection},
                                           {"cache-lines", required_argument, NULL, cache},
+                                          {"smooth", no_argument, NULL, smooth},
+                                          {"crease", required_argument, NULL, crease},
                                           {"no-source-ids", no_argument, NULL, no_ids},
                                           {"quiet", no_argument, NULL, 'q'},
                                           {"help", no_argument, NULL, 'h'},
@@ -302,6 +319,12 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     case cache:
       good = parse_unsigned(options[index].name, optarg, 1, 4096, &arguments->build.cache_lines);
       break;
+    case smooth:
+      arguments->build.smooth = true;
+      break;
+    case crease:
+      good = parse_crease(optarg, &arguments->build.crease_degrees);
+      break;
     case no_ids:
       arguments->build.without_source_ids = true;
       break;
@@ -309,7 +332,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       arguments->quiet = true;
       break;
     case 'h':
-      printf(usage, TRAX_SCENE_MAX_LEAF, TRAX_SCENE_MAX_DEPTH);
+      printf(usage, TRAX_SCENE_MAX_LEAF, TRAX_SCENE_MAX_DEPTH, TRAX_DEFAULT_CREASE);
       return 0;
     default:
       good = false; /* getopt_long has said why */
@@ -322,6 +345,10 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
   arguments->mesh_count = (size_t)(argc - optind);
   if (arguments->check && (arguments->mesh_count || arguments->output)) {
     complain("--check takes neither meshes nor an output");
+    return 1;
+  }
+  if (arguments->build.crease_degrees > 0 && !arguments->build.smooth) {
+    complain("--crease without --smooth");
     return 1;
   }
   if (!arguments->check && (!arguments->mesh_count || !arguments->output)) {

@@ -10,14 +10,18 @@ static uint32_t round_up(uint32_t bytes) {
   return (bytes + TRAX_SCENE_ALIGNMENT - 1) & ~(TRAX_SCENE_ALIGNMENT - 1);
 }
 
-/* References lead to nodes and triangles, so these must stay where they are: they do if they come first, as
-   trax_scene_build has them. Of another file nothing is left out. */
+/* What features may read, in the order of trax_scene_build. References lead to nodes and triangles, and triangles are
+   at a fixed distance from their normals, so all must stay where they are: they do if they come first. Of another file
+   nothing is left out. */
+static const enum trax_scene_section_kind kept[] = {TRAX_SCENE_NODES, TRAX_SCENE_TRIANGLES, TRAX_SCENE_NORMALS};
+
 static bool in_order(const struct trax_scene_header *header) {
   uint32_t end = sizeof *header;
-  for (unsigned kind = 0; kind <= TRAX_SCENE_TRIANGLES; kind++) {
-    if (header->sections[kind].count && header->sections[kind].offset != end)
+  for (unsigned i = 0; i < sizeof kept / sizeof *kept; i++) {
+    const struct trax_scene_section *section = &header->sections[kept[i]];
+    if (section->count && section->offset != end)
       return false;
-    end += round_up(header->sections[kind].size);
+    end += round_up(section->size);
   }
   return true;
 }
@@ -35,16 +39,15 @@ trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct
     return TRAX_OK;
   }
   uint32_t end = sizeof header;
-  for (unsigned kind = 0; kind < TRAX_SCENE_SECTIONS; kind++) {
-    struct trax_scene_section *section = &header.sections[kind];
-    if (!(needed >> kind & 1) || section->count == 0) {
-      *section = (struct trax_scene_section){0};
+  memset(header.sections, 0, sizeof header.sections);
+  for (unsigned i = 0; i < sizeof kept / sizeof *kept; i++) {
+    const struct trax_scene_section *section = &frame->scene->header->sections[kept[i]];
+    if (!(needed >> kept[i] & 1) || section->count == 0)
       continue;
-    }
     const uint32_t rounded = round_up(section->size);
     memcpy(scene->bytes + end, file + section->offset, section->size);
     memset(scene->bytes + end + section->size, 0, rounded - section->size);
-    section->offset = end;
+    header.sections[kept[i]] = *section;
     end += rounded;
   }
   header.file_size = end;

@@ -196,6 +196,9 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   params->background = options->background;
   params->samples = options->samples;
   params->sample_weight = 1 / (float)options->samples;
+  const struct trax_scene_section *sections = scene->header->sections;
+  if (scene->normals)
+    params->normals_distance = sections[TRAX_SCENE_NORMALS].offset - sections[TRAX_SCENE_TRIANGLES].offset;
   params->features = features_of(options, scene);
   params->box_margin = box_margin(scene->header, view->eye);
   set_camera(params, view);

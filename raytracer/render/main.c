@@ -34,8 +34,10 @@ static trax_status import_scene(struct trax_scene *scene, const struct options *
                                 trax_error *error) {
   struct trax_import_options import = {
       .progress = show_scene_step, .progress_context = progress, .interrupt = (const volatile int *)&interrupted};
-  struct trax_build_options build = {
-      .progress = show_scene_step, .progress_context = progress, .interrupt = (const volatile int *)&interrupted};
+  struct trax_build_options build = {.progress = show_scene_step,
+                                     .progress_context = progress,
+                                     .interrupt = (const volatile int *)&interrupted,
+                                     .smooth = options->frame.smooth};
   struct trax_mesh mesh = {0};
   trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, NULL, error);
   if (status == TRAX_OK)
@@ -51,7 +53,11 @@ static trax_status load_scene(struct trax_scene *scene, const struct options *op
       if (options->mesh_count > 1)
         return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
                          options->meshes[i]);
-      return trax_scene_read(scene, options->meshes[0], error);
+      trax_status status = trax_scene_read(scene, options->meshes[0], error);
+      if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
+        status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",
+                           options->meshes[0]);
+      return status;
     }
   return import_scene(scene, options, progress, error);
 }

@@ -19,6 +19,8 @@ static const char usage[] =
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
     "                          without it the whole scene is framed\n"
     "      --samples N         rays from the eye through every pixel, 1 to 4096 (default 1)\n"
+    "      --smooth            shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
+    "                          (of a scene file: by the normals in it, made by trax-scene --smooth)\n"
     "      --no-shadows        the light shines through everything\n"
     "      --ambient X         light everywhere, 0 to 1 (default 0.12)\n"
     "      --background RRGGBB colour where there is nothing, hexadecimal (default 98a8b8)\n"
@@ -52,6 +54,7 @@ enum {
   OPT_SIZE = 256,
   OPT_VIEW,
   OPT_SAMPLES,
+  OPT_SMOOTH,
   OPT_NO_SHADOWS,
   OPT_AMBIENT,
   OPT_BACKGROUND,
@@ -78,6 +81,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"size", required_argument, NULL, OPT_SIZE},
                                              {"view", required_argument, NULL, OPT_VIEW},
                                              {"samples", required_argument, NULL, OPT_SAMPLES},
+                                             {"smooth", no_argument, NULL, OPT_SMOOTH},
                                              {"no-shadows", no_argument, NULL, OPT_NO_SHADOWS},
                                              {"ambient", required_argument, NULL, OPT_AMBIENT},
                                              {"background", required_argument, NULL, OPT_BACKGROUND},
@@ -185,6 +189,9 @@ static trax_status take_option(struct options *options, int which, const char *v
     if (!parse_number(&value, TRAX_RENDER_MAX_SAMPLES, &options->frame.samples) || *value != '\0' ||
         options->frame.samples == 0)
       return trax_fail(error, "--samples: expected a number from 1 to %u", TRAX_RENDER_MAX_SAMPLES);
+    return TRAX_OK;
+  case OPT_SMOOTH:
+    options->frame.smooth = true;
     return TRAX_OK;
   case OPT_NO_SHADOWS:
     options->frame.shadows = false;

@@ -108,10 +108,19 @@ static struct double3 trace_sample(struct reference *reference, struct pixel pix
   double back = fmin(0.5 * offset / exp2(floor(log2(greatest(sight)))), 1);
   point = plus_scaled(plus_scaled(point, offset, normal), -back, sight);
 
+  struct double3 flat = normal;
+  if (needs(params, TRAX_FEATURE_SMOOTH)) {
+    const struct trax_triangle_normals *normals = &reference->frame->scene->normals[primary.hit.primID];
+    struct double3 n0 = from(normals->corner[0]), n1 = from(normals->corner[1]), n2 = from(normals->corner[2]);
+    normal = plus_scaled(plus_scaled(n0, primary.hit.u, minus(n1, n0)), primary.hit.v, minus(n2, n0));
+    double size = sqrt(dot(normal, normal)) * (dot(normal, flat) < 0 ? -1 : 1);
+    normal = (struct double3){normal.x / size, normal.y / size, normal.z / size};
+  }
+
   struct double3 way = minus(from(params->light), point);
   double distance = sqrt(dot(way, way));
   double cosine = distance > 0 ? fmin(dot(normal, way) / distance, 1) : 0;
-  if (!(cosine > 0))
+  if (!(cosine > 0) || !(dot(flat, way) > 0))
     return shade(reference->frame, triangle->material, normal, 0);
   if (!needs(params, TRAX_FEATURE_SHADOWS))
     return shade(reference->frame, triangle->material, normal, cosine);

@@ -28,6 +28,7 @@ struct trax_frame_options {
   uint32_t background;    /* a pixel */
   uint32_t samples;       /* rays from the eye through a pixel, 1 to TRAX_RENDER_MAX_SAMPLES */
   bool shadows;           /* false: the light shines through everything */
+  bool smooth;            /* shading by the scene's normals, if it has them */
 };
 
 #define TRAX_DEFAULT_AMBIENT 0.12f

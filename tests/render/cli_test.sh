@@ -104,6 +104,7 @@ refuse 'missing.obj' "$render" missing.obj -o a.png
 cmp -s a.png kept.png || fail "a failed run changed an earlier picture"
 accept "$bin/trax-scene" "$box" -o box.trax
 accept "$render" box.trax -o b.png $native --size 32x24
+refuse 'box.trax: --smooth: the scene has no normals' "$render" box.trax -o x.png $native --smooth
 accept "$compare" a.png b.png
 accept "$render" "$box" -o tiny.png --engine native --size 1x1
 accept "$render" "$box" -o line.png --engine native --size 1x1000
@@ -113,8 +114,8 @@ accept "$render" "$box" -o b.png $native --size 32x24 --ambient 0.5
 "$render" --help | grep -q -- --compare || fail "--help"
 "$render" --version | grep -q '^trax-render [0-9]' || fail "--version"
 
-# Samples: their own picture, near the reference's of as many; shadows: brighter without.
-for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows'; do
+# Samples, light without shadows: each its own picture, near the reference's.
+for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows --smooth'; do
   # shellcheck disable=SC2086
   accept "$render" "$box" -o b.png $native --size 32x24 $options
   "$compare" -q a.png b.png && fail "$options makes no difference"

@@ -102,7 +102,16 @@ both "$source/box.obj" $view --size 40x30 --no-shadows
 grep -q '^features .* all  materials$' .out || fail "box without shadows: $(cat .out)"
 both "$source/box.obj" $view --size 20x30 --samples 3
 both "$source/box.obj" $view --size 20x30 --samples 4 --no-shadows --ambient 0 --background 102030
+both "$source/box.obj" $view --size 20x30 --smooth
+both "$source/box.obj" $view --size 20x30 --smooth --samples 2
 both triangle.obj --size 30x20
+"$bin/trax-scene" "$source/box.obj" --smooth -o smooth.trax || fail "trax-scene --smooth"
+both smooth.trax $view --size 20x30 --smooth
+grep -q '^features .* smooth$' .out || fail "smooth: $(cat .out)"
+read_scene() { sed -n 's/^bytes of scene *[0-9]* *\([0-9]*\) .*/\1/p' .out; }
+with_normals=$(read_scene)
+both smooth.trax $view --size 20x30 # the normals are in the file and nothing reads them
+[ "$(read_scene)" -lt "$with_normals" ] || fail "normals that nothing reads are written: $(cat .out)"
 both "$source/box.obj" --size 1x1 --samples 2 # more threads than pixels
 [ -r $bunny ] && both $bunny --view bunny --size 64x36
 # What the compiler folds is not what a less precise divider would compute.

@@ -146,7 +146,12 @@ int normalise(struct trax_scene *scene, struct trax_view *view) {
 
 struct trax_picture take(const struct trax_scene *scene, const struct trax_view *view, uint32_t width, uint32_t height,
                          bool reference, unsigned threads) {
-  struct trax_frame_options options = {width, height, TRAX_DEFAULT_AMBIENT, TRAX_DEFAULT_BACKGROUND, 1, true};
+  struct trax_frame_options options = {.width = width,
+                                       .height = height,
+                                       .ambient = TRAX_DEFAULT_AMBIENT,
+                                       .background = TRAX_DEFAULT_BACKGROUND,
+                                       .samples = 1,
+                                       .shadows = true};
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
   struct trax_render_run run = {0};

@@ -25,7 +25,7 @@ static void test_slots_are_pixels(void **state) {
   for (uint32_t width = 1; width <= 300; width += width < 40 ? 1 : 13)
     for (uint32_t height = 1; height <= 300; height += height < 20 ? 1 : 29) {
       struct trax_frame frame;
-      struct trax_frame_options options = {width, height, 0, 0, 1, true};
+      struct trax_frame_options options = {.width = width, .height = height, .samples = 1};
       trax_error error;
       assert_int_equal(trax_frame_init(&frame, &scene, &view, &options, &error), TRAX_OK);
       memset(seen, 0, 300 * 300);
@@ -53,7 +53,7 @@ static void test_slots_of_large_pictures(void **state) {
   build(&scene, &mesh, NULL);
   for (uint32_t width = 1; width <= TRAX_RENDER_MAX_SIDE; width++) {
     struct trax_frame frame;
-    struct trax_frame_options options = {width, TRAX_RENDER_MAX_SIDE, 0, 0, 1, true};
+    struct trax_frame_options options = {.width = width, .height = TRAX_RENDER_MAX_SIDE, .samples = 1};
     trax_error error;
     assert_int_equal(trax_frame_init(&frame, &scene, &view, &options, &error), TRAX_OK);
     const struct trax_render_params *params = frame.params;

@@ -12,7 +12,7 @@ static int make_scene(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
   mesh_soup(&mesh, 23, 0.3f, 42);
-  build_good(&good, &mesh, &(struct trax_build_options){.max_leaf = 2});
+  build_good(&good, &mesh, &(struct trax_build_options){.max_leaf = 2, .smooth = true});
   trax_mesh_release(&mesh);
   assert_true(good.node_count >= 8);
   return 0;
@@ -245,6 +245,27 @@ CHANGE(unknown_section) {
 CHANGE(other_records) {
   UNUSED, header->sections[TRAX_SCENE_NODES].record_size = 32;
 }
+static struct trax_triangle_normals *normals_of(struct trax_scene_header *header) {
+  return (struct trax_triangle_normals *)((unsigned char *)header + header->sections[TRAX_SCENE_NORMALS].offset);
+}
+CHANGE(long_normal) {
+  UNUSED, normals_of(header)[3].corner[1][0] += 1;
+}
+CHANGE(nan_normal) {
+  UNUSED, normals_of(header)[4].corner[2][1] = NAN;
+}
+CHANGE(fewer_normals) {
+  UNUSED;
+  header->sections[TRAX_SCENE_NORMALS].count--;
+  header->sections[TRAX_SCENE_NORMALS].size -= sizeof(struct trax_triangle_normals);
+}
+CHANGE(distant_normals) {
+  UNUSED, header->sections[TRAX_SCENE_NORMALS].offset += 64;
+  header->sections[TRAX_SCENE_MATERIALS] = header->sections[TRAX_SCENE_SOURCE_IDS] = (struct trax_scene_section){0};
+}
+CHANGE(relocated) {
+  UNUSED, header->base = 0x2000;
+}
 CHANGE(used_reserve) {
   UNUSED, nodes[4].reserved[1] = 1;
 }
@@ -280,6 +301,11 @@ static void test_messages(void **state) {
   expect(wrapping, "source ids: 1073741825 records do not make 4 bytes");
   expect(unknown_section, "section 5 is of an unknown kind");
   expect(other_records, "nodes: records of 32 bytes instead of 64");
+  expect(long_normal, "triangle 3: a normal is not of length 1");
+  expect(nan_normal, "triangle 4: a normal is not of length 1");
+  expect(fewer_normals, "22 normals for 23 triangles");
+  expect(distant_normals, "the normals are not right behind the triangles");
+  expect(relocated, "its references are addresses, for a device that has it at 00002000");
   expect(used_reserve, "node 4: reserved words are not zero");
   expect(used_header_reserve, "the reserved word of the header is not zero");
 }

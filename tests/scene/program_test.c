@@ -78,6 +78,10 @@ static void test_success(void **state) {
   assert_string_equal(outcome.out, "");
   RUN(&outcome, "--check", scene, "--stats");
   assert_contains(outcome.out, "bvh.leaves                        1");
+  RUN(&outcome, triangle(), "-o", scene, "--smooth", "--crease", "45");
+  assert_int_equal(exit_status(&outcome), 0);
+  RUN(&outcome, "--check", scene);
+  assert_int_equal(exit_status(&outcome), 0);
   RUN(&outcome, "--help");
   assert_int_equal(exit_status(&outcome), 0);
   assert_contains(outcome.out, "usage: trax-scene");
@@ -115,6 +119,9 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--leaf", "2x"}, "--leaf: '2x'"},
       {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
       {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
+      {{good, "-o", scene, "--crease", "30"}, "--crease without --smooth"},
+      {{good, "-o", scene, "--smooth", "--crease", "0"}, "--crease: '0' is not an angle"},
+      {{good, "-o", scene, "--smooth", "--crease", "181"}, "--crease: '181' is not an angle"},
       {{good, "-o", scene, "--diffuse", "1,2"}, "--diffuse: '1,2' is not [NAME=]R,G,B"},
       {{good, "-o", scene, "--diffuse", "a=0,0,1.5"}, "--diffuse: 'a=0,0,1.5'"},
       {{good, "-o", scene, "--diffuse", "a=0,0,1"}, "no material is named 'a'"},

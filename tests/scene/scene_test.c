@@ -242,6 +242,117 @@ static void test_determinism(void **state) {
 
 /* --- options --- */
 
+/* --- normals for smooth shading --- */
+
+static double cosine_between(const float a[3], const float b[3]) {
+  double dot = 0, squares[2] = {0, 0};
+  for (int axis = 0; axis < 3; axis++) {
+    dot += (double)a[axis] * b[axis];
+    squares[0] += (double)a[axis] * a[axis], squares[1] += (double)b[axis] * b[axis];
+  }
+  return dot / sqrt(squares[0] * squares[1]);
+}
+
+static void face_normal(float normal[3], const struct trax_triangle *t) {
+  for (int axis = 0; axis < 3; axis++) {
+    int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    normal[axis] = (t->v1[next] - t->v0[next]) * (t->v2[last] - t->v0[last]) -
+                   (t->v1[last] - t->v0[last]) * (t->v2[next] - t->v0[next]);
+  }
+}
+
+/* From the pole down, `around` by `down` faces of a sphere of radius 1. */
+static void add_sphere(struct trax_mesh *mesh, int around, int down) {
+  const double pi = acos(-1);
+  for (int row = 0; row < down; row++)
+    for (int column = 0; column < around; column++) {
+      float corners[2][2][3];
+      for (int i = 0; i < 4; i++) {
+        double longitude = 2 * pi * ((column + (i & 1)) % around) / around, latitude = pi * (row + (i >> 1)) / down;
+        float *corner = corners[i >> 1][i & 1];
+        corner[0] = row + (i >> 1) == down || row + (i >> 1) == 0 ? 0 : (float)(sin(latitude) * cos(longitude));
+        corner[1] = (float)cos(latitude);
+        corner[2] = row + (i >> 1) == down || row + (i >> 1) == 0 ? 0 : (float)(sin(latitude) * sin(longitude));
+      }
+      if (row > 0)
+        mesh_triangle(mesh, corners[0][0], corners[0][1], corners[1][1], 0);
+      if (row + 1 < down)
+        mesh_triangle(mesh, corners[0][0], corners[1][1], corners[1][0], 0);
+    }
+}
+
+static void test_normals(void **state) {
+  (void)state;
+  struct trax_mesh sphere = {0}, roof = {0}, cone = {0};
+  struct trax_scene scene, again;
+  add_sphere(&sphere, 64, 32);
+  build_good(&scene, &sphere, &(struct trax_build_options){.smooth = true});
+  build_good(&again, &sphere, &(struct trax_build_options){.smooth = true, .crease_degrees = TRAX_DEFAULT_CREASE});
+  assert_int_equal(scene.size, again.size);
+  assert_memory_equal(scene.bytes, again.bytes, scene.size);
+  trax_scene_release(&again);
+  double worst = 1;
+  for (uint32_t i = 0; i < scene.triangle_count; i++) {
+    const struct trax_triangle *t = &scene.triangles[i];
+    const float *corners[3] = {t->v0, t->v1, t->v2};
+    for (int corner = 0; corner < 3; corner++) {
+      float face[3];
+      face_normal(face, t);
+      double side = cosine_between(face, corners[corner]) > 0 ? 1 : -1;
+      worst = fmin(worst, side * cosine_between(scene.normals[i].corner[corner], corners[corner]));
+    }
+  }
+  assert_true(worst > 0.9985); /* radial, but for the mesh's own coarseness: a face is 5.6 degrees wide */
+  trax_scene_release(&scene);
+
+  /* Two faces at 50 degrees share an edge: one surface across a crease of 60 degrees, two across one of 40. */
+  const double angle = 50 * acos(-1) / 180;
+  mesh_triangle(&roof, (float[]){0, 0, 0}, (float[]){0, 0, 1}, (float[]){1, 0, 0}, 0);
+  mesh_triangle(&roof, (float[]){0, 0, 1}, (float[]){0, 0, 0}, (float[]){-(float)cos(angle), -(float)sin(angle), 0}, 0);
+  for (float crease = 40; crease <= 60; crease += 20) {
+    build_good(&scene, &roof, &(struct trax_build_options){.smooth = true, .crease_degrees = crease});
+    for (uint32_t i = 0; i < 2; i++) {
+      float face[3];
+      face_normal(face, &scene.triangles[i]);
+      int shared = 0;
+      for (int corner = 0; corner < 3; corner++) {
+        const float *place = (const float *)&scene.triangles[i] + 3 * corner;
+        double cosine = cosine_between(face, scene.normals[i].corner[corner]);
+        if (place[0] == 0 && crease > 50) {
+          assert_true(fabs(cosine - cos(angle / 2)) < 1e-6);
+          shared++;
+        } else {
+          assert_true(cosine > 1 - 1e-6);
+        }
+      }
+      assert_int_equal(shared, crease > 50 ? 2 : 0);
+    }
+    trax_scene_release(&scene);
+  }
+
+  /* The tip of a cone of many faces, and of a spike whose mean is across its faces. */
+  for (float height = 0.5f; height < 100; height *= 100) {
+    for (int i = 0; i < 500; i++) {
+      float a = (float)(2 * acos(-1) * i / 500), b = (float)(2 * acos(-1) * (i + 1) / 500);
+      mesh_triangle(&cone, (float[]){0, height, 0}, (float[]){cosf(b), 0, sinf(b)}, (float[]){cosf(a), 0, sinf(a)}, 0);
+    }
+    build_good(&scene, &cone, &(struct trax_build_options){.smooth = true});
+    for (uint32_t i = 0; i < scene.triangle_count; i++)
+      for (int corner = 0; corner < 3; corner++) {
+        float face[3];
+        face_normal(face, &scene.triangles[i]);
+        assert_true(cosine_between(face, scene.normals[i].corner[corner]) > 0.09);
+      }
+    trax_scene_release(&scene);
+    trax_mesh_release(&cone);
+  }
+  build_good(&scene, &roof, NULL);
+  assert_null(scene.normals);
+  trax_scene_release(&scene);
+  trax_mesh_release(&sphere);
+  trax_mesh_release(&roof);
+}
+
 static void test_bad_options(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
@@ -249,10 +360,9 @@ static void test_bad_options(void **state) {
   const struct {
     struct trax_build_options options;
     const char *message;
-  } bad[] = {{{.max_leaf = 8}, "at most 7"},
-             {{.max_depth = 41}, "at most 40"},
-             {{.cache_lines = 4097}, "at most 4096"},
-             {{.traversal_cost = NAN}, "costs"},
+  } bad[] = {{{.max_leaf = 8}, "at most 7"},          {{.max_depth = 41}, "at most 40"},
+             {{.cache_lines = 4097}, "at most 4096"}, {{.crease_degrees = 181}, "up to 180"},
+             {{.crease_degrees = NAN}, "up to 180"},  {{.traversal_cost = NAN}, "costs"},
              {{.intersection_cost = -1}, "costs"}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     struct trax_scene scene;
@@ -367,8 +477,8 @@ int main(void) {
       cmocka_unit_test(test_shapes),         cmocka_unit_test(test_awkward_meshes),
       cmocka_unit_test(test_extreme_scales), cmocka_unit_test(test_rays_find_the_nearest),
       cmocka_unit_test(test_determinism),    cmocka_unit_test(test_bad_options),
-      cmocka_unit_test(test_empty),          cmocka_unit_test(test_write_and_read),
-      cmocka_unit_test(test_statistics),
+      cmocka_unit_test(test_normals),        cmocka_unit_test(test_empty),
+      cmocka_unit_test(test_write_and_read), cmocka_unit_test(test_statistics),
   };
   return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

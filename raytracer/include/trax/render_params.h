@@ -48,6 +48,8 @@ struct trax_render_params {
 
   uint32_t samples;    /* rays from the eye through a pixel */
   float sample_weight; /* 1 / samples */
+
+  uint32_t normals_distance; /* bytes from a triangle to its normals, if the scene has them */
 };
 
 /* A material's colour as it is stored in the picture: 255 * sqrt(diffuse), since the picture has gamma 2. */
@@ -56,7 +58,7 @@ struct trax_palette_entry {
   uint32_t reserved; /* zero */
 };
 
-_Static_assert(sizeof(struct trax_render_params) == 33 * 4, "no padding");
+_Static_assert(sizeof(struct trax_render_params) == 34 * 4, "no padding");
 _Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
 
 #endif

@@ -94,6 +94,7 @@ struct trax_scene {
   const struct trax_scene_header *header;
   const struct trax_bvh_node *nodes;
   const struct trax_triangle *triangles;
+  const struct trax_triangle_normals *normals;
   const struct trax_material *materials;
   const uint32_t *source_ids;
   uint32_t node_count, triangle_count, material_count;
@@ -107,10 +108,14 @@ struct trax_build_options {
   float intersection_cost; /* of a triangle; 0: default */
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
   bool without_source_ids; /* leave that section out */
+  bool smooth;             /* with normals for smooth shading, across edges of up to crease_degrees */
+  float crease_degrees;    /* up to 180; 0: default */
   trax_scene_progress *progress; /* may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */
 };
+
+#define TRAX_DEFAULT_CREASE 60 /* degrees */
 
 /* Builds the BVH (surface-area heuristic) and lays the file out. The same mesh and options give the same bytes on every
    x86-64 host. */

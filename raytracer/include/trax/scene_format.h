@@ -38,7 +38,9 @@ enum trax_scene_section_kind {
   TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in the order of a depth-first traversal, without gaps */
   TRAX_SCENE_MATERIALS = 2,  /* struct trax_material; at least one if there are triangles */
   TRAX_SCENE_SOURCE_IDS = 3, /* uint32_t per triangle: its number in the imported mesh; for the host only */
-  TRAX_SCENE_SECTIONS = 8    /* slots in the table; kinds 4..7 are absent in this version */
+  TRAX_SCENE_NORMALS =
+      4, /* struct trax_triangle_normals per triangle, right behind the triangles; for smooth shading */
+  TRAX_SCENE_SECTIONS = 8 /* slots in the table; kinds 5..7 are absent in this version */
 };
 
 struct trax_scene_section {
@@ -81,6 +83,12 @@ struct trax_triangle {
   uint32_t material;         /* index into the materials */
 };
 
+/* As long as a triangle, so that a triangle's normals are at the same distance from it for all. */
+struct trax_triangle_normals {
+  float corner[3][3]; /* of length 1, on the side of v0, v1, v2 counterclockwise */
+  uint32_t reserved;  /* zero */
+};
+
 struct trax_material {
   float diffuse[3];  /* linear RGB reflectance, 0 to 1 */
   uint32_t reserved; /* zero */
@@ -95,6 +103,7 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_scene_section, 16);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
+TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_material, 16);
 #undef TRAX_SCENE_ASSERT_SIZE
 

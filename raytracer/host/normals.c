@@ -1,0 +1,102 @@
+/* Normals for smooth shading: at each corner the mean of the faces around it, by their areas, but only of those that do
+   not turn away from the corner's own face by more than the crease angle. Which faces are around a corner is decided by
+   place, not by index, so it is the same for every format. Binary64, and only operations that round correctly: the same
+   bytes everywhere. */
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of more faces around one place, as the tip of a fine cone, the mean of all is taken: no angles, which would be
+   compared pair by pair. */
+enum { MOST_FACES = 64 };
+
+/* A mean that turns further away from the face than this leaves the face's own normal. */
+#define LEAST_COSINE 0.1
+
+struct corner {
+  float place[3];
+  uint32_t number; /* 3 * triangle + corner */
+};
+
+struct direction {
+  double x, y, z;
+};
+
+static double dot(struct direction a, struct direction b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static int compare_corners(const void *a, const void *b) {
+  const struct corner *left = a, *right = b;
+  for (int axis = 0; axis < 3; axis++)
+    if (left->place[axis] != right->place[axis])
+      return left->place[axis] < right->place[axis] ? -1 : 1;
+  return left->number < right->number ? -1 : left->number > right->number;
+}
+
+static bool same_place(const struct corner *a, const struct corner *b) {
+  return a->place[0] == b->place[0] && a->place[1] == b->place[1] && a->place[2] == b->place[2];
+}
+
+/* Twice the area long. */
+static struct direction face_of(const struct trax_triangle *t) {
+  struct direction e = {(double)t->v1[0] - t->v0[0], (double)t->v1[1] - t->v0[1], (double)t->v1[2] - t->v0[2]};
+  struct direction f = {(double)t->v2[0] - t->v0[0], (double)t->v2[1] - t->v0[1], (double)t->v2[2] - t->v0[2]};
+  return (struct direction){e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
+}
+
+/* Of length 1; +z where a face has no direction. */
+static struct direction unit(struct direction v) {
+  double length = sqrt(dot(v, v));
+  return length > 0 ? (struct direction){v.x / length, v.y / length, v.z / length} : (struct direction){0, 0, 1};
+}
+
+/* The corner's normal from all those at its place. */
+static struct direction smooth_corner(const struct corner *group, size_t count, uint32_t number,
+                                      const struct direction *faces, double least_cosine) {
+  const struct direction own = unit(faces[number / 3]);
+  struct direction sum = {0, 0, 0};
+  for (size_t i = 0; i < count; i++) {
+    struct direction face = faces[group[i].number / 3];
+    if (count > MOST_FACES || dot(unit(face), own) >= least_cosine)
+      sum.x += face.x, sum.y += face.y, sum.z += face.z;
+  }
+  sum = unit(sum);
+  return dot(sum, own) >= LEAST_COSINE ? sum : own;
+}
+
+trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
+                                 uint32_t count, double crease_cosine, trax_error *error) {
+  const size_t corner_count = 3 * (size_t)count;
+  struct corner *corners = malloc((corner_count + 1) * sizeof *corners);
+  struct direction *faces = malloc(((size_t)count + 1) * sizeof *faces);
+  if (!corners || !faces || corner_count > UINT32_MAX) {
+    free(corners);
+    free(faces);
+    return scene_out_of_memory(error, "normals");
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    const float *places[3] = {triangles[i].v0, triangles[i].v1, triangles[i].v2};
+    faces[i] = face_of(&triangles[i]);
+    for (uint32_t k = 0; k < 3; k++) {
+      corners[3 * i + k].number = 3 * i + k;
+      memcpy(corners[3 * i + k].place, places[k], sizeof corners->place);
+    }
+  }
+  qsort(corners, corner_count, sizeof *corners, compare_corners);
+  for (size_t first = 0, next; first < corner_count; first = next) {
+    for (next = first + 1; next < corner_count && same_place(&corners[first], &corners[next]); next++)
+      ;
+    for (size_t i = first; i < next; i++) {
+      const uint32_t number = corners[i].number;
+      struct direction normal = smooth_corner(corners + first, next - first, number, faces, crease_cosine);
+      float *out = normals[number / 3].corner[number % 3];
+      out[0] = (float)normal.x, out[1] = (float)normal.y, out[2] = (float)normal.z;
+    }
+  }
+  free(corners);
+  free(faces);
+  return TRAX_OK;
+}
