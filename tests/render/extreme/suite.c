@@ -107,8 +107,12 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
 
   prepared->params.shadows = picture || (extreme->flags & CASE_SHADOWS);
   memcpy(prepared->params.light, view.light, sizeof view.light);
-  struct trax_frame_options options = {
-      picture ? setup->width : 1, picture ? setup->height : 1, TRAX_DEFAULT_AMBIENT, TRAX_DEFAULT_BACKGROUND, 1, true};
+  struct trax_frame_options options = {.width = picture ? setup->width : 1,
+                                       .height = picture ? setup->height : 1,
+                                       .ambient = TRAX_DEFAULT_AMBIENT,
+                                       .background = TRAX_DEFAULT_BACKGROUND,
+                                       .samples = 1,
+                                       .shadows = true};
   for (int corner = 0; corner < 8; corner++) {
     for (int axis = 0; axis < 3; axis++)
       view.eye[axis] = ldexpf(corner >> axis & 1 ? high[axis] : low[axis], exponent);
