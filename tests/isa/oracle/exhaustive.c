@@ -211,6 +211,11 @@ int main(int argc, char **argv) {
     if (!any_chosen || chosen[i])
       add_task(&run, &operations[i], first, count);
 
+  if (run.total == 0) {
+    fprintf(stderr, "isa-exhaustive: there is no case of number %" PRIu64 " or above\n", first);
+    return 1;
+  }
+
   pthread_t threads[MOST_JOBS];
   unsigned started = 0;
   while (started < jobs && pthread_create(&threads[started], NULL, work, &run) == 0)

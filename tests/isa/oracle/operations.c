@@ -18,12 +18,13 @@ void add_difference(struct differences *differences, struct difference one) {
     differences->kept[place] = one;
 }
 
-/* Every word once, with all upper halves for each lower one: those of the first 2^22 numbers are the 64 about 0, where
-   exponents and exact numbers meet, the others are spread. So few cases see every boundary and some of everything. */
+/* Every word once, with all upper halves for each lower one: 0 and the 63 about it first, where exponents and exact
+   numbers meet, then the others, spread. So few cases see every boundary and some of everything. */
 static inline uint32_t word_of(uint64_t number) {
   const uint32_t near = 64, rest = 65536 - near;
   uint32_t upper = (uint32_t)number << 16, turn = (uint32_t)number >> 16;
-  uint32_t lower = turn < near ? turn - near / 2 : near / 2 + (turn - near) * 40009 % rest; /* a prime */
+  uint32_t about_zero = turn & 1 ? 0 - (turn + 1) / 2 : turn / 2;
+  uint32_t lower = turn < near ? about_zero : near / 2 + (turn - near) * 40009 % rest; /* a prime */
   return upper + lower;
 }
 
