@@ -25,25 +25,10 @@ enum { FLAG_COUNT = sizeof flags / sizeof *flags };
 
 /* What of the installation decides about the program. */
 static const char *const ingredients[] = {
-    "bin/clang",
-    "bin/trax-ld",
-    "lib/trax/crt0.o",
-    "lib/trax/libc.a",
-    "lib/trax/libgcc.a",
-    "lib/trax/libm.a",
-    "lib/trax/include/trax.h",
-    "lib/trax/raytracer/bits.h",
-    "lib/trax/raytracer/camera.h",
-    "lib/trax/raytracer/main.c",
-    "lib/trax/raytracer/ray.h",
-    "lib/trax/raytracer/run.h",
-    "lib/trax/raytracer/shade.h",
-    "lib/trax/raytracer/traverse.h",
-    "lib/trax/raytracer/triangle.h",
-    "lib/trax/raytracer/trax/features.def",
-    "lib/trax/raytracer/trax/render_params.h",
-    "lib/trax/raytracer/trax/scene_format.h",
+    "bin/clang",         "bin/trax-ld",     "lib/trax/crt0.o",         "lib/trax/libc.a",
+    "lib/trax/libgcc.a", "lib/trax/libm.a", "lib/trax/include/trax.h",
 };
+static const char *const source_folders[] = {"lib/trax/raytracer", "lib/trax/raytracer/trax"};
 
 static bool join(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix) {
   int length = snprintf(path, TRAX_PATH_SIZE, "%s/%s%s", folder, name, suffix);
@@ -109,6 +94,31 @@ static trax_status hash_file(XXH3_state_t *state, const char *root, const char *
   return TRAX_OK;
 }
 
+static int is_file(const struct dirent *entry) {
+  return entry->d_name[0] != '.' && strchr(entry->d_name, '.') != NULL; /* folders of ours have no dot */
+}
+
+/* All files of a folder, by name. */
+static trax_status hash_folder(XXH3_state_t *state, const char *root, const char *name, trax_error *error) {
+  char path[TRAX_PATH_SIZE];
+  struct dirent **entries;
+  if (!join(path, root, name, ""))
+    return trax_fail(error, "%s: the path is too long", name);
+  const int count = scandir(path, &entries, is_file, alphasort);
+  if (count < 0)
+    return trax_fail(error, "%s: %s", path, strerror(errno));
+  trax_status status = TRAX_OK;
+  for (int i = 0; i < count; i++) {
+    char file[TRAX_PATH_SIZE];
+    if (status == TRAX_OK)
+      status = join(file, name, entries[i]->d_name, "") ? hash_file(state, root, file, error)
+                                                        : trax_fail(error, "%s: the path is too long", name);
+    free(entries[i]);
+  }
+  free(entries);
+  return status;
+}
+
 /* Of the compiler's library, which is large and the distribution's, size and date stand for the content. */
 static void hash_library(XXH3_state_t *state, const char *path) {
   struct stat status = {0};
@@ -125,6 +135,8 @@ static trax_status make_key(char key[33], const char *root, const char *constant
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients && status == TRAX_OK; i++)
     status = hash_file(state, root, ingredients[i], error);
+  for (size_t i = 0; i < sizeof source_folders / sizeof *source_folders && status == TRAX_OK; i++)
+    status = hash_folder(state, root, source_folders[i], error);
   hash_library(state, TRAX_LLVM_LIBRARY);
   for (size_t i = 0; i < FLAG_COUNT; i++)
     XXH3_128bits_update(state, flags[i], strlen(flags[i]) + 1);
@@ -168,7 +180,8 @@ static int by_use(const void *a, const void *b) {
   return x->used.tv_nsec < y->used.tv_nsec ? 1 : x->used.tv_nsec > y->used.tv_nsec ? -1 : strcmp(x->name, y->name);
 }
 
-/* Removes what has not been used longest. What another process removes at the same time is gone all the same. */
+/* Removes what has not been used longest, and what was never finished. What another process removes at the same time is
+ * gone all the same. */
 static void prune(const char *cache) {
   DIR *folder = opendir(cache);
   struct kept *kept = NULL;
@@ -176,9 +189,14 @@ static void prune(const char *cache) {
   for (const struct dirent *entry; folder && (entry = readdir(folder));) {
     const size_t length = strlen(entry->d_name);
     struct stat status;
-    if (length != 32 + 4 || strcmp(entry->d_name + 32, ".elf") != 0 ||
+    if (length < 32 + 4 || memcmp(entry->d_name + 32, ".elf", 4) != 0 ||
         fstatat(dirfd(folder), entry->d_name, &status, 0) != 0)
       continue;
+    if (length > 32 + 4) { /* not renamed: a compilation that is under way, or was killed */
+      if (status.st_mtim.tv_sec + 3600 < time(NULL))
+        unlinkat(dirfd(folder), entry->d_name, 0);
+      continue;
+    }
     if (count == capacity) {
       struct kept *more = realloc(kept, (capacity = 2 * capacity + 64) * sizeof *kept);
       if (!more)
@@ -332,6 +350,8 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
       status = build(options->root, header, elf, options->interrupt, &reason);
     if (status == TRAX_OK)
       prune(cache);
+    else
+      unlink(header);
   }
   free(constants);
   if (status == TRAX_INTERRUPTED)

@@ -142,7 +142,10 @@ for number in $(seq 100 399); do
   name=cached/00000000000000000000000000000$number
   : >$name.elf && : >$name.h && touch -d "2020-01-01 00:00:$((number % 60))" $name.elf
 done
+unfinished=cached/0123456789abcdef0123456789abcdef.elf.
+: >${unfinished}aaaaaa && touch -d '2020-01-01' ${unfinished}aaaaaa && : >${unfinished}bbbbbb
 "$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --cache cached -o x.png -q --background 000001 || fail "a full cache"
+[ ! -e ${unfinished}aaaaaa ] && [ -e ${unfinished}bbbbbb ] || fail "what was never finished: $(ls cached/*.elf.*)"
 [ "$(programs cached)" -eq 256 ] || fail "$(programs cached) programs in the cache instead of 256"
 [ "$(find cached -name '*.elf' -size +1k | wc -l)" -eq 3 ] || fail "programs in use were removed: $(ls -l cached | head)"
 
