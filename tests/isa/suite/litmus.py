@@ -43,6 +43,9 @@ def tests():
                          [{(reader, "r10"): 1, (reader, "r11"): 0}]))
         made.append(Test(f"message waited for, threads {where}", "stores are performed in finite time",
                          {writer: ["sw r12, 0(r8)", "sw r12, 0(r9)"], reader: [*_wait("r9"), "lw r11, 0(r8)"]}, [{(reader, "r11"): 0}]))
+        made.append(Test(f"an answer waited for, threads {where}", "stores are performed in finite time",
+                         {writer: ["sw r12, 0(r8)", *_wait("r9"), "lwnt r11, 0(r8)"], reader: [*_wait("r8"), "sw r12, 0(r9)"]},
+                         [{(writer, "r11"): 0}]))
         made.append(Test(f"coherence of loads, threads {where}", "loads past the cache keep their order",
                          {writer: ["sw r12, 0(r8)", "sw r13, 0(r8)"], reader: ["lwnt r10, 0(r8)", "lwnt r11, 0(r8)"]},
                          [{(reader, "r10"): 1, (reader, "r11"): 0}, {(reader, "r10"): 2, (reader, "r11"): 0},

@@ -29,6 +29,7 @@ BROKEN = {
     "silent": "sim >/dev/null",
     "status": "sim; exit 7",
     "hangs": "sleep 60",
+    "late": "case $image in */xor.elf) echo >$signature ;; *) sim ;; esac",
     "empty": "sim; : >$signature",
 }
 TEMPLATE = "{emulator} {signature} {image} {tms} {tps}"
@@ -87,6 +88,7 @@ with tempfile.TemporaryDirectory() as folder:
     broken("hangs", 1, "sub: not ended after 0.2 s", "^sub$", "--timeout", "0.2")
     broken("empty", 1, "sub: word 0 .* is not there", "^sub$")
     broken("empty", 1, "stopped at the first mismatch", "^lw", "--first")
+    broken("late", 1, r"\Axor\n", "^(and|or|xor)$", "--first", "--names")
     broken("word", 1, r"\Asub\nsub-illegal-bit6\n", "^sub$", "--names")
     broken("right", 0, r"\A\Z", "^sub$", "--names")
     expect("trax-sim by the default command", 0, "pass", "--emulator", SIM, "--only", "^rdsr$", "--machine", "--engine functional")

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""The suite on memory as weak as the manual allows, and with each rule broken: weak_test.py RUN ISA_WEAK_MODEL SUITE"""
+
+import os
+import re
+import subprocess
+import sys
+
+RUN, MODEL, SUITE = sys.argv[1:]
+SOURCE = os.path.join(os.path.dirname(os.path.realpath(__file__)), "weak_memory.c")
+COMMAND = "{emulator} --limit 4000000 --memory-mib {memory_mib} --tms {tms} --tps {tps} --signature {signature} {image}"
+ABOUT_MEMORY = "^(memory order|own accesses|atomic increment|results in order|reset state|local memory|image|.*of threads|l[bhw].*|s[bhw].*|ainc|rdsr)$"
+ORDER = "^(memory order|own accesses|atomic increment)$"
+
+
+def run(broken, *words):
+    environment = os.environ | {"TRAX_BREAK": broken}
+    return subprocess.run([RUN, "--emulator", MODEL, "--command", COMMAND, "--suite", SUITE, *words], env=environment,
+                          capture_output=True, text=True)
+
+
+with open(SOURCE) as file:
+    rules = re.findall(r'"([a-z-]+)"', re.search(r"names\[RULES\] = \{(.*?)\};", file.read(), re.S)[1])
+failures = 0
+done = run("none", "--only", ABOUT_MEMORY)
+print(done.stdout.splitlines()[-1] if done.stdout else done.stderr)
+if done.returncode:
+    failures += 1
+    print("FAILED: the suite asks for more than the manual promises", done.stdout, done.stderr, sep="\n")
+caught = 0
+for rule in rules[1:]:
+    done = run(rule, "--only", ORDER, "--first", "--names")
+    caught += done.returncode == 1 and bool(done.stdout)
+    print(f"{rule:16} {' '.join(done.stdout.split()) or 'NOT NOTICED ' + done.stderr}")
+print(f"{caught} of {len(rules) - 1} broken rules noticed")
+sys.exit(failures > 0 or caught < len(rules) - 1)
