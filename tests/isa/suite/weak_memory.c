@@ -1,7 +1,7 @@
-/* isa-weak-model: the model with the weakest memory that docs/isa.md, "Order", still allows. Stores wait in a queue of
-   each thread for a random time, plain loads come from caches of the TMs that nothing keeps coherent. The suite must
-   pass on it: it asks for nothing that is not promised. With TRAX_BREAK=NAME one of the rules is broken, and the suite
-   must notice.
+/* isa-weak-model: the model with memory as weak as docs/isa.md, "Order", allows, but for increments, which do not wait.
+   Stores wait in a queue of each thread for a random time, plain loads come from caches of the TMs that nothing keeps
+   coherent. The suite must pass on it: it asks for nothing that is not promised. With TRAX_BREAK=NAME one of the rules
+   is broken, and the suite must notice.
 
    The model's memory is wrapped (ld --wrap); functions.c checks every access before it is made. */
 #include "model.h"
