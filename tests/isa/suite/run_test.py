@@ -109,6 +109,9 @@ with tempfile.TemporaryDirectory() as folder:
     done = subprocess.run(["installed/isa-suite/run", "--emulator", SIM, "--only", "^or$"], capture_output=True, text=True)
     if done.returncode or "pass" not in done.stdout:
         fail("the installed suite", done.stdout, done.stderr)
+    closed = subprocess.run(f"{RUN} --suite {SUITE} --coverage | head -1", shell=True, capture_output=True, text=True)
+    if closed.stderr or not closed.stdout.startswith("#"):
+        fail("nobody reads", closed.stderr)
     interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     time.sleep(0.7)
     interrupted.send_signal(signal.SIGINT)
