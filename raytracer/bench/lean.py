@@ -3,7 +3,7 @@
 
     raytracer/bench/lean.py SCENES_DIRECTORY [--size 320x180] [--config 4x32] [--render build/bin/trax-render]
 
-SCENES_DIRECTORY is that of paper.py; the generated forest is rendered too. Every cell has the general program's figure and the
+SCENES_DIRECTORY is that of paper.py. Every cell has the general program's figure and the
 specialised one's. Exit status 1 if a picture is not the same bit for bit.
 """
 
@@ -44,7 +44,7 @@ def main():
     print(f"{options.config}, {options.size}")
     print("| scene | " + " | ".join(ROWS) + " | change of cycles |")
     print("| --- |" + " --- |" * (len(ROWS) + 1))
-    scenes = [(name, [find(options.scenes, file) for file in files]) for name, files, _ in SCENES] + [("forest", ["generate:forest"])]
+    scenes = [(name, [find(options.scenes, file) for file in files]) for name, files, _ in SCENES]
     with tempfile.TemporaryDirectory() as scratch:
         for scene, files in scenes:
             run = subprocess.run([options.render, *files, "--view", scene, "--config", options.config, "--size", options.size, "--report",
