@@ -1,4 +1,5 @@
-/* Cycles of the runtime's functions on one TP, warm, the call included; docs/runtime.md has the table.
+/* Cycles of the runtime's binary64 functions on one TP, warm, the call included; docs/runtime.md has the table.
+   accuracy/cost.c is for binary32.
 
      clang --target=trax -O2 tests/numerics/cycles.c -o cycles.elf
      trax-sim --set icache.bytes=1048576 --set dcache.bytes=1048576 cycles.elf
@@ -10,8 +11,6 @@
 
 typedef double function_1(double);
 typedef double function_2(double, double);
-typedef float function_1f(float);
-typedef float function_2f(float, float);
 
 static double sum(double x, double y) {
   return x + y;
@@ -55,33 +54,7 @@ static const struct {
     {"fmod", fmod, 1e300, 0.7}, {"remainder", remainder, 5.3, 0.7},
 };
 
-static const struct {
-  const char *name;
-  function_1f *function;
-  float argument;
-} functions_1f[] = {
-    {"sqrtf", sqrtf, 0.7f},     {"sinf", sinf, 0.7f},       {"sinf", sinf, 5.3f},   {"cosf", cosf, 0.7f},
-    {"tanf", tanf, 0.7f},       {"asinf", asinf, 0.7f},     {"acosf", acosf, 0.7f}, {"atanf", atanf, 0.7f},
-    {"sinhf", sinhf, 0.7f},     {"coshf", coshf, 0.7f},     {"tanhf", tanhf, 0.7f}, {"asinhf", asinhf, 0.7f},
-    {"acoshf", acoshf, 1.7f},   {"atanhf", atanhf, 0.7f},   {"expf", expf, 0.7f},   {"exp2f", exp2f, 0.7f},
-    {"expm1f", expm1f, 0.7f},   {"logf", logf, 0.7f},       {"log2f", log2f, 0.7f}, {"log10f", log10f, 0.7f},
-    {"log1pf", log1pf, 0.7f},   {"cbrtf", cbrtf, 0.7f},     {"erff", erff, 0.7f},   {"erfcf", erfcf, 0.7f},
-    {"tgammaf", tgammaf, 5.3f}, {"lgammaf", lgammaf, 5.3f},
-};
-
-static const struct {
-  const char *name;
-  function_2f *function;
-  float x, y;
-} functions_2f[] = {
-    {"powf", powf, 0.7f, 5.3f},
-    {"atan2f", atan2f, 0.7f, -5.3f},
-    {"hypotf", hypotf, 0.7f, 5.3f},
-    {"fmodf", fmodf, 5.3f, 0.7f},
-};
-
 volatile double result;
-volatile float result_f;
 
 int main(void) {
   unsigned cycles = 0;
@@ -108,30 +81,6 @@ int main(void) {
       result = value;
     }
     printf("%-10s %8g          %6u\n", functions_1[i].name, functions_1[i].argument, cycles);
-  }
-  for (unsigned i = 0; i < sizeof functions_2f / sizeof functions_2f[0]; i++) {
-#pragma clang loop unroll(disable) /* the fourth call would be in code of its own, not yet in the cache */
-    for (int round = 0; round < 4; round++) {
-      function_2f *volatile function = functions_2f[i].function;
-      float x = functions_2f[i].x, y = functions_2f[i].y;
-      unsigned start = trax_cycles();
-      float value = function(x, y);
-      cycles = trax_cycles() - start;
-      result_f = value;
-    }
-    printf("%-10s %8g %8g %6u\n", functions_2f[i].name, (double)functions_2f[i].x, (double)functions_2f[i].y, cycles);
-  }
-  for (unsigned i = 0; i < sizeof functions_1f / sizeof functions_1f[0]; i++) {
-#pragma clang loop unroll(disable) /* the fourth call would be in code of its own, not yet in the cache */
-    for (int round = 0; round < 4; round++) {
-      function_1f *volatile function = functions_1f[i].function;
-      float x = functions_1f[i].argument;
-      unsigned start = trax_cycles();
-      float value = function(x);
-      cycles = trax_cycles() - start;
-      result_f = value;
-    }
-    printf("%-10s %8g          %6u\n", functions_1f[i].name, (double)functions_1f[i].argument, cycles);
   }
   return 0;
 }

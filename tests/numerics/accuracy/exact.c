@@ -98,8 +98,11 @@ static void evaluate(mpfr_t result, const struct function *function, const struc
     mpfr_inits2(PRECISION, numbers.want, numbers.other, numbers.difference, (mpfr_ptr)NULL);
     numbers.ready = true;
   }
-  for (int n = 0; n < function->operands; n++)
-    mpfr_set_flt(numbers.operand[n], float_of(chunk->operand[n][i]), MPFR_RNDN);
+  for (int n = 0; n < function->operands; n++) {
+    float x = float_of(chunk->operand[n][i]);
+    mpfr_set_flt(numbers.operand[n], x, MPFR_RNDN);
+    mpfr_setsign(numbers.operand[n], numbers.operand[n], signbit(x), MPFR_RNDN); /* a NaN's, for copysignf */
+  }
   function->exact(result, numbers.operand);
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What a less precise FPDIV/iSQRT unit costs in accuracy and saves in time, for each special.precision_bits from 1 to 24.
 
-    precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.svg
+    precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.svg; some minutes
+    precision.py --page docs/accuracy.md --output DIR     puts the tables and the plot of such a report into the page
     precision.py --check                         a short run that must end, and end with what holds at every precision
 
 For each precision b: the errors of frsqrt and fdiv themselves (precision-units), of the library's sqrtf and of normalised vectors
@@ -32,6 +33,7 @@ import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
+BEGIN, END = "<!-- precision.py: begin -->\n", "<!-- precision.py: end -->\n"
 COUNT = 4096  # results of a loop of loops.c
 WRONG = 8  # of 255: a pixel whose colour is off by more is called wrong
 TIME_LIMIT = 600  # seconds for one run on the emulator
@@ -299,6 +301,16 @@ def report(options):
     plot(rows, options.output / "precision.svg")
 
 
+def into_page(options):
+    """The tables between the page's marks, and the plot beside it."""
+    text = options.page.read_text(encoding="utf-8")
+    if BEGIN not in text or END not in text:
+        fail(f"{options.page}: the marks of the tables are missing")
+    tables_text = (options.output / "precision.md").read_text(encoding="utf-8")
+    write(options.page, text.split(BEGIN)[0] + BEGIN + tables_text + END + text.split(END)[1])
+    shutil.copyfile(options.output / "precision.svg", options.page.parent / "precision.svg")
+
+
 def check(options):
     """At every precision: the units round to b bits, sqrtf is as good as them, and the ray tracer ends."""
     units = unit_errors(options.bin, 101)
@@ -333,6 +345,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--output", type=pathlib.Path)
     parser.add_argument("--scenes", type=pathlib.Path, help="the directory of conference.ply.xz")
+    parser.add_argument("--page", type=pathlib.Path, help="put the report in --output into this page")
     parser.add_argument("--size", default="160x90")
     parser.add_argument("--config", default="4x32")
     parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[2] / "build/bin")
@@ -340,7 +353,12 @@ def main():
     options = parser.parse_args()
     if options.check == bool(options.output):
         parser.error("give either --output or --check")
-    check(options) if options.check else report(options)
+    if options.check:
+        check(options)
+    elif options.page:
+        into_page(options)
+    else:
+        report(options)
 
 
 main()
