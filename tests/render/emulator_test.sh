@@ -114,6 +114,11 @@ both smooth.trax $view --size 20x30 # the normals are in the file and nothing re
 [ "$(read_scene)" -lt "$with_normals" ] || fail "normals that nothing reads are written: $(cat .out)"
 both "$source/box.obj" --size 1x1 --samples 2 # more threads than pixels
 [ -r $bunny ] && both $bunny --view bunny --size 64x36
+# With a stack as deep as a scene may be, constants in registers would overflow it: the parameters stay in memory.
+awk 'BEGIN { for (i = 0; i < 5000; i++) {
+               x = 2 ^ (59 - 0.0358 * i); printf "v %.9g 0 0\nv 0 %.9g 0\nv 0 0 %.9g\nf -3 -2 -1\n", x, x, x } }' >deep.obj
+both deep.obj --size 16x9 --config 1x32 --cache deep
+grep -q 'TRAX_STACK_ENTRIES 40$' deep/*.h || fail "deep.obj is not deep"
 # What the compiler folds is not what a less precise divider would compute.
 "$bin/trax-render" triangle.obj --size 1x1 --config 1x32 --set special.precision_bits=8 -o x.png --report >.out 2>.err ||
   fail "8 bits of precision: $(cat .out .err)"
