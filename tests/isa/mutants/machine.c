@@ -1,6 +1,7 @@
 /* Mutants of the rest of the machine: access checks, faults, fetch, reset, atomic increments. They stand between the
    files of emulator/reference (the linker's --wrap). */
 #include "mutants.h"
+#include "order.h"
 #include "reference/reference.h"
 
 #include <assert.h>
@@ -223,6 +224,8 @@ static void store_anyway(const struct trax_ref_tm *tm, const struct trax_ref_tp 
 
 trax_fault_kind __wrap_trax_ref_check_access(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   const trax_fault_kind right = __real_trax_ref_check_access(tm, tp);
+  if (!right)
+    trax_order_before(tm, tp);
   const wrong *mutant = current();
   if (!mutant || mutant->kind > STORED_BEFORE_FAULT || mutant->what != tp->inst.op)
     return right;
@@ -273,6 +276,7 @@ trax_fault_kind __wrap_trax_ref_check_access(const struct trax_ref_tm *tm, const
 void __wrap_trax_ref_fault(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_fault_kind kind,
                            uint32_t address) {
   __real_trax_ref_fault(tm, tp, t, kind, address);
+  trax_order_fault(tm);
   struct trax_fault *fault = &tm->machine->fault;
   const wrong *mutant = current();
   if (!mutant || mutant->kind < FAULT_PC_NEXT || mutant->kind > FAULT_ADDRESS_NEXT || mutant->what != fault->kind)
@@ -325,6 +329,7 @@ static struct trax_machine *machine; /* for __wrap_trax_ref_result */
 
 void __wrap_trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t) {
   machine = tm->machine;
+  trax_order_cycle(tm, t);
   const wrong *mutant = current();
   for (uint32_t i = 0; t == 0 && mutant && i < tm->tps; i++) {
     if (mutant->kind == REGISTER_SET)
@@ -374,6 +379,7 @@ void __wrap_trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct tra
     --*rd;
   else if (is(OLD_VALUE_LOST))
     *rd = 0;
+  trax_order_arrival(tm, atomic);
   __real_trax_ref_tell_arrival(tm, atomic, t);
 }
 
@@ -394,5 +400,6 @@ void __wrap_trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_
     ((struct trax_ref_tp *)tp)->reg[0] = kept;
     kept_in = NULL;
   }
+  trax_order_behind(tm, (struct trax_ref_tp *)tp, t);
   __real_trax_ref_tell_issue(tm, tp, pc, t);
 }

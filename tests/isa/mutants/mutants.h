@@ -28,6 +28,8 @@ unsigned trax_decoding_mutants(void);
 void trax_decoding_mutant(unsigned index, struct trax_mutant_text *text);
 unsigned trax_machine_mutants(void);
 void trax_machine_mutant(unsigned index, struct trax_mutant_text *text);
+unsigned trax_order_mutants(void);
+void trax_order_mutant(unsigned index, struct trax_mutant_text *text);
 
 /* The index in force within a sort that begins behind `before` mutants; -1: another sort's, or none. */
 static inline int trax_mutant_index(unsigned before, unsigned count) {

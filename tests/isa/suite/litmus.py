@@ -64,6 +64,8 @@ def tests():
         made.append(Test(f"an increment behind a store, threads {where}", "stores keep their order",
                          {writer: ["sw r12, 0(r8)", "ainc r10, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
                          [{(reader, "r10"): 1, (reader, "r11"): 0}]))
+        made.append(Test(f"bytes of one word, threads {where}", "a store changes its own bytes",
+                         {writer: ["sb r12, 0(r8)"], reader: ["sb r13, 1(r8)"]}, [{"x": 0x0001}, {"x": 0x0200}, {"x": 0}]))
         made.append(Test(f"increments of one word, threads {where}", "an increment is one step",
                          {writer: ["ainc r10, 0(r8)", "ainc r11, 0(r8)"], reader: ["ainc r10, 0(r8)", "ainc r11, 0(r8)"]},
                          [{(writer, a): n, (reader, b): n} for a in ("r10", "r11") for b in ("r10", "r11") for n in range(4)] +
@@ -76,6 +78,9 @@ def tests():
         made.append(Test(f"handed on, threads {first}, {second}, {third}", "there is one order",
                          {first: ["sw r12, 0(r8)"], second: [*_wait("r8"), "sw r12, 0(r9)"], third: [*_wait("r9"), "lwnt r11, 0(r8)"]},
                          [{(third, "r11"): 0}]))
+    made.append(Test("plain loads behind a message within a TM", "the threads of a TM share its cache",
+                     {0: ["sw r12, 0(r8)", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", _use("r14"), *_wait("r9"), "lw r11, 0(r8)"]},
+                     [{(1, "r11"): 0}]))
     made.append(Test("plain loads within a TM", "the threads of a TM share its cache",
                      {0: ["lw r14, 0(r8)", "sw r12, 0(r8)", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", "lw r10, 0(r9)", "lw r11, 0(r8)"]},
                      [{(1, "r10"): 1, (1, "r11"): 0}]))
