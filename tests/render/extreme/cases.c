@@ -419,7 +419,8 @@ static void make_degenerate(struct setup *setup, uint32_t rays) {
   }
 }
 
-/* Triangles of 10^-21 in a scene of 1, seen from there and from afar: determinants beyond binary32's range. */
+/* Triangles of 10^-21 in a scene of 1, seen from there and from afar: determinants beyond binary32's range. Along an
+   axis afar is as exact as near by: there the determinants are subnormal, and what they are multiplied with is not. */
 static void make_vanishing_determinants(struct setup *setup, uint32_t rays) {
   add_globe(setup, 3, &(struct globe){{0, 0, 0}, 1, 0});
   add_globe(setup, 3, &(struct globe){{0, 0, 0}, 1e-21f, 0});
@@ -429,6 +430,11 @@ static void make_vanishing_determinants(struct setup *setup, uint32_t rays) {
     float distance = i % 3 == 0 ? 0.5f : i % 3 == 1 ? 3e-21f : 2e-22f, at[3];
     float from[3] = {distance * any(setup), distance * any(setup), distance * any(setup)};
     random_target(setup, at);
+    if (i % 4 == 0) {
+      for (int axis = 0; axis < 3; axis++)
+        at[axis] = from[axis] = 1e-19f * any(setup);
+      from[i / 4 % 3] = -0.5f;
+    }
     aim(setup, from, at);
   }
 }
@@ -451,6 +457,12 @@ static void duplicates(struct setup *setup, uint32_t rays) {
 
 static void make_duplicates(struct setup *setup, uint32_t rays) {
   duplicates(setup, rays);
+}
+
+/* Traversed the other way round. */
+static void make_duplicates_turned(struct setup *setup, uint32_t rays) {
+  duplicates(setup, rays);
+  setup->turned = true;
 }
 
 static void make_duplicates_alone(struct setup *setup, uint32_t rays) {
@@ -731,6 +743,8 @@ const struct extreme_case extreme_cases[] = {
     {"nonfinite", "NaN and infinity in vertices, left out when asked for", make_nonfinite, CASE_CLOSED},
     {"duplicates", "every triangle seven times", make_duplicates, CASE_CLOSED | CASE_DUPLICATES},
     {"duplicates-alone", "the same, one triangle a leaf", make_duplicates_alone, CASE_CLOSED | CASE_DUPLICATES},
+    {"duplicates-turned", "the same, children in the other order", make_duplicates_turned,
+     CASE_CLOSED | CASE_DUPLICATES},
     {"layers-1", "layers 1 ulp apart", make_layers_1, 0},
     {"layers-2", "layers 2 ulp apart", make_layers_2, 0},
     {"layers-3", "layers 3 ulp apart", make_layers_3, 0},

@@ -13,6 +13,7 @@ struct setup {
   struct trax_mesh mesh;
   struct trax_scene premade; /* instead of the mesh */
   struct trax_build_options build;
+  bool turned; /* the children of every node change places */
   struct query_ray *rays;
   uint32_t ray_count, ray_capacity;
   float light[3];

@@ -73,6 +73,17 @@ static void copy_triangles(struct prepared *prepared) {
   }
 }
 
+static void turn_children(const struct trax_scene *scene) {
+  struct trax_bvh_node *nodes = (struct trax_bvh_node *)scene->nodes;
+  for (uint32_t i = 0; i < scene->node_count; i++) {
+    struct trax_bvh_node old = nodes[i];
+    for (int child = 0; child < 2; child++) {
+      nodes[i].box[child] = old.box[1 - child];
+      nodes[i].child[child] = old.child[1 - child];
+    }
+  }
+}
+
 /* The rays' extremes decide how the scene is scaled, and how far boxes are widened: no ray starts beyond them. */
 static void prepare(struct prepared *prepared, const struct extreme_case *extreme, uint32_t rays, uint32_t seed) {
   trax_error error;
@@ -88,6 +99,8 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
     die(extreme->name, &error);
   }
   copy_triangles(prepared);
+  if (setup->turned)
+    turn_children(&prepared->scene);
 
   bool picture = setup->width > 0;
   struct trax_view view = picture ? setup->view : view_from(0, 0, 0, 0, 0, -1, 60, 0, 0, 0);
