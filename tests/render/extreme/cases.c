@@ -598,6 +598,12 @@ static void grazing_globe(struct setup *setup, uint32_t rays, float offset) {
       at[axis] = offset + 0.99f * normal[axis];
       from[axis] = offset + 3 * normal[axis] + 2 * any(setup);
     }
+    if (i & 2) { /* seen as flatly as it is lit: from along the surface */
+      float turn = any(setup) > 0 ? 3.0f : -3.0f;
+      from[0] = at[0] + 0.01f * normal[0];
+      from[1] = at[1] + 0.01f * normal[1] - turn * normal[2];
+      from[2] = at[2] + 0.01f * normal[2] + turn * normal[1];
+    }
     aim(setup, from, at);
   }
 }
