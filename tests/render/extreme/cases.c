@@ -600,9 +600,11 @@ static void grazing_globe(struct setup *setup, uint32_t rays, float offset) {
     }
     if (i & 2) { /* seen as flatly as it is lit: from along the surface */
       float turn = any(setup) > 0 ? 3.0f : -3.0f;
-      from[0] = at[0] + 0.01f * normal[0];
-      from[1] = at[1] + 0.01f * normal[1] - turn * normal[2];
-      from[2] = at[2] + 0.01f * normal[2] + turn * normal[1];
+      for (int axis = 0; axis < 3; axis++)
+        at[axis] = offset + 0.999f * normal[axis];
+      from[0] = at[0];
+      from[1] = at[1] - turn * normal[2];
+      from[2] = at[2] + turn * normal[1];
     }
     aim(setup, from, at);
   }
