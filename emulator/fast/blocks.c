@@ -3,7 +3,7 @@
    loaded ahead is written for the first time, every TP goes back to what it has issued and is deferred: its head will
    execute at issue, and from then on loads from the block end bursts. A block costs this once at most; what is only
    written, like a picture, never. Blocks are small because what is written often lies beside what is only read. */
-#include "fast/fast.h"
+#include "fast/head.h"
 
 #include <assert.h>
 #include <string.h>
@@ -36,24 +36,20 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
   }
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
-  const unsigned issued = (unsigned)(ftm->head[number] - ftp->steps);
-  const uint32_t head = ftm->head[number]->index;
-  trax_fast_close(ftm, number, 0); /* as if nothing had happened */
+  const unsigned issued = ftm->heads.at[number];
+  const uint32_t head = trax_fast_head(ftm, number), address = ftp->address[issued];
+  const uint16_t asks = ftp->asks[issued];                       /* what it asks for stays */
+  trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, 0); /* as if nothing had happened */
   ftp->resume = ftp->begin;
-  ftp->resume_pc = fast->program.pc[ftp->begin->step.index];
+  ftp->resume_pc = fast->program.pc[ftp->begin - fast->program.inst];
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);
-  assert(again == issued && ftp->resume->step.index == head);
-  (void)again, (void)head;
-  ftp->last = ftp->steps + issued - 1;
-  trax_fast_close(ftm, number, issued);
-  ftp->only = *ftm->head[number];
-  ftp->only.asks |= TRAX_ASKS_SLOWLY;
-  ftm->head[number] = ftp->last = &ftp->only;
-  ftm->deferred |= bit;
-  ftm->asks[number] |= TRAX_ASKS_SLOWLY; /* what it asks for stays */
+  assert(again == issued && ftp->resume == &fast->program.inst[head]);
+  (void)again;
+  trax_fast_close(ftm, number, issued, issued);
   tp->inst = ftp->resume->decoded;
   tp->pc = ftp->resume_pc;
-  tp->address = ftp->only.address;
+  tp->address = tp->inst->bytes ? address : 0;
+  trax_fast_defer(ftm, number, asks, head, tp->address);
 }
 
 void trax_fast_come_back(struct trax_fast *fast) {

@@ -1,4 +1,5 @@
 /* The five steps of a TM's cycle on masks of its TPs (docs/timing.md, "A cycle"). */
+#include "core/ahead.h"
 #include "fast/head.h"
 
 static inline unsigned count_bits(uint64_t mask) {
@@ -19,7 +20,7 @@ static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
   }
 }
 
-/* Returns those who wake with their instruction; the others ask for one. */
+/* Returns those who wake with their instruction. */
 static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const uint64_t awake = tm->awake;
@@ -27,8 +28,6 @@ static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
     trax_tm_wake_sleepers(tm, t);
   const uint64_t woken = tm->awake & ~awake;
-  for (uint64_t rest = woken & ~tm->holding; rest; rest &= rest - 1)
-    trax_fast_ask_fetch(ftm, trax_first(rest));
   const uint64_t taken_up = ftm->taken_up;
   ftm->taken_up = 0;
   return (woken & tm->holding) | taken_up;
@@ -37,66 +36,63 @@ static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
 /* --- step 1 --- */
 
 static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
-  for (; ftm->outside; ftm->outside &= ftm->outside - 1) {
-    const unsigned number = trax_first(ftm->outside);
+  for (uint64_t rest = ftm->outside & ftm->tm->awake & ~ftm->tm->holding; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
     const uint32_t pc = ftm->tm->tp[number].pc;
     trax_tm_fault(ftm->tm, number, t, pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE, pc);
   }
 }
 
-/* Grants the banks of instruction caches that more than 16 TPs share, or that let more than one TP into a bank. */
-static uint64_t lose_fetches_somehow(struct trax_fast_tm *ftm) {
+/* Grants the banks of one instruction cache after another; returns the losers. */
+static uint64_t lose_fetches_somehow(struct trax_fast_tm *ftm, uint64_t askers, const uint64_t *bit) {
   const struct trax_tm *tm = ftm->tm;
-  const uint32_t ports = tm->config->icache.ports_per_bank, vectors = ftm->vectors;
+  const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
   uint64_t losers = 0;
   for (uint32_t icache = 0; icache < tm->icaches; icache++) {
-    trax_fast_lanes lost = {0};
-    for (uint32_t i = icache * vectors; i < (icache + 1) * vectors; i++) {
-      for (uint32_t port = 0; port < ports; port++)
-        if (ftm->narrow) {
-          trax_fast_lanes16 winners;
-          TRAX_FAST_ARBITRATE(trax_fast_lanes16, &ftm->behind16[i], ftm->asking16[i], &winners);
-          ftm->asking16[i] ^= winners;
-        } else {
-          trax_fast_lanes winners;
-          TRAX_FAST_ARBITRATE(trax_fast_lanes, &ftm->behind[i], ftm->asking[i], &winners);
-          ftm->asking[i] ^= winners;
-        }
-      lost |= ftm->narrow ? (trax_fast_lanes)ftm->asking16[i] : ftm->asking[i];
+    const uint64_t ask_it = askers & trax_group_mask(icache, tm->config->icache.tps_per_cache);
+    trax_fast_lanes *behind = &ftm->behind[icache * ftm->vectors];
+    for (uint32_t first = 0; first < banks; first += TRAX_FAST_LANES, behind++) {
+      trax_fast_lanes asking;
+      for (uint32_t i = 0; i < TRAX_FAST_LANES; i++) {
+        asking[i] = ask_it;
+        for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
+          asking[i] &= (first + i) >> k & 1 ? bit[k] : ~bit[k];
+      }
+      for (uint32_t port = 0; port < ports; port++) {
+        trax_fast_lanes winners;
+        TRAX_FAST_ARBITRATE(trax_fast_lanes, behind, asking, &winners);
+        asking ^= winners;
+      }
+      losers |= trax_fast_any(&asking);
     }
-    losers |= ftm->narrow ? trax_fast_any16(&lost) << icache * tm->config->icache.tps_per_cache : trax_fast_any(&lost);
   }
   return losers;
 }
 
-/* Grants the instruction caches' banks; returns the losers, who go on asking. */
-static inline uint64_t lose_fetches(struct trax_fast_tm *ftm) {
-  if (!ftm->simple_fetch)
-    return lose_fetches_somehow(ftm);
-  uint64_t losers = 0;
-  for (uint32_t i = 0, icaches = ftm->tm->icaches, shift = 0; i < icaches; i++, shift += ftm->tps_per_icache) {
-    const trax_fast_lanes16 askers = ftm->asking16[i];
-    trax_fast_lanes16 winners;
-    TRAX_FAST_ARBITRATE(trax_fast_lanes16, &ftm->behind16[i], askers, &winners);
-    const trax_fast_lanes16 rest = askers ^ winners;
-    ftm->asking16[i] = rest;
-    losers |= trax_fast_any16((const trax_fast_lanes *)&rest) << shift;
+/* Grants the instruction caches' banks; returns the losers. */
+static inline uint64_t lose_fetches(struct trax_fast_tm *ftm, uint64_t askers) {
+  uint64_t bit[TRAX_FAST_BANK_BITS];
+  trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_FETCH_SHIFT, 4, bit);
+  if (ftm->simple_fetch) {
+    uint64_t losers = 0;
+    for (unsigned pair = 0; pair < 2 && askers >> 32 * pair; pair++)
+      losers |= (uint64_t)trax_fast_lose_pair(&ftm->behind16, pair, askers, bit) << 32 * pair;
+    return losers;
   }
-  return losers;
+  trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_FETCH_SHIFT + 4, 2, bit + 4);
+  return lose_fetches_somehow(ftm, askers, bit);
 }
 
 /* A bank has let the TP look up the line of its head. True if it is there. */
 static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
-  if (ftm->resident[ftm->icache_of[number]][ftm->head[number]->line])
+  if (ftm->resident[ftm->icache_of[number]][trax_fast_head_inst(ftm, number)->line])
     return true;
   trax_fast_show(ftm, number);
   if (trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc)))
     return true;
-  trax_icache_look_up(icache, tm, number, t);
-  if (tm->awake >> number & 1)
-    trax_fast_ask_fetch(ftm, number); /* refused by the memory queue */
+  trax_icache_look_up(icache, tm, number, t); /* who is refused by the memory queue asks again */
   return false;
 }
 
@@ -107,13 +103,13 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  uint16_t asks = ftm->fast->program.inst[ftm->head[number]->index].step.asks;
+  uint16_t asks = ftm->fast->program.asks[trax_fast_head(ftm, number)] & (TRAX_ASKS_KIND | TRAX_ASKS_FETCH);
   if (inst->ask == TRAX_ASK_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
   }
   if (inst->ask == TRAX_ASK_END)
-    asks = TRAX_ASKS_QUEUE;
+    asks |= TRAX_ASKS_QUEUE;
   if (inst->ask == TRAX_ASK_MEMORY) {
     tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
     const trax_fault_kind kind = trax_tp_check_access(tp, &tm->machine->space, tp->address);
@@ -122,76 +118,84 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
       return false;
     }
     if (tp->address >= TRAX_LOCAL_BASE)
-      asks = 0;
+      asks &= TRAX_ASKS_FETCH;
     else if (inst->is_nontemporal || inst->is_atomic)
-      asks = TRAX_ASKS_QUEUE;
+      asks |= TRAX_ASKS_QUEUE;
     else {
-      asks = (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);
-      ftm->tp[number].only.address = tp->address;
+      asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);
+      ftm->tp[number].address[0] = tp->address;
     }
   }
-  ftm->asks[number] = asks | TRAX_ASKS_SLOWLY;
+  ftm->tp[number].asks[0] = asks | TRAX_ASKS_SLOWLY;
+  trax_fast_set_head(&ftm->heads, number, 0);
   return true;
 }
 
 static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  trax_fast_show(ftm, number);
   const struct trax_tp *tp = &tm->tp[number];
-  if (trax_tp_operands_usable(tp, t) || tp->inst->ask == TRAX_ASK_ILLEGAL) {
-    ftm->busy_registers[number] &= ~ftm->head[number]->waits;
-    ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
+  const struct trax_fast_inst *inst = trax_fast_head_inst(ftm, number);
+  if ((ftm->deferred >> number & 1) && inst->decoded->ask == TRAX_ASK_ILLEGAL)
     return true;
-  }
-  uint64_t until = 0;
-  const trax_cause cause = trax_tp_wait(tp, t, &until);
-  if (until == TRAX_NEVER) {
-    trax_tm_sleep(tm, number, t, cause);
-    tm->awaiting |= (uint64_t)1 << number;
-  } else {
-    trax_tm_sleep_until(tm, number, t, t, until, cause);
-  }
-  return false;
+  for (uint32_t rest = inst->waits & ftm->busy_registers[number]; rest; rest &= rest - 1)
+    if (tp->usable[trax_first(rest)] > t) {
+      uint64_t until = 0;
+      trax_fast_show(ftm, number);
+      const trax_cause cause = trax_tp_wait(tp, t, &until);
+      if (until == TRAX_NEVER) {
+        trax_tm_sleep(tm, number, t, cause);
+        tm->awaiting |= (uint64_t)1 << number;
+      } else {
+        trax_tm_sleep_until(tm, number, t, t, until, cause);
+      }
+      return false;
+    }
+  ftm->busy_registers[number] &= ~inst->waits;
+  ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
+  return true;
 }
 
 /* Steps 1 and 2; woken: those whose operands may be usable now. */
-static void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, struct trax_fast_lost *lost, uint64_t t) {
+static inline void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, struct trax_fast_lost *lost, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   if (ftm->outside)
     fault_outside(ftm, t);
   const uint64_t askers = tm->awake & ~tm->holding;
   uint64_t hits = 0;
   if (askers) {
-    const uint64_t losers = lose_fetches(ftm);
+    const uint64_t losers = lose_fetches(ftm, askers);
     lost->fetch = losers;
     hits = askers & ~losers;
   }
-  uint64_t passed = hits & ftm->smooth;
-  for (uint64_t rest = hits & ~passed; rest; rest &= rest - 1)
-    if (!look_up(ftm, trax_first(rest), t))
-      hits ^= rest & -rest;
+  const uint64_t maybe_missing = ftm->uncertain | ftm->deferred;
+  uint64_t passed = hits & ~(ftm->busy | maybe_missing);
+  for (uint64_t rest = (hits & ~passed) | woken; rest; rest &= rest - 1) {
+    const uint64_t bit = rest & -rest;
+    const unsigned number = trax_first(rest);
+    if ((hits & maybe_missing & bit) && !look_up(ftm, number, t))
+      hits ^= bit;
+    else if (operands_usable(ftm, number, t) && (!(ftm->deferred & bit) || classify(ftm, number, t)))
+      passed |= bit;
+  }
   tm->stats->icache_hits += count_bits(hits);
   tm->holding |= hits;
-  for (uint64_t rest = (hits & ~passed) | woken; rest; rest &= rest - 1) {
-    const unsigned number = trax_first(rest);
-    if (operands_usable(ftm, number, t) && (!(ftm->deferred >> number & 1) || classify(ftm, number, t)))
-      passed |= rest & -rest;
-  }
   ftm->ready |= passed;
 }
 
 /* --- steps 3 and 4 --- */
 
 /* Those who win a bank of the data cache; `hits` receives those of them whose lines are there and who need no more. */
-static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, const struct trax_fast_planes *asks,
-                                   uint64_t *hits) {
+static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, uint64_t *bit, uint64_t *hits) {
   const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
-  const uint64_t *const bit = &asks->bit[TRAX_ASKS_BANK_SHIFT];
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
   /* Of the banks that are handled together, by the lowest two bits of their numbers. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
   uint64_t winners = 0, there = 0;
+  if (ftm->data_bank_bits > 3) {
+    trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_BANK_SHIFT + 3, 1, bit + 3);
+    trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_BANK_SHIFT + 4, 2, bit + 4);
+  }
   for (uint32_t first = 0; first < ftm->data_banks; first += TRAX_FAST_LANES) {
     uint64_t asking = askers;
     for (uint32_t k = 2; k < ftm->data_bank_bits; k++)
@@ -201,7 +205,8 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, co
                         &winner);
     winners |= trax_fast_any(&winner);
     for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
-      const uint32_t line = trax_line_of(tags, ftm->head[trax_first(winner[i] | (uint64_t)1 << 63)]->address);
+      const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
+      const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.at[number]]);
       const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
       there |= winner[i] & -(uint64_t)is_there;
     }
@@ -212,13 +217,13 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, co
 
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const struct trax_fast_step *step = ftm->head[number];
-  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, step->address)))
+  const uint32_t address = ftm->tp[number].address[ftm->heads.at[number]];
+  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
-    const unsigned rd = ftm->fast->program.inst[step->index].rd;
+    const unsigned rd = trax_fast_head_inst(ftm, number)->rd;
     trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
     trax_fast_set_busy(ftm, number, rd);
   }
@@ -251,7 +256,7 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
 static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers) {
   uint64_t roots = 0;
   for (uint64_t rest = askers; rest; rest &= rest - 1)
-    if (ftm->fast->program.inst[ftm->head[trax_first(rest)]->index].decoded->op == TRAX_OP_FRSQRT)
+    if (trax_fast_head_inst(ftm, trax_first(rest))->decoded->op == TRAX_OP_FRSQRT)
       roots |= rest & -rest;
   return roots;
 }
@@ -259,29 +264,30 @@ static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers
 /* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do. */
 static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t *slow, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  struct trax_fast_planes asks;
-  trax_fast_transpose(ftm->asks, tm->tps, ftm->data_bank_bits, &asks);
-  const uint64_t ready = ftm->ready;
-  uint64_t granted = ready & ~(asks.bit[1] | asks.bit[2] | asks.bit[3] | asks.bit[4] | asks.bit[5] | asks.bit[6]);
+  uint64_t bit[TRAX_ASKS_BANK_SHIFT + TRAX_FAST_BANK_BITS];
+  trax_fast_transpose(&ftm->heads, tm->tps, 0, TRAX_ASKS_BANK_SHIFT + 3, bit);
+  const uint64_t ready = ftm->ready, ready_low = ready & ~bit[3], ready_high = ready & bit[3];
+  /* By kind: see TRAX_ASKS_FP_ADD and those that follow it. */
+  uint64_t granted = ready_low & ~(bit[1] | bit[2]);
   uint64_t askers, won;
-  const trax_fast_pair fp_askers = {ready & asks.bit[1], ready & asks.bit[2]};
+  const trax_fast_pair fp_askers = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
   const trax_fast_pair fp_won = trax_fast_grant_units(&ftm->fp, fp_askers);
   granted |= fp_won[0] | fp_won[1];
   lost->fp_add = fp_askers[0] & ~fp_won[0];
   lost->fp_mul = fp_askers[1] & ~fp_won[1];
-  if ((askers = ready & asks.bit[3])) {
+  if ((askers = ready_low & bit[1] & bit[2])) {
     granted |= won = trax_fast_grant_units(&ftm->int_mul, (trax_fast_pair){askers, 0})[0];
     lost->int_mul = askers & ~won;
   }
-  if ((askers = ready & asks.bit[4])) {
+  if ((askers = ready_high & bit[1])) {
     const bool differ = tm->special.root_interval != tm->special.interval;
     granted |= won = trax_special_unit_grant(&tm->special, askers, differ ? askers_for_roots(ftm, askers) : 0, t);
     lost->special = askers & ~won;
   }
-  uint64_t queue_askers = ready & asks.bit[6];
-  if ((askers = ready & asks.bit[5])) {
+  uint64_t queue_askers = ready_high & bit[2];
+  if ((askers = ready_high & ~(bit[1] | bit[2]))) {
     uint64_t hits;
-    won = grant_banks(ftm, askers, &asks, &hits);
+    won = grant_banks(ftm, askers, bit + TRAX_ASKS_BANK_SHIFT, &hits);
     lost->bank = askers & ~won;
     if (ftm->hits_in_turn)
       hits = 0; /* serve sees to that */
@@ -292,46 +298,93 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
   if (queue_askers)
     granted |= grant_queue(ftm, queue_askers, t);
   ftm->ready &= ~granted;
-  *slow = asks.bit[0];
+  *slow = bit[0];
   return granted;
 }
 
-static void count_half(struct trax_fast_tally *tally, unsigned half) {
-  trax_fast_lanes sum[4] = {0}, carry = {0};
-  for (unsigned i = 0; i < tally->logged; i++) {
-    trax_fast_lanes term = tally->log[i][half];
-#pragma GCC unroll 4
-    for (unsigned bit = 0; bit < 4; bit++) {
-      const trax_fast_lanes to_next = sum[bit] & term;
-      sum[bit] ^= term;
-      term = to_next;
-    }
-  }
-  for (unsigned bit = 0; bit < 64 && (bit < 4 || trax_fast_any(&carry)); bit++) {
-    trax_fast_lanes *const plane = &tally->planes[bit][half];
-    const trax_fast_lanes term = bit < 4 ? sum[bit] : (trax_fast_lanes){0}, either = *plane ^ term;
-    const trax_fast_lanes to_next = (*plane & term) | (either & carry);
-    *plane = either ^ carry;
-    carry = to_next;
-  }
-}
+/* Adds two bits of each counter to the one in *sum; returns what is carried to the next one. */
+#define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
+  (__extension__({                                                                                                     \
+    const trax_fast_losses one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                    \
+    const trax_fast_losses carry_ = (*(SUM) & one_) | (either_ & other_);                                              \
+    *(SUM) = either_ ^ other_;                                                                                         \
+    carry_;                                                                                                            \
+  }))
 
 void trax_fast_count_log(struct trax_fast_tally *tally) {
-  count_half(tally, 0);
-  count_half(tally, 1);
+  trax_fast_losses sum[4] = {{0}}, carry = {0}, twos[7], fours[3];
+  for (; tally->logged < TRAX_FAST_LOG; tally->logged++)
+    tally->log[tally->logged] = carry;
+  sum[0] = tally->log[0];
+  for (unsigned i = 0; i < 7; i++)
+    twos[i] = ADD_TWO(&sum[0], tally->log[2 * i + 1], tally->log[2 * i + 2]);
+  sum[1] = twos[0];
+  for (unsigned i = 0; i < 3; i++)
+    fours[i] = ADD_TWO(&sum[1], twos[2 * i + 1], twos[2 * i + 2]);
+  sum[2] = fours[0];
+  sum[3] = ADD_TWO(&sum[2], fours[1], fours[2]);
+  for (unsigned bit = 0; bit < 4; bit++)
+    carry = ADD_TWO(&tally->planes[bit], sum[bit], carry);
+  for (unsigned bit = 4; bit < 64; bit++) {
+    const trax_fast_losses none = {0};
+    uint64_t any = 0;
+    for (unsigned i = 0; i < TRAX_FAST_LOSSES; i++)
+      any |= carry[i];
+    if (!any)
+      break;
+    carry = ADD_TWO(&tally->planes[bit], carry, none);
+  }
   tally->logged = 0;
 }
 
-void trax_fast_cycle(struct trax_fast *fast, uint32_t tm_number, uint64_t t) {
-  struct trax_fast_tm *ftm = &fast->tm[tm_number];
-  struct trax_fast_lost lost = {0};
-  ftm->tm->now = t;
-  fetch_and_check(ftm, wake(ftm, t), &lost, t);
-  uint64_t slow;
-  const uint64_t granted = grant(ftm, &lost, &slow, t);
-  trax_fast_issue(ftm, granted & ~slow, granted & slow, t);
-  trax_fast_count(&ftm->tally, &lost);
-  if (__builtin_expect(ftm->tm->observer != NULL, false))
-    trax_fast_tell(ftm, &lost);
-  ftm->tm->next_cycle = trax_tm_next_cycle(ftm->tm, t);
+/* A TM's cycle under way. */
+struct turn {
+  struct trax_fast_tm *ftm;
+  uint64_t t, woken, granted, slow;
+  struct trax_fast_lost lost;
+};
+
+/* A cycle of each of several TMs, which have nothing to do with each other: step by step, so that the host has
+   something else to do while it waits for one TM's results. */
+static inline void take_turns(struct turn *turns, unsigned count) {
+  for (struct turn *turn = turns; turn < turns + count; turn++) {
+    turn->ftm->tm->now = turn->t;
+    turn->woken = wake(turn->ftm, turn->t);
+    trax_fast_look_up_asks(&turn->ftm->heads, turn->ftm->tm->tps);
+  }
+  for (struct turn *turn = turns; turn < turns + count; turn++) {
+    turn->lost = (struct trax_fast_lost){0};
+    fetch_and_check(turn->ftm, turn->woken, &turn->lost, turn->t);
+  }
+  for (struct turn *turn = turns; turn < turns + count; turn++)
+    turn->granted = grant(turn->ftm, &turn->lost, &turn->slow, turn->t);
+  for (struct turn *turn = turns; turn < turns + count; turn++)
+    trax_fast_issue(turn->ftm, turn->granted & ~turn->slow, turn->granted & turn->slow, turn->t);
+  for (struct turn *turn = turns; turn < turns + count; turn++) {
+    struct trax_fast_tm *const ftm = turn->ftm;
+    trax_fast_count(&ftm->tally, &turn->lost);
+    if (__builtin_expect(ftm->tm->observer != NULL, false))
+      trax_fast_tell(ftm, &turn->lost);
+    ftm->tm->next_cycle = ftm->tm->awake ? turn->t + 1 : trax_tm_next_cycle(ftm->tm, turn->t);
+  }
+}
+
+void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t) {
+  take_turns(&(struct turn){.ftm = &fast->tm[tm], .t = t}, 1);
+}
+
+void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
+  struct turn turns[TRAX_FAST_ABREAST];
+  unsigned running;
+  do {
+    running = 0;
+    for (uint32_t i = first; i < first + count; i++) {
+      const struct trax_tm *const tm = fast->tm[i].tm;
+      if (tm->next_cycle < end && !tm->ahead->stop && !tm->fault.kind) {
+        turns[running].ftm = &fast->tm[i];
+        turns[running++].t = tm->next_cycle;
+      }
+    }
+    take_turns(turns, running);
+  } while (running);
 }

@@ -1,5 +1,5 @@
-/* The fast engine as the chip sees it. It is compiled twice where the host may have more than its family's least
-   instructions: bits and vectors are what the engine is made of. */
+/* The fast engine as the chip sees it. It is compiled several times where the host may have more than its family's
+   least instructions: bits and vectors are what the engine is made of. */
 #ifndef TRAX_FAST_ENGINE_H
 #define TRAX_FAST_ENGINE_H
 
@@ -10,12 +10,17 @@
 struct trax_chip;
 struct trax_fast;
 
+enum { TRAX_FAST_ABREAST = 2 };
+
 struct trax_fast_engine {
   /* Into chip->fast. */
   trax_status (*create)(struct trax_chip *chip, trax_error *error);
   void (*destroy)(struct trax_fast *fast); /* which may be NULL */
   /* Arrivals and the five steps of a TM; sets its next_cycle. */
   void (*cycle)(struct trax_fast *fast, uint32_t tm, uint64_t t);
+  /* All cycles before `end` of the `count` TMs from `first` on, at most TRAX_FAST_ABREAST, which run ahead (windows.h);
+     less of one that stops or faults. */
+  void (*run_ahead)(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
   /* Adds the instructions executed since the last call to the TMs' statistics; before the run's end, also those that
      ran ahead. */
   void (*collect)(struct trax_fast *fast);
@@ -32,11 +37,17 @@ extern const struct trax_fast_engine trax_fast_engine;
 #ifdef TRAX_FAST_HAVE_V3
 extern const struct trax_fast_engine trax_fast_engine_v3; /* for x86-64-v3: AVX2, BMI2 */
 #endif
+#ifdef TRAX_FAST_HAVE_V4
+extern const struct trax_fast_engine trax_fast_engine_v4; /* for x86-64-v4: AVX-512 */
+#endif
 
 static inline const struct trax_fast_engine *trax_fast_best_engine(void) {
+#ifdef TRAX_FAST_HAVE_V4
+  if (__builtin_cpu_supports("x86-64-v4"))
+    return &trax_fast_engine_v4;
+#endif
 #ifdef TRAX_FAST_HAVE_V3
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
-      __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("fma"))
+  if (__builtin_cpu_supports("x86-64-v3"))
     return &trax_fast_engine_v3;
 #endif
   return &trax_fast_engine;

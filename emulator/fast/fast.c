@@ -21,48 +21,27 @@ static void create_units(struct trax_fast_units *unit, const struct trax_shared_
   unit->below_top = ~unit->top;
 }
 
-static void *create_vectors(size_t count) {
-  const size_t bytes = count * sizeof(trax_fast_lanes);
-  void *vectors = aligned_alloc(sizeof(trax_fast_lanes), bytes);
-  return vectors ? memset(vectors, 0, bytes) : NULL;
+static void *create_aligned(size_t count, size_t size) {
+  void *array = aligned_alloc(64, (count * size + 63) / 64 * 64);
+  return array ? memset(array, 0, count * size) : NULL;
 }
 
 static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
   const uint32_t tps = tm->config->icache.tps_per_cache, banks = tm->config->icache.banks;
-  ftm->narrow = tps <= TRAX_FAST_LANES16;
-  const uint32_t lanes = ftm->narrow ? TRAX_FAST_LANES16 : TRAX_FAST_LANES;
-  ftm->vectors = (banks + lanes - 1) / lanes;
-  ftm->simple_fetch = ftm->narrow && ftm->vectors == 1 && tm->config->icache.ports_per_bank == 1;
-  ftm->tps_per_icache = tps;
-  const size_t count = (size_t)tm->icaches * ftm->vectors;
-  if (ftm->narrow) {
-    ftm->asking16 = create_vectors(count);
-    ftm->behind16 = create_vectors(count);
-  } else {
-    ftm->asking = create_vectors(count);
-    ftm->behind = create_vectors(count);
-  }
+  ftm->simple_fetch = tps == 16 && banks <= 16 && tm->config->icache.ports_per_bank == 1;
+  ftm->vectors = (banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
+  ftm->behind = create_aligned((size_t)tm->icaches * ftm->vectors, sizeof *ftm->behind);
   ftm->resident = calloc(tm->icaches, sizeof *ftm->resident);
   ftm->resident_lines = calloc(tm->icaches, sizeof *ftm->resident_lines);
-  if (!(ftm->narrow ? ftm->asking16 && ftm->behind16 : ftm->asking && ftm->behind) || !ftm->resident ||
-      !ftm->resident_lines)
-    return false;
-  for (unsigned i = 0; i < tm->tps; i++) {
-    const uint32_t icache = i / tps;
-    ftm->icache_of[i] = (uint8_t)icache;
-    ftm->bit16[i] = (uint16_t)(1u << i % tps % TRAX_FAST_LANES16);
-    if (ftm->narrow)
-      ftm->asking16_of[i] = (uint16_t *)(ftm->asking16 + icache * ftm->vectors);
-    else
-      ftm->asking_of[i] = (uint64_t *)(ftm->asking + icache * ftm->vectors);
-  }
-  return true;
+  for (unsigned i = 0; i < tm->tps; i++)
+    ftm->icache_of[i] = (uint8_t)(i / tps);
+  return ftm->behind && ftm->resident && ftm->resident_lines;
 }
 
 static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm, trax_error *error) {
   ftm->fast = fast;
   ftm->tm = tm;
-  ftm->tp = calloc(tm->tps, sizeof *ftm->tp);
+  ftm->tp = create_aligned(tm->tps, sizeof *ftm->tp);
   ftm->changes = calloc(fast->program.inst_count + 1, sizeof *ftm->changes);
   if (!create_fetch(ftm, tm) || !ftm->tp || !ftm->changes)
     return trax_fail(error, "out of memory");
@@ -72,14 +51,15 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   create_units(&ftm->fp, &tm->fp_add, &tm->fp_mul);
   create_units(&ftm->int_mul, &tm->int_mul, &tm->int_mul);
   ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
-  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++)
-    ftm->head[i] = &ftm->tp[0].only; /* those that do not exist are looked at in place of nobody */
+  ftm->heads.steps = ftm->tp->asks;
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* those that do not exist are looked at in place of nobody */
+    ftm->heads.begin[i] = i < tm->tps ? i * (uint32_t)(sizeof *ftm->tp / sizeof(uint16_t)) : 0;
+    ftm->address_of[i] = ftm->tp[i < tm->tps ? i : 0].address;
+  }
   for (unsigned i = 0; i < tm->tps; i++) {
     ftm->tp[i].resume = trax_fast_inst_at(&fast->program, tm->tp[i].pc);
     ftm->tp[i].resume_pc = tm->tp[i].pc;
-    ftm->head[i] = ftm->tp[i].last = &ftm->tp[i].only;
     trax_fast_advance(ftm, i);
-    trax_fast_ask_fetch(ftm, i);
   }
   return TRAX_OK;
 }
@@ -91,7 +71,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
     return trax_fail(error, "out of memory");
   fast->chip = chip;
   fast->burst = machine->observer ? 1 : TRAX_BURST;
-  const size_t bytes = chip->tms * sizeof *fast->tm;
+  const size_t bytes = chip->tms * sizeof *fast->tm; /* of a multiple of their alignment */
   fast->tm = aligned_alloc(_Alignof(struct trax_fast_tm), bytes);
   if (!fast->tm)
     return trax_fail(error, "out of memory");
@@ -111,10 +91,7 @@ static void destroy(struct trax_fast *fast) {
   for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++) {
     free(fast->tm[i].tp);
     free(fast->tm[i].changes);
-    free(fast->tm[i].asking);
     free(fast->tm[i].behind);
-    free(fast->tm[i].asking16);
-    free(fast->tm[i].behind16);
     free(fast->tm[i].resident);
     free(fast->tm[i].resident_lines);
   }
@@ -154,7 +131,7 @@ static void charge_losses(struct trax_fast_tm *ftm) {
   trax_fast_count_log(&ftm->tally);
   for (unsigned bit = 0; bit < 64; bit++)
     for (unsigned lost = 0; lost < sizeof loss_causes / sizeof *loss_causes; lost++)
-      for (uint64_t tps = ftm->tally.planes[bit][lost / 4][lost % 4]; tps; tps &= tps - 1)
+      for (uint64_t tps = ftm->tally.planes[bit][lost]; tps; tps &= tps - 1)
         ftm->tm->tp_stats[trax_first(tps)].cycles[loss_causes[lost]] += (uint64_t)1 << bit;
   memset(&ftm->tally, 0, sizeof ftm->tally);
 }
@@ -168,12 +145,7 @@ void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost 
 
 /* Of the current burst: how much was issued. */
 static unsigned issued_of_burst(const struct trax_fast_tm *ftm, unsigned tp) {
-  const struct trax_fast_step *step = ftm->head[tp];
-  return step == &ftm->tp[tp].only || ftm->tm->ended >> tp & 1 ? 0 : (unsigned)(step - ftm->tp[tp].steps);
-}
-
-static bool is_jump(const struct trax_fast_tp *ftp, const struct trax_fast_step *step) {
-  return (step == ftp->last ? ftp->resume->step.index : step[1].index) != step->index + 1u;
+  return (ftm->deferred | ftm->tm->ended) >> tp & 1 ? 0 : ftm->heads.at[tp];
 }
 
 /* Adds the issued part of a burst, and takes it off what its end will add. */
@@ -182,7 +154,7 @@ static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
   const unsigned issued = issued_of_burst(ftm, tp);
   uint64_t jumps = 0;
   for (unsigned i = 0; i < issued; i++)
-    jumps += is_jump(ftp, &ftp->steps[i]);
+    jumps += ftp->index[i + 1] != ftp->index[i] + 1;
   ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftp->issued + issued;
   ftm->tm->stats->taken_branches += ftp->jumps + jumps;
   ftp->issued = -(uint64_t)issued;
@@ -192,10 +164,10 @@ static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
 /* Counts what has run ahead of its issue `sign` times more. */
 static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
-    if (ftm->head[tp] != &ftm->tp[tp].only && !(ftm->tm->ended >> tp & 1))
-      for (const struct trax_fast_step *step = ftm->head[tp]; step <= ftm->tp[tp].last; step++) {
-        ftm->changes[step->index] += sign;
-        ftm->changes[step->index + 1] -= sign;
+    if (!((ftm->deferred | ftm->tm->ended) >> tp & 1))
+      for (unsigned i = ftm->heads.at[tp]; i <= ftm->heads.last[tp]; i++) {
+        ftm->changes[ftm->tp[tp].index[i]] += sign;
+        ftm->changes[ftm->tp[tp].index[i] + 1] -= sign;
       }
 }
 
@@ -214,9 +186,10 @@ static void settle(struct trax_fast *fast) {
   }
 }
 
-#ifdef TRAX_FAST_V3
-const struct trax_fast_engine trax_fast_engine_v3
+const struct trax_fast_engine
+#ifdef TRAX_FAST_VARIANT
+    TRAX_FAST_NAME(trax_fast_engine, TRAX_FAST_VARIANT)
 #else
-const struct trax_fast_engine trax_fast_engine
+    trax_fast_engine
 #endif
-    = {create, destroy, trax_fast_cycle, collect, settle, trax_fast_gather, trax_fast_scatter};
+    = {create, destroy, trax_fast_cycle, trax_fast_run_ahead, collect, settle, trax_fast_gather, trax_fast_scatter};

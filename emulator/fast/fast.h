@@ -11,64 +11,50 @@
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
 
-#ifdef TRAX_FAST_V3 /* the second of two compilations (engine.h) */
-#define trax_fast_program_create trax_fast_program_create_v3
-#define trax_fast_program_destroy trax_fast_program_destroy_v3
-#define trax_fast_burst trax_fast_burst_v3
-#define trax_fast_advance trax_fast_advance_v3
-#define trax_fast_refill trax_fast_refill_v3
-#define trax_fast_show trax_fast_show_v3
-#define trax_fast_close trax_fast_close_v3
-#define trax_fast_line_arrives trax_fast_line_arrives_v3
-#define trax_fast_tell trax_fast_tell_v3
-#define trax_fast_cycle trax_fast_cycle_v3
-#define trax_fast_count_log trax_fast_count_log_v3
-#define trax_fast_issue trax_fast_issue_v3
-#define trax_fast_blocks_create trax_fast_blocks_create_v3
-#define trax_fast_blocks_destroy trax_fast_blocks_destroy_v3
-#define trax_fast_block_written trax_fast_block_written_v3
-#define trax_fast_come_back trax_fast_come_back_v3
-#define trax_fast_gather trax_fast_gather_v3
-#define trax_fast_scatter trax_fast_scatter_v3
+#ifdef TRAX_FAST_VARIANT /* one of several compilations (engine.h): _v3 */
+#define TRAX_FAST_JOIN(NAME, VARIANT) NAME##VARIANT
+#define TRAX_FAST_NAME(NAME, VARIANT) TRAX_FAST_JOIN(NAME, VARIANT)
+#define trax_fast_program_create TRAX_FAST_NAME(trax_fast_program_create, TRAX_FAST_VARIANT)
+#define trax_fast_program_destroy TRAX_FAST_NAME(trax_fast_program_destroy, TRAX_FAST_VARIANT)
+#define trax_fast_burst TRAX_FAST_NAME(trax_fast_burst, TRAX_FAST_VARIANT)
+#define trax_fast_operations TRAX_FAST_NAME(trax_fast_operations, TRAX_FAST_VARIANT)
+#define trax_fast_advance TRAX_FAST_NAME(trax_fast_advance, TRAX_FAST_VARIANT)
+#define trax_fast_refill TRAX_FAST_NAME(trax_fast_refill, TRAX_FAST_VARIANT)
+#define trax_fast_show TRAX_FAST_NAME(trax_fast_show, TRAX_FAST_VARIANT)
+#define trax_fast_close TRAX_FAST_NAME(trax_fast_close, TRAX_FAST_VARIANT)
+#define trax_fast_line_arrives TRAX_FAST_NAME(trax_fast_line_arrives, TRAX_FAST_VARIANT)
+#define trax_fast_tell TRAX_FAST_NAME(trax_fast_tell, TRAX_FAST_VARIANT)
+#define trax_fast_run_ahead TRAX_FAST_NAME(trax_fast_run_ahead, TRAX_FAST_VARIANT)
+#define trax_fast_cycle TRAX_FAST_NAME(trax_fast_cycle, TRAX_FAST_VARIANT)
+#define trax_fast_count_log TRAX_FAST_NAME(trax_fast_count_log, TRAX_FAST_VARIANT)
+#define trax_fast_issue TRAX_FAST_NAME(trax_fast_issue, TRAX_FAST_VARIANT)
+#define trax_fast_blocks_create TRAX_FAST_NAME(trax_fast_blocks_create, TRAX_FAST_VARIANT)
+#define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
+#define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
+#define trax_fast_come_back TRAX_FAST_NAME(trax_fast_come_back, TRAX_FAST_VARIANT)
+#define trax_fast_gather TRAX_FAST_NAME(trax_fast_gather, TRAX_FAST_VARIANT)
+#define trax_fast_scatter TRAX_FAST_NAME(trax_fast_scatter, TRAX_FAST_VARIANT)
 #endif
 
 #include "core/chip.h"
 #include "fast/engine.h"
+#include "fast/heads.h"
 #include "fast/masks.h"
 
 enum {
-  TRAX_BURST = 128,      /* most instructions of a burst */
+  TRAX_BURST = 160,      /* most instructions of a burst; fits in trax_fast_heads.at */
+  TRAX_STRETCH = 32,     /* instructions of the program whose steps are noted at once: those from a multiple of it on */
   TRAX_FAST_LINES = 1024 /* lines of the program that `resident` knows; the last entry stands for all others */
-};
-
-/* What a head asks for after its operands: bits of trax_fast_step.asks. Nothing: the TP's own units. */
-enum {
-  TRAX_ASKS_SLOWLY = 1, /* its issue has more to do: the last of a burst, a longer latency, a bubble behind it */
-  TRAX_ASKS_FP_ADD = 2,
-  TRAX_ASKS_FP_MUL = 4,
-  TRAX_ASKS_INT_MUL = 8,
-  TRAX_ASKS_SPECIAL = 16,
-  TRAX_ASKS_BANK = 32,     /* of the data cache */
-  TRAX_ASKS_QUEUE = 64,    /* the memory queue without a bank */
-  TRAX_ASKS_BANK_SHIFT = 8 /* which bank */
-};
-
-/* What timing needs of an instruction that has been executed. */
-struct trax_fast_step {
-  uint32_t waits;      /* mask of registers that must be usable */
-  uint32_t index : 24; /* of the instruction, in trax_fast_program.inst */
-  uint32_t bank : 8;   /* of the instruction cache */
-  uint32_t address;    /* of a memory access, else 0 */
-  uint16_t line;       /* of the program, for `resident` */
-  uint16_t asks;
 };
 
 /* An instruction, for both function and timing. */
 struct trax_fast_inst {
-  struct trax_fast_step step; /* as a burst notes it */
+  const void *operation; /* where burst.c executes it; for the first of a stretch, where the stretch is noted */
   int32_t imm;
   uint8_t op; /* trax_op; TRAX_OP_ILLEGAL where a burst must stop: then only `decoded` knows */
   uint8_t rd, ra, rb;
+  uint32_t waits; /* mask of registers that must be usable */
+  uint16_t line;  /* of the program, for `resident` */
   const struct trax_decoded *decoded;
 };
 
@@ -84,6 +70,7 @@ struct trax_fast_program {
   size_t count, inst_count;
   uint32_t lines; /* that `resident` knows */
   struct trax_fast_inst *inst;
+  uint16_t *asks;                 /* [inst_count + TRAX_STRETCH]: of a step, unless its address says more */
   uint32_t *pc;                   /* [inst_count] */
   struct trax_fast_inst *outside; /* the last */
 };
@@ -93,8 +80,6 @@ struct trax_fast_undo {
 };
 
 struct trax_fast_tp {
-  struct trax_fast_step only;
-  const struct trax_fast_step *last; /* after it comes the next burst */
   uint32_t resume_pc;
   const struct trax_fast_inst *resume; /* where the next burst begins: at resume_pc */
   uint64_t atomics;                    /* registers that an atomic increment under way will write */
@@ -104,10 +89,14 @@ struct trax_fast_tp {
   uint32_t burst_jumps; /* of the current burst, its last step included */
   uint64_t burst_lines; /* bit line % 64: in which lines of the program its steps are */
 
-  struct trax_fast_step steps[TRAX_BURST];
+  /* The steps of the burst, what timing needs of instructions that have been executed; or only the deferred head.
+     Behind the last one there may be more. */
+  _Alignas(64) uint16_t asks[TRAX_BURST + TRAX_STRETCH];
+  uint32_t index[TRAX_BURST + TRAX_STRETCH]; /* of the instruction, in trax_fast_program.inst */
+  uint32_t address[TRAX_BURST];              /* of a memory access */
+
   /* How to get back to the burst's beginning (blocks.c). */
   const struct trax_fast_inst *begin;
-  uint32_t begin_pc;
   uint32_t undo_count;
   uint32_t reg[TRAX_NUM_REGISTERS + 1];
   struct trax_fast_undo undo[TRAX_BURST];
@@ -119,38 +108,27 @@ struct trax_fast_tm {
   struct trax_fast_tp *tp; /* [tps] */
   /* How often each instruction was executed since that was collected: the sum of this up to it, in its section. */
   int64_t *changes; /* [inst_count + 1] */
-  /* What most issues need of a TP: its head, one of trax_fast_tp.steps or `only` if it is deferred; the banks of its
-     instruction cache, in asking or asking16; its bit there. */
-  const struct trax_fast_step *head[TRAX_MAX_TPS_PER_TM];
-  union {
-    uint64_t *asking_of[TRAX_MAX_TPS_PER_TM];
-    uint16_t *asking16_of[TRAX_MAX_TPS_PER_TM];
-  };
-  uint16_t bit16[TRAX_MAX_TPS_PER_TM];
+  struct trax_fast_heads heads;
+  const uint32_t *address_of[TRAX_MAX_TPS_PER_TM]; /* trax_fast_tp.address; of those that do not exist, TP 0's */
   /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
      it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
   uint32_t busy_registers[TRAX_MAX_TPS_PER_TM];
-  _Alignas(32) uint16_t asks[TRAX_MAX_TPS_PER_TM]; /* of the heads; a deferred one's once its operands are usable */
 
   /* Masks of TPs. */
-  uint64_t ready;    /* have an instruction and usable operands and lack a unit, a bank or a place */
-  uint64_t deferred; /* the head executes at issue */
-  uint64_t smooth;  /* the head's operands will be usable in the first cycle in which it can be fetched, and its line is
-                       there */
-  uint64_t outside; /* the head cannot be fetched */
-  uint64_t busy;    /* busy_registers is not 0 */
+  uint64_t ready;     /* have an instruction and usable operands and lack a unit, a bank or a place */
+  uint64_t deferred;  /* the head executes at issue */
+  uint64_t outside;   /* the head cannot be fetched */
+  uint64_t busy;      /* busy_registers is not 0 */
   uint64_t uncertain; /* a line of the burst may not be there */
   uint64_t taken_up;  /* hold an instruction since before the run was taken up: its operands are looked at again */
 
-  /* The banks of all instruction caches, one cache's after another's, each beginning a vector: the TPs that ask, and
-     those behind the latest winner. If no more than 16 TPs share a cache, the arrays of 16 bits are used, and a bit is
-     a TP of the cache. */
-  bool narrow;
-  bool simple_fetch; /* that, and one vector to a cache, one fetch of a bank in a cycle */
-  uint32_t vectors;  /* of a cache */
-  uint32_t tps_per_icache;
-  trax_fast_lanes *asking, *behind;
-  trax_fast_lanes16 *asking16, *behind16;
+  /* For each bank of the instruction caches, the TPs behind the latest winner. `simple_fetch`: 16 TPs share a cache of
+     at most 16 banks that let one into each; then the TPs of all caches are handled together (heads.h). Else the banks
+     of one cache after another's, each beginning a vector. */
+  bool simple_fetch;
+  uint32_t vectors; /* of a cache */
+  struct trax_fast_banks16 behind16;
+  trax_fast_lanes *behind;
   uint32_t data_banks, data_bank_bits;
   bool hits_in_turn;                    /* a hit of the data cache needs more than counting: latency, or order of use */
   uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches] */
@@ -167,7 +145,9 @@ struct trax_fast_tm {
 enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN = 2 };
 
 struct trax_fast_blocks {
-  uint8_t *state; /* [block]: LOADED by someone who ran ahead, or then or at once WRITTEN */
+  /* [block]: LOADED by someone who ran ahead, or then or at once WRITTEN. Several TMs may note what they have loaded at
+     the same time; what is written is noted when none of them runs. */
+  uint8_t *state;
   size_t bytes;
 };
 
@@ -178,6 +158,15 @@ struct trax_fast {
   unsigned burst;          /* most instructions of a burst; 1 for an observer, so that results are there at issue */
   struct trax_fast_blocks blocks;
 };
+
+/* The index of the TP's head, in trax_fast_program.inst. */
+static inline uint32_t trax_fast_head(const struct trax_fast_tm *ftm, unsigned tp) {
+  return ftm->tp[tp].index[ftm->heads.at[tp]];
+}
+
+static inline const struct trax_fast_inst *trax_fast_head_inst(const struct trax_fast_tm *ftm, unsigned tp) {
+  return &ftm->fast->program.inst[trax_fast_head(ftm, tp)];
+}
 
 /* In busy_registers. */
 static inline uint32_t trax_fast_register_bit(unsigned rd) {
@@ -202,16 +191,20 @@ static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_f
 }
 
 /* --- burst.c --- */
-/* Executes up to `limit` instructions from resume on, as steps 0...; returns how many. */
+/* Executes instructions from resume on, as steps 0...; returns how many: `limit` at most, and as many if that is less
+   than TRAX_BURST and nothing stops it. */
 unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned tp, unsigned limit);
+
+/* Where each trax_op is executed, TRAX_OP_ILLEGAL stops, and, at TRAX_OP_COUNT, where a stretch is noted. */
+const void *const *trax_fast_operations(void);
 
 /* --- head.c --- */
 /* All steps are used up: the next burst. If nothing can run ahead, the head is deferred. */
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
 /* The core's view of the head: inst, pc, address. */
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
-/* The first `issued` steps of the TP's burst are over, and no others will be. */
-void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned issued);
+/* The first `issued` of the `executed` steps of the TP's burst are over, and no others will be. */
+void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned executed, unsigned issued);
 /* A line arrives in an instruction cache. */
 void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
 
@@ -221,22 +214,13 @@ void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost 
 
 /* --- cycle.c --- */
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
+void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
 
 /* --- issue.c --- */
 /* Step 5; the heads of the `slow` ones are marked with TRAX_ASKS_SLOWLY. */
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
-/* Several TMs may note what they have loaded at the same time; what is written is noted when none of them runs. */
-static inline uint8_t trax_fast_block_state(const struct trax_fast *fast, uint32_t address) {
-  return __atomic_load_n(&fast->blocks.state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED);
-}
-
-static inline void trax_fast_block_loaded(struct trax_fast *fast, uint32_t address) {
-  if (trax_fast_block_state(fast, address) != TRAX_BLOCK_LOADED)
-    __atomic_store_n(&fast->blocks.state[address >> TRAX_BLOCK_SHIFT], TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);
-}
-
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error);
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */

@@ -24,48 +24,44 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     ftm->deferred &= ~bit;
     const bool certain = !(ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]]);
     ftm->uncertain = (ftm->uncertain & ~bit) | (certain ? 0 : bit);
-    ftp->steps[count - 1].asks |= TRAX_ASKS_SLOWLY;
-    ftm->head[number] = ftp->steps;
-    ftp->last = ftp->steps + count - 1;
+    ftp->asks[count - 1] |= TRAX_ASKS_SLOWLY;
+    ftm->heads.last[number] = (uint8_t)(count - 1);
+    trax_fast_set_head(&ftm->heads, number, 0);
   } else {
-    ftm->deferred |= bit;
-    ftp->only = ftp->resume->step;
-    ftp->only.asks = TRAX_ASKS_SLOWLY;
-    ftm->head[number] = ftp->last = &ftp->only;
+    const uint32_t index = (uint32_t)(ftp->resume - ftm->fast->program.inst);
+    trax_fast_defer(ftm, number, ftm->fast->program.asks[index] & TRAX_ASKS_FETCH, index, 0);
     tp->inst = ftp->resume->decoded;
     tp->pc = ftp->resume_pc;
+    ftm->outside |= tp->inst->ask == TRAX_ASK_OUTSIDE ? bit : 0;
   }
 }
 
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
-  if (ftm->head[number] == ftm->tp[number].last)
+  if (ftm->heads.at[number] == ftm->heads.last[number])
     trax_fast_refill(ftm, number);
   else
-    ftm->head[number]++;
-  ftm->asks[number] = ftm->head[number]->asks;
-  ftm->smooth = (ftm->smooth & ~bit) | (trax_fast_is_smooth(ftm, number) ? bit & ~ftm->deferred : 0);
-  return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[ftm->head[number]->index];
+    trax_fast_set_head(&ftm->heads, number, ftm->heads.at[number] + 1u);
+  return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[trax_fast_head(ftm, number)];
 }
 
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_step *step = ftm->head[number];
+  const uint32_t index = trax_fast_head(ftm, number);
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred >> number & 1)
     return; /* set when it became the head, and its address since */
-  tp->inst = ftm->fast->program.inst[step->index].decoded;
-  tp->pc = ftm->fast->program.pc[step->index];
-  tp->address = step->address;
+  tp->inst = ftm->fast->program.inst[index].decoded;
+  tp->pc = ftm->fast->program.pc[index];
+  tp->address = tp->inst->bytes ? ftm->tp[number].address[ftm->heads.at[number]] : 0;
 }
 
-void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned issued) {
+void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned executed, unsigned issued) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
-  const unsigned executed = (unsigned)(ftp->last - ftp->steps) + 1;
   ftp->issued += issued;
   ftp->jumps += ftp->burst_jumps;
   for (unsigned i = issued; i < executed; i++) { /* takes back what did not happen */
-    const uint32_t index = ftp->steps[i].index;
-    const uint32_t next = i + 1 < executed ? ftp->steps[i + 1].index : ftp->resume->step.index;
+    const uint32_t index = ftp->index[i];
+    const uint32_t next = i + 1 < executed ? ftp->index[i + 1] : (uint32_t)(ftp->resume - ftm->fast->program.inst);
     ftm->changes[index]--;
     ftm->changes[index + 1]++;
     ftp->jumps -= next != index + 1;
@@ -73,7 +69,6 @@ void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned issued)
 }
 
 void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned number, uint32_t line) {
-  uint8_t *const resident = ftm->resident[number];
   const struct trax_fast_program *program = &ftm->fast->program;
   const struct trax_cache_tags *tags = &ftm->tm->icache[number].tags;
   const uint32_t set = line & tags->set_mask;
@@ -92,7 +87,5 @@ void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned number, uint32_t 
     if (ftm->icache_of[tp] == number) {
       if (gone)
         ftm->uncertain |= (uint64_t)1 << tp;
-      if (!resident[ftm->head[tp]->line])
-        ftm->smooth &= ~((uint64_t)1 << tp);
     }
 }

@@ -5,23 +5,6 @@
 
 #include "fast/fast.h"
 
-/* The TP, which has no other instruction, asks the bank of its head from the next fetch on. */
-static inline void trax_fast_ask_fetch(struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_inst *inst = &ftm->fast->program.inst[ftm->head[number]->index];
-  if (inst->decoded->ask == TRAX_ASK_OUTSIDE)
-    ftm->outside |= (uint64_t)1 << number;
-  else if (ftm->narrow)
-    ftm->asking16_of[number][ftm->head[number]->bank] |= ftm->bit16[number];
-  else
-    ftm->asking_of[number][ftm->head[number]->bank] |= (uint64_t)1 << number;
-}
-
-/* Whether a step that becomes the TP's head will need no second look when it is fetched. */
-static inline bool trax_fast_is_smooth(const struct trax_fast_tm *ftm, unsigned number) {
-  const struct trax_fast_step *step = ftm->head[number];
-  return (step->waits & ftm->busy_registers[number] ? 0 : 1) & ftm->resident[ftm->icache_of[number]][step->line];
-}
-
 static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned icache, uint32_t line, bool is_there) {
   ftm->resident[icache][line] = is_there;
   if (ftm->fast->program.lines <= 64)
@@ -30,5 +13,17 @@ static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned ica
 
 /* The TP's next instruction becomes its head, executed already if it may be; returns its pc. */
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp);
+
+/* Makes a step the only one, executed at issue. */
+static inline void trax_fast_defer(struct trax_fast_tm *ftm, unsigned number, uint16_t asks, uint32_t index,
+                                   uint32_t address) {
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  ftm->deferred |= (uint64_t)1 << number;
+  ftp->asks[0] = asks | TRAX_ASKS_SLOWLY;
+  ftp->index[0] = index;
+  ftp->address[0] = address;
+  ftm->heads.last[number] = 0;
+  trax_fast_set_head(&ftm->heads, number, 0);
+}
 
 #endif

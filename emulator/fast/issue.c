@@ -7,7 +7,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  const uint32_t pc = tp->pc, index = ftm->head[number]->index;
+  const uint32_t pc = tp->pc, index = trax_fast_head(ftm, number);
   if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE && !ftm->tm->ahead)
     trax_fast_block_written(ftm->fast, tp->address);
   if (inst->is_atomic && ftm->tm->ahead)
@@ -33,12 +33,11 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 
 /* When the result can be used, if that is not in the next cycle and memory does not decide. */
 static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
-  const struct trax_fast_step *step = ftm->head[number];
-  const struct trax_decoded *inst = ftm->fast->program.inst[step->index].decoded;
+  const struct trax_decoded *inst = trax_fast_head_inst(ftm, number)->decoded;
   uint32_t latency = inst->latency;
   trax_cause cause = (trax_cause)inst->cause;
   if (inst->ask == TRAX_ASK_MEMORY) {
-    if (inst->is_store || (step->asks & TRAX_ASKS_BANK))
+    if (inst->is_store || (ftm->heads.asks[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK)
       return;
     latency = ftm->tm->config->tp.local_latency_cycles;
     cause = TRAX_CAUSE_DATA_LOCAL;
@@ -63,8 +62,8 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
       return;
   } else {
     note_result(ftm, number, t);
-    if (ftm->head[number] == ftp->last)
-      trax_fast_close(ftm, number, (unsigned)(ftp->last - ftp->steps) + 1);
+    if (ftm->heads.at[number] == ftm->heads.last[number])
+      trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, ftm->heads.last[number] + 1u);
   }
   tm->holding &= ~bit;
   if (tm->observer)
@@ -74,34 +73,12 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
   if (trax_fast_advance(ftm, number) != pc + 4 && bubble)
     trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + bubble, TRAX_CAUSE_BRANCH);
-  else
-    trax_fast_ask_fetch(ftm, number);
 }
 
-/* The next steps of those that do nothing else: they become the heads and ask for their banks. */
-static inline void issue_alike(struct trax_fast_tm *ftm, uint64_t quick, bool narrow) {
-  for (uint64_t rest = quick; rest; rest &= rest - 1) {
-    const unsigned number = trax_first(rest);
-    const struct trax_fast_step *const next = ftm->head[number] + 1;
-    ftm->head[number] = next;
-    ftm->asks[number] = next->asks;
-    if (narrow) /* what has been executed can be fetched */
-      ftm->asking16_of[number][next->bank] |= ftm->bit16[number];
-    else
-      ftm->asking_of[number][next->bank] |= rest & -rest;
-  }
-  ftm->tm->holding &= ~quick;
-  ftm->smooth |= quick;
-  for (uint64_t rest = quick & (ftm->busy | ftm->uncertain); rest; rest &= rest - 1)
-    if (!trax_fast_is_smooth(ftm, trax_first(rest)))
-      ftm->smooth ^= rest & -rest;
-}
-
+/* The next steps of those that do nothing else: they become the heads. */
 static inline void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
-  if (ftm->narrow)
-    issue_alike(ftm, quick, true);
-  else
-    issue_alike(ftm, quick, false);
+  trax_fast_move_on(&ftm->heads, ftm->tm->tps, quick);
+  ftm->tm->holding &= ~quick;
 }
 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t) {

@@ -9,27 +9,13 @@
 #include <immintrin.h>
 #endif
 
-/* Masks that are handled together: of a whole TM's TPs, or of the at most 16 TPs of an instruction cache. */
-enum { TRAX_FAST_LANES = 4, TRAX_FAST_LANES16 = 16 };
+/* Masks that are handled together. */
+enum { TRAX_FAST_LANES = 4, TRAX_FAST_BANK_BITS = 6 /* of at most 64 banks */ };
 typedef uint64_t trax_fast_lanes __attribute__((vector_size(8 * TRAX_FAST_LANES), may_alias));
-typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(2 * TRAX_FAST_LANES16), may_alias));
 
 /* Vectors are passed by address: how they are passed by value depends on what they are compiled for. */
 static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
   return (*lanes)[0] | (*lanes)[1] | (*lanes)[2] | (*lanes)[3];
-}
-
-static inline uint64_t trax_fast_any16(const trax_fast_lanes *lanes) {
-#ifdef __SSE2__
-  const __m128i *const halves = (const __m128i *)lanes;
-  __m128i four = _mm_or_si128(halves[0], halves[1]);
-  four = _mm_or_si128(four, _mm_shuffle_epi32(four, 0x4E));
-  uint64_t any = (uint64_t)_mm_cvtsi128_si64(four);
-#else
-  uint64_t any = trax_fast_any(lanes);
-#endif
-  any |= any >> 32;
-  return (any | any >> 16) & 0xFFFF;
 }
 
 /* Arbiters, one in each lane. `behind` has the bits behind the latest winner, which says what the reference's pointer
@@ -39,8 +25,72 @@ static inline uint64_t trax_fast_any16(const trax_fast_lanes *lanes) {
     const LANES preferred_ = (ASKERS) & *(BEHIND);                                                                     \
     const LANES among_ = preferred_ | ((ASKERS) & (LANES)(preferred_ == 0));                                           \
     *(WINNERS) = among_ & -among_;                                                                                     \
-    *(BEHIND) = ~(*(WINNERS) | (*(WINNERS)-1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                               \
+    *(BEHIND) = ~(*(WINNERS) | (*(WINNERS) - 1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                             \
   } while (0)
+
+/* The arbiters of 16 banks of two caches, 16 TPs to a cache: of each pair of caches, 32 bits for each bank. */
+#if defined(__AVX512BW__)
+enum { TRAX_FAST_PAIRS = 16 }; /* to a vector */
+#elif defined(__AVX2__)
+enum { TRAX_FAST_PAIRS = 8 };
+#else
+enum { TRAX_FAST_PAIRS = 4 };
+#endif
+typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(4 * TRAX_FAST_PAIRS), may_alias));
+typedef uint32_t trax_fast_pairs __attribute__((vector_size(4 * TRAX_FAST_PAIRS), may_alias));
+
+struct trax_fast_banks16 {
+  _Alignas(64) uint16_t turn[2][16][2]; /* [pair][bank][cache of the pair]: those behind the latest winner */
+};
+
+static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
+#ifdef __SSE2__
+#if defined(__AVX512BW__)
+  const __m256i both =
+      _mm256_or_si256(_mm512_castsi512_si256((__m512i)*pairs), _mm512_extracti64x4_epi64((__m512i)*pairs, 1));
+#elif defined(__AVX2__)
+  const __m256i both = (__m256i)*pairs;
+#endif
+#ifdef __AVX2__
+  __m128i any = _mm_or_si128(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
+#else
+  __m128i any = (__m128i)*pairs;
+#endif
+  any = _mm_or_si128(any, _mm_shuffle_epi32(any, 0x4E));
+  const uint64_t two = (uint64_t)_mm_cvtsi128_si64(any);
+  return (uint32_t)(two | two >> 32);
+#else
+  return (*pairs)[0] | (*pairs)[1] | (*pairs)[2] | (*pairs)[3];
+#endif
+}
+
+/* Grants the banks of a pair of caches; `askers` of both, `plane`: the bits of the numbers of the banks they ask.
+   Returns the losers. */
+static inline uint32_t trax_fast_lose_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t askers,
+                                           const uint64_t *plane) {
+  static const _Alignas(64) uint32_t match[4][16] = {
+#define BANKS(K) /* all bits in those whose bit K is 0 */                                                              \
+  {BANK(0, K), BANK(1, K), BANK(2, K),  BANK(3, K),  BANK(4, K),  BANK(5, K),  BANK(6, K),  BANK(7, K),                \
+   BANK(8, K), BANK(9, K), BANK(10, K), BANK(11, K), BANK(12, K), BANK(13, K), BANK(14, K), BANK(15, K)}
+#define BANK(B, K) ((B) >> (K) & 1 ? 0 : 0xFFFFFFFF)
+      BANKS(0), BANKS(1), BANKS(2), BANKS(3)};
+#undef BANK
+#undef BANKS
+  const trax_fast_pairs none = {0};
+  trax_fast_pairs lost = none;
+#pragma GCC unroll 4
+  for (unsigned i = 0; i < 16; i += TRAX_FAST_PAIRS) {
+    trax_fast_pairs asking = none + (uint32_t)(askers >> 32 * pair);
+#pragma GCC unroll 4
+    for (unsigned k = 0; k < 4; k++)
+      asking &= (none + (uint32_t)(plane[k] >> 32 * pair)) ^ *(const trax_fast_pairs *)&match[k][i];
+    trax_fast_lanes16 *const behind = (trax_fast_lanes16 *)banks->turn[pair][i];
+    trax_fast_lanes16 winners;
+    TRAX_FAST_ARBITRATE(trax_fast_lanes16, behind, (trax_fast_lanes16)asking, &winners);
+    lost |= asking ^ (trax_fast_pairs)winners;
+  }
+  return trax_fast_any_pair(&lost);
+}
 
 /* The TPs that were refused something in a cycle, by what it was. */
 struct trax_fast_lost {
@@ -49,11 +99,12 @@ struct trax_fast_lost {
 
 /* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
    charged to all TPs at once; several cycles together, since carries cost most. */
-enum { TRAX_FAST_LOG = 15 }; /* cycles; their sums have 4 bits */
+enum { TRAX_FAST_LOG = 15 /* cycles; their sums have 4 bits */, TRAX_FAST_LOSSES = 8 };
+typedef uint64_t trax_fast_losses __attribute__((vector_size(8 * TRAX_FAST_LOSSES), may_alias)); /* as trax_fast_lost */
 
 struct trax_fast_tally {
-  trax_fast_lanes planes[64][2]; /* fetch, fp_add, fp_mul, int_mul; special, bank */
-  trax_fast_lanes log[TRAX_FAST_LOG][2];
+  trax_fast_losses planes[64];
+  trax_fast_losses log[TRAX_FAST_LOG];
   uint32_t logged;
 };
 
@@ -61,9 +112,8 @@ struct trax_fast_tally {
 void trax_fast_count_log(struct trax_fast_tally *tally);
 
 static inline void trax_fast_count(struct trax_fast_tally *tally, const struct trax_fast_lost *lost) {
-  trax_fast_lanes(*const log)[2] = &tally->log[tally->logged];
-  (*log)[0] = (trax_fast_lanes){lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul};
-  (*log)[1] = (trax_fast_lanes){lost->special, lost->bank};
+  tally->log[tally->logged] =
+      (trax_fast_losses){lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul, lost->special, lost->bank};
   if (++tally->logged == TRAX_FAST_LOG)
     trax_fast_count_log(tally);
 }
@@ -121,67 +171,6 @@ static inline trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units
   const trax_fast_pair asked_groups = (asked - first) | asked;
   units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners | (winners - first)));
   return winners;
-}
-
-/* What the heads ask for, turned into masks of TPs. */
-struct trax_fast_planes {
-  uint64_t bit[16];
-};
-
-/* Bits 0 to 6 and, of the data-cache bank, the first `bank_bits`, of each of `count` TPs' words. */
-static inline void trax_fast_transpose(const uint16_t *words, unsigned count, unsigned bank_bits,
-                                       struct trax_fast_planes *planes) {
-#if defined(__AVX2__) || defined(__SSE2__)
-  for (unsigned i = 0; i == 0 || i < count; i += 32) {
-#ifdef __AVX2__
-    const __m256i low_byte = _mm256_set1_epi16(0xFF);
-    const __m256i first = _mm256_load_si256((const __m256i *)(words + i));
-    const __m256i second = _mm256_load_si256((const __m256i *)(words + i + 16));
-    const __m256i low = _mm256_permute4x64_epi64(
-        _mm256_packus_epi16(_mm256_and_si256(first, low_byte), _mm256_and_si256(second, low_byte)), 0xD8);
-    const __m256i high =
-        _mm256_permute4x64_epi64(_mm256_packus_epi16(_mm256_srli_epi16(first, 8), _mm256_srli_epi16(second, 8)), 0xD8);
-#define MASK(OF, K) ((uint64_t)(unsigned)_mm256_movemask_epi8(_mm256_slli_epi16(OF, 7 - (K))) << i)
-#else
-    __m128i low[2], high[2];
-    for (unsigned half = 0; half < 2; half++) {
-      const __m128i low_byte = _mm_set1_epi16(0xFF);
-      const __m128i first = _mm_load_si128((const __m128i *)(words + i + 16 * half));
-      const __m128i second = _mm_load_si128((const __m128i *)(words + i + 16 * half + 8));
-      low[half] = _mm_packus_epi16(_mm_and_si128(first, low_byte), _mm_and_si128(second, low_byte));
-      high[half] = _mm_packus_epi16(_mm_srli_epi16(first, 8), _mm_srli_epi16(second, 8));
-    }
-#define HALF(OF, K) (uint64_t)(unsigned) _mm_movemask_epi8(_mm_slli_epi16(OF, 7 - (K)))
-#define MASK(OF, K) ((HALF(OF[0], K) | HALF(OF[1], K) << 16) << i)
-#endif
-#define PLANE(OF, K, BIT) planes->bit[BIT] = (i ? planes->bit[BIT] : 0) | MASK(OF, K)
-    PLANE(low, 0, 0);
-    PLANE(low, 1, 1);
-    PLANE(low, 2, 2);
-    PLANE(low, 3, 3);
-    PLANE(low, 4, 4);
-    PLANE(low, 5, 5);
-    PLANE(low, 6, 6);
-    PLANE(high, 0, 8);
-    PLANE(high, 1, 9);
-    PLANE(high, 2, 10);
-    if (bank_bits <= 3)
-      continue;
-    PLANE(high, 3, 11);
-    PLANE(high, 4, 12);
-    PLANE(high, 5, 13);
-#undef PLANE
-#undef MASK
-#undef HALF
-  }
-#else
-  (void)bank_bits;
-  for (unsigned k = 0; k < 16; k++)
-    planes->bit[k] = 0;
-  for (unsigned i = 0; i < count; i++)
-    for (unsigned k = 0; k < 16; k++)
-      planes->bit[k] |= (uint64_t)(words[i] >> k & 1) << i;
-#endif
 }
 
 #endif

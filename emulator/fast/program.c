@@ -1,6 +1,6 @@
 #include "fast/fast.h"
 
-/* A load of global memory, unless its address says otherwise; global stores never run ahead. */
+/* Whatever its address: of memory accesses, nothing. */
 static uint16_t asks_of(const struct trax_decoded *decoded) {
   switch ((trax_ask)decoded->ask) {
   case TRAX_ASK_FP_ADD:
@@ -11,8 +11,6 @@ static uint16_t asks_of(const struct trax_decoded *decoded) {
     return TRAX_ASKS_INT_MUL;
   case TRAX_ASK_SPECIAL:
     return TRAX_ASKS_SPECIAL;
-  case TRAX_ASK_MEMORY:
-    return decoded->is_store ? 0 : TRAX_ASKS_BANK;
   default:
     return 0;
   }
@@ -30,24 +28,25 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
-_Static_assert(sizeof(struct trax_fast_step) == 16, "four to a line of the host's cache");
 _Static_assert(sizeof(struct trax_fast_inst) == 32, "two to a line of the host's cache");
 
-static struct trax_fast_inst predecode(const struct trax_decoded *decoded, uint32_t index, uint32_t line) {
+static void predecode(struct trax_fast_program *program, const struct trax_decoded *decoded, uint32_t index,
+                      uint32_t line) {
+  const void *const *const operations = trax_fast_operations();
   const bool slow = decoded->ask != TRAX_ASK_MEMORY && decoded->latency > 1;
-  return (struct trax_fast_inst){
-      .step = {.waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
-               .index = index,
-               .line = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1),
-               .asks = (uint16_t)(asks_of(decoded) | (slow ? TRAX_ASKS_SLOWLY : 0)),
-               .bank = decoded->bank},
-      .op = stops_burst(decoded) ? TRAX_OP_ILLEGAL : decoded->op,
-      .rd = decoded->rd,
-      .ra = decoded->ra,
-      .rb = decoded->rb,
-      .imm = decoded->imm,
-      .decoded = decoded,
-  };
+  const uint8_t op = stops_burst(decoded) ? TRAX_OP_ILLEGAL : decoded->op;
+  program->inst[index] =
+      (struct trax_fast_inst){.operation = operations[index % TRAX_STRETCH ? op : TRAX_OP_COUNT],
+                              .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
+                              .line = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1),
+                              .op = op,
+                              .rd = decoded->rd,
+                              .ra = decoded->ra,
+                              .rb = decoded->rb,
+                              .imm = decoded->imm,
+                              .decoded = decoded};
+  program->asks[index] =
+      (uint16_t)(asks_of(decoded) | (slow ? TRAX_ASKS_SLOWLY : 0) | decoded->bank << TRAX_ASKS_FETCH_SHIFT);
 }
 
 trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,
@@ -61,8 +60,9 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     return trax_fail(error, "%zu instructions are too many for the fast engine", total);
   program->sections = calloc(text->count ? text->count : 1, sizeof *program->sections);
   program->inst = malloc(total * sizeof *program->inst);
+  program->asks = calloc(total + TRAX_STRETCH, sizeof *program->asks);
   program->pc = malloc(total * sizeof *program->pc);
-  if (!program->sections || !program->inst || !program->pc)
+  if (!program->sections || !program->inst || !program->asks || !program->pc)
     return trax_fail(error, "out of memory for %zu instructions", total);
   uint32_t index = 0, lines = 0;
   for (size_t i = 0; i < text->count; i++) {
@@ -72,7 +72,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
         (struct trax_fast_section){section->begin, words * 4, first_line, (uint16_t)lines, program->inst + index};
     for (uint32_t word = 0; word <= words; word++, index++) {
       const uint32_t pc = section->begin + word * 4;
-      program->inst[index] = predecode(&section->decoded[word], index, lines + pc / line_bytes - first_line);
+      predecode(program, &section->decoded[word], index, lines + pc / line_bytes - first_line);
       program->pc[index] = pc;
     }
     lines += section->end / line_bytes - first_line + 1;
@@ -80,7 +80,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   }
   program->lines = lines;
   program->outside = &program->inst[index];
-  *program->outside = predecode(trax_text_at(text, 1), index, TRAX_FAST_LINES); /* none is at an odd address */
+  predecode(program, trax_text_at(text, 1), index, TRAX_FAST_LINES); /* none is at an odd address */
   program->pc[index] = 0;
   return TRAX_OK;
 }
@@ -88,5 +88,6 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
 void trax_fast_program_destroy(struct trax_fast_program *program) {
   free(program->sections);
   free(program->inst);
+  free(program->asks);
   free(program->pc);
 }

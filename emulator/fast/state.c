@@ -16,14 +16,14 @@ static uint64_t behind_of(trax_arbiter pointer) {
 }
 
 static uint64_t get_fetch_turn(const struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
-  if (ftm->narrow)
-    return (uint64_t)((const uint16_t *)(ftm->behind16 + icache * ftm->vectors))[bank] << icache * ftm->tps_per_icache;
+  if (ftm->simple_fetch)
+    return (uint64_t)ftm->behind16.turn[icache / 2][bank][icache % 2] << 16 * icache;
   return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
 }
 
 static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
-  if (ftm->narrow)
-    ((uint16_t *)(ftm->behind16 + icache * ftm->vectors))[bank] = (uint16_t)(behind >> icache * ftm->tps_per_icache);
+  if (ftm->simple_fetch)
+    ftm->behind16.turn[icache / 2][bank][icache % 2] = (uint16_t)(behind >> 16 * icache);
   else
     ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
 }
@@ -104,15 +104,13 @@ static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const struct trax_tp *tp = &tm->tp[number];
   ftp->resume = trax_fast_inst_at(&ftm->fast->program, tp->pc);
   ftp->resume_pc = tp->pc;
-  ftm->head[number] = ftp->last = &ftp->only;
+  ftm->heads.at[number] = ftm->heads.last[number] = 0;
   ftm->busy_registers[number] = 0;
   ftm->busy &= ~bit;
   for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
     if (tp->usable[rd] > t)
       trax_fast_set_busy(ftm, number, rd);
   trax_fast_advance(ftm, number);
-  if (tm->awake & ~tm->holding & bit)
-    trax_fast_ask_fetch(ftm, number);
 }
 
 void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
@@ -121,8 +119,7 @@ void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
     struct trax_tm *tm = ftm->tm;
     scatter_arbiters(ftm);
     find_resident_lines(ftm);
-    memset(ftm->narrow ? (void *)ftm->asking16 : ftm->asking, 0, tm->icaches * ftm->vectors * sizeof(trax_fast_lanes));
-    ftm->ready = ftm->smooth = ftm->outside = 0;
+    ftm->ready = ftm->outside = 0;
     ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
     ftm->taken_up = tm->awake & tm->holding;
     for (unsigned tp = 0; tp < tm->tps; tp++)

@@ -41,6 +41,7 @@ struct writer {
 struct trax_windows {
   struct trax_chip *chip;
   struct trax_pool *pool;
+  uint32_t abreast;         /* TMs that one thread runs together */
   struct trax_ahead *ahead; /* [tms] */
   uint64_t length;          /* cycles of a window */
   uint64_t end;             /* of the current one */
@@ -112,8 +113,7 @@ static void add_fast(struct trax_windows *windows, struct trax_fast_tm *ftm) {
   add_region(windows, ftm->changes, (ftm->fast->program.inst_count + 1) * sizeof *ftm->changes);
   add_region(windows, ftm->resident, tm->icaches * sizeof *ftm->resident);
   add_region(windows, ftm->resident_lines, tm->icaches * sizeof *ftm->resident_lines);
-  add_region(windows, ftm->narrow ? (void *)ftm->asking16 : ftm->asking, vectors);
-  add_region(windows, ftm->narrow ? (void *)ftm->behind16 : ftm->behind, vectors);
+  add_region(windows, ftm->behind, vectors);
 }
 
 static void keep_state(struct trax_windows *windows, uint64_t t) {
@@ -298,13 +298,11 @@ static bool end_window(struct trax_windows *windows, uint64_t begin) {
 
 /* --- windows --- */
 
-static void run_tm(void *context, uint32_t number) {
+static void run_tms(void *context, uint32_t group) {
   const struct trax_windows *windows = context;
   const struct trax_chip *chip = windows->chip;
-  struct trax_tm *tm = &chip->tm[number];
-  const struct trax_ahead *ahead = &windows->ahead[number];
-  while (tm->next_cycle < windows->end && !ahead->stop && !tm->fault.kind)
-    chip->engine->cycle(chip->fast, number, tm->next_cycle);
+  const uint32_t first = group * windows->abreast, left = chip->tms - first;
+  chip->engine->run_ahead(chip->fast, first, left < windows->abreast ? left : windows->abreast, windows->end);
 }
 
 bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t until) {
@@ -378,7 +376,9 @@ trax_status trax_windows_create(struct trax_chip *chip, unsigned threads, trax_e
   windows->kept_bytes = malloc(windows->kept_size);
   if (!windows->kept_bytes)
     return trax_fail(error, "out of memory");
-  windows->pool = trax_pool_create(threads, chip->tms, run_tm, windows, error);
+  windows->abreast = chip->tms / threads < TRAX_FAST_ABREAST ? chip->tms / threads : TRAX_FAST_ABREAST;
+  const uint32_t groups = (chip->tms + windows->abreast - 1) / windows->abreast;
+  windows->pool = trax_pool_create(threads, groups, run_tms, windows, error);
   return windows->pool ? TRAX_OK : TRAX_ERROR;
 }
 

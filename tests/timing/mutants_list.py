@@ -83,9 +83,9 @@ MUTANTS = [
     ("fast/cycle.c", "for (uint32_t port = 0; port < ports; port++)", "for (uint32_t port = 0; port < ports && port < 1; port++)"),
     # --- steps 1 and 2 ---
     ("fast/cycle.c", "return (woken & tm->holding) | taken_up;", "return (woken & tm->holding) | (taken_up & 0);"),
-    ("fast/cycle.c", "asks = (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks = (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
-    ("fast/cycle.c", "ftm->busy_registers[number] &= ~ftm->head[number]->waits;", "ftm->busy_registers[number] = 0;"),
-    ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END)\n    asks = TRAX_ASKS_QUEUE;", "if (inst->ask == TRAX_ASK_END)\n    asks = 0;"),
+    ("fast/cycle.c", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
+    ("fast/cycle.c", "ftm->busy_registers[number] &= ~inst->waits;", "ftm->busy_registers[number] = 0;"),
+    ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END)\n    asks |= TRAX_ASKS_QUEUE;", "if (inst->ask == TRAX_ASK_END)\n    asks |= 0;"),
     # --- steps 3 and 4 ---
     ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
     ("fast/cycle.c", "*hits = there & ~ftm->deferred;", "*hits = there;"),
@@ -221,8 +221,8 @@ MUTANTS = [
     ("fast/cycle.c", "pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE",
      "TRAX_FAULT_EXECUTE"),
     # An illegal instruction faults before its operands are looked at.
-    ("fast/cycle.c", "|| tp->inst->ask == TRAX_ASK_ILLEGAL) {",
-     "|| false) {"),
+    ("fast/cycle.c", "inst->decoded->ask == TRAX_ASK_ILLEGAL)\n    return true;",
+     "false)\n    return true;"),
     # Losers of integer multipliers are charged.
     ("fast/cycle.c", "lost->int_mul = askers & ~won;",
      "lost->int_mul = askers & ~won & ~(askers & -askers);"),
@@ -230,11 +230,11 @@ MUTANTS = [
     ("fast/cycle.c", "trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);\n    return false;",
      "return false;"),
     # Carries of the counters of conflicts.
-    ("fast/cycle.c", "(*plane & term) | (either & carry)",
-     "(*plane & term)"),
+    ("fast/cycle.c", "(*(SUM) & one_) | (either_ & other_)",
+     "(*(SUM) & one_)"),
     # Round robin of banks.
-    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS)-1)) |",
-     "(*(WINNERS)-1) |"),
+    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS) - 1)) |",
+     "(*(WINNERS) - 1) |"),
     # Round robin of units in even groups.
     ("fast/masks.h", "(asked_groups & ~(winners | (winners - first)))",
      "(asked_groups & ~(winners - first))"),
@@ -260,8 +260,8 @@ MUTANTS = [
     ("fast/head.c", "trax_fast_set_resident(ftm, number, (uint32_t)goes_as, false);",
      "(void)goes_as;"),
     # Heads whose line has gone are looked at again.
-    ("fast/head.c", "ftm->smooth &= ~((uint64_t)1 << tp);",
-     "ftm->smooth &= ~((uint64_t)1 << tp) | resident[0];"),
+    ("fast/head.c", "        ftm->uncertain |= (uint64_t)1 << tp;",
+     "        ftm->uncertain |= 0;"),
     # A write calls back those who have run ahead.
     ("fast/blocks.c", "if (*state == TRAX_BLOCK_LOADED)\n    trax_fast_come_back",
      "if (*state == TRAX_BLOCK_LOADED && address % 16)\n    trax_fast_come_back"),
@@ -269,13 +269,13 @@ MUTANTS = [
     ("fast/blocks.c", "memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);",
      "memcpy(tp->local + undo->offset, &undo->word, 2);"),
     # A misaligned load ends a burst.
-    ("fast/burst.c", " && !(address & (bytes - 1)) &&\n",
-     " &&\n"),
+    ("fast/burst_steps.h", "    if (address & (BYTES - 1))",
+     "    if (0)"),
     # Blocks that are written are not loaded ahead.
-    ("fast/burst.c", "trax_fast_block_state(fast, address) != TRAX_BLOCK_WRITTEN;",
-     "true;"),
+    ("fast/burst_steps.h", "if (state == TRAX_BLOCK_WRITTEN)",
+     "if (0)"),
     # A jump with a bubble is not quick.
-    ("fast/burst.c", "config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0",
+    ("fast/burst_steps.h", "config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0",
      "config->tp.branch_bubble_cycles > 1 ? TRAX_ASKS_SLOWLY : 0"),
     # The cycle counter ends a burst.
     ("fast/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",

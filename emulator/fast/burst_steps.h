@@ -1,0 +1,181 @@
+/* A burst of one TP, for burst.c, which includes this twice: as BURST that ends before a stretch that might not fit,
+   and, EXACTLY, as one that executes as many instructions as it may. */
+static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number, unsigned limit,
+                      const void *const **operations) {
+  __extension__ static const void *const places[] = {
+#define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+      [TRAX_OP_ILLEGAL] = &&stop, [TRAX_OP_COUNT] = &&stretch};
+  if (!ftm) {
+    *operations = places;
+    return 0;
+  }
+  struct trax_fast_tp *const ftp = &ftm->tp[number];
+  struct trax_tp *const tp = &ftm->tm->tp[number];
+  uint32_t *const reg = tp->reg;
+  uint8_t *const local = tp->local, *const global = fast->chip->machine->space.bytes;
+  const struct trax_fast_program *const program = &fast->program;
+  const struct trax_fast_inst *inst = ftp->resume;
+  const struct trax_config *const config = ftm->tm->config;
+  const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_ASKS_SLOWLY : 0;
+  const uint16_t slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0;
+  uint8_t *const blocks = fast->blocks.state;
+  const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
+  uint32_t address, word, jumps = 0;
+  uint64_t resume_pc = ftp->resume_pc; /* of the outside */
+  int64_t *const changes = ftm->changes;
+  const struct trax_fast_inst *run = inst; /* where the latest jump went */
+  uint64_t lines = 0;
+  ftp->undo_count = 0;
+  /* inst minus this is where the step is noted: it changes with each jump. */
+  uintptr_t begin = (uintptr_t)inst;
+  unsigned at;
+  changes[inst - program->inst]++;
+  goto stretch;
+
+#define AT ((unsigned)(((uintptr_t)inst - begin) / sizeof *inst))
+/* What the instructions' semantics are written in (isa/TraxInstructions.td). */
+#define RD reg[inst->rd]
+#define RA reg[inst->ra]
+#define RB reg[inst->rb]
+#define IMM ((uint32_t)inst->imm)
+#define PC (program->pc[inst - program->inst])
+#define NEXT_PC next_pc
+#define LOAD(ADDRESS, BYTES)                                                                                           \
+  (__extension__({                                                                                                     \
+    address = (ADDRESS);                                                                                               \
+    at = AT;                                                                                                           \
+    word = 0;                                                                                                          \
+    ftp->address[at] = address;                                                                                        \
+    if (address & (BYTES - 1))                                                                                         \
+      goto stop;                                                                                                       \
+    if (LIKELY(address - TRAX_NULL_END < accessible)) {                                                                \
+      uint8_t *const block = &blocks[address >> TRAX_BLOCK_SHIFT];                                                     \
+      const uint8_t state = __atomic_load_n(block, __ATOMIC_RELAXED);                                                  \
+      if (!LIKELY(state == TRAX_BLOCK_LOADED)) {                                                                       \
+        if (state == TRAX_BLOCK_WRITTEN)                                                                               \
+          goto stop;                                                                                                   \
+        __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                                  \
+      }                                                                                                                \
+      memcpy(&word, global + address, BYTES);                                                                          \
+      ftp->asks[at] |= (uint16_t)(TRAX_ASKS_BANK | data_bank(ftm, address) << TRAX_ASKS_BANK_SHIFT);                   \
+    } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
+      memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
+      ftp->asks[at] |= slow_local;                                                                                     \
+    } else {                                                                                                           \
+      goto stop;                                                                                                       \
+    }                                                                                                                  \
+    word;                                                                                                              \
+  }))
+#define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
+  do {                                                                                                                 \
+    ftp->address[AT] = address = (ADDRESS);                                                                            \
+    if (address < TRAX_LOCAL_BASE || (address & (BYTES - 1)))                                                          \
+      goto stop;                                                                                                       \
+    struct trax_fast_undo *const undo = &ftp->undo[ftp->undo_count++];                                                 \
+    undo->offset = (address - TRAX_LOCAL_BASE) & ~3u;                                                                  \
+    memcpy(&undo->word, local + undo->offset, sizeof undo->word);                                                      \
+    word = (VALUE);                                                                                                    \
+    memcpy(local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                         \
+  } while (0)
+#define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
+#define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
+#define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
+#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
+#define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
+#define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
+#define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
+#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
+#define ATOMIC_INC(ADDRESS)                                                                                            \
+  (__extension__({                                                                                                     \
+    (void)(ADDRESS);                                                                                                   \
+    goto stop;                                                                                                         \
+    0u;                                                                                                                \
+  }))
+#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(ftm->tm, number, NUMBER, 0) /* the cycle ends a burst */
+#define TRAP(VALUE, CODE) goto stop
+#define HALT() goto stop
+#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), config->special.precision_bits)
+#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), config->special.precision_bits)
+
+/* Each operation goes on to the next one by itself, which the host's branch predictor learns far better than one switch
+   for all. */
+#if EXACTLY
+#define GO_ON() goto stretch
+#else
+#define GO_ON() __extension__({ goto * inst->operation; })
+#endif
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  do_##NAME : {                                                                                                        \
+    uint64_t next_pc = NOWHERE;                                                                                        \
+    __VA_ARGS__                                                                                                        \
+    if (next_pc != NOWHERE && (uint32_t)next_pc != PC + 4) {                                                           \
+      jumps++;                                                                                                         \
+      lines |= lines_of(run, inst);                                                                                    \
+      at = AT;                                                                                                         \
+      ftp->asks[at] |= slow_jump;                                                                                      \
+      changes[inst + 1 - program->inst]--;                                                                             \
+      run = inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                      \
+      resume_pc = next_pc;                                                                                             \
+      changes[inst - program->inst]++;                                                                                 \
+      begin = (uintptr_t)inst - (at + 1) * sizeof *inst;                                                               \
+      goto stretch;                                                                                                    \
+    } else {                                                                                                           \
+      inst++;                                                                                                          \
+    }                                                                                                                  \
+    GO_ON();                                                                                                           \
+  }
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+
+stretch:
+  at = AT;
+  const uint32_t index = (uint32_t)(inst - program->inst);
+#if EXACTLY
+  if (at == limit)
+    goto stop;
+  ftp->asks[at] = program->asks[index];
+  ftp->index[at] = index;
+#else
+  if (at + TRAX_STRETCH - index % TRAX_STRETCH > limit)
+    goto stop;
+  note_stretch(ftp, at, program->asks + index, index);
+#endif
+  __extension__({ goto *places[inst->op]; });
+
+stop:
+  changes[inst - program->inst]--;
+  ftp->resume = inst;
+  ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->pc[inst - program->inst];
+  ftp->burst_jumps = jumps;
+  ftp->burst_lines = lines | lines_of(run, inst);
+  return AT;
+}
+
+#undef BURST
+#undef EXACTLY
+#undef RD
+#undef RA
+#undef RB
+#undef IMM
+#undef PC
+#undef NEXT_PC
+#undef AT
+#undef LOAD
+#undef STORE
+#undef LOAD8
+#undef LOAD16
+#undef LOAD32
+#undef LOAD32_GLOBAL
+#undef STORE8
+#undef STORE16
+#undef STORE32
+#undef STORE32_GLOBAL
+#undef ATOMIC_INC
+#undef SPECIAL_REGISTER
+#undef TRAP
+#undef HALT
+#undef FPDIV
+#undef ISQRT
+#undef GO_ON
