@@ -89,6 +89,7 @@ void program_data(uint8_t *bytes) {
 /* --- single instructions --- */
 
 static void emit(struct program *program, uint32_t word) {
+  assert_true(program->count < MOST_WORDS);
   program->words[program->count++] = word;
 }
 
