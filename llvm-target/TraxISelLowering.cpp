@@ -120,6 +120,7 @@ const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
     NODE(COPY_LOOP)
     NODE(SETJMP)
     NODE(LONGJMP)
+    NODE(WAIT)
     NODE(AINC)
     NODE(LWNT)
 #undef NODE
@@ -449,7 +450,8 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
   return DAG.getMergeValues({Value, Word.getValue(1)}, DL);
 }
 
-/// The increment is the machine's one read-modify-write; TraxLowerAtomics has made calls of the others.
+/// The increment is the machine's one read-modify-write; TraxLowerAtomics has made calls of the others. The thread's later
+/// accesses may overtake it, but for those behind an instruction that needs its result (docs/isa.md, "Order").
 SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
   auto *N = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);
@@ -461,8 +463,11 @@ SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const 
                                  MachineMemOperand::MOVolatile);
     return DAG.getMergeValues({Old, Chain}, DL);
   }
-  return DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
-                                 {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
+  SDValue Old = DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
+                                        {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
+  // Whatever its order: a release store must come behind a relaxed increment too.
+  SDValue Chain = DAG.getNode(TraxISD::WAIT, DL, MVT::Other, Old.getValue(1), Old);
+  return DAG.getMergeValues({Old, Chain}, DL);
 }
 
 TargetLowering::AtomicExpansionKind TraxTargetLowering::shouldExpandAtomicRMWInIR(AtomicRMWInst *RMW) const {

@@ -26,6 +26,7 @@ enum NodeType : unsigned {
   COPY_LOOP, // of a long argument
   SETJMP,    // __builtin_setjmp: 0, and 1 when it is jumped to
   LONGJMP,   // __builtin_longjmp
+  WAIT,      // until a value has arrived; chained
   FIRST_MEMORY = ISD::FIRST_TARGET_MEMORY_OPCODE,
   AINC, // atomic increment; the value before it
   LWNT, // atomic load of a word, past the cache

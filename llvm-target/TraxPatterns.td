@@ -24,6 +24,7 @@ def trax_copy_loop : SDNode<"TraxISD::COPY_LOOP",
                             [SDNPHasChain, SDNPMayLoad, SDNPMayStore]>;
 def trax_setjmp : SDNode<"TraxISD::SETJMP", SDT_TraxUnary, [SDNPHasChain, SDNPSideEffect]>;
 def trax_longjmp : SDNode<"TraxISD::LONGJMP", SDTypeProfile<0, 1, [SDTCisVT<0, i32>]>, [SDNPHasChain, SDNPSideEffect]>;
+def trax_wait : SDNode<"TraxISD::WAIT", SDTypeProfile<0, 1, [SDTCisVT<0, i32>]>, [SDNPHasChain, SDNPSideEffect]>;
 def trax_ainc : SDNode<"TraxISD::AINC", SDTLoad, [SDNPHasChain, SDNPMayLoad, SDNPMayStore, SDNPMemOperand]>;
 // A load past the cache, with the memory operand of an atomic load.
 def trax_lwnt : SDNode<"TraxISD::LWNT", SDTLoad, [SDNPHasChain, SDNPMayLoad, SDNPMemOperand]>;
@@ -356,3 +357,4 @@ def : PatLoad<atomic_load_16, LHU>;
 def : PatLoad<atomic_load_32, LW>;
 def : PatLoad<trax_lwnt, LWNT>;
 def : PatLoad<trax_ainc, AINC>;
+def : Pat<(trax_wait i32:$ra), (PseudoWAIT GPR:$ra)>;

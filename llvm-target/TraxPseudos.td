@@ -59,6 +59,10 @@ def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstEx
 let hasSideEffects = true in
 def PseudoHALT : TraxPseudo<(outs), (ins)>, PseudoInstExpansion<(HALT)>;
 
+// Holds the thread up until the register can be used.
+let hasSideEffects = true in
+def PseudoWAIT : TraxPseudo<(outs), (ins GPR:$ra)>, PseudoInstExpansion<(ADDI R0, GPR:$ra, 0)>;
+
 // Copies a long argument to where it is passed.
 let mayLoad = true, mayStore = true, usesCustomInserter = true, hasNoSchedulingInfo = true in
 def PseudoCopyLoop : TraxPseudo<(outs), (ins GPR:$to, GPR:$from, i32imm:$bytes, i32imm:$unit)>;

@@ -47,7 +47,8 @@ TRAX_INLINE float trax_rsqrt(float x) {
   return __builtin_trax_rsqrt(x);
 }
 
-/* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. */
+/* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. A later
+   store may reach memory before it, unless what was returned has been used by then. */
 TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) {
   return __builtin_trax_ainc(p);
 }

@@ -11,14 +11,27 @@ declare void @look(ptr)
 
 ; CHECK-LABEL: increment:
 ; CHECK: ainc r4, %lo(counted)(r12)
+; CHECK: mv r0, r4
 ; CHECK: ret
 define i32 @increment() {
   %r = atomicrmw add ptr @counted, i32 1 seq_cst
   store atomic i32 %r, ptr @counters release, align 4
   ret i32 %r
 }
+; An increment whose result nobody wants is waited for before a store that may announce it.
+; CHECK-LABEL: announce:
+; CHECK: ainc [[OLD:r[1-9][0-9]*]], %lo(counted)
+; CHECK: mv r0, [[OLD]]
+; CHECK: sw
+; CHECK: ret
+define void @announce() {
+  %r = atomicrmw add ptr @counted, i32 1 monotonic
+  store atomic i32 1, ptr @counters release, align 4
+  ret void
+}
 ; CHECK-LABEL: increment_at:
 ; CHECK: ainc r4, %lo(counters+8)(r12)
+; CHECK: mv r0, r4
 ; CHECK: ret
 define i32 @increment_at() {
   %r = atomicrmw sub ptr getelementptr (i8, ptr @counters, i32 8), i32 -1 monotonic
@@ -26,6 +39,7 @@ define i32 @increment_at() {
 }
 ; CHECK-LABEL: increment_any:
 ; CHECK: ainc r4, %lo(counters)(r12)
+; CHECK: mv r0, r4
 ; CHECK: ret
 define i32 @increment_any(i32 %i) {
   %q = getelementptr [9 x i32], ptr @counters, i32 0, i32 %i
