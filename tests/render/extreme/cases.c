@@ -74,7 +74,7 @@ struct globe {
 /* Of the point (i, j, k) of an octahedron's surface; the same numbers give the same bits. */
 static void globe_point(const struct globe *globe, const int place[3], float point[3]) {
   float length = sqrtf((float)(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]));
-  uint32_t seed = (uint32_t)(place[0] * 73856093 ^ place[1] * 19349663 ^ place[2] * 83492791);
+  uint32_t seed = (uint32_t)place[0] * 73856093u ^ (uint32_t)place[1] * 19349663u ^ (uint32_t)place[2] * 83492791u;
   random_unit(&seed);
   float radius = globe->radius * (1 + globe->roughness * random_unit(&seed)) / length;
   for (int axis = 0; axis < 3; axis++)
