@@ -8,6 +8,10 @@
 #define STACK_REACH 0x10000u /* an access that far below local memory is the stack's overflow */
 #define STACK_GUARD 2048u    /* bytes below each stack in global memory */
 
+static uint64_t granules_end(uint32_t address, uint32_t bytes) {
+  return ((uint64_t)address + bytes + GRANULE - 1) / GRANULE * GRANULE;
+}
+
 bool model_map(struct model_machine *machine, uint32_t address, uint32_t bytes, unsigned permissions, uint8_t **host,
                struct model_error *error) {
   const uint64_t end = (uint64_t)address + bytes;
@@ -17,6 +21,11 @@ bool model_map(struct model_machine *machine, uint32_t address, uint32_t bytes, 
         address, (unsigned long long)end, GRANULE, (unsigned long long)machine->size);
   if (permissions & MODEL_WRITE && permissions & MODEL_EXECUTE)
     return model_fail(error, "segment 0x%08x is both writable and executable", address);
+  for (size_t i = 0; i < machine->segment_count; i++) {
+    const struct model_segment *other = &machine->segments[i];
+    if (address < granules_end(other->address, other->bytes) && other->address < granules_end(address, bytes))
+      return model_fail(error, "segments 0x%08x and 0x%08x share %u bytes", other->address, address, GRANULE);
+  }
   struct model_segment *segments = realloc(machine->segments, (machine->segment_count + 1) * sizeof *segments);
   if (!segments)
     return model_fail(error, "out of memory");
@@ -36,8 +45,8 @@ static bool is_guard(const struct model_machine *machine, uint32_t address) {
 static enum model_fault_kind check_write(const struct model_machine *machine, uint32_t address) {
   for (size_t i = 0; i < machine->segment_count; i++) {
     const struct model_segment *segment = &machine->segments[i];
-    const uint64_t end = ((uint64_t)segment->address + segment->bytes + GRANULE - 1) / GRANULE * GRANULE;
-    if (address >= segment->address && address < end && !(segment->permissions & MODEL_WRITE))
+    if (address >= segment->address && address < granules_end(segment->address, segment->bytes) &&
+        !(segment->permissions & MODEL_WRITE))
       return MODEL_FAULT_READ_ONLY;
   }
   return is_guard(machine, address) ? MODEL_FAULT_STACK : MODEL_FAULT_NONE;

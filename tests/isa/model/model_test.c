@@ -150,6 +150,40 @@ static void without_a_result(void **state) {
   model_destroy(execute("RD = -(int32_t)RA;", 0x80000000, 0, MODEL_ERROR));
 }
 
+static void segments(void **state) {
+  (void)state;
+  struct model_error error = {"none"};
+  struct model_machine *machine =
+      execute("HALT();", 0, 0, MODEL_ENDED); /* text at 0x1000, 64 bytes of data at 0x2000 */
+  assert_false(model_map(machine, 0x1000, 4, MODEL_READ, NULL, &error));
+  assert_string_equal(error.message, "segments 0x00001000 and 0x00001000 share 64 bytes");
+  assert_false(model_map(machine, 0x1FC0, 65, MODEL_READ, NULL, &error));
+  assert_string_equal(error.message, "segments 0x00002000 and 0x00001fc0 share 64 bytes");
+  assert_true(model_map(machine, 0x1FC0, 64, MODEL_READ, NULL, &error));
+  assert_true(model_map(machine, 0x2040, 4, MODEL_READ, NULL, &error));
+  assert_false(model_map(machine, 0x2080, 64, MODEL_WRITE | MODEL_EXECUTE, NULL, &error));
+  assert_string_equal(error.message, "segment 0x00002080 is both writable and executable");
+  assert_false(model_map(machine, 0x0FC0, 4, MODEL_READ, NULL, &error));
+  assert_false(model_map(machine, 0x2084, 4, MODEL_READ, NULL, &error));
+  assert_false(model_map(machine, 0xFFFC0, 65, MODEL_READ, NULL, &error));
+  /* A segment's permissions hold for all of its last 64 bytes. */
+  assert_int_equal(model_check(machine, 0x207F, 1, true, false), MODEL_FAULT_READ_ONLY);
+  assert_int_equal(model_check(machine, 0x2080, 1, true, false), MODEL_FAULT_NONE);
+  assert_int_equal(model_check(machine, 0x203C, 4, true, false), MODEL_FAULT_NONE);
+  assert_int_equal(model_check(machine, 0x1FFC, 4, true, false), MODEL_FAULT_READ_ONLY);
+  assert_int_equal(model_check(machine, 0x1FFC, 4, false, false), MODEL_FAULT_NONE);
+  /* Where several things are wrong, the first of docs/isa.md's list. */
+  assert_int_equal(model_check(machine, 0xFFF, 4, true, true), MODEL_FAULT_NULL);
+  assert_int_equal(model_check(machine, 0x100001, 4, true, true), MODEL_FAULT_UNMAPPED);
+  assert_int_equal(model_check(machine, 0xFFFEFDFF, 4, true, true), MODEL_FAULT_UNMAPPED);
+  assert_int_equal(model_check(machine, 0xFFFEFE01, 4, true, true), MODEL_FAULT_STACK);
+  assert_int_equal(model_check(machine, 0xFFFFFDFF, 1, false, false), MODEL_FAULT_STACK);
+  assert_int_equal(model_check(machine, 0xFFFFFE01, 4, true, true), MODEL_FAULT_MISALIGNED);
+  assert_int_equal(model_check(machine, 0xFFFFFE00, 4, true, true), MODEL_FAULT_LOCAL);
+  assert_int_equal(model_check(machine, 0x1001, 2, true, false), MODEL_FAULT_MISALIGNED);
+  model_destroy(machine);
+}
+
 static void wrong_statements(void **state) {
   (void)state;
   expect_error(SECTION("RD = trax_fadd(RA, RB, RA);"), "page:6:34: op: expected ')' before ','");
@@ -228,8 +262,9 @@ static void immediates(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(expressions),      cmocka_unit_test(statements),  cmocka_unit_test(without_a_result),
-      cmocka_unit_test(wrong_statements), cmocka_unit_test(wrong_pages), cmocka_unit_test(immediates),
+      cmocka_unit_test(expressions), cmocka_unit_test(statements),       cmocka_unit_test(without_a_result),
+      cmocka_unit_test(segments),    cmocka_unit_test(wrong_statements), cmocka_unit_test(wrong_pages),
+      cmocka_unit_test(immediates),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
