@@ -1,18 +1,29 @@
-/* asinhf, acoshf and atanhf: small results by polynomials, others by logarithms of numbers of 32 bits. */
+/* asinhf, acoshf, atanhf and log1pf: small results by polynomials, others by logarithms of numbers of 32 bits. */
 #include "coefficients.h"
 #include "fixed.h"
 
 #include <math.h>
 
-/* ln(x) / 2^halvings for x >= 3/2. The logarithm to base 2 is computed as in log2_fixed.c, but to 2^-35 only. */
-static float logarithm(uint32_t sign_bit, struct normal x, int halvings) {
-  uint32_t i = ((x.significand >> 25 & 0x3F) + 1) >> 1;                    /* nearest 1 + i/32 */
-  int32_t r = (int32_t)(mul_wide(x.significand, log2_reciprocal[i]) >> 4); /* m * c - 1, Q36: the 1 overflows */
+/* (log2(1 + r) - r/ln 2) / -r^2, Q31, for r Q36 below 2^-5.9. */
+static int32_t log2_tail(int32_t r) {
   int32_t p = (int32_t)log2_coefficients[5];
   for (int k = 4; k >= 0; k--)
     p = (int32_t)log2_coefficients[k] - (mul_high_signed(p, r) >> 4);
-  int32_t fraction = r + mul_high_signed(r, (int32_t)LOG2_E_LESS_1) - (mul_high_signed(mul_high_signed(r, r), p) >> 3);
-  uint64_t total = ((uint64_t)(x.exponent + 31) << 36) + (log2_of_reciprocal[i] >> 19) + (uint64_t)(int64_t)fraction;
+  return p;
+}
+
+/* log2 x, Q36, as in log2_fixed.c, but to 2^-35 only. */
+static int64_t log2_of(struct normal x) {
+  uint32_t i = ((x.significand >> 25 & 0x3F) + 1) >> 1;                    /* nearest 1 + i/32 */
+  int32_t r = (int32_t)(mul_wide(x.significand, log2_reciprocal[i]) >> 4); /* m * c - 1, Q36: the 1 overflows */
+  int32_t square = mul_high_signed(mul_high_signed(r, r), log2_tail(r)) >> 3;
+  int32_t fraction = r + mul_high_signed(r, (int32_t)LOG2_E_LESS_1) - square;
+  return (int64_t)(((uint64_t)(int64_t)(x.exponent + 31) << 36) + (log2_of_reciprocal[i] >> 19)) + fraction;
+}
+
+/* ln(x) / 2^halvings for x >= 3/2. */
+static float logarithm(uint32_t sign_bit, struct normal x, int halvings) {
+  uint64_t total = (uint64_t)log2_of(x);
   int zeros = leading_zeros(high_word(total)); /* at least log2(3/2) * 2^4, so 28 or less */
   uint32_t top = high_word(total) << zeros | low_word(total) >> (32 - zeros);
   return make_float(sign_bit, mul_high(top, LN_2 >> 32), 32 - zeros - 36 - halvings);
@@ -94,4 +105,38 @@ float atanhf(float x) {
   uint32_t q = quotient_q31(FLOAT_SIGN | fixed >> 1, below_one << zeros);
   int less = q >> 31 ? 0 : 1;
   return logarithm(sign_bit, (struct normal){q << less, zeros - 30 - less}, 1);
+}
+
+float log1pf(float x) {
+  uint32_t bits = float_bits(x), magnitude = bits & ~FLOAT_SIGN, sign_bit = bits & FLOAT_SIGN;
+  if (magnitude < 0x33000000) /* 2^-25: x^2/2 is lost in rounding */
+    return x;
+  if (bits >= 0xBF800000) /* -1 and less, and NaNs */
+    return bits_float(bits == 0xBF800000 ? FLOAT_SIGN | FLOAT_INFINITY : FLOAT_NAN);
+  if (bits - FLOAT_INFINITY < FLOAT_SIGN - FLOAT_INFINITY)
+    return x + x;
+  struct normal n = take_apart(magnitude), one = {FLOAT_SIGN, -31};
+  if (magnitude < 0x3C800000) { /* 2^-6: x (1 - x P(x)) */
+    uint32_t fixed = shifted(n.significand, n.exponent + 36);
+    int32_t p = log2_tail((int32_t)(sign_bit ? 0 - fixed : fixed));
+    uint32_t tail = mul_high(n.significand, mul_high(fixed, mul_high((uint32_t)p, LN_2 >> 32))); /* Q3 */
+    if (sign_bit)
+      return make_float(sign_bit, (n.significand >> 1) + (tail >> 4), n.exponent + 1);
+    return make_float(sign_bit, n.significand - (tail >> 3), n.exponent);
+  }
+  struct normal w;
+  if (sign_bit) {
+    uint32_t below_one = 0 - shifted(n.significand, n.exponent + 32); /* exact */
+    int zeros = leading_zeros(below_one);
+    w = (struct normal){below_one << zeros, -32 - zeros};
+  } else {
+    struct normal a = magnitude < 0x3F800000 ? one : n, b = magnitude < 0x3F800000 ? n : one;
+    uint32_t total = a.significand + shifted(b.significand, b.exponent - a.exponent);
+    w = total >= a.significand ? (struct normal){total, a.exponent}
+                               : (struct normal){total >> 1 | FLOAT_SIGN, a.exponent + 1};
+  }
+  int64_t log2 = log2_of(w);
+  uint64_t total = (uint64_t)(sign_bit ? -log2 : log2);
+  int zeros = leading_zeros64(total);
+  return make_float(sign_bit, mul_high(high_word(total << zeros), LN_2 >> 32), 32 - zeros - 36);
 }

@@ -1,4 +1,4 @@
-/* sinhf, coshf and tanhf: small results by polynomials, others by powers of two. */
+/* sinhf, coshf, tanhf and expm1f: small results by polynomials, others by powers of two. */
 #include "coefficients.h"
 #include "fixed.h"
 
@@ -82,4 +82,31 @@ float tanhf(float x) {
   struct normal d = sum(power(exponent_of(n, 1)), one);
   uint32_t below_one = reciprocal_q63(d.significand | 1) >> (d.exponent + 30);
   return make_float(sign_bit, 0 - below_one, -32);
+}
+
+float expm1f(float x) {
+  uint32_t bits = float_bits(x), magnitude = bits & ~FLOAT_SIGN, sign_bit = bits & FLOAT_SIGN;
+  if (magnitude < 0x33000000) /* 2^-25: x^2/2 is lost in rounding */
+    return x;
+  if (magnitude > FLOAT_INFINITY)
+    return bits_float(FLOAT_NAN);
+  if (bits >= 0xC18C0000) /* -17.5: e^x is less than half of the last place */
+    return -1;
+  if (magnitude >= 0x43000000)
+    return bits_float(FLOAT_INFINITY);
+  struct normal n = take_apart(magnitude);
+  if (magnitude < 0x3F000000) { /* sinh |x| +- (cosh x - 1), both as multiples of |x| */
+    uint32_t fixed = shifted(n.significand, n.exponent + 32), z = mul_high(fixed, fixed);
+    uint32_t odd = mul_high(n.significand, mul_high(z, polynomial(sinh_coefficients, 5, z)));      /* Q2 */
+    uint32_t even = mul_high(n.significand, mul_high(fixed, polynomial(cosh_coefficients, 5, z))); /* Q0 */
+    uint32_t sinh = (n.significand >> 1) + (odd >> 3);
+    return make_float(sign_bit, sign_bit ? sinh - (even >> 1) : sinh + (even >> 1), n.exponent + 1);
+  }
+  int64_t t = exponent_of(n, 0);
+  if (sign_bit) {
+    struct normal down = power(-t);
+    return make_float(sign_bit, 0 - shifted(down.significand, down.exponent + 32), -32);
+  }
+  struct normal up = power(t);
+  return make_float(0, up.significand - shifted(FLOAT_SIGN, -31 - up.exponent), up.exponent);
 }

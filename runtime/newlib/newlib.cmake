@@ -35,7 +35,7 @@ set(NEWLIB_C
   common/pow_log_data common/math_err
   # binary32
   math/sf_erf
-  common/sf_expm1 common/sf_log1p common/math_errf
+  common/math_errf
   # complex
   complex/cephes_subr complex/cephes_subrf)
 foreach(name cabs cacos cacosh carg casin casinh catan catanh ccos ccosh cexp cimag clog conj cpow cproj creal csin csinh

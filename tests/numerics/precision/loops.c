@@ -60,6 +60,8 @@ int main(void) {
     h = hash(h, acosf(in[2][i]));
     h = hash(h, asinhf(in[0][i]));
     h = hash(h, acoshf(in[0][i]));
+    h = hash(h, expm1f(in[1][i]));
+    h = hash(h, log1pf(in[2][i]));
     double root = sqrt((double)in[0][i]);
     h = hash(h, (float)root);
     h = hash(h, (float)(root - (double)(float)root)); /* so that it stays a function of binary64 */
