@@ -186,7 +186,7 @@ static inline void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, str
 
 /* Those who win a bank of the data cache; `hits` receives those of them whose lines are there and who need no more. */
 static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, uint64_t *bit, uint64_t *hits) {
-  const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
+  const struct trax_cache_tags tags = ftm->tm->dcache.tags;
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
   /* Of the banks that are handled together, by the lowest two bits of their numbers. */
@@ -206,8 +206,8 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, ui
     winners |= trax_fast_any(&winner);
     for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
       const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
-      const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.at[number]]);
-      const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
+      const uint32_t line = trax_line_of(&tags, ftm->address_of[number][ftm->heads.at[number]]);
+      const bool is_there = tags.lines[(size_t)(line & tags.set_mask) * tags.ways] == (uint64_t)line + 1;
       there |= winner[i] & -(uint64_t)is_there;
     }
   }
@@ -311,29 +311,28 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
     carry_;                                                                                                            \
   }))
 
+static bool is_any(const trax_fast_losses *losses) {
+  uint64_t any = 0;
+  for (unsigned i = 0; i < TRAX_FAST_LOSSES; i++)
+    any |= (*losses)[i];
+  return any != 0;
+}
+
 void trax_fast_count_log(struct trax_fast_tally *tally) {
-  trax_fast_losses sum[4] = {{0}}, carry = {0}, twos[7], fours[3];
+  const trax_fast_losses none = {0};
+  trax_fast_losses carry = none;
   for (; tally->logged < TRAX_FAST_LOG; tally->logged++)
-    tally->log[tally->logged] = carry;
-  sum[0] = tally->log[0];
-  for (unsigned i = 0; i < 7; i++)
-    twos[i] = ADD_TWO(&sum[0], tally->log[2 * i + 1], tally->log[2 * i + 2]);
-  sum[1] = twos[0];
-  for (unsigned i = 0; i < 3; i++)
-    fours[i] = ADD_TWO(&sum[1], twos[2 * i + 1], twos[2 * i + 2]);
-  sum[2] = fours[0];
-  sum[3] = ADD_TWO(&sum[2], fours[1], fours[2]);
-  for (unsigned bit = 0; bit < 4; bit++)
-    carry = ADD_TWO(&tally->planes[bit], sum[bit], carry);
-  for (unsigned bit = 4; bit < 64; bit++) {
-    const trax_fast_losses none = {0};
-    uint64_t any = 0;
-    for (unsigned i = 0; i < TRAX_FAST_LOSSES; i++)
-      any |= carry[i];
-    if (!any)
-      break;
-    carry = ADD_TWO(&tally->planes[bit], carry, none);
+    tally->log[tally->logged] = none;
+  unsigned count = TRAX_FAST_LOG; /* of terms of the bit, from the log's beginning on */
+  for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
+    trax_fast_losses sum = tally->log[0];
+    count /= 2;
+    for (unsigned i = 0; i < count; i++)
+      tally->log[i] = ADD_TWO(&sum, tally->log[2 * i + 1], tally->log[2 * i + 2]);
+    carry = ADD_TWO(&tally->planes[bit], sum, carry);
   }
+  for (unsigned bit = TRAX_FAST_LOG_BITS; bit < 64 && is_any(&carry); bit++)
+    carry = ADD_TWO(&tally->planes[bit], carry, none);
   tally->logged = 0;
 }
 

@@ -99,7 +99,7 @@ struct trax_fast_lost {
 
 /* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
    charged to all TPs at once; several cycles together, since carries cost most. */
-enum { TRAX_FAST_LOG = 15 /* cycles; their sums have 4 bits */, TRAX_FAST_LOSSES = 8 };
+enum { TRAX_FAST_LOG_BITS = 6, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */, TRAX_FAST_LOSSES = 8 };
 typedef uint64_t trax_fast_losses __attribute__((vector_size(8 * TRAX_FAST_LOSSES), may_alias)); /* as trax_fast_lost */
 
 struct trax_fast_tally {
