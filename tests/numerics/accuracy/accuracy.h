@@ -10,6 +10,15 @@
 
 enum { CHUNK = 1024 };
 
+/* Loops over a chunk are compiled for the host's widest registers too; without that they, and not the functions, would
+   take most of the time. Sanitizers cannot be ready when the choice is made. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
+    !defined(__SANITIZE_THREAD__)
+#define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define WIDEST
+#endif
+
 /* The host's binary64 functions are taken to be right within this part of the result, 64 units of binary64's last
    place; glibc promises 10 at most, 4 where it computes several at once. In units of binary32's last place this is
    2^-23. */
@@ -49,6 +58,8 @@ struct verdict {
 };
 /* What MPFR says of result number i of the chunk. */
 struct verdict judge(const struct function *function, const struct chunk *chunk, size_t i);
+/* Frees what the calling thread's judgements have allocated. */
+void judge_finish(void);
 /* The sign of the true difference of result i + 1 and result i. */
 int true_order(const struct function *function, const struct chunk *chunk, size_t i);
 

@@ -85,7 +85,7 @@ ADAPTED_PAIRS(EXACT_2)
 TRANSCENDENTAL_PAIRS(EXACT_2)
 TRIPLES(EXACT_3)
 
-/* Each thread's numbers; they live as long as the program. */
+/* Each thread's numbers. */
 static _Thread_local struct {
   bool ready;
   mpfr_t operand[3], want, other, difference;
@@ -104,6 +104,16 @@ static void evaluate(mpfr_t result, const struct function *function, const struc
     mpfr_setsign(numbers.operand[n], numbers.operand[n], signbit(x), MPFR_RNDN); /* a NaN's, for copysignf */
   }
   function->exact(result, numbers.operand);
+}
+
+void judge_finish(void) {
+  if (numbers.ready) {
+    for (int n = 0; n < 3; n++)
+      mpfr_clear(numbers.operand[n]);
+    mpfr_clears(numbers.want, numbers.other, numbers.difference, (mpfr_ptr)NULL);
+    numbers.ready = false;
+  }
+  mpfr_free_cache();
 }
 
 /* |x - numbers.want| in units of want's last place, for a format of so many bits with the given least exponent. */

@@ -6,12 +6,6 @@
 
 #include "reference.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define WIDEST
-#endif
-
 static inline double operand(uint32_t bits) {
   float x;
   memcpy(&x, &bits, sizeof x);

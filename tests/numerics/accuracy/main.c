@@ -109,7 +109,7 @@ static void *measure_part(void *argument) {
   measure_merge(&work->total, &part);
   pthread_mutex_unlock(&work->lock);
   free(chunk);
-  mpfr_free_cache();
+  judge_finish();
   return NULL;
 }
 
@@ -354,5 +354,6 @@ int main(int argc, char **argv) {
   }
   free(chosen);
   free(rows);
+  judge_finish();
   return !ok;
 }

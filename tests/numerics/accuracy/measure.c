@@ -43,13 +43,6 @@ static bool agree_on_special(float got, double want) {
   return want == 0 && got == 0 && !signbit(got) == !signbit(want);
 }
 
-/* The same loops for the host's widest registers: with them most of the time goes to the functions themselves. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define WIDEST
-#endif
-
 struct settled {
   double error[CHUNK];       /* 0 where it is not settled */
   uint64_t unsettled[CHUNK]; /* 1 or 0 */
