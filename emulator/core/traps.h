@@ -1,4 +1,4 @@
-/* Calls of the host (docs/abi.md, "Traps to the host"). */
+/* Calls of the host (docs/isa.md, "Traps"). */
 #ifndef TRAX_CORE_TRAPS_H
 #define TRAX_CORE_TRAPS_H
 

@@ -32,7 +32,7 @@ div_t div(int n, int d);
 ldiv_t ldiv(long n, long d);
 lldiv_t lldiv(long long n, long long d);
 
-/* exit ends the calling thread with a status; the others go on (docs/abi.md, "Traps to the host"). abort stops the
+/* exit ends the calling thread with a status; the others go on (docs/isa.md, "Traps"). abort stops the
  * machine. */
 __attribute__((noreturn)) void exit(int status);
 __attribute__((noreturn)) void _Exit(int status);

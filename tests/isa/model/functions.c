@@ -124,7 +124,7 @@ static uint32_t atomic_increment(struct model_execution *execution, const uint32
   return value;
 }
 
-/* --- docs/abi.md: special registers and traps --- */
+/* --- docs/isa.md: special registers and traps --- */
 
 static uint32_t special_register(struct model_execution *execution, const uint32_t *argument) {
   const struct model_thread *thread = execution->thread;
