@@ -350,8 +350,8 @@ SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, Selecti
 
 //--- costs --------------------------------------------------------------------
 
-/// A double word is shifted by any amount in nine instructions. A call is fewer, but then all values live elsewhere, which
-/// takes more again unless nothing but size counts.
+/// A double word is shifted by any amount in nine instructions. A call is fewer, but then all values live elsewhere,
+/// which takes more again unless nothing but size counts.
 TargetLowering::ShiftLegalizationStrategy
 TraxTargetLowering::preferredShiftLegalizationStrategy(SelectionDAG &DAG, SDNode *N, unsigned ExpansionFactor) const {
   if (DAG.getMachineFunction().getFunction().hasMinSize())
@@ -450,8 +450,8 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
   return DAG.getMergeValues({Value, Word.getValue(1)}, DL);
 }
 
-/// The increment is the machine's one read-modify-write; TraxLowerAtomics has made calls of the others. The thread's later
-/// accesses may overtake it, but for those behind an instruction that needs its result (docs/isa.md, "Order").
+/// The increment is the machine's one read-modify-write; TraxLowerAtomics has made calls of the others. The thread's
+/// later accesses may overtake it, but for those behind an instruction that needs its result (docs/isa.md, "Order").
 SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
   auto *N = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);

@@ -30,10 +30,8 @@ struct trax_config {
 #define TRAX_CONFIG_NOTHING(SECTION)
 #define TRAX_CONFIG_INITIAL(SECTION, KEY, DEFAULT, ...) .SECTION.KEY = DEFAULT,
 #define TRAX_CONFIG_DEFAULT                                                                                            \
-  {                                                                                                                    \
-    TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
-                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)                                                         \
-  }
+  {TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,                \
+                    TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)}
 
 /* One row of the table, for code that goes through all keys. */
 struct trax_config_key {

@@ -31,8 +31,7 @@ static std::string flags(const Instruction &I) {
 }
 
 void emitInstructions(raw_ostream &OS, const Isa &Isa) {
-  OS << Notice
-     << "/* TRAX_INSTRUCTION(name, mnemonic, syntax, format, unit, mask, match, flags, access bytes) */\n";
+  OS << Notice << "/* TRAX_INSTRUCTION(name, mnemonic, syntax, format, unit, mask, match, flags, access bytes) */\n";
   for (const Instruction &I : Isa.Instructions)
     OS << "TRAX_INSTRUCTION(" << I.Name << ", \"" << I.Mnemonic << "\", \"" << I.Syntax << "\", " << I.Format << ", "
        << I.Unit << ", " << format_hex(I.Mask, 10) << "u, " << format_hex(I.Match, 10) << "u, " << flags(I) << ", "
@@ -130,7 +129,8 @@ void emitCodec(raw_ostream &OS, const Isa &Isa) {
       if (member(F) != StringRef("imm"))
         OS << "    word |= (inst->" << member(F) << " & " << fieldMask(F) << ") << " << F.Low << ";\n";
       else
-        OS << "    word |= ((uint32_t)(inst->imm / " << I->ImmScale << ") & " << fieldMask(F) << ") << " << F.Low << ";\n";
+        OS << "    word |= ((uint32_t)(inst->imm / " << I->ImmScale << ") & " << fieldMask(F) << ") << " << F.Low
+           << ";\n";
     }
     OS << "    break;\n";
   }

@@ -146,9 +146,7 @@ class TraxAsmParser : public MCTargetAsmParser {
   bool ParseInstruction(ParseInstructionInfo &Info, StringRef Name, SMLoc NameLoc, OperandVector &Operands) override;
   bool MatchAndEmitInstruction(SMLoc IDLoc, unsigned &Opcode, OperandVector &Operands, MCStreamer &Out,
                                uint64_t &ErrorInfo, bool MatchingInlineAsm) override;
-  ParseStatus parseDirective(AsmToken) override {
-    return ParseStatus::NoMatch;
-  }
+  ParseStatus parseDirective(AsmToken) override { return ParseStatus::NoMatch; }
 
   bool parseOperand(OperandVector &Operands, StringRef Mnemonic);
   bool parseMemoryBase(OperandVector &Operands);
@@ -157,9 +155,7 @@ class TraxAsmParser : public MCTargetAsmParser {
   ParseStatus parseSpecialRegister(OperandVector &Operands) {
     return parseNamed(Operands, TraxII::findSpecialRegister);
   }
-  ParseStatus parseTrapCode(OperandVector &Operands) {
-    return parseNamed(Operands, TraxII::findTrap);
-  }
+  ParseStatus parseTrapCode(OperandVector &Operands) { return parseNamed(Operands, TraxII::findTrap); }
 
   void emit(MCInst Inst, SMLoc Loc, MCStreamer &Out);
   void emitLoadImmediate(const MCInst &Inst, SMLoc Loc, MCStreamer &Out);

@@ -22,8 +22,7 @@ typedef struct field {
   uint8_t offset, width;
 } field;
 
-#define FIELD(type, member)                                                                                            \
-  { offsetof(type, member), sizeof(((type *)0)->member) }
+#define FIELD(type, member) {offsetof(type, member), sizeof(((type *)0)->member)}
 
 static const field header_fields[] = {
     FIELD(Elf32_Ehdr, e_type),     FIELD(Elf32_Ehdr, e_entry),     FIELD(Elf32_Ehdr, e_phoff),

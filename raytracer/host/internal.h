@@ -97,7 +97,7 @@ struct scene_tree {
       uint32_t child[2];
       uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh */
     };
-  } * nodes; /* depth first, the root first */
+  } *nodes; /* depth first, the root first */
   uint32_t node_count, inner_count, max_depth, max_leaf;
 };
 

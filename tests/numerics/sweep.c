@@ -165,8 +165,9 @@ static inline int multiply_overflow(int64_t a, int64_t b, int64_t *wrapped) {
   X(tan, 0)                                                                                                            \
   X(asin, 0)                                                                                                           \
   X(acos, 0)                                                                                                           \
-  X(atan, 0) X(sinh, 0) X(cosh, 0) X(tanh, 0) X(asinh, 0) X(acosh, 0) X(atanh, 0) X(exp, 0) X(exp2, 0) X(expm1, 0)     \
-      X(log, 0) X(log2, 0) X(log10, 0) X(log1p, 0) X(cbrt, 0) X(erf, 0) X(erfc, 0) X(tgamma, 0) X(lgamma, 0)
+  X(atan, 0)                                                                                                           \
+  X(sinh, 0) X(cosh, 0) X(tanh, 0) X(asinh, 0) X(acosh, 0) X(atanh, 0) X(exp, 0) X(exp2, 0) X(expm1, 0) X(log, 0)      \
+      X(log2, 0) X(log10, 0) X(log1p, 0) X(cbrt, 0) X(erf, 0) X(erfc, 0) X(tgamma, 0) X(lgamma, 0)
 SIMPLE_FUNCTIONS(DECLARE)
 #endif
 #ifdef __trax__

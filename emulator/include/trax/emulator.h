@@ -48,9 +48,9 @@ trax_status trax_config_preset(trax_config *config, const char *name, trax_error
 trax_status trax_config_set(trax_config *config, const char *key, const char *value, trax_error *error);
 /* Checks that hold between keys; trax_machine_create calls it. */
 trax_status trax_config_check(const trax_config *config, trax_error *error);
-void trax_config_print(const trax_config *config, FILE *out);    /* a file that trax_config_load reads back */
-void trax_config_describe(FILE *out);                            /* every key: type, range, default, unit, meaning */
-const char *const *trax_config_presets(void);                    /* NULL-terminated */
+void trax_config_print(const trax_config *config, FILE *out); /* a file that trax_config_load reads back */
+void trax_config_describe(FILE *out);                         /* every key: type, range, default, unit, meaning */
+const char *const *trax_config_presets(void);                 /* NULL-terminated */
 
 /* --- machine --- */
 typedef struct trax_machine trax_machine;
@@ -60,7 +60,8 @@ void trax_machine_destroy(trax_machine *machine);
 trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error);
 
 /* Fills the trax_buffer object called symbol (docs/abi.md). bytes may be NULL for zeros. */
-trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const void *bytes, uint32_t size, trax_error *error);
+trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const void *bytes, uint32_t size,
+                              trax_error *error);
 trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, const char *path, trax_error *error);
 /* The bytes of a bound buffer, valid until the machine is destroyed. */
 trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
@@ -69,8 +70,8 @@ trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, 
 typedef struct trax_progress {
   uint64_t cycle;
   uint64_t instructions;
-  uint64_t items;       /* counted by the program's "items" trap */
-  uint64_t total_items; /* from options; 0 if unknown */
+  uint64_t items;                             /* counted by the program's "items" trap */
+  uint64_t total_items;                       /* from options; 0 if unknown */
   uint64_t items_before, instructions_before; /* of these, what was done before a run that was resumed */
   double host_seconds;
 } trax_progress;
@@ -78,10 +79,10 @@ typedef struct trax_progress {
 /* The first two give the same: every cycle, every count, every byte. The third knows no time: its cycles are 0, and
    max_cycles limits the instructions of a thread. */
 typedef enum trax_engine {
-  TRAX_ENGINE_FAST = 0,  /* emulator/fast */
-  TRAX_ENGINE_REFERENCE, /* written to be read beside docs/timing.md, many times slower: emulator/reference */
+  TRAX_ENGINE_FAST = 0,   /* emulator/fast */
+  TRAX_ENGINE_REFERENCE,  /* written to be read beside docs/timing.md, many times slower: emulator/reference */
   TRAX_ENGINE_FUNCTIONAL, /* emulator/fast/functional.c */
-  TRAX_ENGINE_SAMPLED /* emulator/fast/sampled.c: cycles and what depends on them are estimates */
+  TRAX_ENGINE_SAMPLED     /* emulator/fast/sampled.c: cycles and what depends on them are estimates */
 } trax_engine;
 
 /* How TRAX_ENGINE_SAMPLED samples (docs/emulator.md, "Sampled simulation"); 0 is the default. */
@@ -113,7 +114,8 @@ int trax_machine_exit_status(const trax_machine *machine);
    whether the program has the two; the second writes path, which appears only when it is complete. */
 trax_status trax_machine_check_signature(const trax_machine *machine, trax_error *error);
 trax_status trax_machine_write_signature(const trax_machine *machine, const char *path, trax_error *error);
-/* The report of the fault that ended the run: address, instruction, symbol, source line, thread, TM, cycle, registers. */
+/* The report of the fault that ended the run: address, instruction, symbol, source line, thread, TM, cycle, registers.
+ */
 void trax_machine_print_fault(const trax_machine *machine, FILE *out);
 
 /* --- statistics: declared once in emulator/core/stats.h; names are stable --- */

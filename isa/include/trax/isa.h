@@ -43,7 +43,7 @@ enum {
   TRAX_READS_RB = 1u << 1,
   TRAX_READS_RD = 1u << 2, /* conditional moves */
   TRAX_WRITES_RD = 1u << 3,
-  TRAX_IS_LOAD = 1u << 4, /* ainc too */
+  TRAX_IS_LOAD = 1u << 4,  /* ainc too */
   TRAX_IS_STORE = 1u << 5, /* not ainc */
   TRAX_IS_ATOMIC = 1u << 6,
   TRAX_IS_NONTEMPORAL = 1u << 7,
@@ -64,11 +64,11 @@ typedef struct trax_op_info {
 } trax_op_info;
 
 extern const trax_op_info trax_op_table[TRAX_OP_COUNT];
-extern const unsigned trax_unit_latency[TRAX_UNIT_COUNT]; /* cycles; the machine's defaults */
+extern const unsigned trax_unit_latency[TRAX_UNIT_COUNT];  /* cycles; the machine's defaults */
 extern const char *const trax_unit_names[TRAX_UNIT_COUNT]; /* "FP_ADD" */
 
-/* A decoded instruction. imm is sign extended where the operand is signed, in bytes for branches and jumps. Fields that the
-   format lacks are 0. */
+/* A decoded instruction. imm is sign extended where the operand is signed, in bytes for branches and jumps. Fields that
+   the format lacks are 0. */
 typedef struct trax_inst {
   trax_op op;
   uint8_t rd, ra, rb;

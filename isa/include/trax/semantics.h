@@ -34,7 +34,9 @@ static inline uint32_t trax_from_float(float value) {
   return bits;
 }
 
-static inline bool trax_is_nan(uint32_t a) { return (a & 0x7FFFFFFFu) > 0x7F800000u; }
+static inline bool trax_is_nan(uint32_t a) {
+  return (a & 0x7FFFFFFFu) > 0x7F800000u;
+}
 static inline uint32_t trax_canonical(float value) {
   return value != value ? TRAX_CANONICAL_NAN : trax_from_float(value);
 }
@@ -47,23 +49,43 @@ static inline int32_t trax_signed(uint32_t a) {
 static inline uint32_t trax_sra(uint32_t a, uint32_t shift) {
   return a >> shift | (a >> 31 && shift ? ~0u << (32 - shift) : 0);
 }
-static inline uint32_t trax_sext8(uint32_t a) { return (a & 0xFFu) - ((a & 0x80u) << 1); }
-static inline uint32_t trax_sext16(uint32_t a) { return (a & 0xFFFFu) - ((a & 0x8000u) << 1); }
+static inline uint32_t trax_sext8(uint32_t a) {
+  return (a & 0xFFu) - ((a & 0x80u) << 1);
+}
+static inline uint32_t trax_sext16(uint32_t a) {
+  return (a & 0xFFFFu) - ((a & 0x8000u) << 1);
+}
 static inline uint32_t trax_mulh(uint32_t a, uint32_t b) {
   return (uint32_t)((uint64_t)((int64_t)trax_signed(a) * trax_signed(b)) >> 32);
 }
 
-static inline uint32_t trax_fadd(uint32_t a, uint32_t b) { return trax_canonical(trax_to_float(a) + trax_to_float(b)); }
-static inline uint32_t trax_fsub(uint32_t a, uint32_t b) { return trax_canonical(trax_to_float(a) - trax_to_float(b)); }
-static inline uint32_t trax_fmul(uint32_t a, uint32_t b) { return trax_canonical(trax_to_float(a) * trax_to_float(b)); }
-static inline uint32_t trax_fdiv(uint32_t a, uint32_t b) { return trax_canonical(trax_to_float(a) / trax_to_float(b)); }
+static inline uint32_t trax_fadd(uint32_t a, uint32_t b) {
+  return trax_canonical(trax_to_float(a) + trax_to_float(b));
+}
+static inline uint32_t trax_fsub(uint32_t a, uint32_t b) {
+  return trax_canonical(trax_to_float(a) - trax_to_float(b));
+}
+static inline uint32_t trax_fmul(uint32_t a, uint32_t b) {
+  return trax_canonical(trax_to_float(a) * trax_to_float(b));
+}
+static inline uint32_t trax_fdiv(uint32_t a, uint32_t b) {
+  return trax_canonical(trax_to_float(a) / trax_to_float(b));
+}
 
-static inline uint32_t trax_feq(uint32_t a, uint32_t b) { return trax_to_float(a) == trax_to_float(b); }
-static inline uint32_t trax_flt(uint32_t a, uint32_t b) { return trax_to_float(a) < trax_to_float(b); }
-static inline uint32_t trax_fle(uint32_t a, uint32_t b) { return trax_to_float(a) <= trax_to_float(b); }
+static inline uint32_t trax_feq(uint32_t a, uint32_t b) {
+  return trax_to_float(a) == trax_to_float(b);
+}
+static inline uint32_t trax_flt(uint32_t a, uint32_t b) {
+  return trax_to_float(a) < trax_to_float(b);
+}
+static inline uint32_t trax_fle(uint32_t a, uint32_t b) {
+  return trax_to_float(a) <= trax_to_float(b);
+}
 
 /* Total order of the numbers, -0 below +0, as unsigned integers. */
-static inline uint32_t trax_float_key(uint32_t a) { return a >> 31 ? ~a : a | 0x80000000u; }
+static inline uint32_t trax_float_key(uint32_t a) {
+  return a >> 31 ? ~a : a | 0x80000000u;
+}
 
 /* IEEE 754-2019, 9.6: minimumNumber and maximumNumber. */
 static inline uint32_t trax_fmin(uint32_t a, uint32_t b) {
@@ -101,8 +123,12 @@ static inline uint32_t trax_fcvt_wu_s(uint32_t a) {
     return 0;
   return (uint32_t)value;
 }
-static inline uint32_t trax_fcvt_s_w(uint32_t a) { return trax_from_float((float)trax_signed(a)); }
-static inline uint32_t trax_fcvt_s_wu(uint32_t a) { return trax_from_float((float)a); }
+static inline uint32_t trax_fcvt_s_w(uint32_t a) {
+  return trax_from_float((float)trax_signed(a));
+}
+static inline uint32_t trax_fcvt_s_wu(uint32_t a) {
+  return trax_from_float((float)a);
+}
 
 /* rSqrt of IEEE 754-2019, 9.2, correctly rounded. Rounding the binary64 estimate once more is exact for every binary32
    operand: no reciprocal root lies so near a midpoint (isa-exhaustive compares all of them with integers). */
@@ -114,9 +140,9 @@ static inline uint32_t trax_frsqrt(uint32_t a) {
   return trax_from_float((float)(1.0 / sqrt((double)trax_to_float(a))));
 }
 
-/* A result of a unit that keeps only `bits` bits of significand, 1 to 24 (24 = binary32 itself), rounded to nearest even;
-   a tie at one bit, where neither neighbour is even, goes to the greater magnitude (IEEE 754-2019, 4.3.1). NaN, infinity
-   and subnormals pass unchanged; a carry out of the largest binade gives infinity. */
+/* A result of a unit that keeps only `bits` bits of significand, 1 to 24 (24 = binary32 itself), rounded to nearest
+   even; a tie at one bit, where neither neighbour is even, goes to the greater magnitude (IEEE 754-2019, 4.3.1). NaN,
+   infinity and subnormals pass unchanged; a carry out of the largest binade gives infinity. */
 static inline uint32_t trax_reduce_precision(uint32_t a, unsigned bits) {
   uint32_t exponent = a >> 23 & 0xFFu;
   if (bits >= 24 || exponent == 0xFFu || exponent == 0)

@@ -1,4 +1,5 @@
-/* In place of the real trax/semantics.h, which it includes: the operations of floating point with the mutant in force. */
+/* In place of the real trax/semantics.h, which it includes: the operations of floating point with the mutant in force.
+ */
 #ifndef TRAX_TESTS_ISA_MUTATED_SEMANTICS_H
 #define TRAX_TESTS_ISA_MUTATED_SEMANTICS_H
 
