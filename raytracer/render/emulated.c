@@ -215,7 +215,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
   if (status == TRAX_OK && options->keep)
     status = keep_inputs(options, frame, program, machine, error);
-  if (status == TRAX_OK) {
+  if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
     struct trax_simulated_options run = {
         .explain = &options->explain,

@@ -138,7 +138,7 @@ static trax_status render(const struct options *options, struct progress *progre
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
   int exponent;
-  trax_status status = trax_output_check(options->output, error);
+  trax_status status = options->output ? trax_output_check(options->output, error) : TRAX_OK;
   if (status == TRAX_OK && options->stats)
     status = trax_output_check(options->stats, error);
   if (status == TRAX_OK && options->cost_picture)
@@ -160,10 +160,11 @@ static trax_status render(const struct options *options, struct progress *progre
                  ? emulate(&picture, options, &frame, progress, (const volatile int *)&interrupted, agrees, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
                                options->quiet, error);
-  if (status == TRAX_OK)
+  if (status == TRAX_OK && options->output)
     status = trax_picture_write(&picture, options->output, error);
   if (status == TRAX_OK && !options->quiet) {
-    printf("picture     %s\n", options->output);
+    if (options->output)
+      printf("picture     %s\n", options->output);
     if (options->stats)
       printf("statistics  %s\n", options->stats);
     if (options->keep)

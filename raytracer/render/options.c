@@ -46,6 +46,7 @@ static const char usage[] =
     "      --report            renders with both programs and prints what each takes; exit status 1 if the pictures\n"
     "                          are not the same bit for bit\n"
     "      --keep DIR          keeps what the program reads, and the trax-sim command that runs it\n"
+    "      --prepare DIR       the same, and renders nothing\n"
     "  -q, --quiet             prints errors only\n"
     "  -h, --help\n"
     "      --version\n";
@@ -74,6 +75,7 @@ enum {
   OPT_CACHE,
   OPT_REPORT,
   OPT_KEEP,
+  OPT_PREPARE,
   OPT_VERSION
 };
 
@@ -101,6 +103,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"cache", required_argument, NULL, OPT_CACHE},
                                              {"report", no_argument, NULL, OPT_REPORT},
                                              {"keep", required_argument, NULL, OPT_KEEP},
+                                             {"prepare", required_argument, NULL, OPT_PREPARE},
                                              {"quiet", no_argument, NULL, 'q'},
                                              {"help", no_argument, NULL, 'h'},
                                              {"version", no_argument, NULL, OPT_VERSION},
@@ -252,6 +255,10 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_PROGRAM:
     options->program = value;
     return TRAX_OK;
+  case OPT_PREPARE:
+    options->prepare = true;
+    options->keep = value;
+    return TRAX_OK;
   default: /* OPT_KEEP */
     options->keep = value;
     return TRAX_OK;
@@ -277,7 +284,10 @@ static trax_status wrong_option(char **argv, int which, trax_error *error) {
 static trax_status check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
-  if (!options->output)
+  if (options->prepare && (options->output || options->stats || options->compare || options->report ||
+                           options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+    return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
+  if (!options->output && !options->prepare)
     return trax_fail(error, "no picture given: -o PICTURE.png");
   if (options->engine > ENGINE_REFERENCE) {
     if (options->stats)
@@ -285,7 +295,7 @@ static trax_status check(const struct options *options, trax_error *error) {
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
       return trax_fail(error, "--profile, --profile-folded, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
-      return trax_fail(error, "--config, --set, --program and --keep need the emulator");
+      return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
     if (options->cache || options->report || options->no_specialise)
       return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
   }

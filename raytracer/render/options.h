@@ -30,6 +30,7 @@ struct options {
   enum engine engine;
   unsigned threads; /* of the fast engine and the native twin; 0: as many as the host has */
   bool compare, quiet, report, no_specialise;
+  bool prepare; /* keep is written, nothing is rendered */
 };
 
 enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG };

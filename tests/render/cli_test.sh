@@ -71,6 +71,10 @@ refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise
 refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --report
 refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
 refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
+for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png'; do
+  refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
+done
+refuse 'need the emulator' "$render" "$box" --prepare prepared --engine native
 refuse '--cost without' "$render" "$box" -o x.png --cost cycles
 
 # --- files

@@ -181,6 +181,11 @@ cp kept/image.raw specialised.raw
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept --no-specialise
 TRAX_SIM=$bin/trax-sim sh kept/run.sh >.out 2>.err || fail "run.sh, general: $(cat .err)"
 cmp -s kept/image.raw specialised.raw || fail "run.sh: the general program's picture is another"
+# --prepare writes the same files and renders nothing.
+"$bin/trax-render" "$source/box.obj" $view --size 16x9 --config 1x32 --prepare prepared >.out 2>.err || fail "--prepare: $(cat .err)"
+same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept
+rm -f kept/image.raw
+diff -r kept prepared >.out || fail "--prepare: other files than --keep: $(cat .out)"
 # A scene that was made for another place in memory is refused, not traversed.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep moved
 sed -i 's/--bind scene=scene.trax --alloc image=576/--alloc image=576 --bind scene=scene.trax/; s/--bind scene=scene.trax --bind params=params.bin/--bind params=params.bin --bind scene=scene.trax/' moved/run.sh
