@@ -51,10 +51,11 @@ static trax_status find_program(struct trax_program *program, const struct optio
   trax_status status = general_program(program, options, error);
   if (status != TRAX_OK || options->program || options->no_specialise)
     return status;
-  char root[TRAX_PATH_SIZE], note[256] = "its own place is not known";
+  char root[TRAX_PATH_SIZE], note[256] = "";
   struct trax_specialise_options specialise = {root, options->cache, interrupt};
-  if (installation(root))
-    status = trax_program_specialise(program, frame, &specialise, note, error);
+  if (!installation(root))
+    return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
+  status = trax_program_specialise(program, frame, &specialise, note, error);
   if (status == TRAX_OK && !program->specialised && !options->quiet)
     fprintf(stderr, "trax-render: note: the general program renders, there is no specialised one: %s\n", note);
   return status;

@@ -145,6 +145,8 @@ static void set_tiles(struct trax_render_params *params) {
 
 /* --- features --- */
 
+const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS] = {"watertight", "moller-trumbore"};
+
 static uint32_t features_of(const struct trax_frame_options *options, const struct trax_scene *scene) {
   uint32_t features = 0;
 #define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) features |= (QUESTION) ? 1u << TRAX_FEATURE_##NAME : 0;
@@ -189,6 +191,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
     return trax_fail(error, "out of memory for %u materials", scene->material_count);
   frame->params_size = (uint32_t)size;
   frame->scene = scene;
+  frame->method = options->method;
 
   struct trax_render_params *params = frame->params;
   params->width = options->width;

@@ -39,6 +39,8 @@ static const char usage[] =
     "      --compare           renders the reference and the native twin too and prints the differences;\n"
     "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
     "                          99.9 % of the pixels are within 2/255 of the reference\n"
+    "      --triangle METHOD   watertight (default) or moller-trumbore, which misses some rays between triangles\n"
+    "      --fast-math         compiles the program with -ffast-math: its picture is not the twin's in every bit\n"
     "      --program FILE.elf  another program for the TPs than the one that comes with trax\n"
     "      --no-specialise     the program that can render every picture, instead of one compiled for this one\n"
     "      --cache DIR         where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
@@ -74,6 +76,8 @@ enum {
   OPT_NO_SPECIALISE,
   OPT_CACHE,
   OPT_REPORT,
+  OPT_TRIANGLE,
+  OPT_FAST_MATH,
   OPT_KEEP,
   OPT_PREPARE,
   OPT_VERSION
@@ -102,6 +106,8 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"no-specialise", no_argument, NULL, OPT_NO_SPECIALISE},
                                              {"cache", required_argument, NULL, OPT_CACHE},
                                              {"report", no_argument, NULL, OPT_REPORT},
+                                             {"triangle", required_argument, NULL, OPT_TRIANGLE},
+                                             {"fast-math", no_argument, NULL, OPT_FAST_MATH},
                                              {"keep", required_argument, NULL, OPT_KEEP},
                                              {"prepare", required_argument, NULL, OPT_PREPARE},
                                              {"quiet", no_argument, NULL, 'q'},
@@ -157,6 +163,13 @@ static bool parse_engine(const char *text, enum engine *engine) {
   return false;
 }
 
+static bool parse_triangle(const char *text, enum trax_triangle_method *method) {
+  for (*method = 0; *method < TRAX_TRIANGLE_METHODS; ++*method)
+    if (strcmp(text, trax_triangle_names[*method]) == 0)
+      return true;
+  return false;
+}
+
 static trax_status add_setting(struct options *options, const char *text, trax_error *error) {
   const char *equals = strchr(text, '=');
   if (!equals || equals == text)
@@ -207,6 +220,13 @@ static trax_status take_option(struct options *options, int which, const char *v
     return TRAX_OK;
   case OPT_REPORT:
     options->report = true;
+    return TRAX_OK;
+  case OPT_TRIANGLE:
+    if (!parse_triangle(value, &options->frame.method.triangle))
+      return trax_fail(error, "--triangle %s: expected watertight or moller-trumbore", value);
+    return TRAX_OK;
+  case OPT_FAST_MATH:
+    options->frame.method.fast_math = true;
     return TRAX_OK;
   case OPT_AMBIENT:
     if (!parse_fraction(value, &options->frame.ambient))
@@ -298,6 +318,19 @@ static trax_status check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
     if (options->cache || options->report || options->no_specialise)
       return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
+    if (options->frame.method.fast_math)
+      return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
+    if (options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT && options->engine == ENGINE_EMBREE)
+      return trax_fail(error, "--triangle: engine embree has a test of its own");
+  }
+  const struct trax_method *method = &options->frame.method;
+  if (method->triangle != TRAX_TRIANGLE_WATERTIGHT || method->fast_math) {
+    const char *name = method->fast_math ? "--fast-math" : "--triangle";
+    if (options->no_specialise || options->program)
+      return trax_fail(error, "%s needs a program compiled for the picture; %s asks for another", name,
+                       options->program ? "--program" : "--no-specialise");
+    if (options->report)
+      return trax_fail(error, "--report compares with the general program, which %s does not change", name);
   }
   if (options->no_specialise && (options->cache || options->report))
     return trax_fail(error, "--cache and --report are about the specialised program; --no-specialise asks for none");

@@ -16,10 +16,20 @@
 
 /* --- frame.c: what is rendered --- */
 
+/* How the device program computes what its parameters ask for: chosen when it is compiled. Zeros: the default. */
+enum trax_triangle_method { TRAX_TRIANGLE_WATERTIGHT, TRAX_TRIANGLE_MOLLER_TRUMBORE, TRAX_TRIANGLE_METHODS };
+extern const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS]; /* as options give them */
+
+struct trax_method {
+  enum trax_triangle_method triangle; /* device/triangle.h */
+  bool fast_math;                     /* -ffast-math: only a specialised program has it, not the twin */
+};
+
 struct trax_frame {
   struct trax_render_params *params; /* with the palette behind it; from malloc */
   uint32_t params_size;              /* bytes */
   const struct trax_scene *scene;
+  struct trax_method method;
 };
 
 struct trax_frame_options {
@@ -29,6 +39,7 @@ struct trax_frame_options {
   uint32_t samples;       /* rays from the eye through a pixel, 1 to TRAX_RENDER_MAX_SAMPLES */
   bool shadows;           /* false: the light shines through everything */
   bool smooth;            /* shading by the scene's normals, if it has them */
+  struct trax_method method;
 };
 
 #define TRAX_DEFAULT_AMBIENT 0.12f
@@ -79,7 +90,8 @@ struct trax_specialise_options {
 };
 
 /* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
-   TRAX_OK with why in note, and *program is as it was. TRAX_ERROR: a cache that was asked for cannot be written. */
+   TRAX_OK with why in note, and *program is as it was. TRAX_ERROR: a cache that was asked for cannot be written, or the
+   frame's method is not the default, which no other program has. */
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 
@@ -129,8 +141,8 @@ struct trax_render_run {
   uint64_t rays;                 /* out: rays traced */
 };
 
-/* twin.c: the device program on `threads` host threads (0: as many as the host has). One run at a time in a process:
-   the program's globals are the process's. */
+/* twin.c: the device program on `threads` host threads (0: as many as the host has), with the frame's triangle test and
+   without fast-math. One run at a time in a process: the program's globals are the process's. */
 trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
 

@@ -22,6 +22,7 @@
 
 static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
 enum { FLAG_COUNT = sizeof flags / sizeof *flags };
+static const char fast_math[] = "-ffast-math";
 
 /* What of the installation decides about the program. */
 static const char *const ingredients[] = {
@@ -60,8 +61,10 @@ static char *constants_text(const struct trax_frame *frame) {
   for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)
     if (constants.params.features >> feature & 1)
       fprintf(out, " %s", trax_feature_name(feature));
+  fputs(" */\n", out);
+  if (frame->method.triangle == TRAX_TRIANGLE_MOLLER_TRUMBORE)
+    fputs("#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE\n", out);
   fprintf(out,
-          " */\n"
           "#define TRAX_STACK_ENTRIES %u\n\n"
           "static const union {\n"
           "  uint32_t words[%zu];\n"
@@ -127,7 +130,8 @@ static void hash_library(XXH3_state_t *state, const char *path) {
   XXH3_128bits_update(state, identity, sizeof identity);
 }
 
-static trax_status make_key(char key[33], const char *root, const char *constants, trax_error *error) {
+static trax_status make_key(char key[33], const char *root, const char *constants, const struct trax_method *method,
+                            trax_error *error) {
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
@@ -140,6 +144,8 @@ static trax_status make_key(char key[33], const char *root, const char *constant
   hash_library(state, TRAX_LLVM_LIBRARY);
   for (size_t i = 0; i < FLAG_COUNT; i++)
     XXH3_128bits_update(state, flags[i], strlen(flags[i]) + 1);
+  if (method->fast_math)
+    XXH3_128bits_update(state, fast_math, sizeof fast_math);
   XXH3_128bits_update(state, constants, strlen(constants));
   const XXH128_hash_t hash = XXH3_128bits_digest(state);
   snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
@@ -236,8 +242,9 @@ static void first_line(char line[160], int descriptor, int status) {
 }
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
-static trax_status compile(const char *root, const char *constants, const char *output, bool params_in_memory,
-                           const volatile int *interrupt, trax_error *error) {
+static trax_status compile(const char *root, const char *constants, const char *output,
+                           const struct trax_method *method, bool params_in_memory, const volatile int *interrupt,
+                           trax_error *error) {
   char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
   if (!join(clang, root, "bin/clang", "") || !join(include, root, "lib/trax/raytracer", "") ||
       !join(source, root, "lib/trax/raytracer/main.c", ""))
@@ -246,6 +253,8 @@ static trax_status compile(const char *root, const char *constants, const char *
   *next++ = clang;
   for (size_t i = 0; i < FLAG_COUNT; i++)
     *next++ = flags[i];
+  if (method->fast_math)
+    *next++ = fast_math;
   *next++ = "-I";
   *next++ = include;
   if (params_in_memory)
@@ -300,8 +309,8 @@ static trax_status compile(const char *root, const char *constants, const char *
 
 /* Into the cache, aside and renamed. If constants take so many registers that the stack overflows, the parameters stay
    in memory. */
-static trax_status build(const char *root, const char *constants, const char *program, const volatile int *interrupt,
-                         trax_error *error) {
+static trax_status build(const char *root, const char *constants, const char *program, const struct trax_method *method,
+                         const volatile int *interrupt, trax_error *error) {
   char temporary[TRAX_PATH_SIZE];
   if (!join(temporary, program, "", "XXXXXX"))
     return trax_fail(error, "%s: the path is too long", program);
@@ -310,14 +319,21 @@ static trax_status build(const char *root, const char *constants, const char *pr
   if (descriptor < 0)
     return trax_fail(error, "%s: %s", temporary, strerror(errno));
   close(descriptor);
-  trax_status status = compile(root, constants, temporary, false, interrupt, error);
+  trax_status status = compile(root, constants, temporary, method, false, interrupt, error);
   if (status == TRAX_ERROR)
-    status = compile(root, constants, temporary, true, interrupt, error);
+    status = compile(root, constants, temporary, method, true, interrupt, error);
   if (status == TRAX_OK && rename(temporary, program) != 0)
     status = trax_fail(error, "%s: %s", program, strerror(errno));
   if (status != TRAX_OK)
     unlink(temporary);
   return status;
+}
+
+/* The general program takes the place of one that cannot be had, unless the method was chosen. */
+static trax_status note_or_error(const struct trax_method *method, const char *note, trax_error *error) {
+  if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math)
+    return TRAX_OK;
+  return trax_fail(error, "%s: there is no program for it: %s", method->fast_math ? "--fast-math" : "--triangle", note);
 }
 
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
@@ -329,12 +345,12 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return trax_fail(error, "--cache: the path is too long");
   if (!options->cache && !trax_program_cache(cache)) {
     snprintf(note, 256, "no place for compiled programs: neither XDG_CACHE_HOME nor HOME is set");
-    return TRAX_OK;
+    return note_or_error(&frame->method, note, error);
   }
   char *constants = constants_text(frame);
   if (!constants)
     return trax_fail(error, "out of memory");
-  trax_status status = make_key(key, options->root, constants, &reason);
+  trax_status status = make_key(key, options->root, constants, &frame->method, &reason);
   if (status == TRAX_OK && !make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
@@ -347,7 +363,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
     status = trax_write_file(header, constants, strlen(constants), &reason);
     if (status == TRAX_OK)
-      status = build(options->root, header, elf, options->interrupt, &reason);
+      status = build(options->root, header, elf, &frame->method, options->interrupt, &reason);
     if (status == TRAX_OK)
       prune(cache);
     else
@@ -358,7 +374,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return status;
   if (status != TRAX_OK) {
     snprintf(note, 256, "%.255s", reason.message);
-    return TRAX_OK;
+    return note_or_error(&frame->method, note, error);
   }
   memcpy(program->path, elf, sizeof elf);
   program->specialised = true;

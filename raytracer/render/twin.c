@@ -1,4 +1,5 @@
-/* The native twin: the device program's main, compiled for the host under another name, run by host threads. */
+/* The native twin: the device program's main, compiled for the host under another name for each triangle test, run by
+   host threads. */
 #include "core/machine.h"
 #include "render.h"
 
@@ -10,10 +11,13 @@
 #include <trax.h>
 #include <unistd.h>
 
-/* The program's own (raytracer/device/main.c). */
+/* The program's own (raytracer/device/main.c), the variables common to all. */
 extern struct trax_buffer scene, params, image;
 extern unsigned next_slot;
-int trax_raytracer_main(void);
+int trax_twin_watertight(void);
+int trax_twin_moller_trumbore(void);
+
+static int (*const mains[TRAX_TRIANGLE_METHODS])(void) = {trax_twin_watertight, trax_twin_moller_trumbore};
 
 struct worker {
   pthread_t thread;
@@ -24,6 +28,7 @@ struct worker {
 struct crew {
   pthread_mutex_t lock;
   pthread_cond_t changed;
+  int (*main)(void);
   unsigned running;
   uint64_t rays;
 };
@@ -31,7 +36,7 @@ struct crew {
 static void *work(void *argument) {
   struct worker *worker = argument;
   trax_native = (struct trax_native){.thread = worker->number, .tp = worker->number, .threads = worker->count};
-  trax_raytracer_main();
+  worker->crew->main();
   pthread_mutex_lock(&worker->crew->lock);
   worker->crew->rays += trax_native.rays;
   worker->crew->running--;
@@ -82,7 +87,10 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   image = (struct trax_buffer){picture->pixels, 4 * picture->width * picture->height};
   next_slot = 0;
 
-  struct crew crew = {.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER, .running = threads};
+  struct crew crew = {.lock = PTHREAD_MUTEX_INITIALIZER,
+                      .changed = PTHREAD_COND_INITIALIZER,
+                      .main = mains[frame->method.triangle],
+                      .running = threads};
   unsigned started = 0;
   int failure = 0;
   for (; started < threads; started++) {

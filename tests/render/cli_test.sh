@@ -70,6 +70,12 @@ refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise
 refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --cache here
 refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --report
 refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
+refuse '--triangle fast: expected watertight or moller-trumbore' "$render" "$box" -o x.png --triangle fast
+refuse '--triangle needs a program compiled' "$render" "$box" -o x.png --triangle moller-trumbore --no-specialise
+refuse '--fast-math needs a program.*--program asks' "$render" "$box" -o x.png --fast-math --program x.elf
+refuse '--report compares with the general' "$render" "$box" -o x.png --triangle moller-trumbore --report
+refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
+refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
 refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
 for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option

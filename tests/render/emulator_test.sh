@@ -123,6 +123,25 @@ grep -q 'TRAX_STACK_ENTRIES 40$' deep/*.h || fail "deep.obj is not deep"
 "$bin/trax-render" triangle.obj --size 1x1 --config 1x32 --set special.precision_bits=8 -o x.png --report >.out 2>.err ||
   fail "8 bits of precision: $(cat .out .err)"
 
+# Other methods: programs of their own, bit for bit the twin's unless the compiler may reorder.
+if [ -r $bunny ]; then
+  for method in '' '--triangle moller-trumbore' '--fast-math' '--triangle moller-trumbore --fast-math'; do
+    "$bin/trax-render" $bunny --view bunny --size 96x54 --cache methods $method -o "method$method.png" --compare --stats m.json \
+      >.out 2>.err || fail "$method: $(cat .out .err)"
+    grep -m1 '"cycles"' m.json
+    case $method in
+      *fast-math) grep -q '^twin        not compared' .out ;;
+      *) grep -q '^twin        identical in every bit$' .out ;;
+    esac || fail "$method: $(cat .out)"
+  done >methods.cycles
+  [ "$(sort -u methods.cycles | wc -l)" -eq 4 ] || fail "methods without an effect on time: $(cat methods.cycles)"
+  [ "$(find methods -name '*.elf' | wc -l)" -eq 4 ] || fail "not one program for each method: $(ls methods)"
+  for method in watertight moller-trumbore; do # so large, since the two are so much alike
+    "$bin/trax-render" $bunny --view bunny --size 320x180 -o $method.png --engine native --triangle $method -q || fail "$method"
+  done
+  "$bin/trax-compare" -q watertight.png moller-trumbore.png && fail "--triangle makes no difference to the twin"
+fi
+
 # Compiled once, by whichever of several processes comes first; an option of the picture makes another program.
 programs() { find "$1" -name '*.elf' | wc -l; }
 for run in 1 2 3; do
@@ -167,6 +186,10 @@ note() {
 note 'bin/clang' bare/bin/trax-render
 note '/dev/null/trax' env XDG_CACHE_HOME=/dev/null "$bin/trax-render"
 note 'neither XDG_CACHE_HOME nor HOME' env -u XDG_CACHE_HOME -u HOME "$bin/trax-render"
+for method in '--triangle moller-trumbore' --fast-math; do
+  bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png $method >.out 2>.err && fail "$method without a compiler"
+  grep -q "error: ${method%% *}: there is no program for it: .*bin/clang" .err && [ ! -e y.png ] || fail "$method: $(cat .err)"
+done
 bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o x.png --report >.out 2>.err && fail "a report without a compiler"
 grep -q 'no specialised program' .err || fail "a report without a compiler: $(cat .err)"
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
