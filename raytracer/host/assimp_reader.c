@@ -126,20 +126,20 @@ static trax_status copy_materials(struct trax_mesh *mesh, const struct aiScene *
   if (!mesh->materials)
     return scene_out_of_memory(error, system->main_name);
   mesh->material_count = count ? count : 1;
-  memcpy(mesh->materials[0].diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
+  mesh->materials[0].surface = trax_default_material;
   for (unsigned i = 0; i < count; i++) {
     struct trax_mesh_material *material = &mesh->materials[i];
+    material->surface = trax_default_material;
     struct aiString name;
     if (aiGetMaterialString(scene->mMaterials[i], AI_MATKEY_NAME, &name) == aiReturn_SUCCESS)
       memcpy(material->name, name.data, strnlen(name.data, sizeof material->name - 1));
     struct aiColor4D colour;
     if (!is_placeholder(scene, i, material->name, system) &&
         aiGetMaterialColor(scene->mMaterials[i], AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
-      material->diffuse[0] = scene_clamp_colour(colour.r);
-      material->diffuse[1] = scene_clamp_colour(colour.g);
-      material->diffuse[2] = scene_clamp_colour(colour.b);
-    } else
-      memcpy(material->diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
+      material->surface.diffuse[0] = scene_clamp_colour(colour.r);
+      material->surface.diffuse[1] = scene_clamp_colour(colour.g);
+      material->surface.diffuse[2] = scene_clamp_colour(colour.b);
+    }
   }
   return TRAX_OK;
 }

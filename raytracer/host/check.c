@@ -28,6 +28,9 @@ static const struct {
     [TRAX_SCENE_MATERIALS] = {"materials", sizeof(struct trax_material)},
     [TRAX_SCENE_SOURCE_IDS] = {"source ids", sizeof(uint32_t)},
     [TRAX_SCENE_NORMALS] = {"normals", sizeof(struct trax_triangle_normals)},
+    [TRAX_SCENE_UVS] = {"texture coordinates", sizeof(struct trax_triangle_uvs)},
+    [TRAX_SCENE_TEXTURES] = {"textures", sizeof(struct trax_texture)},
+    [TRAX_SCENE_TEXELS] = {"texels", sizeof(uint32_t)},
 };
 
 static trax_status check_header(const struct checker *checker, const struct trax_scene_header *header, size_t size) {
@@ -38,8 +41,8 @@ static trax_status check_header(const struct checker *checker, const struct trax
   if (size < sizeof *header)
     return scene_fail(error, "%s: cut off: %zu bytes, less than the header's %zu", name, size, sizeof *header);
   if (header->version != TRAX_SCENE_VERSION)
-    return scene_fail(error, "%s: scene file version %u; this program reads version %u", name, header->version,
-                      TRAX_SCENE_VERSION);
+    return scene_fail(error, "%s: scene file version %u; this program reads version %u: import the meshes again", name,
+                      header->version, TRAX_SCENE_VERSION);
   if (header->file_size != size)
     return scene_fail(error, "%s: %zu bytes, where its header says %u", name, size, header->file_size);
   struct trax_scene_header unsummed = *header;
@@ -53,8 +56,8 @@ static trax_status check_header(const struct checker *checker, const struct trax
                       TRAX_SCENE_ALIGNMENT);
   if (header->base)
     return scene_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
-  if (header->reserved)
-    return scene_fail(error, "%s: the reserved word of the header is not zero", name);
+  if (header->node_layout != TRAX_NODES_BINARY)
+    return scene_fail(error, "%s: nodes of an unknown layout, %u", name, header->node_layout);
   return TRAX_OK;
 }
 
@@ -63,8 +66,6 @@ static trax_status check_sections(const struct checker *checker, const struct tr
     const struct trax_scene_section *section = &header->sections[kind];
     if (section->offset == 0 && section->size == 0 && section->count == 0 && section->record_size == 0)
       continue;
-    if (!section_kinds[kind].name)
-      return scene_fail(checker->error, "%s: section %u is of an unknown kind", checker->name, kind);
     const char *what = section_kinds[kind].name;
     if (section->record_size != section_kinds[kind].record_size)
       return scene_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
@@ -92,13 +93,22 @@ static trax_status check_sections(const struct checker *checker, const struct tr
                       header->triangle_count);
   if (ids && ids != triangles)
     return scene_fail(checker->error, "%s: %u source ids for %u triangles", checker->name, ids, triangles);
-  const struct trax_scene_section *normals = &header->sections[TRAX_SCENE_NORMALS];
-  if (normals->count && normals->count != triangles)
-    return scene_fail(checker->error, "%s: %u normals for %u triangles", checker->name, normals->count, triangles);
+  /* The device finds what belongs to a triangle at a constant distance from it. */
   const struct trax_scene_section *before = &header->sections[TRAX_SCENE_TRIANGLES];
-  if (normals->count && normals->offset != (before->offset + before->size + TRAX_SCENE_ALIGNMENT - 1) /
-                                               TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT)
-    return scene_fail(checker->error, "%s: the normals are not right behind the triangles", checker->name);
+  static const enum trax_scene_section_kind beside[] = {TRAX_SCENE_NORMALS, TRAX_SCENE_UVS};
+  for (unsigned i = 0; i < sizeof beside / sizeof *beside; i++) {
+    const struct trax_scene_section *section = &header->sections[beside[i]];
+    const char *what = section_kinds[beside[i]].name;
+    if (section->count == 0)
+      continue;
+    if (section->count != triangles)
+      return scene_fail(checker->error, "%s: %u %s for %u triangles", checker->name, section->count, what, triangles);
+    if (section->offset !=
+        (before->offset + before->size + TRAX_SCENE_ALIGNMENT - 1) / TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT)
+      return scene_fail(checker->error, "%s: the %s are not right behind the %s", checker->name, what,
+                        section_kinds[before - header->sections].name);
+    before = section;
+  }
   return TRAX_OK;
 }
 
@@ -126,10 +136,68 @@ static trax_status check_triangles(const struct checker *checker) {
       if (!(square > 0.99f && square < 1.01f))
         return scene_fail(checker->error, "%s: triangle %u: a normal is not of length 1", checker->name, i);
     }
-  for (uint32_t i = 0; i < view->material_count; i++)
-    for (int channel = 0; channel < 3; channel++)
-      if (!(view->materials[i].diffuse[channel] >= 0 && view->materials[i].diffuse[channel] <= 1))
-        return scene_fail(checker->error, "%s: material %u: a colour is not between 0 and 1", checker->name, i);
+  for (uint32_t i = 0; view->uvs && i < view->triangle_count; i++)
+    for (int k = 0; k < 6; k++)
+      if (!(fabsf(view->uvs[i].corner[k / 2][k % 2]) <= TRAX_SCENE_MAX_UV))
+        return scene_fail(checker->error, "%s: triangle %u: a texture coordinate is not within %g", checker->name, i,
+                          (double)TRAX_SCENE_MAX_UV);
+  return TRAX_OK;
+}
+
+static bool within(const float *values, unsigned count, float least, float most) {
+  for (unsigned i = 0; i < count; i++)
+    if (!(values[i] >= least && values[i] <= most))
+      return false;
+  return true;
+}
+
+static trax_status check_materials(const struct checker *checker) {
+  const struct trax_scene *view = &checker->view;
+  for (uint32_t i = 0; i < view->material_count; i++) {
+    const struct trax_material *material = &view->materials[i];
+    const char *wrong = NULL;
+    if (!within(material->diffuse, 3, 0, 1) || !within(material->specular, 3, 0, 1))
+      wrong = "a colour is not between 0 and 1";
+    else if (!within(&material->roughness, 1, 0, 1) || !within(&material->opacity, 1, 0, 1) ||
+             !within(&material->alpha_cutoff, 1, 0, 1))
+      wrong = "roughness, opacity or the alpha cutoff is not between 0 and 1";
+    else if (!within(material->emission, 3, 0, TRAX_SCENE_MAX_EMISSION))
+      wrong = "the emission is out of range";
+    else if (!within(&material->ior, 1, 1, TRAX_SCENE_MAX_IOR))
+      wrong = "the index of refraction is out of range";
+    else if (material->kind >= TRAX_MATERIAL_KINDS)
+      wrong = "it is of an unknown kind";
+    else if (material->texture > view->texture_count)
+      wrong = "its texture is out of range";
+    else if (material->reserved)
+      wrong = "the reserved word is not zero";
+    if (wrong)
+      return scene_fail(checker->error, "%s: material %u: %s", checker->name, i, wrong);
+  }
+  return TRAX_OK;
+}
+
+/* Textures follow one another and have all texels among them. */
+static trax_status check_textures(const struct checker *checker) {
+  const struct trax_scene *view = &checker->view;
+  const struct trax_scene_section *texels = &view->header->sections[TRAX_SCENE_TEXELS];
+  uint64_t next = texels->offset;
+  if (view->texture_count && !view->uvs && view->triangle_count)
+    return scene_fail(checker->error, "%s: textures without texture coordinates", checker->name);
+  for (uint32_t i = 0; i < view->texture_count; i++) {
+    const struct trax_texture *texture = &view->textures[i];
+    if (texture->log2_width > TRAX_TEXTURE_MAX_LOG2 || texture->log2_height > TRAX_TEXTURE_MAX_LOG2 ||
+        texture->flags & ~(uint32_t)(TRAX_TEXTURE_ALPHA | TRAX_TEXTURE_CLAMP))
+      return scene_fail(checker->error, "%s: texture %u: its size or its flags are out of range", checker->name, i);
+    if (texture->texels != next)
+      return scene_fail(checker->error, "%s: texture %u: its texels do not begin where those before it end",
+                        checker->name, i);
+    next += (uint64_t)sizeof(uint32_t) << (texture->log2_width + texture->log2_height);
+    if (next > (uint64_t)texels->offset + texels->size)
+      return scene_fail(checker->error, "%s: texture %u: its texels are beyond the last", checker->name, i);
+  }
+  if (next != (uint64_t)texels->offset + texels->size)
+    return scene_fail(checker->error, "%s: texels of no texture", checker->name);
   return TRAX_OK;
 }
 
@@ -236,16 +304,25 @@ trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t
                                      .nodes = section_view(header, TRAX_SCENE_NODES),
                                      .triangles = section_view(header, TRAX_SCENE_TRIANGLES),
                                      .normals = section_view(header, TRAX_SCENE_NORMALS),
+                                     .uvs = section_view(header, TRAX_SCENE_UVS),
                                      .materials = section_view(header, TRAX_SCENE_MATERIALS),
+                                     .textures = section_view(header, TRAX_SCENE_TEXTURES),
+                                     .texels = section_view(header, TRAX_SCENE_TEXELS),
                                      .source_ids = section_view(header, TRAX_SCENE_SOURCE_IDS),
                                      .node_count = sections[TRAX_SCENE_NODES].count,
                                      .triangle_count = sections[TRAX_SCENE_TRIANGLES].count,
-                                     .material_count = sections[TRAX_SCENE_MATERIALS].count};
+                                     .material_count = sections[TRAX_SCENE_MATERIALS].count,
+                                     .texture_count = sections[TRAX_SCENE_TEXTURES].count,
+                                     .texel_count = sections[TRAX_SCENE_TEXELS].count};
   checker.nodes_offset = sections[TRAX_SCENE_NODES].offset;
   checker.nodes_size = sections[TRAX_SCENE_NODES].size;
   checker.triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset;
   checker.triangles_size = sections[TRAX_SCENE_TRIANGLES].size;
   result = check_triangles(&checker);
+  if (result == TRAX_OK)
+    result = check_materials(&checker);
+  if (result == TRAX_OK)
+    result = check_textures(&checker);
   if (result == TRAX_OK)
     result = check_tree(&checker, header);
   if (result == TRAX_OK && scene)

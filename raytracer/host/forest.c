@@ -13,14 +13,16 @@ enum { FOREST_TRIANGLES = 174117, GRID = 96, CIRCLE = 1024 };
 
 enum material { EARTH, BARK, LEAF, FIR, GRASS, STALK, CAP, STONE, PETAL, POLLEN, SHELL, SLIME, NEEDLE, MATERIALS };
 
+#define MATTE(...) {.diffuse = {__VA_ARGS__}, .ior = 1, .opacity = 1}
+
 static const struct trax_mesh_material forest_materials[MATERIALS] = {
-    [EARTH] = {"earth", {0.30f, 0.24f, 0.14f}},   [BARK] = {"bark", {0.28f, 0.19f, 0.12f}},
-    [LEAF] = {"leaf", {0.20f, 0.42f, 0.10f}},     [FIR] = {"fir", {0.08f, 0.26f, 0.11f}},
-    [GRASS] = {"grass", {0.30f, 0.52f, 0.12f}},   [STALK] = {"stalk", {0.85f, 0.80f, 0.68f}},
-    [CAP] = {"cap", {0.72f, 0.10f, 0.06f}},       [STONE] = {"stone", {0.46f, 0.45f, 0.43f}},
-    [PETAL] = {"petal", {0.75f, 0.55f, 0.85f}},   [POLLEN] = {"pollen", {0.90f, 0.72f, 0.10f}},
-    [SHELL] = {"shell", {0.62f, 0.38f, 0.16f}},   [SLIME] = {"snail", {0.70f, 0.62f, 0.45f}},
-    [NEEDLE] = {"needle", {0.42f, 0.26f, 0.12f}},
+    [EARTH] = {"earth", MATTE(0.30f, 0.24f, 0.14f)},   [BARK] = {"bark", MATTE(0.28f, 0.19f, 0.12f)},
+    [LEAF] = {"leaf", MATTE(0.20f, 0.42f, 0.10f)},     [FIR] = {"fir", MATTE(0.08f, 0.26f, 0.11f)},
+    [GRASS] = {"grass", MATTE(0.30f, 0.52f, 0.12f)},   [STALK] = {"stalk", MATTE(0.85f, 0.80f, 0.68f)},
+    [CAP] = {"cap", MATTE(0.72f, 0.10f, 0.06f)},       [STONE] = {"stone", MATTE(0.46f, 0.45f, 0.43f)},
+    [PETAL] = {"petal", MATTE(0.75f, 0.55f, 0.85f)},   [POLLEN] = {"pollen", MATTE(0.90f, 0.72f, 0.10f)},
+    [SHELL] = {"shell", MATTE(0.62f, 0.38f, 0.16f)},   [SLIME] = {"snail", MATTE(0.70f, 0.62f, 0.45f)},
+    [NEEDLE] = {"needle", MATTE(0.42f, 0.26f, 0.12f)},
 };
 
 struct point {

@@ -17,43 +17,92 @@ struct layout {
   struct trax_bvh_node *nodes;
   struct trax_triangle *triangles;
   struct trax_triangle_normals *normals; /* NULL: left out */
+  struct trax_triangle_uvs *uvs;         /* NULL: left out */
   uint32_t *source_ids;                  /* NULL: left out */
   uint32_t nodes_offset, triangles_offset;
   uint32_t next_triangle;
 };
 
-/* --- materials: the file has those in use, each colour once --- */
+/* --- materials: the file has those in use, each once, and their textures --- */
 
 struct palette {
   uint32_t *of_mesh; /* for each material of the mesh its number in the file */
   struct trax_material *materials;
-  uint32_t count;
+  uint32_t *textures; /* of the file: the mesh's numbers */
+  uint32_t count, texture_count;
+  uint64_t texel_count;
 };
 
-static int compare_colours(const void *a, const void *b) {
-  const struct trax_mesh_material *const *left = a, *const *right = b;
-  for (int i = 0; i < 3; i++)
-    if ((*left)->diffuse[i] != (*right)->diffuse[i])
-      return (*left)->diffuse[i] < (*right)->diffuse[i] ? -1 : 1;
-  return *left < *right ? -1 : *left > *right;
+/* What a kind does not read as trax_default_material has it, so that materials which look the same are the same. */
+static struct trax_material canonical(const struct trax_material *material) {
+  struct trax_material out = *material;
+  if (out.kind != TRAX_MATERIAL_LAMBERT && out.kind != TRAX_MATERIAL_GGX)
+    memcpy(out.diffuse, trax_default_material.diffuse, sizeof out.diffuse);
+  if (out.kind == TRAX_MATERIAL_LAMBERT)
+    memcpy(out.specular, trax_default_material.specular, sizeof out.specular);
+  if (out.kind != TRAX_MATERIAL_GGX)
+    out.roughness = trax_default_material.roughness;
+  if (out.kind != TRAX_MATERIAL_GLASS)
+    out.ior = trax_default_material.ior;
+  if (!(out.alpha_cutoff > 0))
+    out.opacity = trax_default_material.opacity;
+  /* -0 is 0: materials are compared by their bytes. */
+  float *const colours[] = {out.diffuse, out.specular, out.emission};
+  for (int i = 0; i < 9; i++)
+    colours[i / 3][i % 3] += 0.0f;
+  out.reserved = 0;
+  return out;
+}
+
+struct numbered_material {
+  struct trax_material material;
+  uint32_t number;
+};
+
+static int compare_materials(const void *a, const void *b) {
+  const struct numbered_material *left = a, *right = b;
+  int order = memcmp(&left->material, &right->material, sizeof left->material);
+  return order ? order : left->number < right->number ? -1 : 1;
 }
 
 static void palette_release(struct palette *palette) {
   free(palette->of_mesh);
   free(palette->materials);
+  free(palette->textures);
+}
+
+/* Textures in the order in which the materials ask for them. */
+static void number_textures(struct palette *palette, uint32_t *numbers, const struct trax_mesh *mesh) {
+  for (uint32_t i = 0; i < palette->count; i++) {
+    uint32_t *texture = &palette->materials[i].texture;
+    if (*texture == 0)
+      continue;
+    const struct trax_mesh_texture *source = &mesh->textures[*texture - 1];
+    uint32_t *number = &numbers[*texture - 1];
+    if (*number == 0) {
+      palette->textures[palette->texture_count] = *texture - 1;
+      palette->texel_count += (uint64_t)1 << (source->log2_width + source->log2_height);
+      *number = ++palette->texture_count;
+    }
+    *texture = *number;
+  }
 }
 
 /* Numbered in the order of the mesh's materials. */
-static trax_status make_palette(struct palette *palette, const struct trax_mesh *mesh, trax_error *error) {
+static trax_status make_palette(struct palette *palette, const struct trax_mesh *mesh, bool textures,
+                                trax_error *error) {
   enum { unused = UINT32_MAX };
   size_t count = mesh->material_count;
   *palette = (struct palette){.of_mesh = malloc((count + 1) * sizeof(uint32_t)),
-                              .materials = calloc(count + 1, sizeof(struct trax_material))};
-  const struct trax_mesh_material **sorted = malloc((count + 1) * sizeof *sorted);
-  uint32_t *first = malloc((count + 1) * sizeof *first); /* the first material in use of the same colour */
-  if (!palette->of_mesh || !palette->materials || !sorted || !first) {
+                              .materials = calloc(count + 1, sizeof(struct trax_material)),
+                              .textures = malloc((mesh->texture_count + (size_t)1) * sizeof(uint32_t))};
+  struct numbered_material *sorted = malloc((count + 1) * sizeof *sorted);
+  uint32_t *first = malloc((count + 1) * sizeof *first); /* the first material in use that is the same */
+  uint32_t *numbers = calloc(mesh->texture_count + (size_t)1, sizeof *numbers);
+  if (!palette->of_mesh || !palette->materials || !palette->textures || !sorted || !first || !numbers) {
     free(sorted);
     free(first);
+    free(numbers);
     return scene_out_of_memory(error, "materials");
   }
   for (size_t i = 0; i < count; i++)
@@ -61,26 +110,34 @@ static trax_status make_palette(struct palette *palette, const struct trax_mesh 
   for (uint32_t i = 0; i < mesh->triangle_count; i++)
     palette->of_mesh[mesh->triangles[i].material] = 0;
   size_t used = 0;
-  for (size_t i = 0; i < count; i++)
-    if (palette->of_mesh[i] != (uint32_t)unused)
-      sorted[used++] = &mesh->materials[i];
-  qsort(sorted, used, sizeof *sorted, compare_colours);
+  for (uint32_t i = 0; i < count; i++)
+    if (palette->of_mesh[i] != (uint32_t)unused) {
+      sorted[used] = (struct numbered_material){canonical(&mesh->materials[i].surface), i};
+      if (!textures)
+        sorted[used].material.texture = 0;
+      used++;
+    }
+  qsort(sorted, used, sizeof *sorted, compare_materials);
   for (size_t i = 0; i < used; i++) {
-    bool same = i > 0 && !memcmp(sorted[i]->diffuse, sorted[i - 1]->diffuse, sizeof sorted[i]->diffuse);
-    uint32_t number = (uint32_t)(sorted[i] - mesh->materials);
-    first[number] = same ? first[sorted[i - 1] - mesh->materials] : number;
+    bool same = i > 0 && !memcmp(&sorted[i].material, &sorted[i - 1].material, sizeof sorted[i].material);
+    first[sorted[i].number] = same ? first[sorted[i - 1].number] : sorted[i].number;
   }
   for (uint32_t i = 0; i < count; i++) {
     if (palette->of_mesh[i] == (uint32_t)unused)
       continue;
     if (first[i] == i) {
-      memcpy(palette->materials[palette->count].diffuse, mesh->materials[i].diffuse, sizeof mesh->materials[i].diffuse);
+      struct trax_material *material = &palette->materials[palette->count];
+      *material = canonical(&mesh->materials[i].surface);
+      if (!textures)
+        material->texture = 0;
       palette->of_mesh[i] = palette->count++;
     } else
       palette->of_mesh[i] = palette->of_mesh[first[i]];
   }
+  number_textures(palette, numbers, mesh);
   free(sorted);
   free(first);
+  free(numbers);
   return TRAX_OK;
 }
 
@@ -97,6 +154,9 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
       scene_box_add_point(box, corners[corner]);
     }
     triangle->material = layout->materials[source->material];
+    if (layout->uvs && layout->mesh->uvs)
+      memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
+             sizeof layout->uvs->corner);
     if (layout->source_ids)
       layout->source_ids[layout->next_triangle] = source->source_id;
     layout->next_triangle++;
@@ -156,6 +216,19 @@ static double crease_cosine(double degrees) {
   return cosine;
 }
 
+static void copy_textures(unsigned char *bytes, const struct trax_scene_section *sections,
+                          const struct palette *palette, const struct trax_mesh *mesh) {
+  struct trax_texture *out = section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]);
+  uint32_t at = sections[TRAX_SCENE_TEXELS].offset;
+  for (uint32_t i = 0; i < palette->texture_count; i++) {
+    const struct trax_mesh_texture *source = &mesh->textures[palette->textures[i]];
+    const uint32_t size = (uint32_t)sizeof(uint32_t) << (source->log2_width + source->log2_height);
+    out[i] = (struct trax_texture){at, source->log2_width, source->log2_height, source->flags};
+    memcpy(bytes + at, mesh->texels + source->first_texel, size);
+    at += size;
+  }
+}
+
 static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mesh, const struct scene_tree *tree,
                            const struct palette *palette, const uint32_t *positions,
                            const struct trax_build_options *options, trax_error *error) {
@@ -170,7 +243,14 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
   plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, mesh->triangle_count, sizeof(struct trax_triangle));
   if (options->smooth)
     plan_section(&sections[TRAX_SCENE_NORMALS], &end, mesh->triangle_count, sizeof(struct trax_triangle_normals));
+  if (palette->texture_count)
+    plan_section(&sections[TRAX_SCENE_UVS], &end, mesh->triangle_count, sizeof(struct trax_triangle_uvs));
   plan_section(&sections[TRAX_SCENE_MATERIALS], &end, palette->count, sizeof(struct trax_material));
+  plan_section(&sections[TRAX_SCENE_TEXTURES], &end, palette->texture_count, sizeof(struct trax_texture));
+  if (palette->texel_count > UINT32_MAX / sizeof(uint32_t))
+    return scene_fail(error, "the textures take %.1f GB; --texture-size makes them smaller",
+                      (double)palette->texel_count * sizeof(uint32_t) * 1e-9);
+  plan_section(&sections[TRAX_SCENE_TEXELS], &end, (uint32_t)palette->texel_count, sizeof(uint32_t));
   /* Last: nothing on the device reads it. */
   plan_section(&sections[TRAX_SCENE_SOURCE_IDS], &end, options->without_source_ids ? 0 : mesh->triangle_count,
                sizeof(uint32_t));
@@ -191,12 +271,14 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                           .nodes = section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
                           .triangles = section_bytes(bytes, &sections[TRAX_SCENE_TRIANGLES]),
                           .normals = section_bytes(bytes, &sections[TRAX_SCENE_NORMALS]),
+                          .uvs = section_bytes(bytes, &sections[TRAX_SCENE_UVS]),
                           .source_ids = section_bytes(bytes, &sections[TRAX_SCENE_SOURCE_IDS]),
                           .nodes_offset = sections[TRAX_SCENE_NODES].offset,
                           .triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset};
   if (palette->count)
     memcpy(bytes + sections[TRAX_SCENE_MATERIALS].offset, palette->materials,
            palette->count * sizeof *palette->materials);
+  copy_textures(bytes, sections, palette, mesh);
   if (mesh->triangle_count) {
     struct scene_box bounds = scene_empty_box();
     header.root = place(&layout, 0, &bounds);
@@ -221,11 +303,16 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                .nodes = layout.nodes,
                                .triangles = layout.triangles,
                                .normals = layout.normals,
+                               .uvs = layout.uvs,
                                .materials = section_bytes(bytes, &sections[TRAX_SCENE_MATERIALS]),
+                               .textures = section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]),
+                               .texels = section_bytes(bytes, &sections[TRAX_SCENE_TEXELS]),
                                .source_ids = layout.source_ids,
                                .node_count = tree->inner_count,
                                .triangle_count = mesh->triangle_count,
-                               .material_count = palette->count};
+                               .material_count = palette->count,
+                               .texture_count = palette->texture_count,
+                               .texel_count = (uint32_t)palette->texel_count};
   return TRAX_OK;
 }
 
@@ -248,7 +335,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     result = scene_order_nodes(&positions, &tree, mesh,
                                options->cache_lines ? options->cache_lines : default_cache_lines, error);
   if (result == TRAX_OK) {
-    result = make_palette(&palette, mesh, error);
+    result = make_palette(&palette, mesh, mesh->uvs != NULL, error);
     if (result == TRAX_OK)
       result = lay_out(scene, mesh, &tree, &palette, positions, options, error);
     palette_release(&palette);

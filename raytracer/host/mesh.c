@@ -19,12 +19,16 @@ void trax_mesh_release(struct trax_mesh *mesh) {
   free(mesh->vertices);
   free(mesh->triangles);
   free(mesh->materials);
+  free(mesh->textures);
+  free(mesh->texels);
+  free(mesh->normals);
+  free(mesh->uvs);
   *mesh = (struct trax_mesh){0};
 }
 
 static const char generated_prefix[] = "generate:";
 
-const float trax_default_diffuse[3] = {0.75f, 0.75f, 0.75f};
+const struct trax_material trax_default_material = {.diffuse = {0.75f, 0.75f, 0.75f}, .ior = 1, .opacity = 1};
 
 /* What is made, not read: "forest" or "forest:SEED". */
 static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
@@ -298,7 +302,7 @@ static trax_status override_materials(struct trax_mesh *mesh, const struct trax_
     for (uint32_t m = 0; m < mesh->material_count; m++) {
       if (override->name && strcmp(override->name, mesh->materials[m].name) != 0)
         continue;
-      memcpy(mesh->materials[m].diffuse, override->diffuse, sizeof override->diffuse);
+      memcpy(mesh->materials[m].surface.diffuse, override->diffuse, sizeof override->diffuse);
       found = true;
     }
     if (!found)

@@ -121,9 +121,8 @@ static uint32_t add_material(struct obj_reader *reader, const char *name) {
   if (!scene_grow(&mesh->materials, sizeof *mesh->materials, mesh->material_count, &reader->material_capacity))
     return no_material;
   struct trax_mesh_material *material = &mesh->materials[mesh->material_count];
-  *material = (struct trax_mesh_material){{0}, {0}};
+  *material = (struct trax_mesh_material){.surface = trax_default_material};
   memcpy(material->name, name, strnlen(name, sizeof material->name - 1));
-  memcpy(material->diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
   return mesh->material_count++;
 }
 
@@ -137,7 +136,7 @@ static trax_status read_kd(struct obj_reader *library, char *rest) {
     return fail_here(library, "Kd without a colour", NULL);
   if (!strcmp(words[0], "spectral") || !strcmp(words[0], "xyz"))
     return TRAX_OK; /* stays grey */
-  float *diffuse = library->mesh->materials[library->material].diffuse;
+  float *diffuse = library->mesh->materials[library->material].surface.diffuse;
   for (int i = 0; i < 3; i++) {
     const char *word = words[i] ? words[i] : words[0]; /* one number stands for three */
     float value;

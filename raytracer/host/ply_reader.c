@@ -468,7 +468,7 @@ trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, struct trax
     mesh->vertices = malloc(((size_t)reader->vertex_count + 1) * sizeof *mesh->vertices);
     mesh->materials = calloc(1, sizeof *mesh->materials);
     if (mesh->vertices && mesh->materials) {
-      memcpy(mesh->materials[0].diffuse, trax_default_diffuse, sizeof trax_default_diffuse);
+      mesh->materials[0].surface = trax_default_material;
       mesh->material_count = 1;
       result = read_elements(reader);
     } else

@@ -49,9 +49,13 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   if (size == 0)
     size = 1;
   int magnitude = ilogb(size);
-  double light = greatest(0, view->light);
+  double light = view->light_count ? 0 : greatest(0, view->light);
+  for (uint32_t i = 0; i < view->light_count; i++) {
+    const struct trax_light *one = &view->lights[i];
+    light = greatest(greatest(greatest(light, one->position), one->edges[0]), one->edges[1]);
+  }
   if (light > 0 && ilogb(light) - magnitude > GREATEST_LIGHT_EXPONENT)
-    return trax_fail(error, "the light is more than 2^%d times as far away as the scene is large",
+    return trax_fail(error, "a light is more than 2^%d times as far away as the scene is large",
                      GREATEST_LIGHT_EXPONENT);
   *exponent = 0;
   if (magnitude >= LEAST_EXPONENT && magnitude <= GREATEST_EXPONENT)
@@ -60,6 +64,12 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   scale_scene(scene, *exponent);
   scale_floats(view->eye, 3, *exponent);
   scale_floats(view->light, 3, *exponent);
+  for (uint32_t i = 0; i < view->light_count; i++) {
+    struct trax_light *one = &view->lights[i];
+    scale_floats(one->position, 3, *exponent);
+    scale_floats(one->edges[0], 6, *exponent);
+    scale_floats(&one->falloff, 1, *exponent);
+  }
   return TRAX_OK;
 }
 

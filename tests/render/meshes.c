@@ -30,7 +30,7 @@ void mesh_triangle(struct trax_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, u
 
 uint32_t mesh_material(struct trax_mesh *mesh, float red, float green, float blue) {
   mesh->materials = grown(mesh->materials, mesh->material_count, sizeof *mesh->materials);
-  mesh->materials[mesh->material_count] = (struct trax_mesh_material){.diffuse = {red, green, blue}};
+  mesh->materials[mesh->material_count] = (struct trax_mesh_material){.surface = {.diffuse = {red, green, blue}}};
   return mesh->material_count++;
 }
 
@@ -198,7 +198,7 @@ void chain_scene(struct trax_scene *scene) {
         .child = {(triangles_at + (uint32_t)i * 40) | 1,
                   last ? (triangles_at + (uint32_t)(i + 1) * 40) | 1 : nodes_at + 64 * (uint32_t)(i + 1)}};
   }
-  ((struct trax_material *)(bytes + materials_at))->diffuse[1] = 0.5f;
+  *(struct trax_material *)(bytes + materials_at) = trax_default_material;
   struct trax_scene_header *header = (struct trax_scene_header *)bytes;
   *header = (struct trax_scene_header){.magic = TRAX_SCENE_MAGIC,
                                        .version = TRAX_SCENE_VERSION,
@@ -212,7 +212,7 @@ void chain_scene(struct trax_scene *scene) {
   header->sections[TRAX_SCENE_NODES] = (struct trax_scene_section){nodes_at, 64 * NODES, NODES, 64};
   header->sections[TRAX_SCENE_TRIANGLES] =
       (struct trax_scene_section){triangles_at, triangles_size, TRIANGLES, sizeof(struct trax_triangle)};
-  header->sections[TRAX_SCENE_MATERIALS] = (struct trax_scene_section){materials_at, 16, 1, 16};
+  header->sections[TRAX_SCENE_MATERIALS] = (struct trax_scene_section){materials_at, 64, 1, 64};
   *scene = (struct trax_scene){.bytes = bytes,
                                .size = size,
                                .header = header,

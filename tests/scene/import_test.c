@@ -49,7 +49,7 @@ static void check_square(const char *path) {
   assert_corner(&mesh, 2, 2, 0, 3, -2);
   assert_int_equal(mesh.material_count, 1);
   for (int channel = 0; channel < 3; channel++)
-    assert_true(mesh.materials[0].diffuse[channel] == trax_default_diffuse[channel]);
+    assert_true(mesh.materials[0].surface.diffuse[channel] == trax_default_material.diffuse[channel]);
   trax_mesh_release(&mesh);
 }
 
@@ -190,7 +190,8 @@ static void check_gltf(const char *path) {
   assert_corner(&mesh, 1, 2, -2, 0, 0);
   const struct trax_mesh_material *material = &mesh.materials[mesh.triangles[0].material];
   assert_string_equal(material->name, "red");
-  assert_true(material->diffuse[0] == 0.5f && material->diffuse[1] == 0.25f && material->diffuse[2] == 0);
+  assert_true(material->surface.diffuse[0] == 0.5f && material->surface.diffuse[1] == 0.25f &&
+              material->surface.diffuse[2] == 0);
   trax_mesh_release(&mesh);
 }
 
@@ -289,15 +290,15 @@ static void test_materials(void **state) {
   const float expected[5][3] = {
       {0.75f, 0.75f, 0.75f}, {0.5f, 0.25f, 1}, {0.125f, 0.125f, 0.125f}, {0.75f, 0.75f, 0.75f}, {0.75f, 0.75f, 0.75f}};
   for (uint32_t t = 0; t < 5; t++)
-    assert_memory_equal(material_of(&mesh, t)->diffuse, expected[t], sizeof expected[t]);
+    assert_memory_equal(material_of(&mesh, t)->surface.diffuse, expected[t], sizeof expected[t]);
   trax_mesh_release(&mesh);
 
   const struct trax_material_override overrides[] = {{NULL, {0.25f, 0.25f, 0.25f}}, {"grey", {1, 0, 0}}};
   struct trax_import_options options = {.in_process = true, .overrides = overrides, .override_count = 2};
   trax_error error;
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
-  assert_true(material_of(&mesh, 1)->diffuse[1] == 0.25f);
-  assert_true(material_of(&mesh, 2)->diffuse[0] == 1 && material_of(&mesh, 2)->diffuse[1] == 0);
+  assert_true(material_of(&mesh, 1)->surface.diffuse[1] == 0.25f);
+  assert_true(material_of(&mesh, 2)->surface.diffuse[0] == 1 && material_of(&mesh, 2)->surface.diffuse[1] == 0);
   /* The scene has what is used, each colour once. */
   struct trax_scene scene;
   build_good(&scene, &mesh, NULL);
@@ -335,8 +336,8 @@ static void test_merge(void **state) {
     for (uint32_t t = 0; t < 4; t++)
       assert_int_equal(mesh.triangles[t].source_id, ids[t]);
     assert_corner(&mesh, 3, 0, 0.5f, -0.25f, -2);
-    assert_true(material_of(&mesh, 0)->diffuse[1] == 0);
-    assert_true(material_of(&mesh, 1)->diffuse[1] == 0.75f);
+    assert_true(material_of(&mesh, 0)->surface.diffuse[1] == 0);
+    assert_true(material_of(&mesh, 1)->surface.diffuse[1] == 0.75f);
     trax_mesh_release(&mesh);
   }
 }

@@ -74,7 +74,7 @@ static void check_shape(const struct trax_scene *scene, const struct trax_mesh *
     assert_memory_equal(scene->triangles[i].v1, mesh->vertices[source->vertices[1]], 12);
     assert_memory_equal(scene->triangles[i].v2, mesh->vertices[source->vertices[2]], 12);
     assert_memory_equal(scene->materials[scene->triangles[i].material].diffuse,
-                        mesh->materials[source->material].diffuse, 12);
+                        mesh->materials[source->material].surface.diffuse, 12);
   }
   trax_error error = {{0}};
   if (trax_scene_check(NULL, scene->bytes, scene->size, "scene", &error) != TRAX_OK)

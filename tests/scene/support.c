@@ -90,7 +90,7 @@ void mesh_triangle(struct trax_mesh *mesh, const float a[3], const float b[3], c
     mesh->materials = realloc(mesh->materials, (mesh->material_count + 1u) * sizeof *mesh->materials);
     assert_non_null(mesh->materials);
     float grey = 1.0f / (float)(mesh->material_count + 2);
-    mesh->materials[mesh->material_count++] = (struct trax_mesh_material){"", {grey, grey, grey}};
+    mesh->materials[mesh->material_count++] = (struct trax_mesh_material){.surface = {.diffuse = {grey, grey, grey}}};
   }
   struct trax_mesh_triangle *triangle = &mesh->triangles[mesh->triangle_count];
   for (uint32_t i = 0; i < 3; i++) {

@@ -39,11 +39,67 @@ static void test_values(void **state) {
   assert_true(view.direction[0] == 0 && view.direction[1] == 0 && view.direction[2] == 1);
 }
 
+static void test_lights(void **state) {
+  (void)state;
+  struct trax_view view;
+  read_good(&view,
+            "eye = [1, 2, 3]; direction = [0, 0, -1]; up = [0, 1, 0]; fov = 45;\n"
+            "lights = ( { type = \"point\"; position = [1, 2, 3]; colour = (0.5, 1, 0); strength = 2; falloff = 4; },\n"
+            "  { type = \"directional\"; direction = [0, -3, 0]; },\n"
+            "  { type = \"rectangle\"; corner = [7, 8, 9]; edges = ( [2, 0, 0], [0, 0, 4] ); strength = 0.5; } );");
+  assert_int_equal(view.light_count, 3);
+  const struct trax_light expected[] = {
+      {.kind = TRAX_LIGHT_POINT, .position = {1, 2, 3}, .colour = {0.5f, 1, 0}, .strength = 2, .falloff = 4},
+      {.kind = TRAX_LIGHT_DIRECTIONAL, .direction = {0, -1, 0}, .colour = {1, 1, 1}, .strength = 1},
+      {.kind = TRAX_LIGHT_RECTANGLE,
+       .position = {7, 8, 9},
+       .direction = {0, -1, 0},
+       .edges = {{2, 0, 0}, {0, 0, 4}},
+       .colour = {1, 1, 1},
+       .strength = 0.5f}};
+  for (uint32_t i = 0; i < 3; i++) {
+    const struct trax_light *light = &view.lights[i];
+    assert_int_equal(light->kind, expected[i].kind);
+    assert_true(light->strength == expected[i].strength && light->falloff == expected[i].falloff);
+    for (int axis = 0; axis < 3; axis++) {
+      assert_true(light->position[axis] == expected[i].position[axis]);
+      assert_true(light->direction[axis] == expected[i].direction[axis]);
+      assert_true(light->edges[0][axis] == expected[i].edges[0][axis]);
+      assert_true(light->edges[1][axis] == expected[i].edges[1][axis]);
+      assert_true(light->colour[axis] == expected[i].colour[axis]);
+    }
+  }
+}
+
+#define EYE "eye = [0, 0, 0]; direction = [0, 0, 1]; up = [0, 1, 0]; fov = 45;\n"
+#define LIGHT(text) EYE "lights = (\n{ " text " } );"
+
 static void test_errors(void **state) {
   (void)state;
   static const struct {
     const char *text, *message;
   } bad[] = {
+      {EYE "light = [0, 0, 0];\nlights = ( );", "bad.view:3: lights: light is given as well"},
+      {EYE "lights = ( );", "bad.view:2: lights: must be a list of lights"},
+      {EYE "lights = [1, 2, 3];", "bad.view:2: lights: must be a list of lights"},
+      {EYE "lights = ( 7 );", "bad.view:2: lights[0]: must be a light"},
+      {EYE "lights = ( {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {} );", "at most 16 lights"},
+      {LIGHT(""), "bad.view:3: lights[0].type: missing"},
+      {LIGHT("type = 7;"), "bad.view:3: lights[0].type: must be \"point\""},
+      {LIGHT("type = \"spot\";"), "bad.view:3: lights[0].type: must be \"point\""},
+      {LIGHT("type = \"point\";"), "bad.view:3: lights[0].position: missing"},
+      {LIGHT("type = \"point\";\nposition = [1, 2];"), "bad.view:4: lights[0].position: must have exactly three"},
+      {LIGHT("type = \"point\";\ncorner = [1, 2, 3];"), "bad.view:4: lights[0].corner: unknown; the keys are type,"},
+      {LIGHT("type = \"point\"; position = [1, 2, 3];\nstrength = -1;"),
+       "bad.view:4: lights[0].strength: must be a number from 0 to 1e+06"},
+      {LIGHT("type = \"point\"; position = [1, 2, 3];\nfalloff = \"far\";"), "bad.view:4: lights[0].falloff: must be"},
+      {LIGHT("type = \"point\"; position = [1, 2, 3];\ncolour = [0, 2, 0];"),
+       "bad.view:4: lights[0].colour: must be three numbers from 0 to 1"},
+      {LIGHT("type = \"directional\"; direction = [0, 0, 0];"), "bad.view:3: lights[0].direction: has no length"},
+      {LIGHT("type = \"rectangle\"; corner = [0, 0, 0]; edges = ([1, 0, 0]);"), "lights[0].edges: must be two vectors"},
+      {LIGHT("type = \"rectangle\"; corner = [0, 0, 0]; edges = ([1, 0, 0], 7);"), "lights[0].edges: must be three"},
+      {LIGHT("type = \"rectangle\"; corner = [0, 0, 0]; edges = ([1, 0, 0], [0, 0, 0]);"), "an edge has no length"},
+      {LIGHT("type = \"rectangle\"; corner = [0, 0, 0]; edges = ([1, 0, 0], [1, 1, 0]);"), "not perpendicular"},
       {"eye = [1, 2, 3];\ndirection = [0, 0, 1];\nup = [0, 1, 0];\nfov = 45;\n", "bad.view:1: light: missing"},
       {"direction = [0, 0, 1];", "bad.view:1: eye: missing"},
       {"eye = [0, 0, 0]; up = [0, 1, 0];", "bad.view:1: direction: missing, and so is look_at"},
@@ -139,10 +195,8 @@ static void test_framing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_values),
-      cmocka_unit_test(test_errors),
-      cmocka_unit_test(test_shipped_views),
-      cmocka_unit_test(test_framing),
+      cmocka_unit_test(test_values),        cmocka_unit_test(test_lights),  cmocka_unit_test(test_errors),
+      cmocka_unit_test(test_shipped_views), cmocka_unit_test(test_framing),
   };
   return cmocka_run_group_tests_name("views", tests, NULL, NULL);
 }

@@ -33,15 +33,25 @@ struct trax_mesh_triangle {
 };
 
 struct trax_mesh_material {
-  char name[64];    /* "" if it has none; cut if longer */
-  float diffuse[3]; /* linear RGB, 0 to 1 */
+  char name[64];                /* "" if it has none; cut if longer */
+  struct trax_material surface; /* its texture is one of the mesh's */
+};
+
+/* The mesh's texels from first_texel on, as in the scene file. */
+struct trax_mesh_texture {
+  uint32_t first_texel, log2_width, log2_height, flags;
 };
 
 struct trax_mesh {
   float (*vertices)[3];
   struct trax_mesh_triangle *triangles;
   struct trax_mesh_material *materials; /* at least one after an import */
-  uint32_t vertex_count, triangle_count, material_count;
+  struct trax_mesh_texture *textures;
+  uint32_t *texels;
+  /* Of the triangles' corners, as the files have them: NULL if none has any, zeros for those without. */
+  float (*normals)[3][3];
+  float (*uvs)[3][2];
+  uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count;
 };
 
 /* How far a long step has come. fraction is 0 to 1, or negative if it cannot be told. May be called from any thread. */
@@ -72,8 +82,8 @@ struct trax_import_report {
   char first_missing_file[256]; /* its name */
 };
 
-/* The colour of what has no material: a light grey. */
-extern const float trax_default_diffuse[3];
+/* Of what has no material: light grey, Lambert's. */
+extern const struct trax_material trax_default_material;
 
 /* Reads and merges the files: anything assimp knows (PLY, OBJ with MTL, glTF and GLB among them), plain or compressed
    as .xz or .gz; or "generate:forest", see docs/raytracer.md. Node transforms are applied and polygons cut into
@@ -95,9 +105,12 @@ struct trax_scene {
   const struct trax_bvh_node *nodes;
   const struct trax_triangle *triangles;
   const struct trax_triangle_normals *normals;
+  const struct trax_triangle_uvs *uvs;
   const struct trax_material *materials;
+  const struct trax_texture *textures;
+  const uint32_t *texels;
   const uint32_t *source_ids;
-  uint32_t node_count, triangle_count, material_count;
+  uint32_t node_count, triangle_count, material_count, texture_count, texel_count;
 };
 
 struct trax_build_options {

@@ -24,7 +24,7 @@
 #include <stdint.h>
 
 #define TRAX_SCENE_MAGIC 0x53585254u /* the bytes "TRXS" */
-#define TRAX_SCENE_VERSION 1u
+#define TRAX_SCENE_VERSION 2u
 #define TRAX_SCENE_ALIGNMENT 64u
 #define TRAX_SCENE_MAX_LEAF 7u   /* triangles in a leaf, at most */
 #define TRAX_SCENE_MAX_DEPTH 40u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
@@ -33,14 +33,22 @@ typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_COUNT(ref) ((ref) & 7u)   /* triangles of a leaf; 0: an inner node */
 #define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
 
+enum trax_node_layout {
+  TRAX_NODES_BINARY = 0 /* struct trax_bvh_node */
+};
+
 enum trax_scene_section_kind {
   TRAX_SCENE_NODES = 0,      /* struct trax_bvh_node, the root first, otherwise in any order */
   TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in the order of a depth-first traversal, without gaps */
   TRAX_SCENE_MATERIALS = 2,  /* struct trax_material; at least one if there are triangles */
   TRAX_SCENE_SOURCE_IDS = 3, /* uint32_t per triangle: its number in the imported mesh; for the host only */
-  TRAX_SCENE_NORMALS =
-      4, /* struct trax_triangle_normals per triangle, right behind the triangles; for smooth shading */
-  TRAX_SCENE_SECTIONS = 8 /* slots in the table; kinds 5..7 are absent in this version */
+  /* Per triangle, in their order, for smooth shading: struct trax_triangle_normals, right behind the triangles. */
+  TRAX_SCENE_NORMALS = 4,
+  /* Per triangle: struct trax_triangle_uvs, right behind the normals, or behind the triangles if there are none. */
+  TRAX_SCENE_UVS = 5,
+  TRAX_SCENE_TEXTURES = 6, /* struct trax_texture; only with UVs */
+  TRAX_SCENE_TEXELS = 7,   /* uint32_t, of all textures, one behind the other */
+  TRAX_SCENE_SECTIONS = 8  /* slots in the table */
 };
 
 struct trax_scene_section {
@@ -64,7 +72,7 @@ struct trax_scene_header {
   float bounds_max[3];
   uint32_t base; /* 0: references are offsets, as in every file. Otherwise they are addresses in the device's memory,
                     which has the scene at this one (render/device_scene.c) */
-  uint32_t reserved; /* zero */
+  uint32_t node_layout; /* enum trax_node_layout */
   struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
 };
 
@@ -89,10 +97,51 @@ struct trax_triangle_normals {
   uint32_t reserved;  /* zero */
 };
 
-struct trax_material {
-  float diffuse[3];  /* linear RGB reflectance, 0 to 1 */
-  uint32_t reserved; /* zero */
+/* Texture coordinates, as long as a triangle for the same reason. u runs along a texture's rows, v across them. */
+struct trax_triangle_uvs {
+  float corner[3][2];   /* of magnitude TRAX_SCENE_MAX_UV at most */
+  uint32_t reserved[4]; /* zero */
 };
+
+#define TRAX_SCENE_MAX_UV 8192.0f /* leaves ten bits of a texel's place in its texture */
+
+enum trax_material_kind {
+  TRAX_MATERIAL_LAMBERT = 0,
+  TRAX_MATERIAL_MIRROR = 1, /* reflects `specular` */
+  TRAX_MATERIAL_GLASS = 2,  /* smooth, of index `ior`; lets `specular` of the light through */
+  TRAX_MATERIAL_GGX = 3,    /* a rough layer that reflects `specular` at normal incidence, over Lambert's `diffuse` */
+  TRAX_MATERIAL_KINDS = 4
+};
+
+/* Colours are linear RGB. What a kind does not read has the value that trax_default_material has. */
+struct trax_material {
+  float diffuse[3];   /* reflectance, 0 to 1; multiplied by the texture */
+  uint32_t kind;      /* enum trax_material_kind */
+  float specular[3];  /* 0 to 1 */
+  float roughness;    /* alpha of GGX, 0 to 1 */
+  float emission[3];  /* radiance, 0 to TRAX_SCENE_MAX_EMISSION */
+  float ior;          /* index of refraction against air, 1 to TRAX_SCENE_MAX_IOR */
+  float opacity;      /* 0 to 1; multiplied by the texture's alpha */
+  float alpha_cutoff; /* of smaller opacity is a hole; 0: there are none */
+  uint32_t texture;   /* index into the textures + 1; 0: none */
+  uint32_t reserved;  /* zero */
+};
+
+#define TRAX_SCENE_MAX_EMISSION 1e6f
+#define TRAX_SCENE_MAX_IOR 16.0f
+
+enum { TRAX_TEXTURE_ALPHA = 1, TRAX_TEXTURE_CLAMP = 2 /* else repeated */ };
+
+/* 2^log2_height rows, the one at v = 0 first, each of 2^log2_width texels, that at u = 0 first; the texel (i, j) covers
+   u from i / width to (i + 1) / width. Texels have R, G, B, A from their lowest byte; R, G and B are 255 *
+   sqrt(linear), as in the picture, A is 255 * opacity. */
+struct trax_texture {
+  uint32_t texels;                  /* bytes from the start of the file */
+  uint32_t log2_width, log2_height; /* at most TRAX_TEXTURE_MAX_LOG2 */
+  uint32_t flags;                   /* TRAX_TEXTURE_... */
+};
+
+#define TRAX_TEXTURE_MAX_LOG2 12u
 
 #ifdef __cplusplus
 #define TRAX_SCENE_ASSERT_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " has no padding")
@@ -104,7 +153,9 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
-TRAX_SCENE_ASSERT_SIZE(struct trax_material, 16);
+TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));
+TRAX_SCENE_ASSERT_SIZE(struct trax_material, 64);
+TRAX_SCENE_ASSERT_SIZE(struct trax_texture, 16);
 #undef TRAX_SCENE_ASSERT_SIZE
 
 #endif

@@ -1,28 +1,68 @@
-/* Where a scene is seen from, and its light. Files are libconfig:
+/* Where a scene is seen from, and its lights. Files are libconfig:
 
      eye = [0.0, 1.0, 4.0];           position, scene units
      direction = [0.0, 0.0, -1.0];    or look_at = a point; any length
      up = [0.0, 1.0, 0.0];            any length, not parallel to the direction
      fov = 45.0;                      vertical, degrees, between 0 and 180
-     light = [2.0, 5.0, 3.0];         the point light's position */
+     light = [2.0, 5.0, 3.0];         the point light's position
+
+   Instead of light, which is the paper's, there may be several of other kinds:
+
+     lights = (
+       { type = "point"; position = [2.0, 5.0, 3.0]; colour = [1.0, 0.9, 0.8]; strength = 0.5; falloff = 4.0; },
+       { type = "directional"; direction = [0.0, -1.0, 0.3]; },
+       { type = "rectangle"; corner = [-1.0, 3.0, -1.0]; edges = ( [2.0, 0.0, 0.0], [0.0, 0.0, 2.0] ); strength = 8.0; }
+     );
+
+   colour is white, strength 1 and falloff 0 if they are left out. */
 #ifndef TRAX_VIEW_H
 #define TRAX_VIEW_H
 
 #include "trax/emulator.h" /* trax_status, trax_error */
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+#define TRAX_VIEW_MAX_LIGHTS 16
+#define TRAX_VIEW_MAX_STRENGTH 1e6f
+
+enum trax_light_kind {
+  TRAX_LIGHT_POINT,
+  TRAX_LIGHT_DIRECTIONAL, /* from infinitely far away */
+  TRAX_LIGHT_RECTANGLE    /* shines from one side of it */
+};
+
+/* What comes of it, in linear RGB, in units in which a white surface reflects 1 and is as bright as the picture can be:
+   - point and directional lights: a white Lambert surface that faces the light reflects colour * strength, at any
+     distance d if falloff is 0, else times (falloff / d)^2;
+   - a rectangle has the radiance colour * strength. */
+struct trax_light {
+  enum trax_light_kind kind;
+  float position[3]; /* of a point light, or of a corner of the rectangle */
+  float
+      direction[3];  /* unit length: from a directional light, or the way that a rectangle faces, edges[0] x edges[1] */
+  float edges[2][3]; /* of a rectangle, perpendicular to each other */
+  float colour[3];   /* linear RGB, 0 to 1 */
+  float strength;    /* 0 to TRAX_VIEW_MAX_STRENGTH */
+  float falloff;     /* of a point light: where strength is its own, scene units; 0: the same everywhere */
+};
 
 struct trax_view {
   float eye[3];
   float direction[3]; /* unit length */
   float up[3];        /* unit length, perpendicular to direction */
   float fov;          /* vertical, degrees */
-  float light[3];
+  float
+      light[3]; /* if light_count is 0: the one light, a white point light of the strength that ambient light leaves */
+  uint32_t light_count;
+  struct trax_light lights[TRAX_VIEW_MAX_LIGHTS];
 };
 
-/* All five keys are needed and no other is allowed. Messages read FILE:LINE: KEY: reason. */
+/* All five keys are needed, with `lights` or `light`, and no other is allowed. Messages read FILE:LINE: KEY: reason, or
+   lights[NUMBER].KEY, from 0. */
 trax_status trax_view_read(struct trax_view *view, const char *path, trax_error *error);
 
 /* A view for a scene that has none: the whole of its bounds in the picture, seen from the front (+z), a little from the
