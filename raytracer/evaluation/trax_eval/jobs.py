@@ -1,0 +1,237 @@
+"""Jobs: what decides a run's result, a key made of exactly that, and the run itself.
+
+A folder of results has
+  inputs/HASH/    what programs read: program.elf, scene.trax, ..., as trax-render --prepare writes it; HASH is of these bytes
+  jobs/KEY.json   a run to be made; KEY is the hash of this
+  runs/KEY.json   its result, which is the same in every byte whenever and wherever the job is run
+  runs/KEY.host.json   what the run took on the host, which is not
+  runs/KEY.csv    its time series, if the job has one
+  runs/KEY.error  why it failed
+  pictures/HASH.png    pictures by the hash of their pixels
+Every file appears complete or not at all, and runs/KEY.json last, so nothing but the runs under way is lost when processes die."""
+
+import csv
+import json
+import os
+import pathlib
+import platform
+import shlex
+import shutil
+import socket
+import struct
+import subprocess
+import tempfile
+import time
+import zlib
+
+from .util import Problem, hash_bytes, hash_file, hash_value, read_json, write_file, write_json
+
+FORMAT = 1
+OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in the statistics: they are not the machine's
+
+
+# --- inputs
+
+
+def prepare_inputs(out, tools, scene, view, size, program):
+    """The files that a program reads for a picture; returns their description, which is part of the job."""
+    scratch = new_scratch(out)
+    try:
+        command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
+        command += ["--view", view] if view else []
+        command += ["--program", tools.era_program()] if program == "era" else []
+        run = subprocess.run(command, capture_output=True, text=True)
+        if run.returncode != 0:
+            raise Problem(f"{scene}: {run.stderr.strip() or 'trax-render failed'}")
+        words = shlex.split(pathlib.Path(scratch, "run.sh").read_text().splitlines()[-1])
+        buffers = [words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--bind"]
+        image = next(int(words[i + 1].split("=", 1)[1]) for i, word in enumerate(words) if word == "--alloc")
+        width, height = map(int, size.split("x"))
+        description = {
+            "program": hash_file(pathlib.Path(scratch, "program.elf")),
+            "buffers": [[symbol, file, hash_file(pathlib.Path(scratch, file))] for symbol, file in buffers],
+            "image_bytes": image,
+            "width": width,
+            "height": height,
+        }
+        place = out / "inputs" / hash_value(description)
+        if not place.exists():
+            place.parent.mkdir(parents=True, exist_ok=True)
+            os.chmod(scratch, 0o755)
+            try:
+                os.rename(scratch, place)
+            except OSError:
+                if not place.exists():  # somebody else was faster otherwise
+                    raise
+        return description
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+# --- jobs
+
+
+def make_job(tools, inputs, point):
+    return {
+        "format": FORMAT,
+        "emulator": tools.hash("trax-sim"),
+        "inputs": inputs,
+        "configuration": tools.configuration(point.chip, point.settings),
+        "engine": "sampled" if point.mode == "sampled" else "fast",
+        "series": point.series,
+    }
+
+
+def write_job(out, job):
+    """Returns the job's key."""
+    key = hash_value(job)
+    path = out / "jobs" / f"{key}.json"
+    if not path.exists():
+        write_json(path, job)
+    return key
+
+
+def is_done(out, key):
+    return (out / "runs" / f"{key}.json").exists()
+
+
+def result_of(out, key):
+    """(result, host) or None."""
+    path = out / "runs" / f"{key}.json"
+    if not path.exists():
+        return None
+    host = out / "runs" / f"{key}.host.json"
+    return read_json(path), read_json(host) if host.exists() else {}
+
+
+def error_of(out, key):
+    path = out / "runs" / f"{key}.error"
+    return path.read_text().strip() if path.exists() else None
+
+
+# --- scratch
+
+
+def new_scratch(out):
+    """A folder for one process's unfinished files, named after the process."""
+    folder = out / "scratch"
+    folder.mkdir(parents=True, exist_ok=True)
+    return tempfile.mkdtemp(prefix=f"{socket.gethostname()}.{os.getpid()}.", dir=folder)
+
+
+def process_lives(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def clean_scratch(out):
+    """Removes what dead processes of this host have left."""
+    host = socket.gethostname()
+    for folder in ("scratch", "runs", "jobs", "pictures"):
+        for path in (out / folder).glob(f"*{host}.*"):
+            owner = path.name.split(f"{host}.", 1)[1].split(".")[0]
+            if owner.isdigit() and not process_lives(int(owner)):
+                shutil.rmtree(path, ignore_errors=True) if path.is_dir() else path.unlink(missing_ok=True)
+
+
+# --- runs
+
+
+def png(width, height, pixels):
+    """R, G, B, A bytes, row by row, as a picture (RFC 2083)."""
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = b"".join(b"\0" + pixels[4 * width * row : 4 * width * (row + 1)] for row in range(height))
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
+
+
+def command_of(tools, inputs, job, scratch, threads):
+    """trax-sim on the job's inputs; what it writes is in scratch."""
+    command = [tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats", f"{scratch}/stats.json"]
+    for symbol, file, _ in job["inputs"]["buffers"]:
+        command += ["--bind", f"{symbol}={inputs / file}"]
+    command += ["--alloc", f"image={job['inputs']['image_bytes']}", "--dump", f"image={scratch}/image.raw"]
+    if job["engine"] == "fast":
+        command += ["--host-threads", str(threads)]
+    if job["series"]:
+        command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
+    return [*command, str(inputs / "program.elf")]
+
+
+def check_inputs(job, inputs):
+    for file, expected in [("program.elf", job["inputs"]["program"]), *((file, expected) for _, file, expected in job["inputs"]["buffers"])]:
+        if hash_file(inputs / file) != expected:
+            raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
+
+
+def run_job(out, tools, key, threads=1, on_start=None):
+    """Makes runs/KEY.json, unless it is there. on_start is told the process."""
+    if is_done(out, key):
+        return
+    job = read_json(out / "jobs" / f"{key}.json")
+    if hash_value(job) != key:
+        raise Problem(f"{out}/jobs/{key}.json is damaged: its name is not its hash")
+    if job["emulator"] != tools.hash("trax-sim"):
+        raise Problem(f"job {key} is for another trax-sim than {tools.path('trax-sim')}")
+    inputs = out / "inputs" / hash_value(job["inputs"])
+    check_inputs(job, inputs)
+    scratch = new_scratch(out)
+    try:
+        write_file(pathlib.Path(scratch, "machine.cfg"), job["configuration"])
+        begin = time.monotonic()
+        # The simulator dies with this process, whatever ends it.
+        with open(f"{scratch}/errors", "wb") as errors:
+            process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command_of(tools, inputs, job, scratch, threads)],
+                                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors)
+        if on_start:
+            on_start(process)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            text = pathlib.Path(scratch, "errors").read_text(errors="replace").strip()
+            raise Problem(text.removeprefix("trax-sim: error: ") or f"trax-sim ended with status {process.returncode}")
+        statistics = json.loads(pathlib.Path(scratch, "stats.json").read_text())
+        host = {"host_seconds": round(time.monotonic() - begin, 3), "simulator_seconds": statistics.get("host_seconds"), "threads": threads,
+                "processor_seconds": round(usage.ru_utime + usage.ru_stime, 3), "name": socket.gethostname(), "processor": processor()}
+        keep_results(out, key, job, scratch, {name: value for name, value in statistics.items() if name not in OF_THE_HOST}, host)
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+def keep_results(out, key, job, scratch, statistics, host):
+    pixels = pathlib.Path(scratch, "image.raw").read_bytes()
+    picture = hash_bytes(pixels)
+    path = out / "pictures" / f"{picture}.png"
+    if not path.exists():
+        write_file(path, png(job["inputs"]["width"], job["inputs"]["height"], pixels))
+    if job["series"]:
+        write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
+    write_json(out / "runs" / f"{key}.host.json", host)
+    write_json(out / "runs" / f"{key}.json", {"key": key, "job": job, "picture": picture, "statistics": statistics})
+    (out / "runs" / f"{key}.error").unlink(missing_ok=True)
+
+
+def processor():
+    """What the host calls its processor."""
+    try:
+        for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.machine()
+
+
+def read_series(path):
+    """(columns, rows) of the chip in a time series."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    return rows[0], rows[1:]

@@ -1,0 +1,249 @@
+"""The command line."""
+
+import argparse
+import os
+import pathlib
+import shlex
+import signal
+import sys
+import time
+
+from . import runners
+from .jobs import clean_scratch, is_done, make_job, prepare_inputs, write_job
+from .paper import Paper
+from .results import collect, write_plan
+from .scenes import scene_file
+from .sweep import PROGRAMS, parse_size, read_sweep
+from .tables import print_tables
+from .tools import Tools
+from .util import Problem
+
+HELP = """\
+usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
+       trax-eval [OPTION...] --all [SCENES]
+       trax-eval report RESULTS.json -o PAGE.html
+
+Repeats what the paper measured, and shows our figures beside the paper's. Finished runs are kept: the same
+command makes only what is missing, whenever and however the one before it ended.
+
+EXPERIMENT is one of those below, or a sweep file of your own (NAME.json; the format is in README.md of
+lib/trax/evaluation). SCENES is the folder with the scenes' meshes, or scene files NAME.trax (default: the
+variable TRAX_SCENES, or else ./scenes).
+
+%s
+  -o, --output DIR      the folder of results (default: out/eval)
+      --program NAME    ours, era, or both with a comma between (default: both)
+      --size WxH        of the pictures (default: what the sweep says, 1280x720)
+      --runner WHICH    local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's
+      --jobs N          runs at the same time on this host (default: its processors)
+      --hosts LIST      --runner parallel: hosts as for its --sshlogin; they see the folders at the same place
+      --slurm-options T --runner slurm: more options for sbatch
+      --mode WHICH      exact or sampled, instead of what the sweep says
+      --dry-run         prints the runs that are missing, and ends
+      --all             every experiment, and the report
+  -q, --quiet           neither progress nor tables
+  -h, --help
+      --version
+
+Exit status: 0 if all runs that were asked for are there, 1 if some are not, 130 after an interrupt.
+"""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Problem(f"{message} (trax-eval --help lists the options)")
+
+
+def help_text(data):
+    lines = []
+    for path in sorted((data / "sweeps").glob("*.json")):
+        sweep = read_sweep(path)
+        lines.append(f"  {sweep.name:21} {sweep.title} ({len(sweep.points)} runs)")
+    return HELP % ("Experiments:\n" + "\n".join(lines) + "\n")
+
+
+def parse(arguments):
+    parser = Parser(prog="trax-eval", add_help=False, allow_abbrev=False)
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("-o", "--output", default="out/eval", type=pathlib.Path)
+    parser.add_argument("--program", default=",".join(PROGRAMS))
+    parser.add_argument("--size")
+    parser.add_argument("--mode", choices=("exact", "sampled"))
+    parser.add_argument("--runner", default="local", choices=tuple(runners.RUNNERS))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--hosts")
+    parser.add_argument("--slurm-options", default="")
+    parser.add_argument("--dry-run", action="store_true")
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("-q", "--quiet", action="store_true")
+    options = parser.parse_intermixed_args(arguments)
+    options.programs = options.program.split(",")
+    for program in options.programs:
+        if program not in PROGRAMS:
+            raise Problem(f"--program {program}: allowed are {' and '.join(PROGRAMS)}")
+    if options.size and not parse_size(options.size):
+        raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
+    if not 1 <= options.jobs <= 4096:
+        raise Problem(f"--jobs {options.jobs}: expected a number from 1 to 4096")
+    if options.hosts and options.runner != "parallel":
+        raise Problem("--hosts is for --runner parallel")
+    return options
+
+
+def choose(options, data):
+    """The sweep files and the folder of scenes that the words name."""
+    known = {path.stem: path for path in sorted((data / "sweeps").glob("*.json"))}
+    files, folder = list(known.values()) if options.all else [], None
+    for word in options.words:
+        if word in known and not options.all:
+            files.append(known[word])
+        elif word.endswith(".json") and not options.all:
+            files.append(pathlib.Path(word))
+        elif pathlib.Path(word).is_dir() and folder is None:
+            folder = pathlib.Path(word)
+        else:
+            raise Problem(f'"{word}" is neither an experiment ({", ".join(known)}), nor a sweep file (NAME.json), nor a folder of scenes')
+    if not files:
+        raise Problem("no experiment was named; trax-eval --help lists them, --all is all of them")
+    return files, folder or pathlib.Path(os.environ.get("TRAX_SCENES", "scenes"))
+
+
+class Planner:
+    """From points to keys of jobs. Scenes are imported and inputs prepared once each."""
+
+    def __init__(self, out, tools, folder, quiet):
+        self.out, self.tools, self.folder, self.quiet = out, tools, folder, quiet
+        self.made = {}
+
+    def once(self, what, function):
+        if what not in self.made:
+            try:
+                self.made[what] = function(), None
+            except Problem as problem:
+                print(f"trax-eval: {problem}", file=sys.stderr)
+                self.made[what] = None, str(problem)
+        value, reason = self.made[what]
+        if reason:
+            raise Problem(reason)
+        return value
+
+    def note(self, text):
+        if not self.quiet and sys.stderr.isatty():
+            print(f"\r\033[Ktrax-eval: {text}\r", end="", file=sys.stderr, flush=True)
+
+    def inputs(self, sweep, point):
+        scene = sweep.scenes[point.scene]
+        self.note(f"{point.scene}, {point.size}, {point.program}")
+        path = self.once(("scene", tuple(scene["meshes"])), lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene))
+        return self.once((path, scene["view"], point.size, point.program),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program))
+
+    def key(self, sweep, point):
+        """(key, None), or (None, why there is none)."""
+        try:
+            return write_job(self.out, make_job(self.tools, self.inputs(sweep, point), point)), None
+        except Problem as problem:
+            return None, str(problem)
+
+
+def label(point):
+    changes = "".join(f" {key}={value}" for key, value in point.settings)
+    return f"{point.scene} {point.chip}{changes} {point.program} {point.size}"
+
+
+def check_machines(sweeps, tools):
+    """A wrong key or value of the configuration is the sweep's mistake, and ends the command before anything is written."""
+    for sweep in sweeps:
+        for point in sweep.points:
+            try:
+                tools.configuration(point.chip, point.settings)
+            except Problem as problem:
+                raise Problem(f"{sweep.file}: {problem}") from None
+
+
+def evaluate(options, tools, data, command):
+    begin = time.monotonic()
+    files, folder = choose(options, data)
+    sweeps = [read_sweep(path, size=options.size, mode=options.mode, programs=options.programs) for path in files]
+    check_machines(sweeps, tools)
+    out = options.output.resolve()
+    clean_scratch(out)
+    planner = Planner(out, tools, folder, options.quiet)
+    plans, labels, without = [], {}, 0
+    for sweep in sweeps:
+        keys = {point: planner.key(sweep, point) for point in sweep.points}
+        plans.append((sweep, keys))
+        labels |= {key: label(point) for point, (key, _) in keys.items() if key}
+        without += sum(key is None for key, _ in keys.values())
+    if options.dry_run:
+        missing = [f"{key} {name}" for key, name in labels.items() if not is_done(out, key)]
+        print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
+        return 0
+    for sweep, keys in plans:
+        write_plan(out, sweep, keys)
+    failed = runners.run_all(out, tools, labels, options)
+    results = collect(out, tools, command, time.monotonic() - begin)
+    if not options.quiet:
+        print_tables(results, [sweep.name for sweep in sweeps], Paper(data / "paper"), sys.stdout)
+        print(f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; {out / 'results.json'}")
+    if options.all:
+        make_report([str(out / "results.json"), "-o", str(out / "report.html")], data)
+    return 1 if failed or without else 0
+
+
+def make_report(arguments, data):
+    sys.path.insert(0, str(data))
+    from report import make
+
+    return make.main(arguments)
+
+
+def run_one_job(arguments, tools):
+    """trax-eval job OUT KEY, and with --list FILE the one whose place Slurm says: what the runners start."""
+    parser = Parser(prog="trax-eval job", add_help=False)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("key", nargs="?")
+    parser.add_argument("--list", type=pathlib.Path)
+    parser.add_argument("--threads", type=int, default=1)
+    options = parser.parse_intermixed_args(arguments)
+    if options.list:
+        options.key = options.list.read_text().split()[int(os.environ["SLURM_ARRAY_TASK_ID"])]
+    if not options.key:
+        raise Problem("job: no key was given")
+    error = runners.try_job(options.out.resolve(), tools, options.key, options.threads)
+    if error:
+        raise Problem(error)
+    return 0
+
+
+def dispatch(arguments, tools, data):
+    if "-h" in arguments or "--help" in arguments:
+        print(help_text(data), end="")
+        return 0
+    if "--version" in arguments:
+        print(f"trax-eval {tools.version()}")
+        return 0
+    if arguments[:1] == ["job"]:
+        return run_one_job(arguments[1:], tools)
+    if arguments[:1] == ["report"]:
+        return make_report(arguments[1:], data)
+    return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
+
+
+def terminate(number, frame):
+    raise KeyboardInterrupt
+
+
+def main(arguments, folder, data):
+    signal.signal(signal.SIGTERM, terminate)
+    try:
+        return dispatch(arguments, Tools(folder), data)
+    except Problem as problem:
+        print(f"trax-eval: error: {problem}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("trax-eval: interrupted; the same command goes on", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1

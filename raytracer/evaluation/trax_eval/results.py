@@ -1,0 +1,96 @@
+"""results.json: every run of every sweep in a folder of results, in the form that ../README.md describes."""
+
+import datetime
+import os
+import shlex
+
+from .jobs import error_of, read_series, result_of
+from .util import read_json, write_json
+from .values import values_of
+
+FORMAT, VERSION = "trax-eval-results", 1
+LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity")  # of the statistics: the run's own file has them
+SERIES_ROWS = 2000
+SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict", "wait_memory", "halted")
+
+
+def write_plan(out, sweep, keys):
+    """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the reason why there is none."""
+    points = []
+    for point in sweep.points:
+        key, reason = keys[point]
+        points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, "config": point.chip,
+                       "set": dict(point.settings), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
+                       "error": reason})
+    write_json(out / "sweeps" / f"{sweep.name}.json", {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
+                                                       "claim": sweep.claim, "file": sweep.file, "points": points})
+
+
+def repeat_command(point, tools):
+    """The command that makes this run alone."""
+    words = ["trax-render", "SCENE", "--size", "x".join(map(str, point["size"])), "--config", point["config"]]
+    words += ["--view", point["view"]] if point["view"] else []
+    for key, value in point["set"].items():
+        words += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+    words += ["--program", tools.era_program()] if point["program"] == "era" else []
+    return shlex.join([*words, "--stats", "stats.json", "-o", "picture.png"])
+
+
+def thin_series(path, threads):
+    """Columns and at most SERIES_ROWS rows of a time series: the end of each interval, and shares of its thread-cycles."""
+    names, rows = read_series(path)
+    place = {name: index for index, name in enumerate(names)}
+    chosen = [name for name in SERIES_COLUMNS if name in place]
+    result, group = [], []
+    chip = [row for row in rows if row[place["tm"]] == "all"]
+    step = -(-len(chip) // SERIES_ROWS) or 1
+    for index, row in enumerate(chip):
+        group.append(row)
+        if len(group) == step or index == len(chip) - 1:
+            cycles = sum(float(one[place["end"]]) - float(one[place["begin"]]) for one in group)
+            shares = [sum(float(one[place[name]]) for one in group) / (cycles * threads) if cycles else None for name in chosen]
+            result.append([int(row[place["end"]]), *shares])
+            group = []
+    return ["cycle", *chosen], result
+
+
+def run_of(out, tools, point):
+    """What is known of a run, from its files."""
+    run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "mode")}
+    run |= {"experiments": [], "status": "missing", "command": repeat_command(point, tools)}
+    found = result_of(out, point["key"]) if point["key"] else None
+    error = point["error"] or (error_of(out, point["key"]) if point["key"] else None)
+    if found:
+        result, host = found
+        statistics = result["statistics"]
+        series = out / "runs" / f"{point['key']}.csv"
+        run |= {"status": "done", "json": f"runs/{point['key']}.json", "csv": f"runs/{series.name}" if series.exists() else None,
+                "picture": f"pictures/{result['picture']}.png", "host_seconds": host.get("host_seconds"), "host": host or None,
+                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(statistics)}
+    elif error:
+        run |= {"status": "failed", "error": error}
+    return run
+
+
+def collect(out, tools, command, seconds):
+    """Writes results.json from the sweeps and runs of the folder, and returns its value."""
+    runs, sweeps, series = {}, [], []
+    for path in sorted((out / "sweeps").glob("[!.]*.json")):
+        plan = read_json(path)
+        sweeps.append({name: value for name, value in plan.items() if name != "points"})
+        for number, point in enumerate(plan["points"]):
+            label = point["key"] or f"{plan['name']}-{number}"
+            if label not in runs:
+                runs[label] = run_of(out, tools, point)
+            if plan["name"] not in runs[label]["experiments"]:
+                runs[label]["experiments"].append(plan["name"])
+    for run in runs.values():
+        if run.get("csv"):
+            columns, rows = thin_series(out / run["csv"], run["stats"]["threads"])
+            series.append({"name": run["experiments"][0], "title": f"{run['scene']}, {run['config']}, {run['program']}", "run": run["key"],
+                           "columns": columns, "rows": rows})
+    value = {"format": FORMAT, "version": VERSION, "trax": tools.version(), "command": command,
+             "created": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+             "host": {"processors": os.cpu_count()}, "host_seconds": round(seconds, 1), "runs": list(runs.values()), "sweeps": sweeps, "series": series}
+    write_json(out / "results.json", value)
+    return value

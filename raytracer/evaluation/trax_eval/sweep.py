@@ -1,0 +1,163 @@
+"""Sweep files: which keys take which values, on which scenes, by which programs. The format is in ../README.md."""
+
+import dataclasses
+import difflib
+import itertools
+import re
+
+from .scenes import CATALOGUE, SETS
+from .util import Problem, canonical, read_json
+
+CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()  # in the order of Table 2
+PROGRAMS = ("ours", "era")
+MODES = ("exact", "sampled")
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """One run that a sweep asks for, before anything is known of the bytes that it works on."""
+
+    scene: str
+    program: str
+    chip: str
+    settings: tuple  # of (key, value)
+    size: str
+    mode: str
+    series: int  # cycles of an interval of the time series; 0: none
+
+
+@dataclasses.dataclass
+class Sweep:
+    name: str
+    title: str
+    claim: str
+    x: str
+    y: str
+    y_per: str
+    file: str
+    scenes: dict  # name -> what CATALOGUE has for it
+    points: list
+
+
+def quoted(names):
+    return ", ".join(f'"{name}"' for name in names)
+
+
+class Reader:
+    """One sweep file; what is wrong with it is reported with the file's name and the key."""
+
+    def __init__(self, path, value):
+        self.path, self.value = path, value
+
+    def fail(self, key, message):
+        raise Problem(f"{self.path}: {key}: {message}" if key else f"{self.path}: {message}")
+
+    def text(self, key, default):
+        value = self.value.get(key, default)
+        if not isinstance(value, str):
+            self.fail(key, f"expected a text, is {canonical(value)}")
+        return value
+
+    def strings(self, key, default, allowed=None):
+        value = self.value.get(key, default)
+        if isinstance(value, str):
+            value = [value]
+        if not isinstance(value, list) or not value or not all(isinstance(item, str) for item in value):
+            self.fail(key, f"expected a list of texts, is {canonical(value)}")
+        for item in value:
+            if allowed and item not in allowed:
+                self.fail(key, f'"{item}" is unknown; allowed are {quoted(allowed)}')
+        if len(set(value)) != len(value):
+            self.fail(key, "the same value is there twice")
+        return value
+
+    def settings(self):
+        """Every combination of the values: a list of tuples of (key, value)."""
+        groups = self.value.get("set", {})
+        groups = groups if isinstance(groups, list) else [groups]
+        combinations = []
+        for group in groups or [{}]:
+            if not isinstance(group, dict):
+                self.fail("set", f"expected an object of keys and values, is {canonical(group)}")
+            axes = []
+            for key, values in group.items():
+                values = values if isinstance(values, list) else [values]
+                if not values or not all(isinstance(value, (bool, int, float)) for value in values):
+                    self.fail(f"set.{key}", f"expected a number or a list of numbers, is {canonical(group[key])}")
+                axes.append([(key, value) for value in values])
+            combinations += itertools.product(*axes)
+        return [tuple(combination) for combination in combinations]
+
+    def scenes(self):
+        value = self.value.get("scenes", "paper")
+        chosen = {}
+        for item in value if isinstance(value, list) else [value]:
+            if isinstance(item, dict):
+                for key in item:
+                    if key not in ("name", "meshes", "view"):
+                        self.fail("scenes", f'unknown key "{key}"; allowed are "name", "meshes", "view"')
+                name, meshes, view = item.get("name"), item.get("meshes"), item.get("view")
+                if not isinstance(name, str) or not re.fullmatch(r"[\w.+-]+", name):
+                    self.fail("scenes", "name: expected letters, digits and . + - _")
+                if not isinstance(meshes, list) or not meshes or not all(isinstance(mesh, str) for mesh in meshes):
+                    self.fail("scenes", f"{name}: meshes: expected a list of files")
+                if view is not None and not isinstance(view, str):
+                    self.fail("scenes", f"{name}: view: expected a file or the name of one that comes with trax")
+                new = {name: {"meshes": meshes, "view": view}}
+            elif isinstance(item, str) and item in SETS:
+                new = {name: CATALOGUE[name] for name in SETS[item]}
+            elif isinstance(item, str) and item in CATALOGUE:
+                new = {item: CATALOGUE[item]}
+            else:
+                self.fail("scenes", f"{canonical(item)} is unknown; allowed are {quoted([*SETS, *CATALOGUE])}, and objects with name, meshes, view")
+            for name in new:
+                if name in chosen:
+                    self.fail("scenes", f'"{name}" is there twice')
+            chosen.update(new)
+        if not chosen:
+            self.fail("scenes", "is empty")
+        return chosen
+
+
+KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series")
+
+
+def parse_size(text):
+    """(width, height), or None."""
+    match = re.fullmatch(r"([1-9]\d{0,4})x([1-9]\d{0,4})", text)
+    size = (int(match[1]), int(match[2])) if match else (0, 0)
+    return size if 0 < max(size) <= 16384 else None
+
+
+def read_sweep(path, *, size=None, mode=None, programs=None):
+    """The sweep in a file. size, mode and programs: what the command line says instead of the file."""
+    value = read_json(path)
+    reader = Reader(path, value)
+    if not isinstance(value, dict):
+        reader.fail(None, "expected an object")
+    for key in value:
+        if key not in KEYS:
+            near = difflib.get_close_matches(key, KEYS, 1)
+            reader.fail(None, f'unknown key "{key}"' + (f', did you mean "{near[0]}"?' if near else "") + f" Allowed are {quoted(KEYS)}")
+    name = reader.text("name", "")
+    if not re.fullmatch(r"[\w.+-]+", name):
+        reader.fail("name", "expected letters, digits and . + - _")
+    chosen_size = reader.text("size", size or "1280x720")
+    if not parse_size(chosen_size):
+        reader.fail("size", f'expected "WIDTHxHEIGHT", each 1 to 16384, is "{chosen_size}"')
+    chosen_mode = mode or reader.strings("mode", "exact", MODES)[0]
+    series = value.get("series", 0)
+    if type(series) is not int or not 0 <= series <= 10**9:
+        reader.fail("series", f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
+    scenes = reader.scenes()
+    chips = reader.strings("chips", "4x32", None)
+    chips = CHIPS if chips == ["paper"] else chips
+    chosen_programs = reader.strings("programs", list(PROGRAMS), PROGRAMS)
+    if programs:
+        chosen_programs = [program for program in chosen_programs if program in programs]
+    points = [
+        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series)
+        for scene, program, chip, settings in itertools.product(scenes, chosen_programs, chips, reader.settings())
+    ]
+    return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"),
+                 reader.text("y_per", ""), str(path), scenes, points)

@@ -1,0 +1,39 @@
+"""The programs beside trax-eval."""
+
+import functools
+import pathlib
+import subprocess
+
+from .util import Problem, hash_file
+
+
+class Tools:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+
+    def path(self, name):
+        path = self.folder / name
+        if not path.is_file():
+            raise Problem(f"{path} is missing")
+        return str(path)
+
+    @functools.lru_cache(maxsize=None)
+    def hash(self, name):
+        return hash_file(self.path(name))
+
+    def version(self):
+        return subprocess.run([self.path("trax-sim"), "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
+
+    def era_program(self):
+        return str(self.folder.parent / "lib/trax/trax-era.elf")
+
+    @functools.lru_cache(maxsize=None)
+    def configuration(self, chip, settings):
+        """The whole configuration of a chip with changes (a tuple of (key, value)), as a file for trax-sim --config."""
+        command = [self.path("trax-sim"), "--config", chip]
+        for key, value in settings:
+            command += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+        run = subprocess.run([*command, "--print-config"], capture_output=True, text=True)
+        if run.returncode != 0:
+            raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
+        return run.stdout

@@ -1,0 +1,83 @@
+"""What every part needs: errors for the user, hashes, files that appear complete or not at all."""
+
+import hashlib
+import json
+import os
+import pathlib
+import socket
+import threading
+
+
+class Problem(Exception):
+    """What the user is told; the command ends with status 1."""
+
+
+def canonical(value):
+    """The one text of a JSON value: hashes are of it."""
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def hash_bytes(data):
+    return hashlib.sha256(data).hexdigest()[:32]
+
+
+def hash_value(value):
+    return hash_bytes(canonical(value).encode())
+
+
+def hash_file(path):
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()[:32]
+    except OSError as error:
+        raise Problem(f"{path}: {error.strerror}") from error
+
+
+def write_file(path, data):
+    """Replaces path at once by data (bytes or text). A process that dies on the way leaves path as it was."""
+    path = pathlib.Path(path)
+    beside = path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}.{threading.get_native_id()}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(beside, "wb") as file:
+            file.write(data.encode() if isinstance(data, str) else data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise Problem(f"{path}: {error.strerror}") from error
+
+
+def write_json(path, value):
+    write_file(path, json.dumps(value, indent=1, allow_nan=False) + "\n")
+
+
+def refuse_duplicates(pairs):
+    members = {}
+    for key, value in pairs:
+        if key in members:
+            raise ValueError(f'the key "{key}" is there twice')
+        members[key] = value
+    return members
+
+
+def refuse_constant(text):
+    raise ValueError(f"{text} is no number of JSON")
+
+
+def read_json(path):
+    try:
+        text = pathlib.Path(path).read_text(encoding="utf-8")
+        return json.loads(text, object_pairs_hook=refuse_duplicates, parse_constant=refuse_constant)
+    except OSError as error:
+        raise Problem(f"{path}: {error.strerror}") from error
+    except json.JSONDecodeError as error:
+        raise Problem(f"{path}:{error.lineno}:{error.colno}: {error.msg}") from error
+    except (ValueError, RecursionError) as error:
+        raise Problem(f"{path}: {error}") from error
+
+
+def duration(seconds):
+    minutes, seconds = divmod(int(seconds + 0.5), 60)
+    return f"{minutes // 60}:{minutes % 60:02}:{seconds:02}" if minutes >= 60 else f"{minutes}:{seconds:02}"

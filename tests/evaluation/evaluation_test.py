@@ -1,0 +1,275 @@
+#!/usr/bin/env python3
+"""trax-eval: sweeps are expanded and refused as documented, a killed command loses nothing, every runner gives the same bytes.
+
+    tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]
+
+--only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. Exit status 77: what was
+asked for is not installed.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+BUNNY = "/usr/share/glmark2/models/bunny.obj"
+SMALL = {"name": "small", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "bunny"}], "programs": "ours", "chips": ["1x32", "2x48"],
+         "set": {"icache.banks": [1, 16], "memory.bandwidth_gbps": [4, 8]}, "size": "40x24", "series": 2000}
+RUNS = 8
+
+failures = 0
+
+
+def check(condition, text):
+    global failures
+    if not condition:
+        failures += 1
+        print(f"FAILED: {text}", flush=True)
+
+
+class Evaluation:
+    def __init__(self, folder, scratch):
+        self.program, self.scratch = str(folder / "trax-eval"), scratch
+
+    def file(self, sweep):
+        path = self.scratch / "sweep.json"
+        path.write_text(sweep if isinstance(sweep, str) else json.dumps(sweep))
+        return str(path)
+
+    def command(self, sweep, out, *options):
+        return [self.program, self.file(sweep), str(self.scratch), "-o", str(self.scratch / out), *options]
+
+    def run(self, sweep, out, *options):
+        return subprocess.run(self.command(sweep, out, *options), capture_output=True, text=True, timeout=300)
+
+    def results(self, out):
+        return json.loads((self.scratch / out / "results.json").read_text())
+
+
+def same_bytes(scratch, one, other):
+    """Everything that does not say what it took on the host."""
+
+    def files(out):
+        root = scratch / out
+        return {str(path.relative_to(root)): path.read_bytes() for folder in ("jobs", "runs", "pictures", "sweeps") for path in (root / folder).rglob("*")
+                if not path.name.endswith(".host.json")}
+
+    left, right = files(one), files(other)
+    check(left.keys() == right.keys(), f"{one} and {other} have other files: {sorted(left.keys() ^ right.keys())[:5]}")
+    for name in left.keys() & right.keys():
+        check(left[name] == right[name], f"{name} differs between {one} and {other}")
+    check(not list((scratch / other / "scratch").glob("*")), f"{other}: unfinished files are left")
+
+
+# --- expansion and results
+
+
+def test_sweep(evaluation, scratch):
+    run = evaluation.run(SMALL, "undisturbed", "--jobs", "2")
+    check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
+    results = evaluation.results("undisturbed")
+    runs = results["runs"]
+    expected = {(chip, banks, bandwidth) for chip in ("1x32", "2x48") for banks in (1, 16) for bandwidth in (4, 8)}
+    check({(one["config"], one["set"]["icache.banks"], one["set"]["memory.bandwidth_gbps"]) for one in runs} == expected, "the combinations")
+    check(len(runs) == RUNS and all(one["status"] == "done" for one in runs), "not all runs are done")
+    for one in runs:
+        configuration = one["stats"]["configuration"]
+        check(configuration["icache"]["banks"] == one["set"]["icache.banks"], "a run has not its configuration")
+        check(one["stats"]["items"] == 40 * 24, "pixels")
+        check(one["stats"]["identity" if "identity" in one["stats"] else "status"] is not None and "tms" not in one["stats"], "what is left out")
+        full = json.loads((scratch / "undisturbed" / one["json"]).read_text())
+        check(full["statistics"]["identity"]["holds"] is True, "issued and lost cycles are not all thread-cycles")
+        check("host_seconds" not in full["statistics"] and one["host_seconds"] > 0, "the host's time is kept apart")
+    check(len({one["picture"] for one in runs}) == 1, "the picture depends on the machine")
+    check(subprocess.run([evaluation.program.replace("trax-eval", "trax-render"), BUNNY, "--view", "bunny", "--size", "40x24", "--engine", "native", "-q", "-o",
+                          scratch / "native.png"]).returncode == 0, "the native picture")
+    check(subprocess.run([evaluation.program.replace("trax-eval", "trax-compare"), "-q", scratch / "native.png", scratch / "undisturbed" / runs[0]["picture"]])
+          .returncode == 0, "the picture is not that of the native twin")
+    check(len(results["series"]) == RUNS, "time series")
+    for series, one in zip(results["series"], runs):
+        check(all(0 <= share <= 1 for row in series["rows"] for share in row[1:]), "shares of a time series")
+        check(series["rows"][-1][0] == one["stats"]["cycles"], "the time series ends with the run")
+
+    # A second call makes nothing; --dry-run says so.
+    before = {path: path.stat().st_mtime_ns for path in (scratch / "undisturbed/runs").iterdir()}
+    run = evaluation.run(SMALL, "undisturbed")
+    check(before == {path: path.stat().st_mtime_ns for path in (scratch / "undisturbed/runs").iterdir()}, "finished runs were made again")
+    run = evaluation.run(SMALL, "dry", "--dry-run", "--size", "41x24")
+    check(f"{RUNS} of {RUNS} runs are missing" in run.stdout, f"--dry-run: {run.stdout}")
+
+    # Damage is noticed, and a run that fails says why.
+    victim = scratch / "undisturbed/jobs" / f"{runs[0]['key']}.json"
+    job = json.loads(victim.read_text())
+    (scratch / "undisturbed/runs" / victim.name).unlink()
+    shutil.copytree(scratch / "undisturbed", scratch / "damaged", symlinks=True)
+    job["series"] += 1
+    (scratch / "damaged/jobs" / victim.name).write_text(json.dumps(job))
+    run = subprocess.run([evaluation.program, "job", scratch / "damaged", victim.stem], capture_output=True, text=True)
+    check(run.returncode == 1 and "its name is not its hash" in run.stderr, f"a damaged job: {run.stderr}")
+    evaluation.run(SMALL, "undisturbed")
+    for path in (scratch / "damaged/inputs").glob("*/program.elf"):
+        path.write_bytes(path.read_bytes()[:-1])
+    run = evaluation.run(dict(SMALL, chips="4x32"), "damaged")
+    check(run.returncode == 1 and "is damaged" in run.stderr, f"damaged inputs: {run.stderr}")
+    check(all(one["status"] == "failed" and "damaged" in one["error"] for one in evaluation.results("damaged")["runs"]), "failed runs in results.json")
+
+
+REFUSED = [
+    ('{"name": "x", "chip": "4x32"}', 'unknown key "chip", did you mean "chips"'),
+    ('{"name": "x", "chips": "4x33"}', "4x33"),
+    ('{"name": "x", "chips": []}', "chips: expected a list of texts"),
+    ('{"name": "x", "chips": ["4x32", "4x32"]}', "twice"),
+    ('{"name": "x", "programs": ["theirs"]}', '"theirs" is unknown; allowed are "ours", "era"'),
+    ('{"name": "x", "scenes": ["cornell"]}', '"cornell" is unknown; allowed are "paper", "conference"'),
+    ('{"name": "x", "scenes": [{"name": "y", "mesh": "z"}]}', 'unknown key "mesh"; allowed are "name", "meshes", "view"'),
+    ('{"name": "x", "set": {"icache.bank": 4}}', 'unknown key "icache.bank"; did you mean icache.banks'),
+    ('{"name": "x", "set": {"icache.banks": [4, 0]}}', "icache.banks is 0; allowed are"),
+    ('{"name": "x", "set": {"icache.banks": []}}', "set.icache.banks: expected a number"),
+    ('{"name": "x", "set": {"icache.banks": "4"}}', "set.icache.banks: expected a number"),
+    ('{"name": "x", "set": {"icache.banks": 4, "icache.banks": 8}}', '"icache.banks" is there twice'),
+    ('{"name": "x", "set": {"memory.bandwidth_gbps": NaN}}', "NaN is no number"),
+    ('{"name": "x", "size": "0x10"}', "size: expected"),
+    ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "sampled"'),
+    ('{"name": "x", "series": -1}', "series: expected"),
+    ('{"name": "../x"}', "name: expected letters"),
+    ('{"chips": "4x32"}', "name: expected letters"),
+    ("[]", "expected an object"),
+    ('{"name": "x",', "sweep.json:1:"),
+    ("[" * 100000, "sweep.json"),
+]
+
+
+def test_refusals(evaluation, scratch):
+    bunny = {"scenes": [{"name": "bunny", "meshes": [BUNNY]}]}
+    for text, message in REFUSED:
+        try:  # what is wrong is to be found before any scene is asked for
+            value = json.loads(text)
+            text = json.dumps(bunny | value) if isinstance(value, dict) and "scenes" not in value and "NaN" not in text and text.count("icache.banks") < 2 else text
+        except (ValueError, RecursionError):
+            pass
+        run = evaluation.run(text, "refused")
+        check(run.returncode == 1 and "Traceback" not in run.stderr, f"{text[:60]}: exit status {run.returncode}: {run.stderr[-300:]}")
+        check(message in run.stderr and "sweep.json" in run.stderr, f"{text[:60]}: {run.stderr.strip()!r} has not {message!r}")
+    for words, message in (([], "no experiment"), (["table9"], '"table9" is neither an experiment'), (["table2", "--size", "1"], "--size 1: expected"),
+                           (["table2", "--program", "x"], "--program x: allowed"), (["table2", "--jobs", "0"], "--jobs 0"), (["--nonsense"], "--nonsense"),
+                           (["table2", "--hosts", "a"], "--hosts is for"), (["table2", "--runner", "pbs"], "invalid choice"), (["no.json"], "no.json: No such")):
+        run = subprocess.run([evaluation.program, *words, "-o", scratch / "refused"], capture_output=True, text=True)
+        check(run.returncode == 1 and message in run.stderr and "Traceback" not in run.stderr, f"{words}: {run.stderr.strip()!r} has not {message!r}")
+    check(not list((scratch / "refused").rglob("*.json")), "what was refused left files")
+    # Scenes that are not there: the others are run, and the status tells.
+    run = evaluation.run({"name": "x", "scenes": ["conference", {"name": "bunny", "meshes": [BUNNY]}], "programs": "ours", "size": "8x8"}, "partly")
+    check(run.returncode == 1 and "neither conference.ply nor conference.ply.xz is there" in run.stderr, f"a missing scene: {run.stderr}")
+    check(sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"], "the other scene was not run")
+
+
+# --- killed
+
+
+def simulators(folder):
+    """Processes of trax-sim that write below the folder."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else [b""]
+        except OSError:
+            continue
+        if words[0].endswith(b"trax-sim") and any(str(folder).encode() in word for word in words):
+            found.append(int(entry.name))
+    return found
+
+
+def test_kill(evaluation, scratch, kills):
+    generator = random.Random(7)
+    begin = time.monotonic()
+    evaluation.run(SMALL, "once", "--jobs", "2")
+    whole = time.monotonic() - begin
+    hit = 0
+    for number in range(kills):
+        process = subprocess.Popen(evaluation.command(SMALL, "killed", "--jobs", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                   start_new_session=True)
+        time.sleep(generator.uniform(0, whole))
+        hit += process.poll() is None
+        if number % 2:
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        else:  # the command alone: what it started is to end by itself
+            process.kill()
+        process.wait()
+        deadline = time.monotonic() + 5
+        while simulators(scratch / "killed") and time.monotonic() < deadline:
+            time.sleep(0.02)
+        check(not simulators(scratch / "killed"), "simulators live on")
+        for path in (scratch / "killed").rglob("*.json"):
+            if not path.name.startswith(".") and "scratch" not in path.parts:
+                json.loads(path.read_text())
+    check(hit * 2 >= kills, f"only {hit} of {kills} kills came before the end")
+    run = evaluation.run(SMALL, "killed", "--jobs", "2")
+    check(run.returncode == 0, f"after the kills: {run.stderr}")
+    same_bytes(scratch, "undisturbed", "killed")
+    print(f"killed {hit} times, {whole:.1f} s undisturbed")
+
+
+def test_interrupt(evaluation, scratch):
+    process = subprocess.Popen(evaluation.command(dict(SMALL, size="400x240"), "interrupted", "--jobs", "2"), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while not simulators(scratch / "interrupted") and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    errors = process.communicate(timeout=60)[1]
+    check(process.returncode == 130 and "the same command goes on" in errors and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
+    check(not list((scratch / "interrupted/runs").glob("*.error")), "an interrupt is no failure of a run")
+
+
+# --- runners
+
+
+def test_parallel(evaluation, scratch):
+    if not shutil.which("parallel"):
+        check(False, "GNU parallel is not installed")
+        return
+    run = evaluation.run(SMALL, "parallel", "--runner", "parallel", "--jobs", "2")
+    check(run.returncode == 0, f"GNU parallel: {run.stderr}")
+    same_bytes(scratch, "undisturbed", "parallel")
+
+
+def test_slurm(evaluation, scratch):
+    if not shutil.which("sbatch") or subprocess.run(["sinfo"], capture_output=True).returncode != 0:
+        print("Slurm is not installed, or no controller answers: tests/evaluation/slurm.sh starts one (see docs/testing.md)")
+        sys.exit(77)
+    run = evaluation.run(SMALL, "slurm", "--runner", "slurm")
+    check(run.returncode == 0, f"Slurm: {run.stderr}")
+    same_bytes(scratch, "undisturbed", "slurm")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--bin", type=pathlib.Path, required=True)
+    parser.add_argument("--only", choices=("sweep", "refusals", "kill", "interrupt", "parallel", "slurm"))
+    parser.add_argument("--kills", type=int, default=10)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
+        scratch = pathlib.Path(temporary).resolve()
+        evaluation = Evaluation(options.bin.resolve(), scratch)
+        wanted = [options.only] if options.only else ["sweep", "refusals", "kill", "interrupt", "parallel"]
+        if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "slurm"}:
+            evaluation.run(SMALL, "undisturbed", "--jobs", "2")
+        for name in wanted:
+            begin = time.monotonic()
+            arguments = (options.kills,) if name == "kill" else ()
+            globals()[f"test_{name}"](evaluation, scratch, *arguments)
+            print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
