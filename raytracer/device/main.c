@@ -6,6 +6,7 @@
    one divider: so comparisons are of integers, planes and edges are tested one by one, and a pixel takes few divisions.
  */
 #include "camera.h"
+#include "record.h"
 #include "run.h"
 #include "shade.h"
 #include "traverse.h"
@@ -14,6 +15,9 @@
 #include <trax.h>
 
 struct trax_buffer scene, params, image;
+#ifdef TRAX_RECORD
+struct trax_buffer record;
+#endif
 unsigned next_slot; /* shared by all threads: the atomic increment hands out the pixels */
 
 #define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
@@ -41,10 +45,12 @@ next_sample:
     bool found = trace_ray(scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
     LOAD_AGAIN(run);
     if (shadow) {
+      RECORD_SHADOW(run, pixel, sample, found);
       if (!found)
         light += lit;
       break;
     }
+    RECORD_HIT(run, pixel, sample, &hit);
     if (!found)
       break;
 
@@ -99,6 +105,7 @@ int main(void) {
     uint32_t word = render_pixel(run, pixel);
     HIDE_ORIGIN(pixel.packed);
     LOAD_AGAIN(run);
+    RECORD_PIXEL(run, pixel);
     trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
     trax_count_items(1);
   }

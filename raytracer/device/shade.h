@@ -4,6 +4,7 @@
 
 #include "bits.h"
 #include "camera.h"
+#include "record.h"
 #include "traverse.h"
 #include "trax/scene_format.h"
 
@@ -123,6 +124,7 @@ static inline float root_of_light(float light) {
 }
 
 static inline uint32_t pixel_of(float red, float green, float blue) {
+  RECORD_CHANNELS(red, green, blue);
   return (uint32_t)(int32_t)(red + 0.5f) | (uint32_t)(int32_t)(green + 0.5f) << 8 |
          (uint32_t)(int32_t)(blue + 0.5f) << 16 | 0xFF000000u;
 }

@@ -52,7 +52,7 @@ static trax_status find_program(struct trax_program *program, const struct optio
   if (status != TRAX_OK || options->program || options->no_specialise)
     return status;
   char root[TRAX_PATH_SIZE], note[256] = "";
-  struct trax_specialise_options specialise = {root, options->cache, interrupt};
+  struct trax_specialise_options specialise = {.root = root, .cache = options->cache, .interrupt = interrupt};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
   status = trax_program_specialise(program, frame, &specialise, note, error);

@@ -1,12 +1,12 @@
-/* The reference picture: Embree finds the hits, binary64 shades them. It shares the camera's arithmetic with the device
-   program and nothing else of it: neither BVH, nor intersection, nor shading. */
+/* The reference pictures: Embree finds the hits, in binary32, or they are found in binary64 (exact.c); binary64 shades
+   them. They share the camera's arithmetic with the device program and nothing else of it: neither BVH, nor
+   intersection, nor shading. */
 #include "core/machine.h"
+#include "exact.h"
 #include "render.h"
 
 #include "../device/camera.h"
 
-#include <embree3/rtcore.h>
-#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,36 +15,13 @@
 struct reference {
   RTCScene scene;
   const struct trax_frame *frame;
-  struct trax_picture *picture;
+  struct trax_picture *picture; /* to fill, or else the next one */
+  struct trax_exact *exact;     /* whose hits are found in binary64 */
   struct trax_render_run *run;
   pthread_mutex_t lock; /* of what follows */
   uint32_t next_row, finished_rows;
   uint64_t rays;
 };
-
-struct double3 {
-  double x, y, z;
-};
-
-static struct double3 from(const float v[3]) {
-  return (struct double3){v[0], v[1], v[2]};
-}
-static struct double3 minus(struct double3 a, struct double3 b) {
-  return (struct double3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static struct double3 plus_scaled(struct double3 a, double factor, struct double3 b) {
-  return (struct double3){a.x + factor * b.x, a.y + factor * b.y, a.z + factor * b.z};
-}
-static double dot(struct double3 a, struct double3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static struct double3 cross(struct double3 a, struct double3 b) {
-  return (struct double3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static double greatest(struct double3 v) {
-  return fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
-}
 
 /* Squared pixel values, which are linear in the light. */
 static struct double3 shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
@@ -60,9 +37,13 @@ static struct double3 squares(uint32_t pixel) {
   return (struct double3){red * red, green * green, blue * blue};
 }
 
-static uint32_t pixel_of(struct double3 squares) {
-  return (uint32_t)floor(sqrt(squares.x) + 0.5) | (uint32_t)floor(sqrt(squares.y) + 0.5) << 8 |
-         (uint32_t)floor(sqrt(squares.z) + 0.5) << 16 | 0xFF000000u;
+static struct double3 root(struct double3 squares) {
+  return (struct double3){sqrt(squares.x), sqrt(squares.y), sqrt(squares.z)};
+}
+
+static uint32_t pixel_of(struct double3 channels) {
+  return (uint32_t)floor(channels.x + 0.5) | (uint32_t)floor(channels.y + 0.5) << 8 |
+         (uint32_t)floor(channels.z + 0.5) << 16 | 0xFF000000u;
 }
 
 static struct RTCRay make_ray(struct double3 origin, struct double3 direction, float far) {
@@ -76,32 +57,54 @@ static struct RTCRay make_ray(struct double3 origin, struct double3 direction, f
                          .mask = 0xFFFFFFFFu};
 }
 
+static bool find_hit(const struct reference *reference, struct double3 origin, struct double3 direction,
+                     struct exact_hit *hit) {
+  if (reference->exact)
+    return exact_nearest(reference->scene, origin, direction, hit);
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  struct RTCRayHit ray = {.ray = make_ray(origin, direction, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+  rtcIntersect1(reference->scene, &context, &ray);
+  *hit = (struct exact_hit){ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};
+  return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+static bool is_blocked(const struct reference *reference, struct double3 origin, struct double3 direction,
+                       double distance) {
+  if (reference->exact)
+    return exact_any(reference->scene, origin, direction, distance);
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  struct RTCRay ray = make_ray(origin, direction, (float)distance);
+  rtcOccluded1(reference->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
 static bool needs(const struct trax_render_params *params, enum trax_feature feature) {
   return params->features >> feature & 1;
 }
 
-/* The light through a place of a pixel. */
-static struct double3 trace_sample(struct reference *reference, struct pixel pixel, struct place place,
-                                   uint64_t *rays) {
+/* The light through a place of a pixel. What the rays meet goes to *seen. */
+static struct double3 trace_sample(const struct reference *reference, struct pixel pixel, struct place place,
+                                   struct trax_exact_sample *seen, uint64_t *rays) {
   const struct trax_render_params *params = reference->frame->params;
   struct vector camera = camera_direction(params, pixel, place);
   struct double3 direction = {camera.x, camera.y, camera.z};
-  struct RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  struct RTCRayHit primary = {.ray = make_ray(from(params->eye), direction, INFINITY),
-                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtcIntersect1(reference->scene, &context, &primary);
+  struct exact_hit hit;
+  *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
   ++*rays;
-  if (primary.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+  if (!find_hit(reference, from(params->eye), direction, &hit))
     return squares(params->background);
+  seen->triangle = hit.triangle;
+  seen->distance = hit.distance;
 
-  const struct trax_triangle *triangle = &reference->frame->scene->triangles[primary.hit.primID];
+  const struct trax_triangle *triangle = &reference->frame->scene->triangles[hit.triangle];
   struct double3 v0 = from(triangle->v0), e = minus(from(triangle->v1), v0), f = minus(from(triangle->v2), v0);
   struct double3 normal = cross(e, f);
   double length = sqrt(dot(normal, normal));
   double facing = dot(normal, direction) < 0 ? 1 / length : -1 / length;
   normal = (struct double3){facing * normal.x, facing * normal.y, facing * normal.z};
-  struct double3 point = plus_scaled(plus_scaled(v0, primary.hit.u, e), primary.hit.v, f);
+  struct double3 point = plus_scaled(plus_scaled(v0, hit.u, e), hit.v, f);
   /* As in device/shade.h: along the normal and back along the sight. */
   double offset = 0x1p-22 * greatest(v0) + 0x1p-17 * fmax(greatest(e), greatest(f));
   struct double3 sight = minus(point, from(params->eye));
@@ -110,9 +113,9 @@ static struct double3 trace_sample(struct reference *reference, struct pixel pix
 
   struct double3 flat = normal;
   if (needs(params, TRAX_FEATURE_SMOOTH)) {
-    const struct trax_triangle_normals *normals = &reference->frame->scene->normals[primary.hit.primID];
+    const struct trax_triangle_normals *normals = &reference->frame->scene->normals[hit.triangle];
     struct double3 n0 = from(normals->corner[0]), n1 = from(normals->corner[1]), n2 = from(normals->corner[2]);
-    normal = plus_scaled(plus_scaled(n0, primary.hit.u, minus(n1, n0)), primary.hit.v, minus(n2, n0));
+    normal = plus_scaled(plus_scaled(n0, hit.u, minus(n1, n0)), hit.v, minus(n2, n0));
     double size = sqrt(dot(normal, normal)) * (dot(normal, flat) < 0 ? -1 : 1);
     normal = (struct double3){normal.x / size, normal.y / size, normal.z / size};
   }
@@ -125,18 +128,28 @@ static struct double3 trace_sample(struct reference *reference, struct pixel pix
   if (!needs(params, TRAX_FEATURE_SHADOWS))
     return shade(reference->frame, triangle->material, normal, cosine);
   struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
-  struct RTCRay shadow = make_ray(point, towards, (float)distance);
-  rtcOccluded1(reference->scene, &context, &shadow);
+  const bool blocked = is_blocked(reference, point, towards, distance);
   ++*rays;
-  return shade(reference->frame, triangle->material, normal, shadow.tfar < 0 ? 0 : cosine);
+  seen->shadow = blocked ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT;
+  return shade(reference->frame, triangle->material, normal, blocked ? 0 : cosine);
 }
 
-static uint32_t reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
+static void reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
   const struct trax_render_params *params = reference->frame->params;
+  const size_t index = (size_t)y * params->width + x;
+  struct trax_exact_sample seen;
   struct double3 sum = {0, 0, 0};
-  for (uint32_t sample = 0; sample < params->samples; sample++)
-    sum = plus_scaled(sum, 1.0 / params->samples, trace_sample(reference, pixel_at(x, y), sample_place(sample), rays));
-  return pixel_of(sum);
+  for (uint32_t sample = 0; sample < params->samples; sample++) {
+    sum = plus_scaled(sum, 1.0 / params->samples,
+                      trace_sample(reference, pixel_at(x, y), sample_place(sample), &seen, rays));
+    if (reference->exact && reference->exact->seen)
+      reference->exact->seen[index * params->samples + sample] = seen;
+  }
+  const struct double3 channels = root(sum);
+  if (reference->exact)
+    memcpy(&reference->exact->channels[3 * index], &channels, sizeof channels);
+  else
+    reference->picture->pixels[index] = pixel_of(channels);
 }
 
 static void *render_rows(void *argument) {
@@ -151,7 +164,7 @@ static void *render_rows(void *argument) {
     if (row >= params->height)
       break;
     for (uint32_t x = 0; x < params->width; x++)
-      reference->picture->pixels[(size_t)row * params->width + x] = reference_pixel(reference, x, row, &rays);
+      reference_pixel(reference, x, row, &rays);
     pthread_mutex_lock(&reference->lock);
     reference->finished_rows++;
     if (reference->run->progress)
@@ -165,9 +178,14 @@ static void *render_rows(void *argument) {
 }
 
 /* The scene's triangles with their own vertices each, so that primID is the triangle's number. */
-static trax_status build_scene(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error) {
+static trax_status build_scene(RTCDevice device, struct reference *reference, trax_error *error) {
+  const struct trax_scene *source = reference->frame->scene;
+  RTCScene scene = reference->scene;
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  if (source->triangle_count > 0) {
+  if (source->triangle_count > 0 && reference->exact) {
+    if (!exact_attach(device, scene, source))
+      return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
+  } else if (source->triangle_count > 0) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
                                               3 * (size_t)source->triangle_count);
@@ -201,7 +219,21 @@ static trax_status render(struct reference *reference, trax_error *error) {
     pthread_join(threads[i], NULL);
   if (started == 0)
     return trax_fail(error, "cannot start a thread for the reference");
-  return reference->finished_rows < reference->picture->height ? TRAX_INTERRUPTED : TRAX_OK;
+  return reference->finished_rows < reference->frame->params->height ? TRAX_INTERRUPTED : TRAX_OK;
+}
+
+static trax_status run_reference(struct reference *reference, trax_error *error) {
+  RTCDevice device = rtcNewDevice(NULL);
+  if (!device)
+    return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
+  reference->scene = rtcNewScene(device);
+  trax_status status = build_scene(device, reference, error);
+  if (status == TRAX_OK)
+    status = render(reference, error);
+  reference->run->rays = reference->rays;
+  rtcReleaseScene(reference->scene);
+  rtcReleaseDevice(device);
+  return status;
 }
 
 trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
@@ -209,20 +241,32 @@ trax_status trax_render_reference(struct trax_picture *picture, const struct tra
   trax_status status = trax_picture_init(picture, frame->params->width, frame->params->height, error);
   if (status)
     return status;
-  RTCDevice device = rtcNewDevice(NULL);
-  if (!device) {
-    trax_picture_release(picture);
-    return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
-  }
-  struct reference reference = {
-      .scene = rtcNewScene(device), .frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
-  status = build_scene(device, reference.scene, frame->scene, error);
-  if (status == TRAX_OK)
-    status = render(&reference, error);
-  run->rays = reference.rays;
-  rtcReleaseScene(reference.scene);
-  rtcReleaseDevice(device);
+  struct reference reference = {.frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  status = run_reference(&reference, error);
   if (status != TRAX_OK)
     trax_picture_release(picture);
   return status;
+}
+
+trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame *frame, bool seen,
+                              struct trax_render_run *run, trax_error *error) {
+  const struct trax_render_params *params = frame->params;
+  const size_t pixels = (size_t)params->width * params->height;
+  *exact = (struct trax_exact){.width = params->width, .height = params->height, .samples = params->samples};
+  exact->channels = malloc(3 * pixels * sizeof *exact->channels);
+  exact->seen = seen ? malloc(pixels * params->samples * sizeof *exact->seen) : NULL;
+  struct reference reference = {.frame = frame, .exact = exact, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  const trax_status status = !exact->channels || (seen && !exact->seen)
+                                 ? trax_fail(error, "out of memory for a reference of %u x %u pixels and %u samples",
+                                             params->width, params->height, params->samples)
+                                 : run_reference(&reference, error);
+  if (status != TRAX_OK)
+    trax_exact_release(exact);
+  return status;
+}
+
+void trax_exact_release(struct trax_exact *exact) {
+  free(exact->channels);
+  free(exact->seen);
+  *exact = (struct trax_exact){0};
 }

@@ -6,6 +6,7 @@
 #define TRAX_RENDER_H
 
 #include "trax/emulator.h"
+#include "trax/record.h"
 #include "trax/render_params.h"
 #include "trax/scene.h"
 #include "trax/view.h"
@@ -87,11 +88,13 @@ struct trax_specialise_options {
   const char *root;              /* where trax is installed: bin, lib/trax */
   const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
+  bool record;                   /* it tells what trax/record.h says, too; not for measuring time: its stack is in
+                                    global memory */
 };
 
 /* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
-   TRAX_OK with why in note, and *program is as it was. TRAX_ERROR: a cache that was asked for cannot be written, or the
-   frame's method is not the default, which no other program has. */
+   TRAX_OK with why in note, and *program is as it was. TRAX_ERROR: a cache that was asked for cannot be written, or
+   nothing else will do, since the frame's method is not the default or the program is to record. */
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 
@@ -149,6 +152,26 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
 /* reference.c: Embree 3 in robust mode finds the same hits among the same triangles; shading in binary64. */
 trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
                                   struct trax_render_run *run, trax_error *error);
+
+/* What a sample's rays met. */
+struct trax_exact_sample {
+  uint32_t triangle; /* its number; TRAX_NO_TRIANGLE: nothing */
+  enum trax_shadow shadow;
+  double distance; /* of the triangle, in units of the ray's direction */
+};
+#define TRAX_NO_TRIANGLE UINT32_MAX
+
+struct trax_exact {
+  uint32_t width, height, samples;
+  double *channels;               /* R, G, B of each pixel, 0 to 255 as in a picture, but not rounded */
+  struct trax_exact_sample *seen; /* of each sample of each pixel; NULL: not wanted */
+};
+
+/* reference.c too: the hits are found in binary64 as well (exact.c), among the triangles as the scene has them. The
+   directions of the rays from the eye are the device's, rounded to binary32 as there: of the same rays. */
+trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame *frame, bool seen,
+                              struct trax_render_run *run, trax_error *error);
+void trax_exact_release(struct trax_exact *exact);
 
 /* --- cost.c: what each pixel cost its thread, from the item before to this one --- */
 

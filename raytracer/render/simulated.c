@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "host/image.h"
 #include "render.h"
+#include "trax/record.h"
 
 #include <string.h>
 
@@ -36,6 +37,16 @@ static trax_status relocate(trax_machine *machine, trax_error *error) {
   return TRAX_OK;
 }
 
+/* What a program that records fills (trax/record.h). */
+static trax_status bind_record(trax_machine *machine, const struct trax_render_params *params, trax_error *error) {
+  const uint64_t size = (uint64_t)params->width * params->height *
+                        (sizeof(struct trax_pixel_record) + params->samples * sizeof(struct trax_sample_record));
+  if (size > UINT32_MAX)
+    return trax_fail(error, "what is recorded of %u x %u pixels and %u samples exceeds the machine's address space",
+                     params->width, params->height, params->samples);
+  return trax_machine_bind(machine, "record", NULL, (uint32_t)size, error);
+}
+
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
                                 const struct trax_program *program, trax_error *error) {
   const uint32_t size = 4 * frame->params->width * frame->params->height;
@@ -58,6 +69,8 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
     status = trax_machine_bind(machine, "params", frame->params, frame->params_size, error);
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "image", NULL, size, error);
+  if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "record"))
+    status = bind_record(machine, frame->params, error);
   return status;
 }
 

@@ -21,8 +21,21 @@
 #define MOST_PROGRAMS 256
 
 static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
-enum { FLAG_COUNT = sizeof flags / sizeof *flags };
-static const char fast_math[] = "-ffast-math";
+enum { FLAG_COUNT = sizeof flags / sizeof *flags, MOST_FLAGS = FLAG_COUNT + 3 };
+
+/* The flags above and those that were chosen. What is recorded takes more stack than a TP has memory for. */
+static size_t chosen_flags(const char *chosen[MOST_FLAGS], const struct trax_method *method, bool record) {
+  size_t count = 0;
+  for (; count < FLAG_COUNT; count++)
+    chosen[count] = flags[count];
+  if (method->fast_math)
+    chosen[count++] = "-ffast-math";
+  if (record) {
+    chosen[count++] = "-DTRAX_RECORD";
+    chosen[count++] = "-mstack=global";
+  }
+  return count;
+}
 
 /* What of the installation decides about the program. */
 static const char *const ingredients[] = {
@@ -130,8 +143,8 @@ static void hash_library(XXH3_state_t *state, const char *path) {
   XXH3_128bits_update(state, identity, sizeof identity);
 }
 
-static trax_status make_key(char key[33], const char *root, const char *constants, const struct trax_method *method,
-                            trax_error *error) {
+static trax_status make_key(char key[33], const char *root, const char *constants, const char *const *chosen,
+                            size_t chosen_count, trax_error *error) {
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
@@ -142,10 +155,8 @@ static trax_status make_key(char key[33], const char *root, const char *constant
   for (size_t i = 0; i < sizeof source_folders / sizeof *source_folders && status == TRAX_OK; i++)
     status = hash_folder(state, root, source_folders[i], error);
   hash_library(state, TRAX_LLVM_LIBRARY);
-  for (size_t i = 0; i < FLAG_COUNT; i++)
-    XXH3_128bits_update(state, flags[i], strlen(flags[i]) + 1);
-  if (method->fast_math)
-    XXH3_128bits_update(state, fast_math, sizeof fast_math);
+  for (size_t i = 0; i < chosen_count; i++)
+    XXH3_128bits_update(state, chosen[i], strlen(chosen[i]) + 1);
   XXH3_128bits_update(state, constants, strlen(constants));
   const XXH128_hash_t hash = XXH3_128bits_digest(state);
   snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
@@ -242,19 +253,17 @@ static void first_line(char line[160], int descriptor, int status) {
 }
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
-static trax_status compile(const char *root, const char *constants, const char *output,
-                           const struct trax_method *method, bool params_in_memory, const volatile int *interrupt,
+static trax_status compile(const char *root, const char *constants, const char *output, const char *const *chosen,
+                           size_t chosen_count, bool params_in_memory, const volatile int *interrupt,
                            trax_error *error) {
   char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
   if (!join(clang, root, "bin/clang", "") || !join(include, root, "lib/trax/raytracer", "") ||
       !join(source, root, "lib/trax/raytracer/main.c", ""))
     return trax_fail(error, "%s: the path is too long", root);
-  const char *arguments[FLAG_COUNT + 16], **next = arguments;
+  const char *arguments[MOST_FLAGS + 16], **next = arguments;
   *next++ = clang;
-  for (size_t i = 0; i < FLAG_COUNT; i++)
-    *next++ = flags[i];
-  if (method->fast_math)
-    *next++ = fast_math;
+  for (size_t i = 0; i < chosen_count; i++)
+    *next++ = chosen[i];
   *next++ = "-I";
   *next++ = include;
   if (params_in_memory)
@@ -309,8 +318,8 @@ static trax_status compile(const char *root, const char *constants, const char *
 
 /* Into the cache, aside and renamed. If constants take so many registers that the stack overflows, the parameters stay
    in memory. */
-static trax_status build(const char *root, const char *constants, const char *program, const struct trax_method *method,
-                         const volatile int *interrupt, trax_error *error) {
+static trax_status build(const char *root, const char *constants, const char *program, const char *const *chosen,
+                         size_t chosen_count, const volatile int *interrupt, trax_error *error) {
   char temporary[TRAX_PATH_SIZE];
   if (!join(temporary, program, "", "XXXXXX"))
     return trax_fail(error, "%s: the path is too long", program);
@@ -319,9 +328,9 @@ static trax_status build(const char *root, const char *constants, const char *pr
   if (descriptor < 0)
     return trax_fail(error, "%s: %s", temporary, strerror(errno));
   close(descriptor);
-  trax_status status = compile(root, constants, temporary, method, false, interrupt, error);
+  trax_status status = compile(root, constants, temporary, chosen, chosen_count, false, interrupt, error);
   if (status == TRAX_ERROR)
-    status = compile(root, constants, temporary, method, true, interrupt, error);
+    status = compile(root, constants, temporary, chosen, chosen_count, true, interrupt, error);
   if (status == TRAX_OK && rename(temporary, program) != 0)
     status = trax_fail(error, "%s: %s", program, strerror(errno));
   if (status != TRAX_OK)
@@ -330,7 +339,9 @@ static trax_status build(const char *root, const char *constants, const char *pr
 }
 
 /* The general program takes the place of one that cannot be had, unless the method was chosen. */
-static trax_status note_or_error(const struct trax_method *method, const char *note, trax_error *error) {
+static trax_status note_or_error(const struct trax_method *method, bool record, const char *note, trax_error *error) {
+  if (record)
+    return trax_fail(error, "there is no program that records: %s", note);
   if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math)
     return TRAX_OK;
   return trax_fail(error, "%s: there is no program for it: %s", method->fast_math ? "--fast-math" : "--triangle", note);
@@ -340,17 +351,19 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
                                     const struct trax_specialise_options *options, char note[256], trax_error *error) {
   char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE], header[TRAX_PATH_SIZE];
   trax_error reason;
+  const char *chosen[MOST_FLAGS];
+  const size_t chosen_count = chosen_flags(chosen, &frame->method, options->record);
   note[0] = '\0';
   if (options->cache && snprintf(cache, sizeof cache, "%s", options->cache) >= (int)sizeof cache)
     return trax_fail(error, "--cache: the path is too long");
   if (!options->cache && !trax_program_cache(cache)) {
     snprintf(note, 256, "no place for compiled programs: neither XDG_CACHE_HOME nor HOME is set");
-    return note_or_error(&frame->method, note, error);
+    return note_or_error(&frame->method, options->record, note, error);
   }
   char *constants = constants_text(frame);
   if (!constants)
     return trax_fail(error, "out of memory");
-  trax_status status = make_key(key, options->root, constants, &frame->method, &reason);
+  trax_status status = make_key(key, options->root, constants, chosen, chosen_count, &reason);
   if (status == TRAX_OK && !make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
@@ -363,7 +376,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
     status = trax_write_file(header, constants, strlen(constants), &reason);
     if (status == TRAX_OK)
-      status = build(options->root, header, elf, &frame->method, options->interrupt, &reason);
+      status = build(options->root, header, elf, chosen, chosen_count, options->interrupt, &reason);
     if (status == TRAX_OK)
       prune(cache);
     else
@@ -374,7 +387,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return status;
   if (status != TRAX_OK) {
     snprintf(note, 256, "%.255s", reason.message);
-    return note_or_error(&frame->method, note, error);
+    return note_or_error(&frame->method, options->record, note, error);
   }
   memcpy(program->path, elf, sizeof elf);
   program->specialised = true;

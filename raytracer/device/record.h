@@ -1,0 +1,49 @@
+/* What a program compiled with TRAX_RECORD tells besides its picture (trax/record.h); in others nothing of it is left.
+ */
+#ifndef TRAX_DEVICE_RECORD_H
+#define TRAX_DEVICE_RECORD_H
+
+#ifdef TRAX_RECORD
+
+#include "camera.h"
+#include "run.h"
+#include "trax/record.h"
+#include "triangle.h"
+
+extern struct trax_buffer record;
+_Thread_local struct trax_pixel_record record_channels; /* of the thread's last pixel_of */
+
+static inline uint32_t record_index(const struct trax_render_params *run, struct pixel pixel) {
+  return pixel_y(pixel) * run->width + pixel_x(pixel);
+}
+
+static inline struct trax_sample_record *record_sample(const struct trax_render_params *run, struct pixel pixel,
+                                                       uint32_t sample) {
+  struct trax_pixel_record *pixels = record.data;
+  struct trax_sample_record *samples = (struct trax_sample_record *)(pixels + run->width * run->height);
+  return &samples[record_index(run, pixel) * run->samples + sample];
+}
+
+static inline void record_hit(const struct trax_render_params *run, struct pixel pixel, uint32_t sample,
+                              const struct hit *hit) {
+  record_sample(run, pixel, sample)->triangle =
+      hit->triangle ? (uint32_t)(hit->triangle - (const char *)scene.data) : 0;
+  if (!hit->triangle) /* of a single sample pixel_of is not asked */
+    for (int channel = 0; channel < 3; channel++)
+      record_channels.channel[channel] = (float)(int32_t)(run->background >> 8 * channel & 255);
+}
+
+#define RECORD_HIT(run, pixel, sample, hit) record_hit(run, pixel, sample, hit)
+#define RECORD_SHADOW(run, pixel, sample, blocked)                                                                     \
+  (record_sample(run, pixel, sample)->shadow = (blocked) ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT)
+#define RECORD_CHANNELS(red, green, blue) (record_channels = (struct trax_pixel_record){{red, green, blue}})
+#define RECORD_PIXEL(run, pixel) (((struct trax_pixel_record *)record.data)[record_index(run, pixel)] = record_channels)
+
+#else
+#define RECORD_HIT(run, pixel, sample, hit) ((void)0)
+#define RECORD_SHADOW(run, pixel, sample, blocked) ((void)0)
+#define RECORD_CHANNELS(red, green, blue) ((void)0)
+#define RECORD_PIXEL(run, pixel) ((void)0)
+#endif
+
+#endif

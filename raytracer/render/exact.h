@@ -1,0 +1,33 @@
+/* Rays against triangles in binary64, for the reference that errors are measured by. Embree's BVH finds the triangles
+   whose boxes a ray may meet; whether and where it meets them is computed here. */
+#ifndef TRAX_RENDER_EXACT_H
+#define TRAX_RENDER_EXACT_H
+
+#include "double3.h"
+#include "trax/scene.h"
+
+#include <embree3/rtcore.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+struct exact_hit {
+  uint32_t triangle; /* its number */
+  double distance;   /* in units of the direction */
+  double u, v;       /* barycentric weights of v1 and v2 */
+};
+
+/* Attaches the triangles of `source`, which must outlive the scene. False: out of memory. */
+bool exact_attach(RTCDevice device, RTCScene scene, const struct trax_scene *source);
+
+/* The nearest triangle at a distance above 0; of equal distances the one that comes first in the file, as on the
+   device. A triangle's edges and vertices belong to it; one whose plane holds the ray is not hit. */
+bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 direction, struct exact_hit *hit);
+
+/* Is there any triangle at a distance above 0 and below `limit`? */
+bool exact_any(RTCScene scene, struct double3 origin, struct double3 direction, double limit);
+
+/* One triangle: what the above ask of each. *hit has the triangle's number already. */
+bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
+                    struct exact_hit *hit);
+
+#endif
