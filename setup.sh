@@ -22,7 +22,8 @@ packages=(
   libassimp-dev libembree-dev libpng-dev liblzma-dev zlib1g-dev          # ray tracer's host side
   libcmocka-dev libgmp-dev libmpfr-dev gdb gdb-multiarch                                          # tests
   newlib-source                                                          # the mathematical functions of binary64
-  parallel                                                               # tests: runs handed to GNU parallel
+  gnuplot-nox                                                            # the evaluation's figures
+  parallel chromium                                                      # tests: runs handed to GNU parallel; the evaluation's page in a browser
   csmith libcsmith-dev lib32gcc-12-dev libc6-dev-i386                    # tests: random programs, and a host of 32 bits
   glmark2-data                                                           # the demo's bunny
   qemu-user lld-19 gcc-12-source gcc-multilib libclang-rt-19-dev         # longer checks: code quality, gcc's torture, fuzzers

@@ -1,0 +1,160 @@
+"""Which figures the report has, made of the runs."""
+
+from .claims import speedup
+from .plots import Bars, Lines, Series, log_ticks
+from .results import number, ratio
+
+# Styles of page.css. Of programs, each with a mark of its own.
+PAPER = (0, "circle")
+OF_PROGRAM = {"era": (1, "square"), "ours": (2, "dot")}
+OTHERS = [(3, "triangle"), (4, "diamond"), (5, "dot"), (6, "square")]
+
+# Causes of docs/emulator.md, together where the same hardware is behind them.
+CAUSES = [
+    (10, "issued", ["issued"]),
+    (11, "instruction fetch", ["icache_bank_conflict", "icache_miss"]),
+    (12, "data-cache banks and hits", ["dcache_bank_conflict", "wait_dcache_hit", "wait_local"]),
+    (13, "off-chip memory", ["wait_memory", "memory_queue_full"]),
+    (14, "adders and multipliers", ["fp_add_conflict", "fp_mul_conflict", "int_mul_conflict"]),
+    (15, "FPDIV/iSQRT", ["wait_special", "special_conflict"]),
+    (16, "atomic increments", ["wait_atomic"]),
+    (17, "other waits", ["wait_other", "branch_bubble"]),
+    (18, "ended", ["halted"]),
+]
+
+
+def style_of(program, index=0):
+    return OF_PROGRAM.get(program, OTHERS[index % len(OTHERS)])
+
+
+def shares(run):
+    """Of the thread-cycles, by group of CAUSES: (style, share, what to say); None if the run has no causes."""
+    total = run.get("thread_cycles")
+    parts = []
+    for style, label, causes in CAUSES:
+        counts = [run.get("causes." + cause) for cause in causes]
+        known = [count for count in counts if count is not None]
+        share = ratio(sum(known), total) if known else None
+        detail = ", ".join(f"{cause} {100 * count / total:.1f} %" for cause, count in zip(causes, counts) if count and total)
+        parts.append((style, share, f"{run.config}: {label} {100 * share:.1f} % ({detail})" if share else ""))
+    return parts if any(share is not None for _, share, _ in parts) else None
+
+
+def _threads_axis(paper):
+    counts = sorted({paper.threads(chip) for chip in paper.chips})
+    return [(count, str(count)) for count in counts if count in (32, 64, 128, 256, 512)] or [(count, str(count)) for count in counts]
+
+
+def _scaling(results, paper, scene):
+    series = []
+    if paper.speedup(scene, "8x64"):
+        points = [(paper.threads(chip), paper.speedup(scene, chip), f"paper, {chip}: {paper.speedup(scene, chip):.2f} times, "
+                   f"{paper.mrps(scene, chip):.2f} MRPS") for chip in paper.chips]
+        series.append(Series("paper", PAPER[0], points, PAPER[1], line=False))
+    for index, program in enumerate(results.programs()):
+        style, mark = style_of(program, index)
+        points = []
+        for chip in paper.chips:
+            value, mrps = speedup(results, program, scene, chip), results.figure("mrps", program, scene, chip)
+            points.append((paper.threads(chip), value, f"{program}, {chip}: {value:.2f} times, {mrps:.2f} MRPS" if value else ""))
+        series.append(Series(program, style, points, mark, line=False))
+    top = max((point[0] for one in series for point in one.known()), default=512)
+    series.append(Series("in proportion", 7, [(32, 1.0, "1x32: 1"), (top, top / 32, f"in proportion: {top / 32:g} times")] if len(series) and
+                         any(one.known() for one in series[:-1] or series) else [], "dot", dashed=True))
+    return Lines("scaling-" + scene, f"Speed-up from 1x32: {scene}", "threads", "times", series, x_ticks=_threads_axis(paper))
+
+
+def _memory(results, paper, program):
+    series = []
+    for index, scene in enumerate(results.scenes()):
+        points = []
+        for chip in paper.chips:
+            used = results.figure("memory.utilisation", program, scene, chip)
+            points.append((paper.threads(chip), None if used is None else 100 * used, f"{scene}, {chip}: {100 * used:.0f} % of 8 GB/s" if used is not None else ""))
+        style, mark = [(1, "square"), (2, "dot"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")][index % 6]
+        series.append(Series(scene, style, points, mark, line=False))
+    return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "per cent", series, x_ticks=_threads_axis(paper))
+
+
+def _stalls(results, paper, program, scene):
+    bars = []
+    for chip in paper.chips:
+        run = results.cell(program, scene, chip)
+        bars.append((chip, (shares(run) if run else None) or []))
+    return Bars(f"stalls-{program}-{scene}", f"Where thread-cycles went: {scene}, {program}", "share of all thread-cycles", bars,
+                [(style, label) for style, label, _ in CAUSES])
+
+
+def _error_time(results, paper):
+    series = []
+    for index, program in enumerate(results.programs()):
+        style, mark = style_of(program, index)
+        points = []
+        for run in results.runs:
+            published = paper.mrps(run.scene, run.config) if run.program == program and not run.set else None
+            value = ratio(run.get("mrps"), published)
+            if value is None or not run.host_seconds:
+                continue
+            points.append((run.host_seconds, 100 * (value - 1), f"{run.name()}: {100 * (value - 1):+.0f} % in {run.host_seconds:.1f} s"))
+        series.append(Series(program, style, points, mark, line=False))
+    ticks = log_ticks(point[0] for one in series for point in one.known())
+    return Lines("error-time", "Deviation from Table 2 against the host's time", "seconds of the host for a cell", "per cent", series, log_x=True,
+                 from_zero=False, x_ticks=ticks)
+
+
+def sweep_runs(results, sweep):
+    return [run for run in results.runs if sweep.get("name") in run.experiments]
+
+
+def sweep_value(run, sweep):
+    name = sweep.get("y") or "mrps"
+    value = run.get(name)
+    return ratio(value, run.get(sweep["y_per"])) if sweep.get("y_per") else value
+
+
+def _sweep(results, sweep, identity):
+    key, unit = str(sweep.get("x") or ""), sweep.get("y") or "mrps"
+    groups = {}
+    for run in sweep_runs(results, sweep):
+        others = ", ".join(f"{name}={value}" for name, value in sorted(run.set.items()) if name != key)
+        group = groups.setdefault((run.program, run.scene, run.config if key != "threads" else "", others), [])
+        x, y = run.setting(key), sweep_value(run, sweep)
+        group.append((x, y, f"{run.name()}: {y:.4g}" if y is not None else ""))
+    series = []
+    for index, ((program, scene, chip, others), points) in enumerate(sorted(groups.items())):
+        style, mark = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")][index % 6]
+        label = ", ".join(part for part in (scene, chip, program, others) if part)
+        series.append(Series(label, style, sorted(points, key=lambda point: (point[0] is None, point[0] or 0)), mark, dashed=index >= 6))
+    values = sorted({point[0] for one in series for point in one.known()})
+    doubling = len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
+    ticks = [(value, f"{value:g}") for value in values] if len(values) <= 9 else None
+    per = f" / {sweep['y_per']}" if sweep.get("y_per") else ""
+    return Lines(identity, str(sweep.get("title") or sweep.get("name") or "sweep"), key, unit + per, series, log_x=doubling, base=2, x_ticks=ticks)
+
+
+def _over_time(record, identity):
+    columns = record.get("columns") if isinstance(record.get("columns"), list) else []
+    rows = [row for row in record.get("rows") or [] if isinstance(row, list) and len(row) == len(columns)]
+    series = []
+    for place, column in enumerate(columns[1:], 1):
+        points = [(number(row[0]), None if number(row[place]) is None else 100 * number(row[place]),
+                   f"to cycle {row[0]}: {column} {100 * number(row[place]):.1f} %" if number(row[place]) is not None else "") for row in rows]
+        series.append(Series(str(column), [2, 1, 3, 4, 5, 6][(place - 1) % 6], points, line=True))
+    return Lines(identity, str(record.get("title") or record.get("name") or "series"), "cycle", "per cent of thread-cycles", series)
+
+
+def all_figures(results, paper):
+    figures = [_scaling(results, paper, scene) for scene in _paper_scenes(results)]
+    figures += [_memory(results, paper, program) for program in results.programs()]
+    for program in results.programs():
+        figures += [_stalls(results, paper, program, scene) for scene in _paper_scenes(results)]
+    figures.append(_error_time(results, paper))
+    figures += [_sweep(results, sweep, f"sweep-{index}") for index, sweep in enumerate(results.sweeps)]
+    figures += [_over_time(record, f"series-{index}") for index, record in enumerate(results.series)]
+    return figures
+
+
+def _paper_scenes(results):
+    """Those of the paper, measured or not, and the others that have runs on its chips."""
+    from .results import SCENES
+    return list(SCENES.values()) + [scene for scene in results.scenes() if scene not in SCENES.values()]

@@ -1,0 +1,170 @@
+"""trax-eval report: the page of one file of results.
+
+    trax-eval report RESULTS.json -o REPORT.html
+
+The page holds all that it shows, pictures and figures included, and asks no network for anything; only its links lead to the runs'
+files. The same results give the same bytes."""
+
+import argparse
+import base64
+import os
+import pathlib
+import sys
+import urllib.parse
+
+from . import tables
+from .charts import all_figures
+from .claims import AGREES, DIFFERS, claims, median, table2_deviations
+from .markup import Html, el, join, seconds
+from .plots import PlotError, draw, marks
+from .results import SCENES, Paper, ResultsError, read_results
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def summary(results, paper, judged):
+    """In plain words: what was measured, and what agrees."""
+    done, failed = [run for run in results.runs if run.done], [run for run in results.runs if run.status == "failed"]
+    sentences = [f"{len(done)} of {len(results.runs)} runs are there" + (f", {len(failed)} failed." if failed else ".")]
+    sizes = sorted({run.size for run in done if run.size}, reverse=True)
+    if sizes:
+        sentences.append("Pictures of " + ", ".join(f"{width}x{height}" for width, height in sizes) + " pixels; the paper's are 1280x720.")
+        if sizes[-1] < (1280, 720):
+            sentences.append("The smaller a picture, the larger the part of its time in which caches fill and threads run out of pixels, above all on large chips: "
+                             "of small pictures the verdicts say little.")
+    times = [run.host_seconds for run in done if run.host_seconds]
+    if times:
+        sentences.append(f"They took {seconds(sum(times))} of the host.")
+    items = [el("p", " ".join(sentences))]
+    for program in results.programs():
+        what = {"era": "The era program (binary BVH, Möller and Trumbore's test: as near to the paper's as its text allows)", "ours": "Our program"}
+        deviations = [value for _, _, value in table2_deviations(results, paper, program)]
+        said = [claim.title for claim in judged if claim.verdicts[program][0] == AGREES]
+        not_said = [claim.title for claim in judged if claim.verdicts[program][0] == DIFFERS]
+        text = [el("b", what.get(program, f"Program “{program}”")), ": "]
+        if deviations:
+            middle = median(deviations)
+            text.append(f"in the middle of {len(deviations)} cells of Table 2 it has {100 * abs(middle):.0f} % {'more' if middle >= 0 else 'fewer'} rays per second than the paper. ")
+        text.append(f"Agrees with the paper in {len(said)}, differs in {len(not_said)} of {len(judged)} claims; "
+                    f"not known: {len(judged) - len(said) - len(not_said)}.")
+        items.append(el("p", *text))
+        for title, names, kind in (("Agrees", said, "yes"), ("Differs", not_said, "no")):
+            if names:
+                items.append(el("p", el("span", title, class_="verdict " + kind), " ", "; ".join(names), ".", class_="list"))
+    return join(items)
+
+
+def pictures(results, base):
+    """One picture of a scene and program, inlined: the largest."""
+    chosen = {}
+    for run in results.runs:
+        if run.done and run.picture and run.size:
+            best = chosen.get((run.scene, run.program))
+            if best is None or run.size > best.size:
+                chosen[run.scene, run.program] = run
+    shown = []
+    for (scene, program), run in sorted(chosen.items()):
+        path = base / run.picture
+        caption = el("figcaption", f"{scene}, {program}, {run.size[0]}x{run.size[1]}")
+        try:
+            data = path.read_bytes()
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            shown.append(el("figure", caption, el("p", f"{run.picture}: {reason}", class_="missing")))
+            continue
+        if not data.startswith(b"\x89PNG\r\n\x1a\n"):
+            shown.append(el("figure", caption, el("p", f"{run.picture}: is not a PNG file", class_="missing")))
+            continue
+        shown.append(el("figure", caption, el("img", src="data:image/png;base64," + base64.b64encode(data).decode(), alt=f"{scene} rendered by {program}",
+                                              width=run.size[0], height=run.size[1])))
+    return el("div", *shown, class_="pictures") if shown else el("p", "No run has a picture.", class_="missing")
+
+
+def linker(base, folder):
+    """Links to the runs' files, from where the page is to be."""
+    def link(path, text):
+        if not path:
+            return None
+        return el("a", text, href=urllib.parse.quote(os.path.relpath(base / path, folder).replace(os.sep, "/")))
+    return link
+
+
+def page(results, paper, base, folder, gnuplot="gnuplot"):
+    programs = results.programs()
+    judged = claims(results, paper, programs)
+    drawn = draw(all_figures(results, paper), gnuplot)
+    configurations, of_run = tables.configurations(results)
+
+    def figures(prefix):
+        return el("div", *(shown for identity, shown in drawn.items() if identity.startswith(prefix)), class_="figures")
+
+    sections = [("summary", "Summary", join([summary(results, paper, judged), tables.claims_table(judged, programs) if programs else None])),
+                ("tables", "The paper's tables", join([tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs), tables.table3(results, paper)])),
+                ("scaling", "Scaling", join([el("p", "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."), figures("scaling-")])),
+                ("stalls", "Where the time goes", join([el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")])),
+                ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper)])),
+                ("error", "Error and run time", join([figures("error-"), tables.sampled(results)]))]
+    if results.series:
+        sections.append(("time", "Over time", figures("series-")))
+    shown = []
+    for index, sweep in enumerate(results.sweeps):
+        if sweep.get("name") in ("table1", "table2", "table3"):
+            continue  # they are above
+        parts = [el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")),
+                 el("p", str(sweep["claim"])) if sweep.get("claim") else None, drawn[f"sweep-{index}"],
+                 el("details", el("summary", "Every run of it"), tables.sweep_table(results, sweep, f"table-sweep-{index}"))]
+        shown.append(el("section", *(part for part in parts if part is not None), class_="sweep"))
+    if shown:
+        sections.append(("sweeps", "Sweeps", el("div", *shown, class_="sweeps")))
+    sections += [("pictures", "Pictures", pictures(results, base)),
+                 ("all-runs", "Runs", tables.run_table(results, paper, linker(base, folder), of_run)),
+                 ("configurations", "Configurations", configurations)]
+
+    about = [el("code", results.text("command") or "trax-eval"), f"trax {results.text('trax')}" if results.text("trax") else None, results.text("created") or None]
+    host = results.document.get("host")
+    if isinstance(host, dict):
+        about.append(", ".join(f"{key}: {value}" for key, value in host.items() if isinstance(value, (str, int, float))))
+    style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("page.css", "page.js"))
+    head = el("head", el("meta", charset="utf-8"), el("meta", name="viewport", content="width=device-width, initial-scale=1"),
+              el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"), el("style", Html(style)))
+    body = el("body", marks(), el("header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
+                                  el("p", join([part for part in about if part], " · "), class_="about"),
+                                  el("nav", *(el("a", title, href="#" + identity) for identity, title, _ in sections),
+                                     el("button", "Light or dark", type="button", id="theme"))),
+              el("main", *(el("section", el("h2", title), content, id=identity) for identity, title, content in sections)), el("script", Html(script)))
+    return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"
+
+
+def write(path, text):
+    """Beside its name, then renamed: the page is whole or not there."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        temporary.write_text(text, encoding="utf-8")
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
+    parser.add_argument("results", type=pathlib.Path, metavar="RESULTS.json")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE.html", help="the page (default: report.html beside the results)")
+    parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR", help="the paper's tables (default: those that come with trax)")
+    parser.add_argument("--gnuplot", default="gnuplot", metavar="PROGRAM", help="what draws the figures")
+    options = parser.parse_args(arguments)
+    output = options.output or options.results.with_name("report.html")
+    try:
+        results, paper = read_results(options.results), Paper(options.paper)
+        folder = output.absolute().parent
+        write(output, page(results, paper, options.results.absolute().parent, folder, options.gnuplot))
+    except (ResultsError, PlotError) as error:
+        print(f"trax-eval report: error: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"trax-eval report: error: {output}: cannot be written: {error.strerror}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,232 @@
+"""What trax-eval measured (results.json) and what the paper published, as the report asks for it. Nothing here is invented: a figure that a
+file does not have, or that is no finite number, is None, and arithmetic on None gives None."""
+
+import csv
+import json
+import math
+import pathlib
+
+FORMAT = "trax-eval-results"
+PROGRAMS = ("era", "ours")
+# The paper's scenes: its column of Table 2, and the scene that is rendered here.
+SCENES = {"conference": "conference", "crytek": "crytek-sponza", "dragon": "dragon", "fairy": "forest"}
+
+
+class ResultsError(Exception):
+    """A file that cannot be used; the message says where and why."""
+
+
+def number(value):
+    """value as a finite float, or None."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return None
+    try:
+        value = float(value)
+    except OverflowError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def ratio(a, b):
+    return None if a is None or b is None or b == 0 else number(a / b)
+
+
+def deviation(ours, published):
+    """Relative: 0.1 is ten per cent above the published figure."""
+    quotient = ratio(ours, published)
+    return None if quotient is None else quotient - 1
+
+
+def mean(values):
+    """Of all, or None if one is missing: an average over fewer scenes would be another figure."""
+    values = list(values)
+    return None if not values or None in values else sum(values) / len(values)
+
+
+class Run:
+    """One job. get("memory.bytes") looks in its statistics, get("values.x") in what an experiment computed."""
+
+    def __init__(self, record, index):
+        self.index = index
+        self.record = record
+
+        def text(key, default=""):
+            value = record.get(key, default)
+            if value is not None and not isinstance(value, str):
+                raise ResultsError(f"runs[{index}].{key} is {type(value).__name__}, not a string")
+            return value or default
+
+        def table(key):
+            value = record.get(key)
+            if value is not None and not isinstance(value, dict):
+                raise ResultsError(f"runs[{index}].{key} is {type(value).__name__}, not an object")
+            return value or {}
+
+        self.key, self.scene, self.view = text("key"), text("scene"), text("view")
+        self.program, self.config, self.mode = text("program"), text("config"), text("mode", "exact")
+        self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
+        self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
+        self.set, self.stats, self.values = table("set"), table("stats"), table("values")
+        self.host_seconds = number(record.get("host_seconds"))
+        size = record.get("size")
+        self.size = tuple(size) if isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size) else None
+        experiments = record.get("experiments") or []
+        if not isinstance(experiments, list):
+            raise ResultsError(f"runs[{index}].experiments is not a list")
+        self.experiments = [name for name in experiments if isinstance(name, str)]
+
+    @property
+    def done(self):
+        return self.status == "done"
+
+    def get(self, name):
+        if not self.done:
+            return None
+        if name.startswith("values."):
+            return number(self.values.get(name[len("values."):]))
+        value = self.stats
+        for part in name.split("."):
+            value = value.get(part) if isinstance(value, dict) else None
+        return number(value)
+
+    def setting(self, name):
+        """The configuration's value of a key, or the number of threads."""
+        if name == "threads":
+            return self.get("threads")
+        value = self.set.get(name)
+        return number(value) if value is not None else self.get("configuration." + name)
+
+    def interval(self):
+        """MRPS between which a sampled run's estimate lies, or None: cycles_low is the fast end."""
+        rays, clock = self.get("rays"), self.get("configuration.chip.clock_mhz")
+        low, high = self.get("sampled.cycles_low"), self.get("sampled.cycles_high")
+        if None in (rays, clock, low, high) or low <= 0 or high <= 0:
+            return None
+        return rays * clock / high, rays * clock / low
+
+    def frames_per_second(self):
+        """At 1280x720, whatever the size of the picture: the simulated time a pixel, times as many."""
+        seconds = self.get("seconds")
+        if not seconds or not self.size:
+            return None
+        return self.size[0] * self.size[1] / seconds / (1280 * 720)
+
+    def name(self):
+        changed = "".join(f", {key} = {value}" for key, value in sorted(self.set.items()))
+        return f"{self.scene}, {self.config}{changed}, {self.program}, {self.mode}"
+
+
+class Results:
+    def __init__(self, document):
+        if not isinstance(document, dict) or document.get("format") != FORMAT:
+            raise ResultsError(f"is not a file of results: \"format\" is not \"{FORMAT}\"")
+        if document.get("version") != 1:
+            raise ResultsError(f"\"version\" is {document.get('version')!r}; this report reads version 1")
+        for key in ("runs", "sweeps", "series"):
+            if not isinstance(document.get(key), (list, type(None))):
+                raise ResultsError(f"\"{key}\" is not a list")
+            for index, entry in enumerate(document.get(key) or []):
+                if not isinstance(entry, dict):
+                    raise ResultsError(f"{key}[{index}] is not an object")
+        self.document = document
+        self.runs = [Run(record, index) for index, record in enumerate(document.get("runs") or [])]
+        self.sweeps = document.get("sweeps") or []
+        self.series = document.get("series") or []
+        self.by_key = {run.key: run for run in self.runs}
+        # The plain cells: the chip as the paper has it, or with another bandwidth. An exact run goes before a sampled one, a finished one
+        # before any other, and a larger picture before a smaller one.
+        self._cells = {}
+        for run in self.runs:
+            others = {key: value for key, value in run.set.items() if key != "memory.bandwidth_gbps"}
+            if others:
+                continue
+            bandwidth = number(run.set.get("memory.bandwidth_gbps", 8.0))
+            place = (run.program, run.scene, run.config, bandwidth)
+            rank = (run.done, run.mode == "exact", run.size or (0, 0))
+            best = self._cells.get(place)
+            if best is None or rank > best[0]:
+                self._cells[place] = (rank, run)
+
+    def text(self, key):
+        value = self.document.get(key)
+        return value if isinstance(value, str) else ""
+
+    def cell(self, program, scene, chip, bandwidth=8.0):
+        """The run of a program and scene on one of the paper's chips, or None."""
+        found = self._cells.get((program, scene, chip, bandwidth))
+        return found[1] if found else None
+
+    def figure(self, name, program, scene, chip, bandwidth=8.0):
+        run = self.cell(program, scene, chip, bandwidth)
+        return run.get(name) if run else None
+
+    def programs(self):
+        """Those that have runs, the era's first."""
+        present = {run.program for run in self.runs}
+        return [name for name in PROGRAMS if name in present] + sorted(present - set(PROGRAMS) - {""})
+
+    def scenes(self):
+        present = {run.scene for run in self.runs}
+        return [name for name in SCENES.values() if name in present] + sorted(present - set(SCENES.values()) - {""})
+
+
+def read_results(path):
+    try:
+        text = pathlib.Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ResultsError(f"{path}: cannot be read: {error}") from None
+    try:
+        return Results(json.loads(text))
+    except json.JSONDecodeError as error:
+        raise ResultsError(f"{path}:{error.lineno}:{error.colno}: is not JSON: {error.msg}") from None
+    except RecursionError:
+        raise ResultsError(f"{path}: is nested too deeply") from None
+    except ResultsError as error:
+        raise ResultsError(f"{path}: {error}") from None
+
+
+class Paper:
+    """The tables of the paper, by chip; the numbers are those of its text."""
+
+    def __init__(self, directory):
+        directory = pathlib.Path(directory)
+        self.table1 = self._rows(directory / "table1.csv", "area_mm2")
+        self.table2 = {row["name"]: row for row in self._rows(directory / "table2.csv", "average_mrps")}
+        self.table3 = {row["name"]: row for row in self._rows(directory / "table3.csv", "dragon_16gbs_mrps")}
+        self.chips = list(self.table2)
+        published = directory / "published.csv"
+        self.published = {}
+        if published.exists():
+            self.published = {row["name"]: row["value"] for row in self._rows(published, "value")}
+
+    @staticmethod
+    def _rows(path, needed):
+        try:
+            with open(path, encoding="utf-8", newline="") as file:
+                rows = list(csv.DictReader(file))
+        except (OSError, UnicodeDecodeError) as error:
+            raise ResultsError(f"{path}: cannot be read: {error}") from None
+        if not rows or needed not in rows[0] or "name" not in rows[0]:
+            raise ResultsError(f"{path}: has no column \"{needed}\"")
+        for line, row in enumerate(rows, 2):
+            for key, value in row.items():
+                if key in ("name", "unit", "place", "what", "where"):
+                    continue
+                try:
+                    row[key] = float(value) if value and value.strip() else None
+                except (TypeError, ValueError):
+                    raise ResultsError(f"{path}:{line}: {key}: \"{value}\" is no number") from None
+        return rows
+
+    def threads(self, chip):
+        row = self.table2[chip]
+        return int(row["tms"] * row["tps_per_tm"])
+
+    def mrps(self, scene, chip):
+        """Of the scene by our name of it; "average" is the paper's own average."""
+        column = next((name for name, ours in SCENES.items() if ours == scene), scene)
+        row = self.table2.get(chip)
+        return row.get(column + "_mrps") if row else None
+
+    def speedup(self, scene, chip):
+        return ratio(self.mrps(scene, chip), self.mrps(scene, "1x32"))

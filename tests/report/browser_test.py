@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""The report's page in Chromium without a window: browser_test.py REPORT_FOLDER [--keep DIR]. Whether it is whole there, sorts, tells values,
+follows light and dark, fits a narrow window and prints. --keep leaves the page, its pictures and its PDF in a folder, to be looked at."""
+
+import base64
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import example
+from browser import Browser, find_chromium
+
+FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
+KEEP = None
+if "--keep" in sys.argv:
+    place = sys.argv.index("--keep")
+    KEEP = pathlib.Path(sys.argv[place + 1])
+    KEEP.mkdir(parents=True, exist_ok=True)
+    del sys.argv[place:place + 2]
+
+# A colour of the page as [red, green, blue], 0 to 255.
+COLOUR = "(c => c.match(/[\\d.]+/g).slice(0, 3).map(Number))(getComputedStyle({}).{})"
+
+
+def luminance(colour):
+    """WCAG 2.1, relative luminance."""
+    parts = [part / 255 for part in colour]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(a, b):
+    bright, dark = sorted((luminance(a), luminance(b)), reverse=True)
+    return (bright + 0.05) / (dark + 0.05)
+
+
+class BrowserTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        program = find_chromium()
+        if not program:
+            raise AssertionError("Chromium is not installed; on Debian it is the package chromium")
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.scratch.cleanup)
+        folder = pathlib.Path(cls.scratch.name)
+        (folder / "pictures").mkdir()
+        for scene in example.SCENES:
+            (folder / "pictures" / f"{scene}.png").write_bytes(example.picture())
+        cls.pages = {}
+        for name in ("complete", "partial", "hostile"):
+            source, cls.pages[name] = folder / f"{name}.json", folder / f"{name}.html"
+            source.write_text(json.dumps(getattr(example, name)()))
+            subprocess.run([sys.executable, "-B", "-m", "report.make", source, "-o", cls.pages[name]], cwd=FOLDER, check=True)
+        cls.browser = Browser(program)
+        cls.addClassCleanup(cls.browser.close)
+
+    def load(self, name):
+        self.browser.open(self.pages[name])
+
+    def keep(self, name, data):
+        if KEEP:
+            (KEEP / name).write_bytes(base64.b64decode(data) if isinstance(data, str) else data)
+
+    def picture(self, name, width=1400):
+        if KEEP:
+            height = self.browser.run("document.documentElement.scrollHeight")
+            clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
+            self.keep(name, self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
+
+    def is_quiet(self):
+        self.assertEqual(self.browser.messages, [])
+        for url in self.browser.requests:
+            self.assertRegex(url, r"^(file://.*\.html$|data:image/png)")
+
+    def test_whole(self):
+        for name in self.pages:
+            with self.subTest(name):
+                self.load(name)
+                figures = self.browser.run("""Array.from(document.querySelectorAll("main figure"), figure => {
+                    const inner = figure.querySelector(":scope > svg, :scope > img, :scope > p"), box = inner.getBoundingClientRect();
+                    const marks = Array.from(figure.querySelectorAll(":scope > svg use, :scope > svg polygon, :scope > svg path"), mark => mark.getBoundingClientRect());
+                    return {id: figure.id, width: box.width, height: box.height, complete: inner.tagName !== "IMG" || inner.naturalWidth > 0,
+                            text: inner.textContent, outside: marks.some(mark => mark.right > box.right + 1 || mark.bottom > box.bottom + 1 ||
+                            mark.left < box.left - 1 || mark.top < box.top - 1)}; })""")
+                self.assertGreaterEqual(len(figures), 8)
+                for figure in figures:
+                    self.assertGreater(figure["width"], 100, figure)
+                    self.assertGreater(figure["height"], 10, figure)
+                    self.assertTrue(figure["complete"], figure)
+                    self.assertFalse(figure["outside"], figure)
+                if name == "complete":
+                    self.assertEqual([figure["id"] for figure in figures if "Nothing was measured" in figure["text"]], [])
+                    self.assertEqual(len(figures), 4 + 8 + 2 + 1 + 2 + 1 + 8)
+                self.is_quiet()
+
+    def test_nothing_is_hidden_from_view(self):
+        """Marks are drawn in colours of their own: what is behind them shows another."""
+        self.load("complete")
+        ground = self.browser.run(COLOUR.format("document.body", "backgroundColor"))
+        colours = self.browser.run("""Array.from(document.querySelectorAll("figure polygon"), mark => getComputedStyle(mark).fill)
+            .concat(Array.from(document.querySelectorAll("figure svg:not(.mark) use"), mark => getComputedStyle(mark).color))""")
+        self.assertGreater(len(colours), 1000)
+        for colour in set(colours):
+            rgb = [float(part) for part in re.findall(r"[\d.]+", colour)[:3]]
+            self.assertGreater(max(abs(a - b) for a, b in zip(rgb, ground)), 30, colour)
+        self.assertGreaterEqual(len(set(colours)), 12)
+
+    def test_sorts(self):
+        self.load("complete")
+        column = """Array.from(document.querySelector("#table2-ours").tBodies[0].rows, row => row.cells[{}].dataset.value ?? null)"""
+        before = self.browser.run(column.format(0))
+        for place, key in ((3, float), (1, float)):
+            press = f"""document.querySelector("#table2-ours").tHead.rows[0].cells[{place}]"""
+            box = self.browser.run(f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.firstChild.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})({press})")
+            self.browser.press(*box)
+            self.assertEqual(self.browser.run(press + ".getAttribute('aria-sort')"), "ascending")
+            values = self.browser.run(column.format(place))
+            self.assertEqual(values, sorted(values, key=key))
+            self.browser.press(*box)
+            self.assertEqual(self.browser.run(press + ".getAttribute('aria-sort')"), "descending")
+            values = self.browser.run(column.format(place))
+            self.assertEqual(values, sorted(values, key=key, reverse=True))
+        self.assertEqual(sorted(before), sorted(self.browser.run(column.format(0))))
+        # Keys of the keyboard do as well; what is missing stays at the end, both ways; text sorts as text.
+        self.load("partial")
+        for presses in (1, 2):
+            self.browser.run("""document.querySelector("#table2-ours").tHead.rows[0].cells[3].firstChild.focus()""")
+            self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", text="\r", windowsVirtualKeyCode=13)
+            self.browser.call("Input.dispatchKeyEvent", type="keyUp", key="Enter", code="Enter", windowsVirtualKeyCode=13)
+            values = self.browser.run(column.format(3))
+            known = [value for value in values if value is not None]
+            self.assertEqual(len(values), 15)
+            self.assertEqual(values[:len(known)], sorted(known, key=float, reverse=presses == 2))
+        self.browser.run("""document.querySelector("#runs").tHead.rows[0].cells[6].firstChild.click()""")
+        states = self.browser.run("""Array.from(document.querySelector("#runs").tBodies[0].rows, row => row.cells[6].textContent.slice(0, 4))""")
+        self.assertEqual(states, sorted(states))
+        self.is_quiet()
+
+    def test_tells_values(self):
+        self.load("complete")
+        box = self.browser.run("""(e => { e.scrollIntoView({block: "center"}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })
+            (document.querySelectorAll("#stalls-ours-dragon polygon")[0])""")
+        self.assertTrue(self.browser.run("document.getElementById('tip').hidden"))
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=box[0], y=box[1])
+        self.assertEqual(self.browser.run("[document.getElementById('tip').hidden, document.getElementById('tip').textContent]"), [False, "1x32: issued 40.0 % (issued 40.0 %)"])
+        inside = self.browser.run("(b => b.left >= 0 && b.top >= 0 && b.right <= innerWidth && b.bottom <= innerHeight)(document.getElementById('tip').getBoundingClientRect())")
+        self.assertTrue(inside)
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=2, y=2)
+        self.assertTrue(self.browser.run("document.getElementById('tip').hidden"))
+        self.browser.run("document.querySelector('#scaling-dragon .hit').focus()")
+        self.assertRegex(self.browser.run("document.getElementById('tip').textContent"), r"^paper, 1x32: 1\.00 times, 1\.94 MRPS$")
+
+    def test_light_and_dark(self):
+        seen = {}
+        for scheme in ("light", "dark"):
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.load("complete")
+            ground = seen[scheme] = self.browser.run(COLOUR.format("document.body", "backgroundColor"))
+            self.assertEqual(luminance(ground) > 0.5, scheme == "light")
+            # Text can be read everywhere: WCAG's 4.5 to 1.
+            texts = self.browser.run("""[...new Set(Array.from(document.querySelectorAll("main *, header *"), e => {
+                if (!Array.from(e.childNodes).some(n => n.nodeType === 3 && n.textContent.trim()) || e.closest("title, style, script")) return null;
+                let back = e;
+                while (back && getComputedStyle(back).backgroundColor === "rgba(0, 0, 0, 0)") back = back.parentElement;
+                return JSON.stringify([e.closest("svg") ? getComputedStyle(e).fill : getComputedStyle(e).color, getComputedStyle(back || document.body).backgroundColor]);
+            }))].filter(x => x).map(x => JSON.parse(x))""")
+            self.assertGreater(len(texts), 8)
+            for text, back in texts:
+                pair = [[float(part) for part in re.findall(r"[\d.]+", colour)[:3]] for colour in (text, back)]
+                self.assertGreaterEqual(contrast(*pair), 4.5, (scheme, text, back))
+            self.picture(f"{scheme}.png")
+        self.browser.run("document.getElementById('theme').click()")  # it is dark
+        self.assertEqual(self.browser.run(COLOUR.format("document.body", "backgroundColor")), seen["light"])
+        self.browser.run("document.getElementById('theme').click()")
+        self.assertEqual(self.browser.run(COLOUR.format("document.body", "backgroundColor")), seen["dark"])
+        self.browser.run("try { localStorage.clear() } catch {}")
+        self.browser.call("Emulation.setEmulatedMedia", features=[])
+
+    def test_narrow(self):
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
+        for name in self.pages:
+            self.load(name)
+            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
+        self.load("complete")
+        self.picture("narrow.png", 390)
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+
+    def test_prints(self):
+        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.load("complete")
+        pdf = base64.b64decode(self.browser.call("Page.printToPDF", printBackground=False, preferCSSPageSize=True)["data"])
+        self.keep("report.pdf", pdf)
+        self.assertTrue(pdf.startswith(b"%PDF-"))
+        pages = len(re.findall(rb"/Type\s*/Page\b", pdf))
+        self.assertTrue(8 <= pages <= 40, pages)
+        # On paper it is light, and no table is wider than it: 297 mm less the margins.
+        self.browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - 24) / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False)
+        self.assertGreater(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))), 0.9)
+        wide = self.browser.run("""Array.from(document.querySelectorAll("table"), t => [t.id, t.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth)""")
+        self.assertEqual(wide, [])
+        self.assertEqual(self.browser.run("getComputedStyle(document.querySelector('nav')).display"), "none")
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+        self.browser.call("Emulation.setEmulatedMedia", media="", features=[])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,110 @@
+"""Results as trax-eval writes them, made up: figures follow from a formula, so that a test knows what the page must show."""
+
+import struct
+import zlib
+
+CHIPS = ["1x32", "1x48", "2x32", "1x64", "2x48", "4x32", "2x64", "6x32", "4x48", "8x32", "4x64", "6x48", "8x48", "6x64", "8x64"]
+SCENES = ["conference", "crytek-sponza", "dragon", "forest"]
+CAUSES = {"issued": 40, "icache_bank_conflict": 11, "icache_miss": 2, "wait_memory": 17, "wait_special": 3, "wait_atomic": 1, "fp_add_conflict": 9,
+          "fp_mul_conflict": 6, "special_conflict": 2, "dcache_bank_conflict": 4, "branch_bubble": 1, "halted": 4, "wait_local": 0, "memory_queue_full": 0}
+
+
+def threads(chip):
+    tms, tps = chip.split("x")
+    return int(tms) * int(tps)
+
+
+def mrps(program, scene, chip, bandwidth=8.0):
+    """Grows with the threads; the dragon is limited by the bandwidth."""
+    rate = (0.061 if program == "era" else 0.097) * threads(chip) ** 0.97 * (1 - 0.2 * SCENES.index(scene) if scene in SCENES else 1)
+    return min(rate, 0.72 * bandwidth) if scene == "dragon" else rate
+
+
+def run(program, scene, chip, changes=None, mode="exact", experiments=("table2",), host=20.0, value=None):
+    changes = dict(changes or {})
+    rate = mrps(program, scene, chip, changes.get("memory.bandwidth_gbps", 8.0)) if value is None else value
+    rays, total = 1_800_000, threads(chip) * 90_000_000
+    cycles = round(rays * 500 / rate)
+    key = f"{program}-{scene}-{chip}-{mode}-{len(changes)}{''.join(str(v) for v in changes.values())}"
+    record = {
+        "key": key, "experiments": list(experiments), "scene": scene, "view": scene, "size": [1280, 720], "program": program, "config": chip, "set": changes,
+        "mode": mode, "status": "done", "command": f"trax-render {scene}.ply --config {chip} -o picture.png", "json": f"runs/{key}.json", "csv": None,
+        "picture": f"pictures/{scene}.png", "host_seconds": host,
+        "stats": {
+            "cycles": cycles, "seconds": cycles / 5e8, "threads": threads(chip), "thread_cycles": total, "rays": rays, "mrps": rate, "gflops": 1.3 * rate,
+            "peak_gflops": threads(chip) / 8, "area_mm2": 0.06 * threads(chip), "flops": 1300 * rays, "memory": {"bytes": 700 * rays, "utilisation": min(0.99, rate / 20)},
+            "fp_add": {"utilisation": 0.6}, "fp_mul": {"utilisation": 0.5}, "special": {"utilisation": 0.2}, "issue": {"utilisation": 0.4},
+            "dcache": {"hit_rate": 0.93}, "energy": {"average_power": 2.1}, "causes": {name: total * share // 100 for name, share in CAUSES.items()},
+            "configuration": {"chip": {"tms": int(chip[0]), "tps_per_tm": int(chip[2:]), "clock_mhz": 500}, "memory": {"bandwidth_gbps": 8.0, "channels": 1},
+                              "fpu": {"tps_per_cluster": 8}}},
+        "values": {},
+    }
+    for name, setting in changes.items():
+        section, name = name.split(".")
+        record["stats"]["configuration"][section][name] = setting
+    if mode == "sampled":
+        record["stats"]["sampled"] = {"cycles_low": cycles * 0.98, "cycles_high": cycles * 1.02}
+    return record
+
+
+def document(runs, sweeps=(), series=()):
+    return {"format": "trax-eval-results", "version": 1, "trax": "0.1.0", "command": "trax-eval --all -o out/eval", "created": "2026-01-01T00:00:00Z",
+            "host": {"processors": 2, "model": "any"}, "host_seconds": 3600.0, "runs": list(runs), "sweeps": list(sweeps), "series": list(series)}
+
+
+def complete():
+    runs = [run(program, scene, chip) for program in ("era", "ours") for scene in SCENES for chip in CHIPS]
+    runs += [run(program, scene, chip, {"memory.bandwidth_gbps": 16.0}, experiments=("table3",)) for program in ("era", "ours") for scene in SCENES
+             for chip in ("8x32", "8x48", "8x64")]
+    runs += [run("ours", scene, "4x32", mode="sampled", host=3.0, value=mrps("ours", scene, "4x32") * (1.01 if scene != "dragon" else 1.05)) for scene in SCENES]
+    runs += [run("ours", scene, "4x32", {"fpu.tps_per_cluster": n}, experiments=("fpu-sharing",), value=mrps("ours", scene, "4x32") / (1 + n / 32))
+             for scene in ("conference", "dragon") for n in (1, 2, 4, 8, 16)]
+    sweeps = [{"name": "table2", "title": "Table 2", "x": "threads", "y": "mrps"},
+              {"name": "fpu-sharing", "title": "TPs that share an FPU", "x": "fpu.tps_per_cluster", "y": "mrps", "claim": "Eight are sufficient.", "file": "sweeps/fpu.json"},
+              {"name": "fpu-density", "title": "The same for each mm²", "x": "fpu.tps_per_cluster", "y": "mrps", "y_per": "area_mm2"}]
+    runs[-1]["experiments"].append("fpu-density")
+    rows = [[10_000 * (n + 1), 0.4 / (1 + n) + 0.05, 0.3 + 0.002 * n] for n in range(100)]
+    series = [{"name": "staggering", "title": "Instruction-bank conflicts over time", "run": "era-conference-4x32-exact-0",
+               "columns": ["cycle", "icache_bank_conflict", "issued"], "rows": rows}]
+    return document(runs, sweeps, series)
+
+
+def partial():
+    """Some cells, some that failed, some that are not there yet; members that are null or absent."""
+    runs = [run("ours", "conference", chip) for chip in CHIPS[:6]] + [run("ours", "dragon", "1x32")]
+    runs[1].update(status="failed", error="simulation stopped: out of memory", stats=None)
+    runs[2].update(status="missing", stats=None, host_seconds=None, json=None)
+    del runs[3]["stats"]["memory"], runs[3]["stats"]["causes"], runs[3]["stats"]["configuration"]
+    runs[4]["stats"]["mrps"] = None
+    runs[5] = {"key": "bare", "status": "done", "scene": "conference", "program": "ours", "config": "4x32"}
+    made = document(runs, [{"name": "nothing", "x": "memory.latency_cycles"}, {}], [{"name": "none", "run": "?", "columns": ["cycle"], "rows": []}, {}])
+    made.update(host=None, created=None, host_seconds=None)
+    return made
+
+
+HOSTILE = "</script><script>hostile()</script><img src=x onerror=hostile()>\"'&\x07"
+
+
+def hostile():
+    """Markup in every text, and figures that are none."""
+    runs = [run("ours", "conference", "1x32"), run("ours", "conference", "4x32"), run("ours", "dragon", "1x32")]
+    for record in runs[1:]:
+        record.update(error=HOSTILE, command=HOSTILE, view=HOSTILE, json="javascript:" + HOSTILE, csv="../" + HOSTILE, picture=HOSTILE, experiments=[HOSTILE],
+                      set={HOSTILE: HOSTILE}, key=HOSTILE, mode=HOSTILE)
+    runs[2].update(scene=HOSTILE, program=HOSTILE, config=HOSTILE)
+    stats = runs[1]["stats"]
+    stats.update(mrps=float("nan"), gflops=float("inf"), cycles=10 ** 400, seconds=-float("inf"), rays="many", flops=True, memory=[])
+    stats["configuration"] = {HOSTILE: HOSTILE, "list": [1, HOSTILE]}
+    runs[1]["host_seconds"] = float("nan")
+    made = document(runs, [{"name": HOSTILE, "title": HOSTILE, "x": HOSTILE, "y": HOSTILE, "claim": HOSTILE}],
+                    [{"name": HOSTILE, "title": HOSTILE, "run": HOSTILE, "columns": ["cycle", HOSTILE], "rows": [[1, float("nan")], [2, 0.5], [3, None], [4, 0.25], "x"]}])
+    made.update(trax=HOSTILE, command=HOSTILE, created=HOSTILE, host={HOSTILE: HOSTILE})
+    return made
+
+
+def picture(width=32, height=18):
+    """A PNG file."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    lines = b"".join(b"\0" + b"".join(bytes((8 * x % 256, 14 * y % 256, 128)) for x in range(width)) for y in range(height))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")

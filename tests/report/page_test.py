@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""The report's page as text: page_test.py REPORT_FOLDER, the folder that holds the package `report` and `paper`.
+
+What it shows against the results it was made of; missing, wrong and hostile results; that it asks for nothing from elsewhere."""
+
+import copy
+import csv
+import html.parser
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import example
+
+FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
+VOID = {"meta", "img", "br", "hr", "col", "input", "link"}
+
+
+class Page(html.parser.HTMLParser):
+    """Tables as lists of rows of (text, sort value), figures' marks; every element must be closed in its place."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.tables, self.figures, self.attributes, self.identities, self.scripts = [], {}, {}, [], [], 0
+        self.table = self.row = self.figure = self.text = None
+        self.feed(text)
+        self.close()
+        assert not self.open, f"never closed: {self.open}"
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.attributes += [(tag, key, value) for key, value in attributes.items()]
+        if "id" in attributes:
+            self.identities.append(attributes["id"])
+        self.scripts += tag == "script"
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "table":
+            self.table = self.tables[attributes["id"]] = {"head": [], "rows": []}
+        elif tag == "tr" and self.table is not None:
+            self.row = []
+        elif tag in ("td", "th") and self.row is not None:
+            self.text = []
+            self.value = attributes.get("data-value")
+        elif tag == "figure":
+            self.figure = self.figures.setdefault(attributes.get("id", f"picture {len(self.figures)}"), [])
+        elif tag in ("circle", "polygon") and self.figure is not None:
+            self.mark = attributes
+        elif tag == "title":
+            self.text = []
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-3:]}"
+        self.open.pop()
+        if tag in ("td", "th") and self.row is not None:
+            self.row.append(("".join(self.text).strip(), self.value))
+            self.text = None
+        elif tag == "tr" and self.row is not None:
+            self.table["rows" if "thead" not in self.open else "head"].append(self.row)
+            self.row = None
+        elif tag == "table":
+            self.table = None
+        elif tag == "title" and self.figure is not None:
+            self.figure.append((self.mark, "".join(self.text)))
+            self.text = None
+        elif tag == "figure":
+            self.figure = None
+
+    def handle_data(self, data):
+        if self.text is not None:
+            self.text.append(data)
+
+
+class ReportTest(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+        (self.folder / "pictures").mkdir()
+        for scene in example.SCENES[:3]:
+            (self.folder / "pictures" / f"{scene}.png").write_bytes(example.picture())
+
+    def command(self, *arguments):
+        return subprocess.run([sys.executable, "-B", "-m", "report.make", *map(str, arguments)], cwd=FOLDER, capture_output=True, text=True)
+
+    def make(self, document, name="results", *options):
+        source, output = self.folder / f"{name}.json", self.folder / f"{name}.html"
+        source.write_text(document if isinstance(document, str) else json.dumps(document))
+        done = self.command(source, "-o", output, *options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.text = output.read_text()
+        return Page(self.text)
+
+    def refused(self, text, message, *options):
+        source, output = self.folder / "bad.json", self.folder / "bad.html"
+        source.write_text(text)
+        done = self.command(source, "-o", output, *options)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, "^trax-eval report: error: .*" + message)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertFalse(output.exists())
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.name.endswith(".part")], [])
+
+    def test_table2(self):
+        page = self.make(example.complete())
+        with open(FOLDER / "paper" / "table2.csv", newline="") as file:
+            published = {row["name"]: row for row in csv.DictReader(file)}
+        for program in ("era", "ours"):
+            rows = page.tables[f"table2-{program}"]["rows"]
+            self.assertEqual([row[0][0] for row in rows], example.CHIPS)
+            for row in rows:
+                chip, ours = row[0][0], []
+                for place, (column, scene) in enumerate(zip(("conference", "crytek", "dragon", "fairy"), example.SCENES)):
+                    wanted, value = float(published[chip][column + "_mrps"]), example.mrps(program, scene, chip)
+                    ours.append(value)
+                    self.assertEqual(row[2 + 2 * place], (f"{wanted:g}", repr(wanted)))
+                    self.assertEqual(float(row[3 + 2 * place][1]), value)
+                    shown = re.fullmatch(r"([\d.]+)([+−]?[\d,]+)\xa0%", row[3 + 2 * place][0])
+                    self.assertAlmostEqual(float(shown[1]), value, delta=0.006 * value)
+                    self.assertEqual(int(shown[2].replace("−", "-")), round(100 * (value / wanted - 1)))
+                self.assertAlmostEqual(float(row[11][1]), sum(ours) / 4)
+
+    def test_tables_1_and_3(self):
+        page = self.make(example.complete())
+        rows = {row[0][0]: row for row in page.tables["table1"]["rows"]}
+        self.assertEqual(len(rows), 20)
+        self.assertEqual(float(rows["8x64"][3][1]), 0.06 * 512)
+        self.assertEqual(rows["NVIDIA Tegra 2"][2][0], "6")
+        self.assertAlmostEqual(float(rows["4x32"][8][1]), 1.3 * sum(example.mrps("ours", scene, "4x32") for scene in example.SCENES) / 4)
+        rows = page.tables["table3"]["rows"]
+        self.assertEqual([(row[0][0], row[2][0]) for row in rows], [(chip, gbs) for chip in ("8x32", "8x48", "8x64") for gbs in ("8", "16")])
+        self.assertEqual([float(row[5][1]) for row in rows[:2]], [0.72 * 8, 0.72 * 16])
+
+    def test_figures(self):
+        """Marks stand where their values are: the centre is linear in what the title says."""
+        page = self.make(example.complete())
+        marks = page.figures["scaling-conference"]
+        self.assertEqual(len(marks), 3 * 15 + 2)  # paper, era, ours, and the line in proportion
+        seen = []
+        for attributes, title in marks:
+            found = re.fullmatch(r"(\w+), (\d)x(\d+): ([\d.]+) times, .*", title)
+            if found:
+                seen.append((int(found[2]) * int(found[3]), float(found[4]), float(attributes["cx"]), float(attributes["cy"])))
+        self.assertEqual(len(seen), 45)
+        low, high = min(seen), max(seen)
+        for count, speedup, x, y in seen:
+            self.assertAlmostEqual(x, low[2] + (count - low[0]) * (high[2] - low[2]) / (high[0] - low[0]), delta=0.6)
+            self.assertAlmostEqual(y, low[3] + (speedup - low[1]) * (high[3] - low[3]) / (high[1] - low[1]), delta=0.6)
+        bars = page.figures["stalls-ours-dragon"]
+        self.assertEqual(len(bars), 15 * 9)  # chips and groups of causes
+        width = {}
+        for attributes, title in bars:
+            corners = [float(pair.split(",")[0]) for pair in attributes["points"].split()]
+            width.setdefault(title.split(":")[0], []).append((max(corners) - min(corners), float(re.search(r"([\d.]+) %", title)[1])))
+        self.assertEqual(sorted(width), sorted(example.CHIPS))
+        for parts in width.values():
+            whole = sum(length for length, _ in parts)
+            self.assertAlmostEqual(sum(share for _, share in parts), 100, delta=0.5)
+            for length, share in parts:
+                self.assertAlmostEqual(100 * length / whole, share, delta=0.6)
+        sweep = page.figures["sweep-1"]
+        self.assertEqual(len(sweep), 10)
+        self.assertEqual(len(page.figures["series-0"]), 200)
+        for identity in ("memory-era", "memory-ours", "error-time", "sweep-2"):
+            self.assertTrue(page.figures[identity], identity)
+        self.assertEqual(len(page.figures["memory-ours"]), 60)
+        self.assertEqual(len(page.figures["error-time"]), 124)
+
+    def test_claims(self):
+        verdicts = {row[0][0]: [cell[1] for cell in row[2:4]] for row in self.make(example.complete()).tables["claims"]["rows"]}
+        self.assertEqual(verdicts["The dragon stops scaling at 128 threads at 8 GB/s"], ["'differs'", "'agrees'"])
+        self.assertEqual(verdicts["The dragon gains from 16 GB/s"], ["'differs'", "'agrees'"])
+        self.assertEqual(verdicts["Table 2: rays per second"], ["'differs'", "'differs'"])
+        self.assertEqual(verdicts["Power of 4x32"], ["'differs'", "'differs'"])
+        self.assertEqual(verdicts["Adds and multiplications a ray"], ["'agrees'", "'agrees'"])
+        self.assertEqual([verdicts[name] for name in verdicts if name.startswith("Threads stagger")], [["'agrees'", "'unknown'"]])
+        other = example.complete()
+        for record in other["runs"]:
+            if record["scene"] == "dragon" and record["config"] == "8x64":
+                record["stats"]["mrps"] *= 1.2
+            if record["set"].get("memory.bandwidth_gbps") == 16.0 and record["config"] == "8x32":
+                record["stats"]["mrps"] *= 0.7
+        for row in other["series"][0]["rows"]:
+            row[1] = 0.1 + row[0] / 1e7
+        verdicts = {row[0][0]: [cell[1] for cell in row[2:4]] for row in self.make(other).tables["claims"]["rows"]}
+        self.assertEqual(verdicts["The dragon stops scaling at 128 threads at 8 GB/s"], ["'differs'", "'differs'"])
+        self.assertEqual(verdicts["The dragon gains from 16 GB/s"], ["'differs'", "'differs'"])
+        self.assertEqual([verdicts[name] for name in verdicts if name.startswith("Threads stagger")], [["'differs'", "'unknown'"]])
+
+    def test_sampled(self):
+        page = self.make(example.complete())
+        rows = page.tables["sampled"]["rows"]
+        self.assertEqual({row[1][0]: row[7][0] for row in rows}, {"conference": "yes", "crytek-sponza": "yes", "dragon": "no", "forest": "yes"})
+        self.assertIn("in 3 of 4 cases", self.text)
+        # An exact run goes before a sampled one.
+        cell = next(row for row in page.tables["table2-ours"]["rows"] if row[0][0] == "4x32")[3]
+        self.assertEqual(float(cell[1]), example.mrps("ours", "conference", "4x32"))
+
+    def test_self_contained(self):
+        page = self.make(example.complete())
+        for tag, key, value in page.attributes:
+            if key in ("src", "href", "xlink:href", "action", "data", "srcset", "poster"):
+                if tag == "a" and not value.startswith("#"):
+                    self.assertRegex(value, r"^(runs|pictures)/")
+                else:
+                    self.assertRegex(value, r"^(#|data:image/png;base64,)", (tag, key))
+        self.assertNotRegex(self.text, r"url\(|@import|https?://(?!www\.w3\.org)")
+        self.assertEqual(page.scripts, 1)
+        self.assertEqual(len(page.identities), len(set(page.identities)))
+        for tag, key, value in page.attributes:
+            if key == "href" and value.startswith("#"):
+                self.assertIn(value[1:], page.identities)
+        self.assertEqual(sum(tag == "img" for tag, key, _ in page.attributes if key == "src"), 6)
+        self.assertIn("forest.png: No such file", self.text)
+
+    def test_same_bytes(self):
+        self.make(example.complete())
+        first = self.text
+        self.make(example.complete())
+        self.assertEqual(self.text, first)
+
+    def test_links_follow_the_page(self):
+        source = self.folder / "results.json"
+        source.write_text(json.dumps(example.complete()))
+        (self.folder / "elsewhere").mkdir()
+        self.assertEqual(self.command(source, "-o", self.folder / "elsewhere" / "page.html").returncode, 0)
+        self.assertIn('href="../runs/era-conference-1x32-exact-0.json"', (self.folder / "elsewhere" / "page.html").read_text())
+
+    def test_partial(self):
+        page = self.make(example.partial())
+        rows = {row[0][0]: row for row in page.tables["table2-ours"]["rows"]}
+        self.assertEqual(float(rows["1x32"][3][1]), example.mrps("ours", "conference", "1x32"))
+        for chip, text in (("1x48", "failed"), ("2x32", "–"), ("2x48", "–"), ("4x32", "–"), ("8x64", "–")):
+            self.assertEqual(rows[chip][3], (text, None), chip)
+        for row in rows.values():  # one scene is no average of four
+            self.assertEqual(row[11], ("–", None))
+            self.assertEqual(row[5], ("–", None))
+        for table in page.tables.values():  # what is missing is nowhere a zero
+            for row in table["rows"]:
+                for text, value in row:
+                    self.assertNotIn(text, ("0", "0%", "0 %", "nan", "None", "inf"))
+                    self.assertNotIn(value, ("0", "0.0", "nan", "None", "inf"))
+        self.assertIn("Nothing was measured.", self.text)
+        self.assertIn("5 of 7 runs are there, 1 failed.", self.text)
+        verdicts = {row[0][0]: row[2][1] for row in page.tables["claims"]["rows"]}
+        self.assertEqual(verdicts["Power of 4x32"], "'unknown'")
+
+    def test_empty(self):
+        page = self.make(example.document([]))
+        self.assertEqual(len(page.tables["table1"]["rows"]), 20)
+        self.assertEqual(page.tables["runs"]["rows"], [])
+        page = self.make('{"format": "trax-eval-results", "version": 1}')
+        self.assertIn("table3", page.tables)
+
+    def test_hostile(self):
+        page = self.make(example.hostile())
+        self.assertEqual(page.scripts, 1)
+        self.assertNotIn("<script>hostile", self.text)
+        self.assertNotIn("<img src=x", self.text)
+        for tag, key, value in page.attributes:
+            self.assertFalse(key.startswith("on"), (tag, key, value))
+            if key == "href":
+                self.assertNotRegex(value, r"(?i)^\s*javascript:")
+        self.assertNotRegex(re.sub(r'(?s)<script>.*?</script>|title="[^"]*"', "", self.text), r"\b(nan|NaN|inf|Infinity|None)\b")
+
+    def test_wrong_files(self):
+        good = example.complete()
+        self.refused("{", r"bad\.json:1:2: is not JSON")
+        self.refused("[]", r"is not a file of results: \"format\"")
+        self.refused('{"format": "trax-eval-results", "version": 2}', r"\"version\" is 2; this report reads version 1")
+        self.refused('{"format": "trax-eval-results", "version": 1, "runs": {}}', "\"runs\" is not a list")
+        self.refused('{"format": "trax-eval-results", "version": 1, "runs": [3]}', r"runs\[0\] is not an object")
+        self.refused('{"format": "trax-eval-results", "version": 1, "sweeps": ["a"]}', r"sweeps\[0\] is not an object")
+        for key, value, message in (("scene", 3, "is int, not a string"), ("stats", [], "is list, not an object"), ("set", "x", "is str, not an object"),
+                                    ("experiments", "x", "is not a list")):
+            bad = copy.deepcopy(good)
+            bad["runs"][1][key] = value
+            self.refused(json.dumps(bad), rf"runs\[1\]\.{key} {message}")
+        self.refused("[" * 100000, "is nested too deeply")
+        self.refused(json.dumps(good), "package gnuplot-nox", "--gnuplot", "no-such-gnuplot")
+        self.refused(json.dumps(good), "false failed", "--gnuplot", "false")
+        self.refused(json.dumps(good), "true wrote no figure", "--gnuplot", "true")
+        self.refused(json.dumps(good), "table1.csv: cannot be read", "--paper", self.folder)
+        for name in ("table1", "table2", "table3"):
+            (self.folder / f"{name}.csv").write_text((FOLDER / "paper" / f"{name}.csv").read_text())
+        (self.folder / "table2.csv").write_text((FOLDER / "paper" / "table2.csv").read_text().replace("9.80", "nine"))
+        self.refused(json.dumps(good), r"table2\.csv:7: conference_mrps: \"nine\" is no number", "--paper", self.folder)
+        missing = self.command(self.folder / "none.json")
+        self.assertEqual(missing.returncode, 1)
+        self.assertIn("none.json: cannot be read", missing.stderr)
+        unwritable = self.command(self.folder / "results.json", "-o", self.folder / "no" / "such" / "page.html")
+        self.assertEqual(unwritable.returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
