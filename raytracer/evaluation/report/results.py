@@ -97,7 +97,10 @@ class Run:
         return number(value) if value is not None else self.get("configuration." + name)
 
     def interval(self):
-        """MRPS between which a sampled run's estimate lies, or None: cycles_low is the fast end."""
+        """MRPS between which an estimate lies, or None. Of a sampled run cycles_low is the fast end."""
+        given = self.get("values.mrps_low"), self.get("values.mrps_high")
+        if None not in given:
+            return given
         rays, clock = self.get("rays"), self.get("configuration.chip.clock_mhz")
         low, high = self.get("sampled.cycles_low"), self.get("sampled.cycles_high")
         if None in (rays, clock, low, high) or low <= 0 or high <= 0:
