@@ -1,12 +1,10 @@
 /* One mesh file through assimp, flattened: node transforms applied, polygons cut, indices checked before assimp's own
    steps rely on them. Files are handed to assimp from memory, so that compressed ones work everywhere. */
-#include "internal.h"
+#include "assimp_reader.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
-#include <assimp/material.h>
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,7 +82,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     open->size = system->main_file.size;
   } else {
     struct scene_bytes bytes;
-    if (scene_load_file(&bytes, name, NULL) != TRAX_OK) {
+    if (scene_load_referred(&bytes, name) != TRAX_OK) {
       if (system->missing++ == 0)
         snprintf(system->first_missing, sizeof system->first_missing, "%s", name);
       free(open);
@@ -107,41 +105,6 @@ static void close_file(struct aiFileIO *io, struct aiFile *file) {
   if (file)
     free(opened(file)->owned);
   free(file);
-}
-
-/* --- materials --- */
-
-/* assimp makes a material up for what has none; ours takes its place. */
-static bool is_placeholder(const struct aiScene *scene, unsigned number, const char *name,
-                           const struct file_system *system) {
-  if (scene_has_extension(system->main_name, ".gltf") || scene_has_extension(system->main_name, ".glb"))
-    return number + 1 == scene->mNumMaterials && name[0] == 0; /* appended by assimp for primitives without one */
-  return !strcmp(name, AI_DEFAULT_MATERIAL_NAME);
-}
-
-static trax_status copy_materials(struct trax_mesh *mesh, const struct aiScene *scene, const struct file_system *system,
-                                  trax_error *error) {
-  unsigned count = scene->mNumMaterials;
-  mesh->materials = calloc(count ? count : 1, sizeof *mesh->materials);
-  if (!mesh->materials)
-    return scene_out_of_memory(error, system->main_name);
-  mesh->material_count = count ? count : 1;
-  mesh->materials[0].surface = trax_default_material;
-  for (unsigned i = 0; i < count; i++) {
-    struct trax_mesh_material *material = &mesh->materials[i];
-    material->surface = trax_default_material;
-    struct aiString name;
-    if (aiGetMaterialString(scene->mMaterials[i], AI_MATKEY_NAME, &name) == aiReturn_SUCCESS)
-      memcpy(material->name, name.data, strnlen(name.data, sizeof material->name - 1));
-    struct aiColor4D colour;
-    if (!is_placeholder(scene, i, material->name, system) &&
-        aiGetMaterialColor(scene->mMaterials[i], AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS) {
-      material->surface.diffuse[0] = scene_clamp_colour(colour.r);
-      material->surface.diffuse[1] = scene_clamp_colour(colour.g);
-      material->surface.diffuse[2] = scene_clamp_colour(colour.b);
-    }
-  }
-  return TRAX_OK;
 }
 
 /* --- geometry --- */
@@ -187,8 +150,24 @@ static bool mirrors(const struct aiMatrix4x4 *m) {
          0;
 }
 
-static void copy_part(struct trax_mesh *mesh, const struct aiMesh *part, const struct aiMatrix4x4 *m,
-                      struct trax_import_report *report) {
+/* Normals by the cofactors of the matrix, which is the inverse's transpose but for its length. */
+static void copy_normals(float (*normals)[3][3], const struct aiMesh *part, const struct aiFace *face,
+                         const struct aiMatrix4x4 *m, bool mirror) {
+  const float side = mirror ? -1 : 1;
+  for (unsigned corner = 0; corner < 3; corner++) {
+    const struct aiVector3D n = part->mNormals[face->mIndices[mirror && corner ? 3 - corner : corner]];
+    float *out = (*normals)[corner];
+    out[0] = side * ((m->b2 * m->c3 - m->b3 * m->c2) * n.x + (m->b3 * m->c1 - m->b1 * m->c3) * n.y +
+                     (m->b1 * m->c2 - m->b2 * m->c1) * n.z);
+    out[1] = side * ((m->a3 * m->c2 - m->a2 * m->c3) * n.x + (m->a1 * m->c3 - m->a3 * m->c1) * n.y +
+                     (m->a2 * m->c1 - m->a1 * m->c2) * n.z);
+    out[2] = side * ((m->a2 * m->b3 - m->a3 * m->b2) * n.x + (m->a3 * m->b1 - m->a1 * m->b3) * n.y +
+                     (m->a1 * m->b2 - m->a2 * m->b1) * n.z);
+  }
+}
+
+static void copy_part(struct assimp_import *import, const struct aiMesh *part, const struct aiMatrix4x4 *m) {
+  struct trax_mesh *mesh = import->mesh;
   uint32_t first = mesh->vertex_count;
   bool keep = is_identity(m), mirror = !keep && mirrors(m);
   for (unsigned i = 0; i < part->mNumVertices; i++) {
@@ -198,51 +177,68 @@ static void copy_part(struct trax_mesh *mesh, const struct aiMesh *part, const s
     out[1] = keep ? v.y : m->b1 * v.x + m->b2 * v.y + m->b3 * v.z + m->b4;
     out[2] = keep ? v.z : m->c1 * v.x + m->c2 * v.y + m->c3 * v.z + m->c4;
   }
+  const unsigned channel = import->uv_channels[part->mMaterialIndex];
+  const struct aiVector3D *uvs = channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? part->mTextureCoords[channel] : NULL;
   for (unsigned i = 0; i < part->mNumFaces; i++) {
     const struct aiFace *face = &part->mFaces[i];
     if (face->mNumIndices != 3) { /* polygons have been cut: a point or a line */
-      report->other_primitives++;
+      import->report->other_primitives++;
       continue;
     }
-    struct trax_mesh_triangle *triangle = &mesh->triangles[mesh->triangle_count];
-    triangle->vertices[0] = first + face->mIndices[0];
-    triangle->vertices[1] = first + face->mIndices[mirror ? 2 : 1];
-    triangle->vertices[2] = first + face->mIndices[mirror ? 1 : 2];
+    const uint32_t number = mesh->triangle_count++;
+    struct trax_mesh_triangle *triangle = &mesh->triangles[number];
+    for (unsigned corner = 0; corner < 3; corner++) {
+      const unsigned index = face->mIndices[mirror && corner ? 3 - corner : corner];
+      triangle->vertices[corner] = first + index;
+      if (mesh->uvs && uvs) {
+        mesh->uvs[number][corner][0] = uvs[index].x;
+        mesh->uvs[number][corner][1] = uvs[index].y;
+      }
+    }
+    if (mesh->normals && part->mNormals)
+      copy_normals(&mesh->normals[number], part, face, m, mirror);
     triangle->material = part->mMaterialIndex;
-    triangle->source_id = mesh->triangle_count++;
+    triangle->source_id = number;
   }
 }
 
-static void copy_node(struct trax_mesh *mesh, const struct aiScene *scene, const struct aiNode *node,
-                      const struct aiMatrix4x4 *parent, struct trax_import_report *report) {
+static void copy_node(struct assimp_import *import, const struct aiNode *node, const struct aiMatrix4x4 *parent) {
   struct aiMatrix4x4 transform = *parent;
   aiMultiplyMatrix4(&transform, &node->mTransformation);
   for (unsigned i = 0; i < node->mNumMeshes; i++)
-    copy_part(mesh, scene->mMeshes[node->mMeshes[i]], &transform, report);
+    copy_part(import, import->scene->mMeshes[node->mMeshes[i]], &transform);
   for (unsigned i = 0; i < node->mNumChildren; i++)
-    copy_node(mesh, scene, node->mChildren[i], &transform, report);
+    copy_node(import, node->mChildren[i], &transform);
 }
 
-static trax_status copy_geometry(struct trax_mesh *mesh, const struct aiScene *scene, const char *path,
-                                 struct trax_import_report *report, trax_error *error) {
+static trax_status copy_geometry(struct assimp_import *import) {
+  const struct aiScene *scene = import->scene;
+  struct trax_mesh *mesh = import->mesh;
   uint64_t vertices = 0, triangles = 0;
   count_geometry(scene, scene->mRootNode, &vertices, &triangles);
   if (vertices > UINT32_MAX || triangles > UINT32_MAX)
-    return scene_fail(error, "%s: too large: %llu vertices, %llu triangles", path, (unsigned long long)vertices,
-                      (unsigned long long)triangles);
+    return scene_fail(import->error, "%s: too large: %llu vertices, %llu triangles", import->path,
+                      (unsigned long long)vertices, (unsigned long long)triangles);
+  bool normals = false, uvs = mesh->texture_count > 0;
+  for (unsigned i = 0; i < scene->mNumMeshes; i++)
+    normals = normals || scene->mMeshes[i]->mNormals;
   mesh->vertices = malloc((vertices ? vertices : 1) * sizeof *mesh->vertices);
   mesh->triangles = malloc((triangles ? triangles : 1) * sizeof *mesh->triangles);
-  if (!mesh->vertices || !mesh->triangles)
-    return scene_out_of_memory(error, path);
+  if (normals)
+    mesh->normals = calloc(triangles ? triangles : 1, sizeof *mesh->normals);
+  if (uvs)
+    mesh->uvs = calloc(triangles ? triangles : 1, sizeof *mesh->uvs);
+  if (!mesh->vertices || !mesh->triangles || (normals && !mesh->normals) || (uvs && !mesh->uvs))
+    return scene_out_of_memory(import->error, import->path);
   struct aiMatrix4x4 identity;
   aiIdentityMatrix4(&identity);
-  copy_node(mesh, scene, scene->mRootNode, &identity, report);
-  report->source_triangles += mesh->triangle_count;
+  copy_node(import, scene->mRootNode, &identity);
+  import->report->source_triangles += mesh->triangle_count;
   return TRAX_OK;
 }
 
-trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                                   trax_error *error) {
+trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
+                                   struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
   struct file_system system = {.io = {.OpenProc = open_file, .CloseProc = close_file}};
   system.io.UserData = (aiUserData)&system;
@@ -267,10 +263,21 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, str
     result = check_indices(scene, path, error);
   if (result == TRAX_OK && !(scene = aiApplyPostProcessing(scene, aiProcess_Triangulate)))
     result = scene_fail(error, "%s: polygons cannot be cut into triangles: %s", path, aiGetErrorString());
+  struct assimp_import import = {.path = name,
+                                 .gltf = scene_has_extension(name, ".gltf") || scene_has_extension(name, ".glb"),
+                                 .scene = scene,
+                                 .mesh = mesh,
+                                 .report = report,
+                                 .error = error,
+                                 .textures = {.mesh = mesh, .options = options, .report = report}};
   if (result == TRAX_OK)
-    result = copy_materials(mesh, scene, &system, error);
+    result = assimp_copy_materials(&import);
   if (result == TRAX_OK)
-    result = copy_geometry(mesh, scene, path, report, error);
+    result = copy_geometry(&import);
+  if (result == TRAX_OK)
+    result = assimp_copy_cameras(&import);
+  scene_textures_release(&import.textures);
+  free(import.uv_channels);
   if (result == TRAX_OK && system.missing > 0) {
     if (report->missing_files == 0)
       memcpy(report->first_missing_file, system.first_missing, sizeof system.first_missing);

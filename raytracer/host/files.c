@@ -187,19 +187,51 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, trax_er
   return result;
 }
 
-trax_status scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error) {
-  trax_status result = scene_load_file(bytes, path, error);
-  if (result != TRAX_OK)
-    return result;
+char *scene_referred_path(const char *referrer, const char *name) {
+  const char *slash = strrchr(referrer, '/');
+  const size_t folder = slash ? (size_t)(slash - referrer) + 1 : 0;
+  char *path = malloc(folder + strlen(name) + 1);
+  if (!path)
+    return NULL;
+  memcpy(path, referrer, folder);
+  char *rest = strcpy(path + folder, name);
+  for (char *at = rest; *at; at++)
+    if (*at == '\\')
+      *at = '/';
+  const bool drive = ((rest[0] | 32) >= 'a' && (rest[0] | 32) <= 'z') && rest[1] == ':';
+  if (rest[0] == '/' || drive || !strncmp(rest, "file:", 5)) {
+    const char *last = strrchr(rest, '/');
+    last = last ? last + 1 : rest + 2;
+    memmove(rest, last, strlen(last) + 1);
+  }
+  while (!strncmp(rest, "./", 2))
+    memmove(rest, rest + 2, strlen(rest + 2) + 1);
+  return path;
+}
+
+trax_status scene_load_referred(struct scene_bytes *bytes, const char *path) {
+  struct stat status;
+  *bytes = (struct scene_bytes){0};
+  if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+    return TRAX_ERROR;
+  return scene_load_file(bytes, path, NULL);
+}
+
+trax_status scene_terminate(struct scene_bytes *bytes) {
   unsigned char *terminated = realloc(bytes->data, bytes->size + 1);
   if (!terminated) {
     free(bytes->data);
     *bytes = (struct scene_bytes){0};
-    return scene_out_of_memory(error, path);
+    return TRAX_ERROR;
   }
   terminated[bytes->size] = 0;
   bytes->data = terminated;
   return TRAX_OK;
+}
+
+trax_status scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error) {
+  trax_status result = scene_load_file(bytes, path, error);
+  return result == TRAX_OK && scene_terminate(bytes) != TRAX_OK ? scene_out_of_memory(error, path) : result;
 }
 
 bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacity) {

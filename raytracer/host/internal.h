@@ -27,32 +27,95 @@ bool scene_has_extension(const char *name, const char *extension);
 /* The same as scene_load_file, with a NUL behind the last byte that size does not count. */
 trax_status scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error);
 
+/* Puts a NUL behind the last byte, which size does not count. When out of memory the bytes are released. */
+trax_status scene_terminate(struct scene_bytes *bytes);
+
 /* Makes room for a record behind count others: array is the address of a pointer that realloc may change. False when
    out of memory. */
 bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacity);
 
+/* Where a file is that `referrer` refers to as `name`, to be freed; NULL when out of memory. Relative names are
+   relative to the referrer's folder, with either slash. Absolute ones come from another computer as a rule: of them the
+   last part counts, in the referrer's folder. */
+char *scene_referred_path(const char *referrer, const char *name);
+
+/* Reads such a file. No device and no pipe, which may never end. */
+trax_status scene_load_referred(struct scene_bytes *bytes, const char *path);
+
 /* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
 char *scene_unpacked_name(const char *path);
+
+/* --- image.c --- */
+
+struct scene_image {
+  uint32_t width, height;
+  unsigned char *rgba; /* row by row from the top left; colours as sRGB, alpha linear */
+};
+
+/* PNG or JPEG of at most 2^26 pixels. */
+trax_status scene_decode_image(struct scene_image *image, const struct scene_bytes *file, const char *name,
+                               trax_error *error);
+void scene_image_release(struct scene_image *image);
+
+/* --- texture.c --- */
+
+struct scene_texture {
+  const char *base, *mask; /* names of images as the mesh file has them, or NULL; mask: where there are holes */
+  uint32_t flags;          /* TRAX_TEXTURE_CLAMP */
+  enum { SCENE_TEXTURE_COLOUR, SCENE_TEXTURE_DATA } use;
+  bool mean_only; /* do not add it to the mesh */
+  /* found */
+  bool good;
+  uint32_t number; /* in the mesh, from 1 */
+  float mean[3];   /* linear, if it is a colour */
+};
+
+/* The textures of one mesh file. */
+struct scene_textures {
+  struct trax_mesh *mesh;
+  const struct trax_import_options *options;
+  struct trax_import_report *report;
+  /* An image within the mesh file: the bytes of its file, or its texels, to be released. NULL: there are none. */
+  bool (*embedded)(void *context, const char *name, struct scene_bytes *file, struct scene_image *image);
+  void *context;
+  struct scene_texture **known;
+  uint32_t count;
+  size_t capacity;
+};
+
+/* Once for each that is wanted; *found is valid until the release. It is not good if there is none, or none that can be
+   read, which the report notes. */
+trax_status scene_find_texture(struct scene_textures *textures, const struct scene_texture *wanted,
+                               const char *referrer, const struct scene_texture **found, trax_error *error);
+void scene_textures_release(struct scene_textures *textures);
+
+/* --- attributes.c --- */
+
+/* Makes *array, an array of the mesh, reach to record `count`, exclusively; what is new is zero. */
+bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capacity);
+
+/* Brings texture coordinates that are far from zero near it by whole repeats, and makes zeros of what is not finite. */
+void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report);
 
 /* --- assimp_reader.c, obj_reader.c, ply_reader.c --- */
 
 /* Import one file in this process. source_id and material of the triangles count within the file; report is added to.
  */
-trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                                   trax_error *error);
-trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                           trax_error *error);
-
-trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                           trax_error *error);
+typedef trax_status scene_reader(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
+                                 struct trax_import_report *report, trax_error *error);
+scene_reader scene_read_with_assimp, scene_read_obj, scene_read_ply;
 /* By the ending of the path. */
-trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                            trax_error *error);
+scene_reader scene_read_mesh;
 
 /* Into 0 to 1; NaN and -0 become 0. */
 static inline float scene_clamp_colour(float value) {
   return value > 0 ? (value < 1 ? value : 1) : 0;
 }
+
+/* --- material.c --- */
+
+trax_status scene_override_materials(struct trax_mesh *mesh, const struct trax_import_options *options,
+                                     trax_error *error);
 
 /* --- forest.c --- */
 
@@ -65,6 +128,14 @@ trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_er
 trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
                                  uint32_t count, double crease_cosine, trax_error *error);
 
+/* Makes normals of files of length 1 and turns those of triangles that they all point away from. What is not finite, or
+   nearly in the triangle's plane or behind it, becomes zero: to be computed. */
+void scene_mend_normals(struct trax_mesh *mesh, struct trax_import_report *report);
+
+/* Computes those that are zero. */
+trax_status scene_complete_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
+                                   uint32_t count, double crease_cosine, trax_error *error);
+
 /* --- polygon.c --- */
 
 /* Memory that is used again from one polygon to the next; zeroed at first. */
@@ -75,17 +146,16 @@ struct scene_polygon_work {
   uint32_t capacity;
 };
 
-/* Cuts a simple polygon, convex or not, into count - 2 triangles over its own corners; *triangles is valid until the
-   next call. False when out of memory. */
+/* Cuts a simple polygon, convex or not, into count - 2 triangles over its own corners, from 0; *triangles is valid
+   until the next call. False when out of memory. */
 bool scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], const uint32_t *corners, uint32_t count,
                        const uint32_t (**triangles)[3]);
 void scene_polygon_work_release(struct scene_polygon_work *work);
 
 /* --- mesh.c --- */
 
-/* The same in a child process, which is killed when *interrupt becomes true. */
-trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path, const volatile int *interrupt,
-                                     struct trax_import_report *report, trax_error *error);
+/* The same in a child process, which is killed when *options->interrupt becomes true. */
+scene_reader scene_read_mesh_isolated;
 
 /* --- bvh.c --- */
 

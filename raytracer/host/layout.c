@@ -19,6 +19,7 @@ struct layout {
   struct trax_triangle_normals *normals; /* NULL: left out */
   struct trax_triangle_uvs *uvs;         /* NULL: left out */
   uint32_t *source_ids;                  /* NULL: left out */
+  bool file_normals;                     /* those of the mesh, where it has some */
   uint32_t nodes_offset, triangles_offset;
   uint32_t next_triangle;
 };
@@ -154,6 +155,9 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
       scene_box_add_point(box, corners[corner]);
     }
     triangle->material = layout->materials[source->material];
+    if (layout->normals && layout->file_normals)
+      memcpy(layout->normals[layout->next_triangle].corner, layout->mesh->normals[node->triangles[i]],
+             sizeof layout->normals->corner);
     if (layout->uvs && layout->mesh->uvs)
       memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
              sizeof layout->uvs->corner);
@@ -273,6 +277,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                           .normals = section_bytes(bytes, &sections[TRAX_SCENE_NORMALS]),
                           .uvs = section_bytes(bytes, &sections[TRAX_SCENE_UVS]),
                           .source_ids = section_bytes(bytes, &sections[TRAX_SCENE_SOURCE_IDS]),
+                          .file_normals = mesh->normals && !options->compute_normals,
                           .nodes_offset = sections[TRAX_SCENE_NODES].offset,
                           .triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset};
   if (palette->count)
@@ -287,8 +292,8 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
   }
   if (layout.normals) {
     const double degrees = options->crease_degrees > 0 ? options->crease_degrees : TRAX_DEFAULT_CREASE;
-    if (scene_smooth_normals(layout.normals, layout.triangles, mesh->triangle_count, crease_cosine(degrees), error) !=
-        TRAX_OK) {
+    if ((layout.file_normals ? scene_complete_normals : scene_smooth_normals)(
+            layout.normals, layout.triangles, mesh->triangle_count, crease_cosine(degrees), error) != TRAX_OK) {
       free(bytes);
       return TRAX_ERROR;
     }

@@ -21,6 +21,7 @@ void trax_mesh_release(struct trax_mesh *mesh) {
   free(mesh->materials);
   free(mesh->textures);
   free(mesh->texels);
+  free(mesh->cameras);
   free(mesh->normals);
   free(mesh->uvs);
   *mesh = (struct trax_mesh){0};
@@ -51,20 +52,19 @@ static trax_status generate(struct trax_mesh *mesh, const char *path, struct tra
   return result;
 }
 
-trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                            trax_error *error) {
+trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
+                            struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
   if (strncmp(path, generated_prefix, sizeof generated_prefix - 1) == 0)
     return generate(mesh, path, report, error);
   char *name = scene_unpacked_name(path);
   if (!name)
     return scene_out_of_memory(error, path);
-  trax_status (*read)(struct trax_mesh *, const char *, struct trax_import_report *, trax_error *) =
-      scene_has_extension(name, ".ply")   ? scene_read_ply
-      : scene_has_extension(name, ".obj") ? scene_read_obj
-                                          : scene_read_with_assimp;
+  scene_reader *read = scene_has_extension(name, ".ply")   ? scene_read_ply
+                       : scene_has_extension(name, ".obj") ? scene_read_obj
+                                                           : scene_read_with_assimp;
   free(name);
-  return read(mesh, path, report, error);
+  return read(mesh, path, options, report, error);
 }
 
 /* --- the child process --- */
@@ -72,15 +72,49 @@ trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, struct tra
 /* Processor time after which the importer is taken to hang: the largest scenes need a hundredth. */
 enum { max_import_seconds = 600 };
 
-/* The first record of what the child hands back; on success the mesh's three arrays follow. */
+/* The first record of what the child hands back; on success the mesh's arrays follow. */
 struct child_result {
   trax_status status;
   trax_error error;
   struct trax_import_report report;
-  uint32_t vertex_count, triangle_count, material_count;
+  struct trax_mesh mesh; /* its counts; of its pointers only which are NULL */
 };
 
-static _Noreturn void run_child(FILE *out, const char *path) {
+/* The arrays of a mesh. */
+struct mesh_array {
+  void **records;
+  size_t size; /* of all records, bytes */
+};
+
+enum { mesh_arrays = 8 };
+
+static void list_arrays(struct mesh_array arrays[mesh_arrays], struct trax_mesh *mesh) {
+  unsigned n = 0;
+#define ARRAY(name, count)                                                                                             \
+  arrays[n++] = (struct mesh_array) {                                                                                  \
+    (void **)&mesh->name, (count) * sizeof *mesh->name                                                                 \
+  }
+  ARRAY(vertices, (size_t)mesh->vertex_count);
+  ARRAY(triangles, (size_t)mesh->triangle_count);
+  ARRAY(materials, (size_t)mesh->material_count);
+  ARRAY(textures, (size_t)mesh->texture_count);
+  ARRAY(cameras, (size_t)mesh->camera_count);
+  ARRAY(texels, (size_t)mesh->texel_count);
+  ARRAY(normals, mesh->normals ? (size_t)mesh->triangle_count : 0);
+  ARRAY(uvs, mesh->uvs ? (size_t)mesh->triangle_count : 0);
+#undef ARRAY
+}
+
+static bool write_arrays(FILE *out, struct trax_mesh *mesh) {
+  struct mesh_array arrays[mesh_arrays];
+  list_arrays(arrays, mesh);
+  for (unsigned i = 0; i < mesh_arrays; i++)
+    if (arrays[i].size && fwrite(*arrays[i].records, arrays[i].size, 1, out) != 1)
+      return false;
+  return true;
+}
+
+static _Noreturn void run_child(FILE *out, const char *path, const struct trax_import_options *options) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGINT, SIG_DFL);
   signal(SIGTERM, SIG_DFL);
@@ -92,16 +126,10 @@ static _Noreturn void run_child(FILE *out, const char *path) {
     dup2(null, STDERR_FILENO);
   }
   struct child_result result = {0};
-  struct trax_mesh mesh;
-  result.status = scene_read_mesh(&mesh, path, &result.report, &result.error);
-  result.vertex_count = mesh.vertex_count;
-  result.triangle_count = mesh.triangle_count;
-  result.material_count = mesh.material_count;
+  result.status = scene_read_mesh(&result.mesh, path, options, &result.report, &result.error);
   bool wrote = fwrite(&result, sizeof result, 1, out) == 1;
   if (result.status == TRAX_OK)
-    wrote = wrote && fwrite(mesh.vertices, sizeof *mesh.vertices, mesh.vertex_count, out) == mesh.vertex_count &&
-            fwrite(mesh.triangles, sizeof *mesh.triangles, mesh.triangle_count, out) == mesh.triangle_count &&
-            fwrite(mesh.materials, sizeof *mesh.materials, mesh.material_count, out) == mesh.material_count;
+    wrote = wrote && write_arrays(out, &result.mesh);
   _exit(wrote && fflush(out) == 0 ? 0 : 1);
 }
 
@@ -146,23 +174,25 @@ static trax_status receive_mesh(struct trax_mesh *mesh, FILE *in, const char *pa
     return result.status;
   }
   *report = result.report;
-  mesh->vertex_count = result.vertex_count;
-  mesh->triangle_count = result.triangle_count;
-  mesh->material_count = result.material_count;
-  mesh->vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *mesh->vertices);
-  mesh->triangles = malloc(((size_t)mesh->triangle_count + 1) * sizeof *mesh->triangles);
-  mesh->materials = malloc(((size_t)mesh->material_count + 1) * sizeof *mesh->materials);
-  if (!mesh->vertices || !mesh->triangles || !mesh->materials)
-    return scene_out_of_memory(error, path);
-  if (fread(mesh->vertices, sizeof *mesh->vertices, mesh->vertex_count, in) != mesh->vertex_count ||
-      fread(mesh->triangles, sizeof *mesh->triangles, mesh->triangle_count, in) != mesh->triangle_count ||
-      fread(mesh->materials, sizeof *mesh->materials, mesh->material_count, in) != mesh->material_count)
-    return scene_fail(error, "%s: the importer's result is incomplete", path);
+  *mesh = result.mesh;
+  struct mesh_array arrays[mesh_arrays];
+  list_arrays(arrays, mesh);
+  for (unsigned i = 0; i < mesh_arrays; i++)
+    *arrays[i].records = NULL;
+  for (unsigned i = 0; i < mesh_arrays; i++) {
+    if (arrays[i].size == 0)
+      continue;
+    if (!(*arrays[i].records = malloc(arrays[i].size)))
+      return scene_out_of_memory(error, path);
+    if (fread(*arrays[i].records, arrays[i].size, 1, in) != 1)
+      return scene_fail(error, "%s: the importer's result is incomplete", path);
+  }
   return TRAX_OK;
 }
 
-trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path, const volatile int *interrupt,
-                                     struct trax_import_report *report, trax_error *error) {
+trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
+                                     const struct trax_import_options *options, struct trax_import_report *report,
+                                     trax_error *error) {
   *mesh = (struct trax_mesh){0};
   int descriptor = memfd_create("mesh", MFD_CLOEXEC);
   FILE *exchange = descriptor < 0 ? NULL : fdopen(descriptor, "w+b");
@@ -175,11 +205,11 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path, c
   trax_status result;
   pid_t child = fork();
   if (child == 0)
-    run_child(exchange, path);
+    run_child(exchange, path, options);
   if (child < 0)
     result = scene_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
   else
-    result = wait_for_child(child, path, interrupt, error);
+    result = wait_for_child(child, path, options->interrupt, error);
   if (result == TRAX_OK)
     result = receive_mesh(mesh, exchange, path, report, error);
   fclose(exchange);
@@ -190,14 +220,32 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path, c
 
 /* --- merging --- */
 
-/* Appends the triangles and materials of one file; part's arrays are released. */
+/* Appends size bytes of records behind the first `used`, which need not be there: what is not there is zero. */
+static bool append_records(void *array, size_t used, const void *records, size_t size) {
+  void **pointer = array;
+  if (!*pointer && !records)
+    return true;
+  char *grown = *pointer ? realloc(*pointer, used + size + 1) : calloc(used + size + 1, 1);
+  if (!grown)
+    return false;
+  *pointer = grown;
+  if (records)
+    memcpy(grown + used, records, size);
+  else
+    memset(grown + used, 0, size);
+  return true;
+}
+
+/* Appends one file's mesh, whose arrays are released. */
 static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id, const char *path,
                           trax_error *error) {
-  uint64_t vertices = (uint64_t)mesh->vertex_count + part->vertex_count;
-  uint64_t triangles = (uint64_t)mesh->triangle_count + part->triangle_count;
-  uint64_t materials = (uint64_t)mesh->material_count + part->material_count;
-  if (vertices > UINT32_MAX || triangles > UINT32_MAX || materials > UINT32_MAX)
-    return scene_fail(error, "%s: too large together with the files before it", path);
+  const uint64_t counts[] = {
+      (uint64_t)mesh->vertex_count + part->vertex_count,     (uint64_t)mesh->triangle_count + part->triangle_count,
+      (uint64_t)mesh->material_count + part->material_count, (uint64_t)mesh->texture_count + part->texture_count,
+      (uint64_t)mesh->texel_count + part->texel_count,       (uint64_t)mesh->camera_count + part->camera_count};
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+    if (counts[i] > UINT32_MAX)
+      return scene_fail(error, "%s: too large together with the files before it", path);
   for (uint32_t i = 0; i < part->triangle_count; i++) {
     struct trax_mesh_triangle *triangle = &part->triangles[i];
     for (int corner = 0; corner < 3; corner++)
@@ -205,27 +253,29 @@ static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32
     triangle->material += mesh->material_count;
     triangle->source_id += first_source_id;
   }
+  for (uint32_t i = 0; i < part->material_count; i++)
+    if (part->materials[i].surface.texture)
+      part->materials[i].surface.texture += mesh->texture_count;
+  for (uint32_t i = 0; i < part->texture_count; i++)
+    part->textures[i].first_texel += mesh->texel_count;
   if (mesh->material_count == 0) { /* the first file: no copy */
     *mesh = *part;
     *part = (struct trax_mesh){0};
     return TRAX_OK;
   }
-  void *grown = realloc(mesh->vertices, (vertices + 1) * sizeof *mesh->vertices);
-  if (!grown)
+#define APPEND(name, count)                                                                                            \
+  append_records(&mesh->name, mesh->count * sizeof *mesh->name, part->name, part->count * sizeof *part->name)
+  if (!APPEND(vertices, vertex_count) || !APPEND(triangles, triangle_count) || !APPEND(materials, material_count) ||
+      !APPEND(textures, texture_count) || !APPEND(texels, texel_count) || !APPEND(cameras, camera_count) ||
+      !APPEND(normals, triangle_count) || !APPEND(uvs, triangle_count))
     return scene_out_of_memory(error, path);
-  mesh->vertices = grown;
-  if (!(grown = realloc(mesh->triangles, (triangles + 1) * sizeof *mesh->triangles)))
-    return scene_out_of_memory(error, path);
-  mesh->triangles = grown;
-  if (!(grown = realloc(mesh->materials, (materials + 1) * sizeof *mesh->materials)))
-    return scene_out_of_memory(error, path);
-  mesh->materials = grown;
-  memcpy(mesh->vertices + mesh->vertex_count, part->vertices, part->vertex_count * sizeof *part->vertices);
-  memcpy(mesh->triangles + mesh->triangle_count, part->triangles, part->triangle_count * sizeof *part->triangles);
-  memcpy(mesh->materials + mesh->material_count, part->materials, part->material_count * sizeof *part->materials);
-  mesh->vertex_count = (uint32_t)vertices;
-  mesh->triangle_count = (uint32_t)triangles;
-  mesh->material_count = (uint32_t)materials;
+#undef APPEND
+  mesh->vertex_count = (uint32_t)counts[0];
+  mesh->triangle_count = (uint32_t)counts[1];
+  mesh->material_count = (uint32_t)counts[2];
+  mesh->texture_count = (uint32_t)counts[3];
+  mesh->texel_count = (uint32_t)counts[4];
+  mesh->camera_count = (uint32_t)counts[5];
   trax_mesh_release(part);
   return TRAX_OK;
 }
@@ -281,8 +331,14 @@ static trax_status filter(struct trax_mesh *mesh, const struct trax_import_optio
         first_nonfinite = i;
     } else if (!options->keep_degenerate && is_degenerate(p, q, r))
       report->degenerate++;
-    else
-      mesh->triangles[kept++] = triangle;
+    else {
+      mesh->triangles[kept] = triangle;
+      if (mesh->normals)
+        memmove(mesh->normals[kept], mesh->normals[i], sizeof *mesh->normals);
+      if (mesh->uvs)
+        memmove(mesh->uvs[kept], mesh->uvs[i], sizeof *mesh->uvs);
+      kept++;
+    }
   }
   if (nonfinite && !options->drop_nonfinite)
     return scene_fail(error,
@@ -294,21 +350,20 @@ static trax_status filter(struct trax_mesh *mesh, const struct trax_import_optio
   return TRAX_OK;
 }
 
-static trax_status override_materials(struct trax_mesh *mesh, const struct trax_import_options *options,
-                                      trax_error *error) {
-  for (size_t i = 0; i < options->override_count; i++) {
-    const struct trax_material_override *override = &options->overrides[i];
-    bool found = false;
-    for (uint32_t m = 0; m < mesh->material_count; m++) {
-      if (override->name && strcmp(override->name, mesh->materials[m].name) != 0)
-        continue;
-      memcpy(mesh->materials[m].surface.diffuse, override->diffuse, sizeof override->diffuse);
-      found = true;
-    }
-    if (!found)
-      return scene_fail(error, "no material is named '%s'", override->name ? override->name : "*");
-  }
-  return TRAX_OK;
+static void add_report(struct trax_import_report *total, const struct trax_import_report *part) {
+  total->source_triangles += part->source_triangles;
+  total->degenerate += part->degenerate;
+  total->nonfinite += part->nonfinite;
+  total->other_primitives += part->other_primitives;
+  total->turned_normals += part->turned_normals;
+  total->mended_normals += part->mended_normals;
+  total->mended_uvs += part->mended_uvs;
+  if (part->missing_files && total->missing_files == 0)
+    memcpy(total->first_missing_file, part->first_missing_file, sizeof total->first_missing_file);
+  total->missing_files += part->missing_files;
+  if (part->bad_images && total->bad_images == 0)
+    memcpy(total->first_bad_image, part->first_bad_image, sizeof total->first_bad_image);
+  total->bad_images += part->bad_images;
 }
 
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
@@ -325,10 +380,14 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
       options->progress(options->progress_context, paths[i], -1);
     struct trax_mesh part;
     struct trax_import_report part_report = {0};
-    result = options->in_process ? scene_read_mesh(&part, paths[i], &part_report, error)
-                                 : scene_read_mesh_isolated(&part, paths[i], options->interrupt, &part_report, error);
+    result = (options->in_process ? scene_read_mesh : scene_read_mesh_isolated)(&part, paths[i], options, &part_report,
+                                                                                error);
     if (result == TRAX_OK)
       result = filter(&part, options, paths[i], &part_report, error);
+    if (result == TRAX_OK) {
+      scene_mend_normals(&part, &part_report);
+      scene_mend_uvs(&part, &part_report);
+    }
     if (result == TRAX_OK && total.source_triangles + part_report.source_triangles > UINT32_MAX)
       result = scene_fail(error, "%s: too large together with the files before it", paths[i]);
     if (result == TRAX_OK)
@@ -336,16 +395,10 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
     trax_mesh_release(&part);
     if (result != TRAX_OK)
       break;
-    total.source_triangles += part_report.source_triangles;
-    total.degenerate += part_report.degenerate;
-    total.nonfinite += part_report.nonfinite;
-    total.other_primitives += part_report.other_primitives;
-    if (part_report.missing_files && total.missing_files == 0)
-      memcpy(total.first_missing_file, part_report.first_missing_file, sizeof total.first_missing_file);
-    total.missing_files += part_report.missing_files;
+    add_report(&total, &part_report);
   }
   if (result == TRAX_OK)
-    result = override_materials(mesh, options, error);
+    result = scene_override_materials(mesh, options, error);
   if (result != TRAX_OK) {
     trax_mesh_release(mesh);
     return result;
@@ -353,4 +406,28 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
   if (report)
     *report = total;
   return TRAX_OK;
+}
+
+void trax_import_print_notes(const struct trax_import_report *report, const char *program, FILE *out) {
+  const struct {
+    uint64_t count;
+    const char *what;
+  } notes[] = {{report->degenerate, "triangles have no area and are left out"},
+               {report->nonfinite, "triangles are not finite and are left out"},
+               {report->turned_normals, "triangles have normals that point away from them, which are turned"},
+               {report->mended_normals, "triangles have normals that cannot be used, which are computed"},
+               {report->mended_uvs, "triangles have texture coordinates that cannot be used"}};
+  if (report->missing_files)
+    fprintf(out, "%s: note: %s cannot be read%s: materials go without\n", program, report->first_missing_file,
+            report->missing_files > 1 ? ", nor other files" : "");
+  if (report->bad_images)
+    fprintf(out, "%s: note: %s%s: materials go without\n", program, report->first_bad_image,
+            report->bad_images > 1 ? ", and others" : "");
+  for (size_t i = 0; i < sizeof notes / sizeof *notes; i++)
+    if (notes[i].count)
+      fprintf(out, "%s: note: %llu of %llu %s\n", program, (unsigned long long)notes[i].count,
+              (unsigned long long)report->source_triangles, notes[i].what);
+  if (report->other_primitives)
+    fprintf(out, "%s: note: %llu points and lines are left out\n", program,
+            (unsigned long long)report->other_primitives);
 }

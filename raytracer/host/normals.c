@@ -1,7 +1,7 @@
-/* Normals for smooth shading: at each corner the mean of the faces around it, by their areas, but only of those that do
-   not turn away from the corner's own face by more than the crease angle. Which faces are around a corner is decided by
-   place, not by index, so it is the same for every format. Binary64, and only operations that round correctly: the same
-   bytes everywhere. */
+/* Normals for smooth shading: those that the mesh's files have, and where they have none, at each corner the mean of
+   the faces around it, by their areas, but only of those that do not turn away from the corner's own face by more than
+   the crease angle. Which faces are around a corner is decided by place, not by index, so it is the same for every
+   format. Binary64, and only operations that round correctly: the same bytes everywhere. */
 #include "internal.h"
 
 #include <math.h>
@@ -41,9 +41,9 @@ static bool same_place(const struct corner *a, const struct corner *b) {
 }
 
 /* Twice the area long. */
-static struct direction face_of(const struct trax_triangle *t) {
-  struct direction e = {(double)t->v1[0] - t->v0[0], (double)t->v1[1] - t->v0[1], (double)t->v1[2] - t->v0[2]};
-  struct direction f = {(double)t->v2[0] - t->v0[0], (double)t->v2[1] - t->v0[1], (double)t->v2[2] - t->v0[2]};
+static struct direction face_of(const float v0[3], const float v1[3], const float v2[3]) {
+  struct direction e = {(double)v1[0] - v0[0], (double)v1[1] - v0[1], (double)v1[2] - v0[2]};
+  struct direction f = {(double)v2[0] - v0[0], (double)v2[1] - v0[1], (double)v2[2] - v0[2]};
   return (struct direction){e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
 }
 
@@ -79,7 +79,7 @@ trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const st
   }
   for (uint32_t i = 0; i < count; i++) {
     const float *places[3] = {triangles[i].v0, triangles[i].v1, triangles[i].v2};
-    faces[i] = face_of(&triangles[i]);
+    faces[i] = face_of(places[0], places[1], places[2]);
     for (uint32_t k = 0; k < 3; k++) {
       corners[3 * i + k].number = 3 * i + k;
       memcpy(corners[3 * i + k].place, places[k], sizeof corners->place);
@@ -98,5 +98,60 @@ trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const st
   }
   free(corners);
   free(faces);
+  return TRAX_OK;
+}
+
+/* --- normals of files --- */
+
+void scene_mend_normals(struct trax_mesh *mesh, struct trax_import_report *report) {
+  for (uint32_t i = 0; mesh->normals && i < mesh->triangle_count; i++) {
+    const uint32_t *vertices = mesh->triangles[i].vertices;
+    const struct direction face =
+        unit(face_of(mesh->vertices[vertices[0]], mesh->vertices[vertices[1]], mesh->vertices[vertices[2]]));
+    struct direction normals[3];
+    bool given = false, mended = false;
+    int away = 0;
+    for (int corner = 0; corner < 3; corner++) {
+      const float *n = mesh->normals[i][corner];
+      given = given || n[0] != 0 || n[1] != 0 || n[2] != 0; /* NaN is not 0 */
+      normals[corner] = (struct direction){n[0], n[1], n[2]};
+      away += dot(normals[corner], face) < 0;
+    }
+    for (int corner = 0; given && corner < 3; corner++) {
+      struct direction n = normals[corner];
+      const double length = sqrt(dot(n, n)) * (away == 3 ? -1 : 1), cosine = dot(n, face) / length;
+      float *out = mesh->normals[i][corner];
+      if (isfinite(length) && cosine >= LEAST_COSINE) {
+        out[0] = (float)(n.x / length), out[1] = (float)(n.y / length), out[2] = (float)(n.z / length);
+      } else {
+        out[0] = out[1] = out[2] = 0;
+        mended = true;
+      }
+    }
+    report->turned_normals += given && away == 3;
+    report->mended_normals += mended;
+  }
+}
+
+trax_status scene_complete_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
+                                   uint32_t count, double crease_cosine, trax_error *error) {
+  struct trax_triangle_normals *computed = NULL;
+  for (uint32_t i = 0; i < count; i++)
+    for (int corner = 0; corner < 3; corner++) {
+      float *n = normals[i].corner[corner];
+      if (n[0] != 0 || n[1] != 0 || n[2] != 0)
+        continue;
+      if (!computed) {
+        computed = calloc(count, sizeof *computed);
+        if (!computed)
+          return scene_out_of_memory(error, "normals");
+        if (scene_smooth_normals(computed, triangles, count, crease_cosine, error) != TRAX_OK) {
+          free(computed);
+          return TRAX_ERROR;
+        }
+      }
+      memcpy(n, computed[i].corner[corner], sizeof normals[i].corner[corner]);
+    }
+  free(computed);
   return TRAX_OK;
 }

@@ -1,19 +1,24 @@
 /* Wavefront OBJ with its material libraries. Read here and not by assimp, whose OBJ reader (5.2) silently leaves out a
    vertex such as "v .5 0 0" and counts the following ones wrongly; and so that an error names its line.
 
-   Read: v, f (absolute and relative indices, any polygon), usemtl, mtllib; of a library newmtl and Kd with three
-   numbers. Counted as other primitives: p, l. What concerns texture, normals, grouping, smoothing and free-form
-   surfaces is skipped. A line may be continued by a final backslash. */
-#include "internal.h"
+   Read: v, vt, vn, f (absolute and relative indices, any polygon), usemtl, mtllib. Counted as other primitives: p, l.
+   What concerns grouping, smoothing and free-form surfaces is skipped. */
+#include "text.h"
 
-#include <stdlib.h>
-#include <string.h>
+enum { no_material = SCENE_NO_MATERIAL, absent = UINT32_MAX };
 
-enum { no_material = UINT32_MAX };
-
+/* The face being read. */
 struct corner_list {
-  uint32_t *vertices;
-  uint32_t count, capacity;
+  uint32_t *vertices, *uvs, *normals; /* absent: the corner has none */
+  uint32_t count;
+  size_t vertex_capacity, uv_capacity, normal_capacity;
+};
+
+/* vt or vn, as many numbers each as are used. */
+struct value_list {
+  float (*values)[3];
+  uint32_t count;
+  size_t capacity;
 };
 
 struct obj_reader {
@@ -21,190 +26,40 @@ struct obj_reader {
   unsigned line;
   trax_error *error;
   struct trax_mesh *mesh;
-  size_t vertex_capacity, triangle_capacity, material_capacity;
-  struct corner_list corners; /* of the face being read */
+  size_t vertex_capacity, triangle_capacity, uv_capacity, normal_capacity;
+  struct value_list uvs, normals;
+  struct corner_list corners;
+  struct scene_material_list materials;
+  struct scene_textures textures;
   struct scene_polygon_work polygon_work;
   uint32_t material;         /* current */
   uint32_t default_material; /* no_material until one is needed */
   struct trax_import_report *report;
 };
 
-/* --- text --- */
-
-static bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-static char *skip_blanks(char *at) {
-  while (is_blank(*at))
-    at++;
-  return at;
-}
-
-/* Cuts the next word off *rest; NULL at the end of the line or at a comment. */
-static char *next_word(char **rest) {
-  char *word = skip_blanks(*rest);
-  if (!*word || *word == '#')
-    return NULL;
-  char *end = word;
-  while (*end && !is_blank(*end))
-    end++;
-  if (*end)
-    *end++ = 0;
-  *rest = end;
-  return word;
-}
-
-/* What is left of the line without blanks around it: a name, which may hold spaces and '#'. */
-static char *remainder_of(char *rest) {
-  rest = skip_blanks(rest);
-  size_t length = strlen(rest);
-  while (length > 0 && is_blank(rest[length - 1]))
-    rest[--length] = 0;
-  return rest;
-}
-
-/* Takes a logical line from *text, NUL-terminated in place, and returns how many physical ones it took; 0 at the end.
- */
-static unsigned next_line(char **text, char **line) {
-  char *from = *text, *to = *text;
-  if (!*from)
-    return 0;
-  *line = to;
-  unsigned lines = 1;
-  for (; *from && *from != '\n'; from++) {
-    if (*from == '\\' && (from[1] == '\n' || (from[1] == '\r' && from[2] == '\n'))) {
-      from += from[1] == '\r' ? 2 : 1;
-      *to++ = ' ';
-      lines++;
-      continue;
-    }
-    *to++ = *from;
-  }
-  *text = *from ? from + 1 : from;
-  *to = 0;
-  return lines;
-}
-
 static trax_status fail_here(const struct obj_reader *reader, const char *reason, const char *what) {
   return scene_fail(reader->error, "%s:%u: %s%s%.100s%s", reader->path, reader->line, reason, what ? " '" : "",
                     what ? what : "", what ? "'" : "");
 }
 
-static bool parse_float(const char *word, float *value) {
-  char *end;
-  *value = strtof(word, &end);
-  return end != word && !*end;
-}
-
-/* A text file holds no NUL; releases the bytes on failure. */
-static trax_status check_text(struct scene_bytes *file, const char *path, trax_error *error) {
-  if (!memchr(file->data, 0, file->size))
-    return TRAX_OK;
-  free(file->data);
-  return scene_fail(error, "%s: not a mesh: binary data where text should be", path);
-}
-
-/* --- materials --- */
-
-static uint32_t find_material(const struct obj_reader *reader, const char *name) {
-  char cut[sizeof reader->mesh->materials->name] = {0};
-  memcpy(cut, name, strnlen(name, sizeof cut - 1));
-  for (uint32_t i = 0; i < reader->mesh->material_count; i++)
-    if (!strcmp(reader->mesh->materials[i].name, cut))
-      return i;
-  return no_material;
-}
-
-static uint32_t add_material(struct obj_reader *reader, const char *name) {
-  struct trax_mesh *mesh = reader->mesh;
-  if (!scene_grow(&mesh->materials, sizeof *mesh->materials, mesh->material_count, &reader->material_capacity))
-    return no_material;
-  struct trax_mesh_material *material = &mesh->materials[mesh->material_count];
-  *material = (struct trax_mesh_material){.surface = trax_default_material};
-  memcpy(material->name, name, strnlen(name, sizeof material->name - 1));
-  return mesh->material_count++;
-}
-
-static trax_status read_kd(struct obj_reader *library, char *rest) {
-  char *words[3];
-  for (int i = 0; i < 3; i++)
-    words[i] = next_word(&rest);
-  if (library->material == (uint32_t)no_material)
-    return fail_here(library, "Kd before any newmtl", NULL);
-  if (!words[0])
-    return fail_here(library, "Kd without a colour", NULL);
-  if (!strcmp(words[0], "spectral") || !strcmp(words[0], "xyz"))
-    return TRAX_OK; /* stays grey */
-  float *diffuse = library->mesh->materials[library->material].surface.diffuse;
-  for (int i = 0; i < 3; i++) {
-    const char *word = words[i] ? words[i] : words[0]; /* one number stands for three */
-    float value;
-    if (!parse_float(word, &value))
-      return fail_here(library, "Kd: not a number:", word);
-    diffuse[i] = scene_clamp_colour(value);
-  }
-  return TRAX_OK;
-}
-
-static trax_status read_library(struct obj_reader *reader, const char *path) {
-  struct scene_bytes file;
-  if (scene_load_text(&file, path, NULL) != TRAX_OK) {
-    if (reader->report->missing_files++ == 0)
-      snprintf(reader->report->first_missing_file, sizeof reader->report->first_missing_file, "%s", path);
-    return TRAX_OK;
-  }
-  trax_status result = check_text(&file, path, reader->error);
-  if (result != TRAX_OK)
-    return result;
-  struct obj_reader library = *reader;
-  library.path = path;
-  library.line = 1;
-  library.material = no_material;
-  char *text = (char *)file.data, *line;
-  for (unsigned lines; result == TRAX_OK && (lines = next_line(&text, &line)) > 0; library.line += lines) {
-    const char *keyword = next_word(&line);
-    if (!keyword)
-      continue;
-    if (!strcmp(keyword, "newmtl")) {
-      const char *name = remainder_of(line);
-      library.material = find_material(&library, name);
-      if (library.material == (uint32_t)no_material)
-        library.material = add_material(&library, name);
-      if (library.material == (uint32_t)no_material)
-        result = scene_out_of_memory(reader->error, path);
-    } else if (!strcmp(keyword, "Kd"))
-      result = read_kd(&library, line);
-  }
-  free(file.data);
-  reader->material_capacity = library.material_capacity;
-  return result;
-}
-
-/* mtllib: one file, relative to the OBJ file; its name may hold spaces. */
+/* mtllib: one file; its name may hold spaces. */
 static trax_status read_mtllib(struct obj_reader *reader, char *rest) {
-  const char *slash = strrchr(reader->path, '/');
-  int directory = slash ? (int)(slash - reader->path) + 1 : 0;
   const char *name = remainder_of(rest);
-  while (!strncmp(name, "./", 2))
-    name += 2;
   if (!*name)
     return fail_here(reader, "mtllib without a name", NULL);
-  size_t length = (size_t)directory + strlen(name) + 1;
-  char *path = malloc(length);
+  char *path = scene_referred_path(reader->path, name);
   if (!path)
     return scene_out_of_memory(reader->error, reader->path);
-  snprintf(path, length, "%.*s%s", name[0] == '/' ? 0 : directory, reader->path, name);
-  trax_status result = read_library(reader, path);
+  trax_status result = scene_read_mtl(&reader->materials, &reader->textures, path, reader->error);
   free(path);
   return result;
 }
 
 static trax_status use_material(struct obj_reader *reader, char *rest) {
   const char *name = remainder_of(rest);
-  reader->material = find_material(reader, name);
+  reader->material = scene_find_material(reader->mesh, name);
   if (reader->material == (uint32_t)no_material)
-    reader->material = add_material(reader, name);
+    reader->material = scene_add_material(&reader->materials, name);
   return reader->material == (uint32_t)no_material ? scene_out_of_memory(reader->error, reader->path) : TRAX_OK;
 }
 
@@ -226,29 +81,88 @@ static trax_status read_vertex(struct obj_reader *reader, char *rest) {
   return TRAX_OK;
 }
 
-/* "7", "7/1", "7//3" or "7/1/3", from 1; negative counts back from the last vertex so far. */
-static trax_status read_corner(struct obj_reader *reader, const char *word, uint32_t *vertex) {
-  char *end;
-  long long index = strtoll(word, &end, 10);
-  if (end == word || (*end && *end != '/') || index == 0)
-    return fail_here(reader, "not a vertex index:", word);
-  uint32_t count = reader->mesh->vertex_count;
-  long long from_zero = index > 0 ? index - 1 : count + index;
-  if (from_zero < 0 || from_zero >= count)
-    return scene_fail(reader->error, "%s:%u: vertex index %.40s is out of range (%u vertices so far)", reader->path,
-                      reader->line, word, count);
-  *vertex = (uint32_t)from_zero;
+/* vt, of which two numbers count, or vn. */
+static trax_status read_attribute(struct obj_reader *reader, char *rest, struct value_list *list, int needed,
+                                  const char *what) {
+  if (!scene_grow(&list->values, sizeof *list->values, list->count, &list->capacity))
+    return scene_out_of_memory(reader->error, reader->path);
+  float *values = list->values[list->count];
+  values[0] = values[1] = values[2] = 0;
+  for (int i = 0; i < 3; i++) {
+    const char *word = next_word(&rest);
+    if (!word && i >= needed)
+      break;
+    if (!word || !parse_float(word, &values[i]))
+      return fail_here(reader, word ? "not a number:" : what, word);
+  }
+  list->count++;
   return TRAX_OK;
 }
 
-static trax_status add_triangle(struct obj_reader *reader, const uint32_t vertices[3]) {
-  struct trax_mesh *mesh = reader->mesh;
-  if (!scene_grow(&mesh->triangles, sizeof *mesh->triangles, mesh->triangle_count, &reader->triangle_capacity))
+/* From 1; negative counts back from the last one so far. *rest moves behind it. */
+static trax_status read_index(const struct obj_reader *reader, const char *word, const char **rest, uint32_t count,
+                              const char *kind, uint32_t *index) {
+  char *end;
+  long long number = strtoll(*rest, &end, 10);
+  if (end == *rest || (*end && *end != '/') || number == 0)
+    return scene_fail(reader->error, "%s:%u: not a %s index: '%.100s'", reader->path, reader->line, kind, word);
+  long long from_zero = number > 0 ? number - 1 : count + number;
+  if (from_zero < 0 || from_zero >= count)
+    return scene_fail(reader->error, "%s:%u: %s index %.*s is out of range (%u so far)", reader->path, reader->line,
+                      kind, (int)(end - *rest > 40 ? 40 : end - *rest), *rest, count);
+  *rest = end;
+  *index = (uint32_t)from_zero;
+  return TRAX_OK;
+}
+
+/* "7", "7/1", "7//3" or "7/1/3". Indices of attributes of which the file has none at all mean nothing. */
+static trax_status read_corner(struct obj_reader *reader, const char *word) {
+  struct corner_list *corners = &reader->corners;
+  const uint32_t at = corners->count;
+  if (!scene_grow(&corners->vertices, sizeof *corners->vertices, at, &corners->vertex_capacity) ||
+      !scene_grow(&corners->uvs, sizeof *corners->uvs, at, &corners->uv_capacity) ||
+      !scene_grow(&corners->normals, sizeof *corners->normals, at, &corners->normal_capacity))
     return scene_out_of_memory(reader->error, reader->path);
-  mesh->triangles[mesh->triangle_count] =
-      (struct trax_mesh_triangle){.vertices = {vertices[0], vertices[1], vertices[2]},
-                                  .material = reader->material,
-                                  .source_id = mesh->triangle_count};
+  corners->uvs[at] = corners->normals[at] = absent;
+  const char *rest = word;
+  trax_status result = read_index(reader, word, &rest, reader->mesh->vertex_count, "vertex", &corners->vertices[at]);
+  if (result == TRAX_OK && *rest == '/' && *++rest && *rest != '/') {
+    if (reader->uvs.count)
+      result = read_index(reader, word, &rest, reader->uvs.count, "texture coordinate", &corners->uvs[at]);
+    else
+      rest += strcspn(rest, "/");
+  }
+  if (result == TRAX_OK && *rest == '/' && *++rest && reader->normals.count) {
+    result = read_index(reader, word, &rest, reader->normals.count, "normal", &corners->normals[at]);
+    if (result == TRAX_OK && *rest)
+      return fail_here(reader, "not a vertex:", word);
+  }
+  corners->count++;
+  return result;
+}
+
+/* corners: numbers in the face. */
+static trax_status add_triangle(struct obj_reader *reader, const uint32_t corners[3]) {
+  struct trax_mesh *mesh = reader->mesh;
+  const struct corner_list *face = &reader->corners;
+  const uint32_t number = mesh->triangle_count;
+  if (!scene_grow(&mesh->triangles, sizeof *mesh->triangles, number, &reader->triangle_capacity))
+    return scene_out_of_memory(reader->error, reader->path);
+  mesh->triangles[number] = (struct trax_mesh_triangle){.material = reader->material, .source_id = number};
+  for (int i = 0; i < 3; i++) {
+    const uint32_t vertex = face->vertices[corners[i]], uv = face->uvs[corners[i]], normal = face->normals[corners[i]];
+    mesh->triangles[number].vertices[i] = vertex;
+    if (uv != (uint32_t)absent) {
+      if (!scene_reach(&mesh->uvs, sizeof *mesh->uvs, number + 1, &reader->uv_capacity))
+        return scene_out_of_memory(reader->error, reader->path);
+      memcpy(mesh->uvs[number][i], reader->uvs.values[uv], sizeof mesh->uvs[number][i]);
+    }
+    if (normal != (uint32_t)absent) {
+      if (!scene_reach(&mesh->normals, sizeof *mesh->normals, number + 1, &reader->normal_capacity))
+        return scene_out_of_memory(reader->error, reader->path);
+      memcpy(mesh->normals[number][i], reader->normals.values[normal], sizeof mesh->normals[number][i]);
+    }
+  }
   mesh->triangle_count++;
   return TRAX_OK;
 }
@@ -257,26 +171,22 @@ static trax_status read_face(struct obj_reader *reader, char *rest) {
   struct corner_list *corners = &reader->corners;
   corners->count = 0;
   for (const char *word; (word = next_word(&rest));) {
-    size_t capacity = corners->capacity;
-    if (!scene_grow(&corners->vertices, sizeof *corners->vertices, corners->count, &capacity))
-      return scene_out_of_memory(reader->error, reader->path);
-    corners->capacity = (uint32_t)capacity;
-    trax_status result = read_corner(reader, word, &corners->vertices[corners->count]);
+    trax_status result = read_corner(reader, word);
     if (result != TRAX_OK)
       return result;
-    corners->count++;
   }
   if (corners->count < 3)
     return fail_here(reader, "a face needs at least three vertices", NULL);
   if (reader->material == (uint32_t)no_material) {
     if (reader->default_material == (uint32_t)no_material)
-      reader->default_material = add_material(reader, "");
+      reader->default_material = scene_add_material(&reader->materials, "");
     reader->material = reader->default_material;
     if (reader->material == (uint32_t)no_material)
       return scene_out_of_memory(reader->error, reader->path);
   }
+  static const uint32_t in_order[3] = {0, 1, 2};
   if (corners->count == 3)
-    return add_triangle(reader, corners->vertices);
+    return add_triangle(reader, in_order);
   const uint32_t(*triangles)[3];
   if (!scene_cut_polygon(&reader->polygon_work, reader->mesh->vertices, corners->vertices, corners->count, &triangles))
     return scene_out_of_memory(reader->error, reader->path);
@@ -294,6 +204,10 @@ static trax_status read_statement(struct obj_reader *reader, char *line) {
     return TRAX_OK;
   if (!strcmp(keyword, "v"))
     return read_vertex(reader, line);
+  if (!strcmp(keyword, "vt"))
+    return read_attribute(reader, line, &reader->uvs, 1, "a texture coordinate needs a number");
+  if (!strcmp(keyword, "vn"))
+    return read_attribute(reader, line, &reader->normals, 3, "a normal needs three numbers");
   if (!strcmp(keyword, "f") || !strcmp(keyword, "fo")) /* fo: an older name */
     return read_face(reader, line);
   if (!strcmp(keyword, "usemtl"))
@@ -305,8 +219,16 @@ static trax_status read_statement(struct obj_reader *reader, char *line) {
   return TRAX_OK;
 }
 
-trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                           trax_error *error) {
+/* Attributes reach to the last triangle. */
+static bool finish_attributes(struct obj_reader *reader) {
+  struct trax_mesh *mesh = reader->mesh;
+  return (!mesh->uvs || scene_reach(&mesh->uvs, sizeof *mesh->uvs, mesh->triangle_count, &reader->uv_capacity)) &&
+         (!mesh->normals ||
+          scene_reach(&mesh->normals, sizeof *mesh->normals, mesh->triangle_count, &reader->normal_capacity));
+}
+
+trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
+                           struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
   struct scene_bytes file;
   trax_status result = scene_load_text(&file, path, error);
@@ -320,17 +242,27 @@ trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, struct trax
                               .mesh = mesh,
                               .material = no_material,
                               .default_material = no_material,
-                              .report = report};
+                              .report = report,
+                              .materials = {.mesh = mesh},
+                              .textures = {.mesh = mesh, .options = options, .report = report}};
   char *text = (char *)file.data, *line;
   for (unsigned lines; result == TRAX_OK && (lines = next_line(&text, &line)) > 0; reader.line += lines)
     result = read_statement(&reader, line);
   if (result == TRAX_OK && mesh->vertex_count == 0)
     result = scene_fail(error, "%s: not a mesh: no vertices in what should be an OBJ file", path);
-  if (result == TRAX_OK && mesh->material_count == 0 && add_material(&reader, "") == (uint32_t)no_material)
+  if (result == TRAX_OK && mesh->material_count == 0 &&
+      scene_add_material(&reader.materials, "") == (uint32_t)no_material)
+    result = scene_out_of_memory(error, path);
+  if (result == TRAX_OK && !finish_attributes(&reader))
     result = scene_out_of_memory(error, path);
   report->source_triangles += mesh->triangle_count;
   free(file.data);
+  free(reader.uvs.values);
+  free(reader.normals.values);
   free(reader.corners.vertices);
+  free(reader.corners.uvs);
+  free(reader.corners.normals);
+  scene_textures_release(&reader.textures);
   scene_polygon_work_release(&reader.polygon_work);
   if (result != TRAX_OK)
     trax_mesh_release(mesh);

@@ -1,8 +1,9 @@
 /* Stanford PLY, ASCII and binary of either byte order. Read here and not by assimp, whose PLY reader (5.2) crashes or
    never ends on damaged files; and so that an error names its place.
 
-   Read: the coordinates x, y, z of "vertex"; the polygons vertex_indices (or vertex_index) of "face" and the strips of
-   "tristrips", in which -1 begins a new strip. Everything else is skipped. There are no materials in it. */
+   Read: of "vertex" the coordinates x, y, z, the normal nx, ny, nz and the texture coordinates u, v or s, t; the
+   polygons vertex_indices (or vertex_index) of "face" and the strips of "tristrips", in which -1 begins a new strip;
+   the one texture that a comment names, as "comment TextureFile bunny.png". Everything else is skipped. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -17,7 +18,27 @@ static const unsigned char type_sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
 enum { max_elements = 32, max_properties = 256, max_name = 32 };
 
 /* What a property is to us. */
-enum role { skipped, coordinate_x, coordinate_y, coordinate_z, indices };
+enum role {
+  skipped,
+  coordinate_x,
+  coordinate_y,
+  coordinate_z,
+  normal_x,
+  normal_y,
+  normal_z,
+  texture_u,
+  texture_v,
+  indices
+};
+
+enum { per_vertex = texture_v - coordinate_x + 1 }; /* the roles that are numbers of a vertex */
+
+static bool has_roles(unsigned roles, enum role first, enum role last) {
+  for (enum role role = first; role <= last; role++)
+    if (!(roles >> role & 1))
+      return false;
+  return true;
+}
 
 struct property {
   enum type list_count, type; /* list_count: no_type for a single value */
@@ -43,7 +64,11 @@ struct ply_reader {
   const struct element *current; /* being read, its number, for messages */
   uint64_t current_number;
   uint32_t vertex_count; /* as declared */
-  size_t triangle_capacity;
+  unsigned roles;        /* 1 << role: there is one */
+  float (*normals)[3];   /* of the vertices; NULL: there are none */
+  float (*uvs)[2];
+  char texture[256]; /* "": none */
+  size_t triangle_capacity, normal_capacity, uv_capacity;
   uint32_t *list; /* the indices of one face or strip */
   size_t list_capacity;
   struct scene_polygon_work polygon_work;
@@ -141,8 +166,15 @@ static trax_status read_element(struct ply_reader *reader) {
 }
 
 static enum role role_of(const char *element, const char *name, bool is_list) {
-  if (!strcmp(element, "vertex") && !is_list && name[0] >= 'x' && name[0] <= 'z' && !name[1])
-    return coordinate_x + (unsigned)(name[0] - 'x');
+  static const struct {
+    const char *name;
+    enum role role;
+  } of_vertex[] = {{"x", coordinate_x}, {"y", coordinate_y}, {"z", coordinate_z},      {"nx", normal_x},
+                   {"ny", normal_y},    {"nz", normal_z},    {"u", texture_u},         {"v", texture_v},
+                   {"s", texture_u},    {"t", texture_v},    {"texture_u", texture_u}, {"texture_v", texture_v}};
+  for (size_t i = 0; !is_list && !strcmp(element, "vertex") && i < sizeof of_vertex / sizeof *of_vertex; i++)
+    if (!strcmp(name, of_vertex[i].name))
+      return of_vertex[i].role;
   if ((!strcmp(element, "face") || !strcmp(element, "tristrips")) && is_list &&
       (!strcmp(name, "vertex_indices") || !strcmp(name, "vertex_index")))
     return indices;
@@ -180,6 +212,25 @@ static trax_status read_property(struct ply_reader *reader) {
   return TRAX_OK;
 }
 
+/* What a comment names as texture: the rest of the line. */
+static void read_comment(struct ply_reader *reader) {
+  char word[max_name];
+  if (!next_word(reader, word) || strcmp(word, "TextureFile") != 0)
+    return;
+  while (*reader->at == ' ' || *reader->at == '\t')
+    reader->at++;
+  size_t length = 0;
+  while (reader->at + length < reader->end && reader->at[length] && reader->at[length] != '\n' &&
+         reader->at[length] != '\r')
+    length++;
+  while (length > 0 && is_space(reader->at[length - 1]))
+    length--;
+  if (length < sizeof reader->texture) {
+    memcpy(reader->texture, reader->at, length);
+    reader->texture[length] = 0;
+  }
+}
+
 static trax_status read_header(struct ply_reader *reader) {
   char word[max_name];
   bool has_format = false;
@@ -189,8 +240,12 @@ static trax_status read_header(struct ply_reader *reader) {
     if (!end_line(reader))
       return fail_here(reader, "the file ends in its header");
     trax_status result = TRAX_OK;
-    if (!next_word(reader, word) || !strcmp(word, "comment") || !strcmp(word, "obj_info"))
+    if (!next_word(reader, word) || !strcmp(word, "obj_info"))
       continue;
+    if (!strcmp(word, "comment")) {
+      read_comment(reader);
+      continue;
+    }
     if (!strcmp(word, "end_header"))
       break;
     if (!strcmp(word, "format")) {
@@ -298,8 +353,17 @@ static trax_status add_triangle(struct ply_reader *reader, uint32_t a, uint32_t 
   struct trax_mesh *mesh = reader->mesh;
   if (!scene_grow(&mesh->triangles, sizeof *mesh->triangles, mesh->triangle_count, &reader->triangle_capacity))
     return scene_out_of_memory(reader->error, reader->path);
-  mesh->triangles[mesh->triangle_count] =
-      (struct trax_mesh_triangle){.vertices = {a, b, c}, .source_id = mesh->triangle_count};
+  const uint32_t number = mesh->triangle_count, vertices[3] = {a, b, c};
+  mesh->triangles[number] = (struct trax_mesh_triangle){.vertices = {a, b, c}, .source_id = number};
+  if ((reader->normals && !scene_reach(&mesh->normals, sizeof *mesh->normals, number + 1, &reader->normal_capacity)) ||
+      (reader->uvs && !scene_reach(&mesh->uvs, sizeof *mesh->uvs, number + 1, &reader->uv_capacity)))
+    return scene_out_of_memory(reader->error, reader->path);
+  for (int corner = 0; corner < 3; corner++) {
+    if (reader->normals)
+      memcpy(mesh->normals[number][corner], reader->normals[vertices[corner]], sizeof *reader->normals);
+    if (reader->uvs)
+      memcpy(mesh->uvs[number][corner], reader->uvs[vertices[corner]], sizeof *reader->uvs);
+  }
   mesh->triangle_count++;
   return TRAX_OK;
 }
@@ -315,7 +379,7 @@ static trax_status add_face(struct ply_reader *reader, uint32_t count) {
     return scene_out_of_memory(reader->error, reader->path);
   trax_status result = TRAX_OK;
   for (uint32_t i = 0; i + 2 < count && result == TRAX_OK; i++)
-    result = add_triangle(reader, triangles[i][0], triangles[i][1], triangles[i][2]);
+    result = add_triangle(reader, list[triangles[i][0]], list[triangles[i][1]], list[triangles[i][2]]);
   return result;
 }
 
@@ -379,21 +443,27 @@ static trax_status read_list(struct ply_reader *reader, const struct property *p
 }
 
 static trax_status read_record(struct ply_reader *reader, const struct element *element) {
-  float position[3] = {0};
+  float values[per_vertex] = {0}; /* by role, from coordinate_x */
   trax_status result = TRAX_OK;
   for (unsigned i = 0; i < element->property_count && result == TRAX_OK; i++) {
     const struct property *property = &reader->properties[element->first_property + i];
     if (property->list_count)
       result = read_list(reader, property);
-    else if (property->role >= coordinate_x && property->role <= coordinate_z)
-      result = read_real(reader, property->type, &position[property->role - coordinate_x]);
+    else if (property->role >= coordinate_x && property->role <= texture_v)
+      result = read_real(reader, property->type, &values[property->role - coordinate_x]);
     else
       result = skip_value(reader, property->type);
   }
   if (result != TRAX_OK)
     return result;
-  if (!strcmp(element->name, "vertex"))
-    memcpy(reader->mesh->vertices[reader->mesh->vertex_count++], position, sizeof position);
+  if (!strcmp(element->name, "vertex")) {
+    const uint32_t number = reader->mesh->vertex_count++;
+    memcpy(reader->mesh->vertices[number], values, sizeof *reader->mesh->vertices);
+    if (reader->normals)
+      memcpy(reader->normals[number], &values[normal_x - coordinate_x], sizeof *reader->normals);
+    if (reader->uvs)
+      memcpy(reader->uvs[number], &values[texture_u - coordinate_x], sizeof *reader->uvs);
+  }
   if (reader->format == ascii) {
     while (*reader->at == ' ' || *reader->at == '\t')
       reader->at++;
@@ -404,7 +474,7 @@ static trax_status read_record(struct ply_reader *reader, const struct element *
 }
 
 /* The header's promises, before anything is allocated for them. */
-static trax_status check_elements(const struct ply_reader *reader) {
+static trax_status check_elements(struct ply_reader *reader) {
   unsigned vertices = 0, roles = 0;
   for (unsigned e = 0; e < reader->element_count; e++) {
     const struct element *element = &reader->elements[e];
@@ -421,8 +491,8 @@ static trax_status check_elements(const struct ply_reader *reader) {
   }
   if (vertices > 1)
     return scene_fail(reader->error, "%s: more than one element 'vertex'", reader->path);
-  unsigned coordinates = 1u << coordinate_x | 1u << coordinate_y | 1u << coordinate_z;
-  if (vertices == 0 || (roles & coordinates) != coordinates)
+  reader->roles = roles;
+  if (vertices == 0 || !has_roles(roles, coordinate_x, coordinate_z))
     return scene_fail(reader->error, "%s: no vertices with x, y and z", reader->path);
   if (!(roles & 1u << indices))
     return scene_fail(reader->error, "%s: no faces: neither 'face' nor 'tristrips' has vertex indices", reader->path);
@@ -444,8 +514,39 @@ static trax_status read_elements(struct ply_reader *reader) {
   return TRAX_OK;
 }
 
-trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                           trax_error *error) {
+/* The vertices' arrays, the one material and its texture. */
+static trax_status prepare(struct ply_reader *reader, const struct trax_import_options *options,
+                           struct trax_import_report *report) {
+  struct trax_mesh *mesh = reader->mesh;
+  const size_t count = (size_t)reader->vertex_count + 1;
+  const bool normals = has_roles(reader->roles, normal_x, normal_z),
+             uvs = has_roles(reader->roles, texture_u, texture_v);
+  mesh->vertices = malloc(count * sizeof *mesh->vertices);
+  mesh->materials = calloc(1, sizeof *mesh->materials);
+  if (normals)
+    reader->normals = malloc(count * sizeof *reader->normals);
+  if (uvs)
+    reader->uvs = malloc(count * sizeof *reader->uvs);
+  if (!mesh->vertices || !mesh->materials || (normals && !reader->normals) || (uvs && !reader->uvs))
+    return scene_out_of_memory(reader->error, reader->path);
+  mesh->materials[0].surface = trax_default_material;
+  mesh->material_count = 1;
+  if (!uvs || !reader->texture[0])
+    return TRAX_OK;
+  struct scene_textures textures = {.mesh = mesh, .options = options, .report = report};
+  const struct scene_texture wanted = {.base = reader->texture}, *texture;
+  trax_status result = scene_find_texture(&textures, &wanted, reader->path, &texture, reader->error);
+  if (result == TRAX_OK && texture->good) {
+    mesh->materials[0].surface.texture = texture->number;
+    for (int channel = 0; channel < 3; channel++)
+      mesh->materials[0].surface.diffuse[channel] = 1;
+  }
+  scene_textures_release(&textures);
+  return result;
+}
+
+trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
+                           struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
   struct scene_bytes file;
   trax_status result = scene_load_text(&file, path, error);
@@ -464,18 +565,14 @@ trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, struct trax
   result = read_header(reader);
   if (result == TRAX_OK)
     result = check_elements(reader);
-  if (result == TRAX_OK) {
-    mesh->vertices = malloc(((size_t)reader->vertex_count + 1) * sizeof *mesh->vertices);
-    mesh->materials = calloc(1, sizeof *mesh->materials);
-    if (mesh->vertices && mesh->materials) {
-      mesh->materials[0].surface = trax_default_material;
-      mesh->material_count = 1;
-      result = read_elements(reader);
-    } else
-      result = scene_out_of_memory(error, path);
-  }
+  if (result == TRAX_OK)
+    result = prepare(reader, options, report);
+  if (result == TRAX_OK)
+    result = read_elements(reader);
   report->source_triangles += mesh->triangle_count;
   free(reader->list);
+  free(reader->normals);
+  free(reader->uvs);
   scene_polygon_work_release(&reader->polygon_work);
   free(reader);
   free(file.data);

@@ -82,9 +82,9 @@ bool scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], c
       tried++;
     }
     uint32_t before = at ? at - 1 : left - 1, after = at + 1 < left ? at + 1 : 0;
-    work->triangles[made][0] = corners[ring[before]];
-    work->triangles[made][1] = corners[ring[at]];
-    work->triangles[made][2] = corners[ring[after]];
+    work->triangles[made][0] = ring[before];
+    work->triangles[made][1] = ring[at];
+    work->triangles[made][2] = ring[after];
     made++;
     left--;
     for (uint32_t i = at; i < left; i++)

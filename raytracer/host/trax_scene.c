@@ -9,6 +9,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -23,6 +24,10 @@ static const char usage[] =
     "      --stats                  print what was read and built\n"
     "      --stats-json FILE        write the same as JSON\n"
     "      --diffuse [NAME=]R,G,B   linear colour, 0 to 1, of the material NAME, or of all (repeatable)\n"
+    "      --material [NAME=]KIND   lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or emit:R,G,B, of the\n"
+    "                               material NAME, or of all (repeatable)\n"
+    "      --no-textures            read no images; colours remain\n"
+    "      --texture-size N         at most N texels a side, a power of two (default %u)\n"
     "      --drop-nonfinite         leave triangles with NaN or infinite vertices out instead of refusing the mesh\n"
     "      --keep-degenerate        keep triangles of exactly zero area, which no ray can hit\n"
     "      --allow-empty            write a scene without triangles if the mesh has none\n"
@@ -31,7 +36,8 @@ static const char usage[] =
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
     "      --cache-lines N          order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first\n"
-    "      --smooth                 normals for smooth shading\n"
+    "      --smooth                 normals for smooth shading, the same as --normals file\n"
+    "      --normals WHICH          file: the mesh's own, computed where it has none; smooth: computed; flat: none\n"
     "      --crease DEGREES         edges sharper than this stay edges, up to 180 (default %d)\n"
     "      --no-source-ids          leave out each triangle's number in the mesh\n"
     "  -q, --quiet                  no progress and no notes\n"
@@ -121,6 +127,7 @@ struct figures {
   const struct trax_scene *scene;
   bool imported;
   double import_seconds, build_seconds;
+  double import_bytes, build_bytes;
 };
 
 enum { max_statistics = 64 };
@@ -139,10 +146,14 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
     list[n++] = (struct statistic){"import.other", "", "points and lines skipped", (double)f->import.other_primitives};
     list[n++] = (struct statistic){"import.seconds", "s", "reading and parsing", f->import_seconds};
     list[n++] = (struct statistic){"build.seconds", "s", "BVH and layout", f->build_seconds};
+    list[n++] = (struct statistic){"memory.import", "B", "most resident in the importer's process", f->import_bytes};
+    list[n++] = (struct statistic){"memory.build", "B", "most resident in this process", f->build_bytes};
   }
   list[n++] = (struct statistic){"scene.bytes", "B", "size of the file", (double)f->scene->size};
   list[n++] = (struct statistic){"scene.triangles", "", "", f->scene->triangle_count};
-  list[n++] = (struct statistic){"scene.materials", "", "colours in use", f->scene->material_count};
+  list[n++] = (struct statistic){"scene.materials", "", "in use, each once", f->scene->material_count};
+  list[n++] = (struct statistic){"scene.textures", "", "", f->scene->texture_count};
+  list[n++] = (struct statistic){"scene.texels", "", "", f->scene->texel_count};
   list[n++] = (struct statistic){"bvh.nodes", "", "inner nodes", f->scene->node_count};
   list[n++] = (struct statistic){"bvh.leaves", "", "", f->tree.leaves};
   list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path", f->scene->header->max_depth};
@@ -216,23 +227,39 @@ static bool parse_crease(const char *text, float *degrees) {
   return true;
 }
 
-/* [NAME=]R,G,B; text is cut at the last '='. */
-static bool parse_diffuse(char *text, struct trax_material_override *override) {
-  char *equals = strrchr(text, '=');
-  const char *colour = equals ? equals + 1 : text;
-  int end = -1;
-  float *rgb = override->diffuse;
-  bool good = sscanf(colour, "%f,%f,%f%n", &rgb[0], &rgb[1], &rgb[2], &end) == 3 && end >= 0 && !colour[end];
-  for (int channel = 0; good && channel < 3; channel++)
-    good = rgb[channel] >= 0 && rgb[channel] <= 1;
-  if (!good) {
-    complain("--diffuse: '%s' is not [NAME=]R,G,B with R, G and B from 0 to 1", text);
+static bool parse_override(struct arguments *arguments, char *text,
+                           trax_status (*parse)(struct trax_material_override *, char *, trax_error *)) {
+  trax_error error;
+  if (arguments->import.override_count == max_overrides)
+    complain("more than %d materials on the command line", (int)max_overrides);
+  else if (parse(&arguments->overrides[arguments->import.override_count], text, &error) != TRAX_OK)
+    complain("%s", error.message);
+  else {
+    arguments->import.override_count++;
+    return true;
+  }
+  return false;
+}
+
+static bool parse_texture_size(const char *text, unsigned *size) {
+  char *end;
+  unsigned long number = strtoul(text, &end, 10);
+  if (end == text || *end || number < 1 || number > 1u << TRAX_TEXTURE_MAX_LOG2 || (number & (number - 1))) {
+    complain("--texture-size: '%s' is not a power of two up to %u", text, 1u << TRAX_TEXTURE_MAX_LOG2);
     return false;
   }
-  if (equals)
-    *equals = 0;
-  override->name = equals ? text : NULL;
+  *size = (unsigned)number;
   return true;
+}
+
+/* file: smooth by the mesh's own; smooth: by computed ones; flat: none. */
+static bool parse_normals(const char *text, struct trax_build_options *build) {
+  build->smooth = strcmp(text, "flat") != 0;
+  build->compute_normals = !strcmp(text, "smooth");
+  if (!strcmp(text, "file") || build->compute_normals || !build->smooth)
+    return true;
+  complain("--normals: '%s' is not file, smooth or flat", text);
+  return false;
 }
 
 /* Returns an exit status, or -1 to go on. */
@@ -242,6 +269,10 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     stats,
     stats_json,
     diffuse,
+    material,
+    no_textures,
+    texture_size,
+    normals,
     drop,
     keep,
     empty,
@@ -259,6 +290,10 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"stats", no_argument, NULL, stats},
                                           {"stats-json", required_argument, NULL, stats_json},
                                           {"diffuse", required_argument, NULL, diffuse},
+                                          {"material", required_argument, NULL, material},
+                                          {"no-textures", no_argument, NULL, no_textures},
+                                          {"texture-size", required_argument, NULL, texture_size},
+                                          {"normals", required_argument, NULL, normals},
                                           {"drop-nonfinite", no_argument, NULL, drop},
                                           {"keep-degenerate", no_argument, NULL, keep},
                                           {"allow-empty", no_argument, NULL, empty},
@@ -289,11 +324,19 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       arguments->stats_json = optarg;
       break;
     case diffuse:
-      if (arguments->import.override_count == max_overrides) {
-        complain("--diffuse: given more than %d times", max_overrides);
-        good = false;
-      } else
-        good = parse_diffuse(optarg, &arguments->overrides[arguments->import.override_count++]);
+      good = parse_override(arguments, optarg, trax_override_diffuse);
+      break;
+    case material:
+      good = parse_override(arguments, optarg, trax_override_material);
+      break;
+    case no_textures:
+      arguments->import.no_textures = true;
+      break;
+    case texture_size:
+      good = parse_texture_size(optarg, &arguments->import.texture_size);
+      break;
+    case normals:
+      good = parse_normals(optarg, &arguments->build);
       break;
     case drop:
       arguments->import.drop_nonfinite = true;
@@ -332,7 +375,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       arguments->quiet = true;
       break;
     case 'h':
-      printf(usage, TRAX_SCENE_MAX_LEAF, TRAX_SCENE_MAX_DEPTH, TRAX_DEFAULT_CREASE);
+      printf(usage, 1u << TRAX_TEXTURE_MAX_LOG2, TRAX_SCENE_MAX_LEAF, TRAX_SCENE_MAX_DEPTH, TRAX_DEFAULT_CREASE);
       return 0;
     default:
       good = false; /* getopt_long has said why */
@@ -348,7 +391,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     return 1;
   }
   if (arguments->build.crease_degrees > 0 && !arguments->build.smooth) {
-    complain("--crease without --smooth");
+    complain("--crease without --smooth or --normals");
     return 1;
   }
   if (!arguments->check && (!arguments->mesh_count || !arguments->output)) {
@@ -381,6 +424,11 @@ static trax_status write_json(const char *path, const struct statistic *list, si
   return result;
 }
 
+static double most_resident(int who) {
+  struct rusage usage;
+  return getrusage(who, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0;
+}
+
 static trax_status import_and_build(struct trax_scene *scene, struct figures *figures,
                                     const struct arguments *arguments, trax_error *error) {
   struct trax_mesh mesh;
@@ -401,22 +449,9 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
   figures->imported = true;
   figures->import_seconds = imported - began;
   figures->build_seconds = seconds() - imported;
+  figures->import_bytes = most_resident(RUSAGE_CHILDREN);
+  figures->build_bytes = most_resident(RUSAGE_SELF);
   return result;
-}
-
-static void print_notes(const struct trax_import_report *report) {
-  if (report->missing_files)
-    fprintf(stderr, "trax-scene: note: %s cannot be read%s: materials are light grey\n", report->first_missing_file,
-            report->missing_files > 1 ? ", nor other files" : "");
-  if (report->degenerate)
-    fprintf(stderr, "trax-scene: note: %llu of %llu triangles have no area and are left out\n",
-            (unsigned long long)report->degenerate, (unsigned long long)report->source_triangles);
-  if (report->nonfinite)
-    fprintf(stderr, "trax-scene: note: %llu of %llu triangles are not finite and are left out\n",
-            (unsigned long long)report->nonfinite, (unsigned long long)report->source_triangles);
-  if (report->other_primitives)
-    fprintf(stderr, "trax-scene: note: %llu points and lines are left out\n",
-            (unsigned long long)report->other_primitives);
 }
 
 static trax_status run(const struct arguments *arguments, struct progress *progress, trax_error *error) {
@@ -434,7 +469,7 @@ static trax_status run(const struct arguments *arguments, struct progress *progr
     trax_scene_measure(&figures.tree, &scene);
     size_t count = list_statistics(list, &figures);
     if (!arguments->quiet)
-      print_notes(&figures.import);
+      trax_import_print_notes(&figures.import, "trax-scene", stderr);
     if (arguments->stats)
       print_statistics(list, count, scene.header);
     if (arguments->stats_json)

@@ -32,14 +32,22 @@ static void show_scene_step(void *context, const char *step, double fraction) {
 
 static trax_status import_scene(struct trax_scene *scene, const struct options *options, struct progress *progress,
                                 trax_error *error) {
-  struct trax_import_options import = {
-      .progress = show_scene_step, .progress_context = progress, .interrupt = (const volatile int *)&interrupted};
+  struct trax_import_options import = options->import;
+  import.progress = show_scene_step;
+  import.progress_context = progress;
+  import.interrupt = (const volatile int *)&interrupted;
   struct trax_build_options build = {.progress = show_scene_step,
                                      .progress_context = progress,
                                      .interrupt = (const volatile int *)&interrupted,
-                                     .smooth = options->frame.smooth};
+                                     .smooth = options->frame.smooth,
+                                     .compute_normals = options->compute_normals};
   struct trax_mesh mesh = {0};
-  trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, NULL, error);
+  struct trax_import_report report;
+  trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
+  if (status == TRAX_OK && !options->quiet) {
+    progress_clear(progress);
+    trax_import_print_notes(&report, "trax-render", stderr);
+  }
   if (status == TRAX_OK)
     status = trax_scene_build(scene, &mesh, &build, error);
   trax_mesh_release(&mesh);
@@ -53,6 +61,12 @@ static trax_status load_scene(struct trax_scene *scene, const struct options *op
       if (options->mesh_count > 1)
         return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
                          options->meshes[i]);
+      if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
+          options->compute_normals)
+        return trax_fail(error,
+                         "%s: a scene file is as trax-scene made it: --material, --diffuse, --no-textures, "
+                         "--texture-size and --normals smooth are for meshes",
+                         options->meshes[0]);
       trax_status status = trax_scene_read(scene, options->meshes[0], error);
       if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
         status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",

@@ -19,6 +19,13 @@ static const char usage[] =
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
     "                          without it the whole scene is framed\n"
     "      --samples N         rays from the eye through every pixel, 1 to 4096 (default 1)\n"
+    "      --material [NAME=]KIND  of the meshes: lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or\n"
+    "                          emit:R,G,B, for the material NAME or for all (repeatable)\n"
+    "      --diffuse [NAME=]R,G,B  their colour, linear, 0 to 1 (repeatable)\n"
+    "      --no-textures       reads no images; colours remain\n"
+    "      --texture-size N    at most N texels a side, a power of two up to 4096\n"
+    "      --normals WHICH     file: --smooth by the meshes' own normals, computed where there are none (default);\n"
+    "                          smooth: by computed ones; flat: no --smooth\n"
     "      --smooth            shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
     "                          (of a scene file: by the normals in it, made by trax-scene --smooth)\n"
     "      --no-shadows        the light shines through everything\n"
@@ -57,6 +64,11 @@ enum {
   OPT_SIZE = 256,
   OPT_VIEW,
   OPT_SAMPLES,
+  OPT_MATERIAL,
+  OPT_DIFFUSE,
+  OPT_NO_TEXTURES,
+  OPT_TEXTURE_SIZE,
+  OPT_NORMALS,
   OPT_SMOOTH,
   OPT_NO_SHADOWS,
   OPT_AMBIENT,
@@ -87,6 +99,11 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"size", required_argument, NULL, OPT_SIZE},
                                              {"view", required_argument, NULL, OPT_VIEW},
                                              {"samples", required_argument, NULL, OPT_SAMPLES},
+                                             {"material", required_argument, NULL, OPT_MATERIAL},
+                                             {"diffuse", required_argument, NULL, OPT_DIFFUSE},
+                                             {"no-textures", no_argument, NULL, OPT_NO_TEXTURES},
+                                             {"texture-size", required_argument, NULL, OPT_TEXTURE_SIZE},
+                                             {"normals", required_argument, NULL, OPT_NORMALS},
                                              {"smooth", no_argument, NULL, OPT_SMOOTH},
                                              {"no-shadows", no_argument, NULL, OPT_NO_SHADOWS},
                                              {"ambient", required_argument, NULL, OPT_AMBIENT},
@@ -186,6 +203,27 @@ static trax_status add_setting(struct options *options, const char *text, trax_e
   return TRAX_OK;
 }
 
+static trax_status add_override(struct options *options, const char *text, trax_error *error,
+                                trax_status (*parse)(struct trax_material_override *, char *, trax_error *)) {
+  const size_t count = options->import.override_count;
+  struct trax_material_override *overrides = realloc(options->overrides, (count + 1) * sizeof *overrides);
+  if (!overrides)
+    return trax_fail(error, "out of memory");
+  options->import.overrides = options->overrides = overrides;
+  /* The text is of argv, whose strings may be changed; the name is cut off there. */
+  trax_status status = parse(&overrides[count], (char *)text, error);
+  options->import.override_count += status == TRAX_OK;
+  return status;
+}
+
+static trax_status take_normals(struct options *options, const char *value, trax_error *error) {
+  options->frame.smooth = strcmp(value, "flat") != 0;
+  options->compute_normals = strcmp(value, "smooth") == 0;
+  if (strcmp(value, "file") == 0 || options->compute_normals || !options->frame.smooth)
+    return TRAX_OK;
+  return trax_fail(error, "--normals %s: expected file, smooth or flat", value);
+}
+
 static trax_status take_option(struct options *options, int which, const char *value, trax_error *error) {
   switch (which) {
   case 'o':
@@ -206,6 +244,23 @@ static trax_status take_option(struct options *options, int which, const char *v
         options->frame.samples == 0)
       return trax_fail(error, "--samples: expected a number from 1 to %u", TRAX_RENDER_MAX_SAMPLES);
     return TRAX_OK;
+  case OPT_MATERIAL:
+    return add_override(options, value, error, trax_override_material);
+  case OPT_DIFFUSE:
+    return add_override(options, value, error, trax_override_diffuse);
+  case OPT_NO_TEXTURES:
+    options->import.no_textures = true;
+    return TRAX_OK;
+  case OPT_TEXTURE_SIZE: {
+    const char *text = value;
+    if (!parse_number(&text, 1u << TRAX_TEXTURE_MAX_LOG2, &options->import.texture_size) || *text != '\0' ||
+        options->import.texture_size == 0 || (options->import.texture_size & (options->import.texture_size - 1)))
+      return trax_fail(error, "--texture-size %s: expected a power of two up to %u", value,
+                       1u << TRAX_TEXTURE_MAX_LOG2);
+    return TRAX_OK;
+  }
+  case OPT_NORMALS:
+    return take_normals(options, value, error);
   case OPT_SMOOTH:
     options->frame.smooth = true;
     return TRAX_OK;
@@ -372,4 +427,5 @@ void options_release(struct options *options) {
   for (size_t i = 0; i < options->setting_count; i++)
     free((char *)options->settings[i].key);
   free(options->settings);
+  free(options->overrides);
 }

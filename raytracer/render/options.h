@@ -26,6 +26,9 @@ struct options {
   struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */
   size_t setting_count;
+  struct trax_import_options import; /* materials and textures */
+  struct trax_material_override *overrides;
+  bool compute_normals; /* --normals smooth */
   struct trax_frame_options frame;
   enum engine engine;
   unsigned threads; /* of the fast engine and the native twin; 0: as many as the host has */

@@ -57,6 +57,11 @@ refuse '--ambient nan' "$render" "$box" -o x.png --ambient nan
 for samples in 0 4097 2.5 '' -1; do
   refuse '--samples' "$render" "$box" -o x.png --samples "$samples"
 done
+refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
+refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
+refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
+refuse '--texture-size 3: expected a power of two' "$render" "$box" -o x.png --texture-size 3
+refuse '--normals round: expected file' "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
 refuse '--set bandwidth: expected KEY=VALUE' "$render" "$box" -o x.png --set bandwidth
 refuse '--threads' "$render" "$box" -o x.png --engine native --threads 0

@@ -293,7 +293,8 @@ static void test_materials(void **state) {
     assert_memory_equal(material_of(&mesh, t)->surface.diffuse, expected[t], sizeof expected[t]);
   trax_mesh_release(&mesh);
 
-  const struct trax_material_override overrides[] = {{NULL, {0.25f, 0.25f, 0.25f}}, {"grey", {1, 0, 0}}};
+  const struct trax_material_override overrides[] = {{.colour = {0.25f, 0.25f, 0.25f}},
+                                                     {.name = "grey", .colour = {1}}};
   struct trax_import_options options = {.in_process = true, .overrides = overrides, .override_count = 2};
   trax_error error;
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
@@ -305,7 +306,7 @@ static void test_materials(void **state) {
   assert_int_equal(scene.material_count, 2);
   trax_scene_release(&scene);
   trax_mesh_release(&mesh);
-  const struct trax_material_override wrong = {"gray", {1, 0, 0}};
+  const struct trax_material_override wrong = {.name = "gray", .colour = {1}};
   options = (struct trax_import_options){.in_process = true, .overrides = &wrong, .override_count = 1};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
   assert_contains(error.message, "no material is named 'gray'");
@@ -413,8 +414,8 @@ static void test_nonfinite(void **state) {
 static const struct bad_mesh {
   const char *name, *text, *message;
 } bad_meshes[] = {
-    {"high.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", "high.obj:5: vertex index 4 is out of range (3 vertices"},
-    {"low.obj", "v 0 0 0\nv 1 0 0\nf 1 2 -3\n", "low.obj:3: vertex index -3 is out of range (2 vertices"},
+    {"high.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", "high.obj:5: vertex index 4 is out of range (3 so far"},
+    {"low.obj", "v 0 0 0\nv 1 0 0\nf 1 2 -3\n", "low.obj:3: vertex index -3 is out of range (2 so far"},
     {"zero.obj", "v 0 0 0\nf 0 1 1\n", "zero.obj:2: not a vertex index: '0'"},
     {"huge.obj", "v 0 0 0\nf 1 1 99999999999999999999\n", "huge.obj:2: vertex index 9999"},
     {"word.obj", "v 0 0 0\nf 1 1 one\n", "word.obj:2: not a vertex index: 'one'"},

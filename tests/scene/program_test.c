@@ -95,7 +95,7 @@ static void test_notes(void **state) {
   const char *scene = test_path("notes.trax");
   RUN(&outcome, mesh, "-o", scene, "--drop-nonfinite");
   assert_int_equal(exit_status(&outcome), 0);
-  assert_contains(outcome.err, "lost.mtl cannot be read: materials are light grey");
+  assert_contains(outcome.err, "lost.mtl cannot be read: materials go without");
   assert_contains(outcome.err, "1 of 3 triangles have no area");
   assert_contains(outcome.err, "1 of 3 triangles are not finite");
   assert_contains(outcome.err, "1 points and lines are left out");
@@ -119,12 +119,18 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--leaf", "2x"}, "--leaf: '2x'"},
       {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
       {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
-      {{good, "-o", scene, "--crease", "30"}, "--crease without --smooth"},
+      {{good, "-o", scene, "--crease", "30"}, "--crease without --smooth or --normals"},
       {{good, "-o", scene, "--smooth", "--crease", "0"}, "--crease: '0' is not an angle"},
       {{good, "-o", scene, "--smooth", "--crease", "181"}, "--crease: '181' is not an angle"},
       {{good, "-o", scene, "--diffuse", "1,2"}, "--diffuse: '1,2' is not [NAME=]R,G,B"},
       {{good, "-o", scene, "--diffuse", "a=0,0,1.5"}, "--diffuse: 'a=0,0,1.5'"},
       {{good, "-o", scene, "--diffuse", "a=0,0,1"}, "no material is named 'a'"},
+      {{good, "-o", scene, "--material", "a=tin"}, "--material: 'a=tin' is not [NAME=]lambert"},
+      {{good, "-o", scene, "--material", "a=mirror"}, "no material is named 'a'"},
+      {{good, "-o", scene, "--texture-size", "100"}, "--texture-size: '100' is not a power of two up to 4096"},
+      {{good, "-o", scene, "--texture-size", "8192"}, "--texture-size: '8192' is not"},
+      {{good, "-o", scene, "--normals", "round"}, "--normals: 'round' is not file, smooth or flat"},
+      {{good, "-o", scene, "--normals", "flat", "--crease", "30"}, "--crease without --smooth or --normals"},
       {{good, "-o", scene, "--unknown"}, "unrecognized option '--unknown'"},
       {{lost, "-o", scene}, "trax-scene: error: "},
       {{good, lost, "-o", scene}, "lost.ply: cannot open: No such file"},

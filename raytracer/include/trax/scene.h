@@ -42,30 +42,56 @@ struct trax_mesh_texture {
   uint32_t first_texel, log2_width, log2_height, flags;
 };
 
+/* A camera of a mesh file. */
+struct trax_mesh_camera {
+  char name[64];
+  float eye[3], direction[3], up[3]; /* of unit length, perpendicular */
+  float fov;                         /* vertical, degrees */
+};
+
 struct trax_mesh {
   float (*vertices)[3];
   struct trax_mesh_triangle *triangles;
   struct trax_mesh_material *materials; /* at least one after an import */
   struct trax_mesh_texture *textures;
   uint32_t *texels;
+  struct trax_mesh_camera *cameras;
   /* Of the triangles' corners, as the files have them: NULL if none has any, zeros for those without. */
   float (*normals)[3][3];
   float (*uvs)[3][2];
-  uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count;
+  uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
 };
 
 /* How far a long step has come. fraction is 0 to 1, or negative if it cannot be told. May be called from any thread. */
 typedef void trax_scene_progress(void *context, const char *step, double fraction);
 
-struct trax_material_override {
-  const char *name; /* of the material; NULL: all of them */
-  float diffuse[3]; /* linear RGB, 0 to 1 */
+enum trax_override_kind {
+  TRAX_OVERRIDE_DIFFUSE, /* colour */
+  TRAX_OVERRIDE_LAMBERT,
+  TRAX_OVERRIDE_MIRROR,   /* colour: what it reflects */
+  TRAX_OVERRIDE_GLASS,    /* value: index of refraction */
+  TRAX_OVERRIDE_GGX,      /* value: roughness; colour: what it reflects at normal incidence */
+  TRAX_OVERRIDE_EMISSION, /* colour: radiance */
 };
 
+struct trax_material_override {
+  const char *name; /* of the material; NULL: all of them */
+  float colour[3];  /* linear RGB, 0 to 1, but for emission */
+  enum trax_override_kind kind;
+  float value;
+};
+
+/* The text behind --diffuse, [NAME=]R,G,B, or --material, [NAME=]KIND, as trax-scene --help says. text is cut where the
+   name ends, and override refers to it. */
+trax_status trax_override_diffuse(struct trax_material_override *override, char *text, trax_error *error);
+trax_status trax_override_material(struct trax_material_override *override, char *text, trax_error *error);
+
 struct trax_import_options {
-  bool drop_nonfinite;  /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
-  bool keep_degenerate; /* keep triangles of exactly zero area, which no ray can hit */
-  bool in_process;      /* no child process around the importer: for debuggers and sanitizers */
+  bool drop_nonfinite;   /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
+  bool keep_degenerate;  /* keep triangles of exactly zero area, which no ray can hit */
+  bool no_textures;      /* images are not read; of materials remain their colours */
+  unsigned texture_size; /* texels a side, at most; a power of two up to 4096, which is the default, 0 */
+  bool in_process;       /* no child process around the importer: for debuggers and sanitizers */
   const struct trax_material_override *overrides; /* applied in order */
   size_t override_count;
   trax_scene_progress *progress; /* may be NULL */
@@ -78,9 +104,17 @@ struct trax_import_report {
   uint64_t degenerate;          /* dropped: zero area */
   uint64_t nonfinite;           /* dropped: a vertex is NaN or infinite */
   uint64_t other_primitives;    /* skipped: points and lines */
+  uint64_t turned_normals;      /* triangles whose normals all pointed away from them */
+  uint64_t mended_normals;      /* triangles of which a normal is zero, not finite, or points away: computed */
+  uint64_t mended_uvs;          /* triangles whose texture coordinates were not finite, or too large */
   uint32_t missing_files;       /* files the meshes refer to that could not be read, as material libraries */
   char first_missing_file[256]; /* its name */
+  uint32_t bad_images;          /* textures that are there but no readable PNG or JPEG */
+  char first_bad_image[256];    /* its name and why */
 };
+
+/* Lines on what was left out, mended or missing; none if all is well. */
+void trax_import_print_notes(const struct trax_import_report *report, const char *program, FILE *out);
 
 /* Of what has no material: light grey, Lambert's. */
 extern const struct trax_material trax_default_material;
@@ -122,6 +156,7 @@ struct trax_build_options {
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
   bool without_source_ids; /* leave that section out */
   bool smooth;             /* with normals for smooth shading, across edges of up to crease_degrees */
+  bool compute_normals;    /* even where the mesh has some of its own */
   float crease_degrees;    /* up to 180; 0: default */
   trax_scene_progress *progress; /* may be NULL */
   void *progress_context;
