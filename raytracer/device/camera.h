@@ -2,13 +2,11 @@
 #ifndef TRAX_DEVICE_CAMERA_H
 #define TRAX_DEVICE_CAMERA_H
 
+#include "sampler.h"
 #include "trax/render_params.h"
+#include "vector.h"
 
 #include <stdbool.h>
-
-struct vector {
-  float x, y, z;
-};
 
 /* A pixel's place, in one word: it is kept during the traversal, where registers and stack are scarce. */
 struct pixel {
@@ -40,12 +38,6 @@ static inline bool slot_pixel(const struct trax_render_params *frame, uint32_t s
 /* Where in its pixel the ray number `sample` goes through, from the pixel's upper left corner. The first is in the
    middle; the others follow the sequence R2 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018):
    any number of them is spread evenly. In integers, so exact. */
-struct place {
-  float x, y;
-};
-
-#define PIXEL_MIDDLE ((struct place){0.5f, 0.5f})
-
 static inline struct place sample_place(uint32_t sample) {
   uint32_t x = 0x80000000u + sample * 0xC13FA9A9u; /* 2^32 / g and 2^32 / g^2, where g^3 = g + 1 */
   uint32_t y = 0x80000000u + sample * 0x91E10DA5u;

@@ -6,6 +6,7 @@
    one divider: so comparisons are of integers, planes and edges are tested one by one, and a pixel takes few divisions.
  */
 #include "camera.h"
+#include "path.h"
 #include "record.h"
 #include "run.h"
 #include "shade.h"
@@ -14,16 +15,15 @@
 
 #include <trax.h>
 
-struct trax_buffer scene, params, image;
+struct trax_buffer scene;
+unsigned next_slot; /* shared by all threads: the atomic increment hands out the pixels */
+struct trax_buffer image, params, paths;
 #ifdef TRAX_RECORD
 struct trax_buffer record;
 #endif
-unsigned next_slot; /* shared by all threads: the atomic increment hands out the pixels */
 
-#define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
-
-/* The pixel's word. All rays go through one copy of the traversal, so that the program fits in the instruction cache.
- */
+/* The paper's workload: the pixel's word. All rays go through one copy of the traversal, so that the program fits in
+   the instruction cache. */
 static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
                                                                    struct pixel pixel) {
   struct vector sum = {0, 0, 0};
@@ -89,14 +89,25 @@ next_sample:
   return mean_pixel(&sum, run->sample_weight);
 }
 
-/* On the TP it ends its thread: what does not return need not save its caller's registers. */
-#ifdef __trax__
-__attribute__((noreturn))
+/* The general program has both kinds of pictures, each in a function with a frame of its own; neither returns to main,
+   which would need its frame all the while. */
+#if !defined __trax__
+#define RENDER_ALL
+#elif defined TRAX_SPECIALISED_FEATURES
+#define RENDER_ALL __attribute__((noreturn, always_inline)) inline
+#else
+#define RENDER_ALL __attribute__((noreturn, noinline))
 #endif
-int main(void) {
-  const struct trax_render_params *run = RUN_PARAMS;
+
+#ifdef __trax__
+#define END_THREAD() trax_halt()
+#else
+#define END_THREAD() ((void)0)
+#endif
+
+/* The paper's workload. */
+static RENDER_ALL void render_all(const struct trax_render_params *run) {
   uint32_t slot;
-  check_scene_address(scene.data);
   while ((slot = trax_atomic_inc(&next_slot)) < run->slot_count) {
     struct pixel pixel;
     HIDE_ORIGIN(slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
@@ -109,9 +120,36 @@ int main(void) {
     trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
     trax_count_items(1);
   }
+  END_THREAD();
+}
+
+/* Everything else. */
+static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
+  struct path *path = path_of_thread();
+  uint32_t slot;
+  while ((slot = trax_atomic_inc(&next_slot)) < run->slot_count) {
+    struct pixel pixel;
+    HIDE_ORIGIN(slot);
+    if (!slot_pixel(run, slot, &pixel))
+      continue;
+    render_path_pixel(run, path, pixel);
+    trax_count_items(1);
+  }
+  END_THREAD();
+}
+
+/* On the TP it ends its thread: what does not return need not save its caller's registers. */
 #ifdef __trax__
-  trax_halt();
-#else
+__attribute__((noreturn))
+#endif
+int main(void) {
+  const struct trax_render_params *run = RUN_PARAMS;
+  check_scene_address(scene.data);
+  if (NEEDS_PATHS(run))
+    render_all_paths(run);
+  else
+    render_all(run);
+#ifndef __trax__
   return 0;
 #endif
 }

@@ -3,7 +3,8 @@
 
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
      TRAX_STACK_ENTRIES          as many as this scene takes
-     trax_constants              the parameters, whose loads the compiler folds into the instructions
+     trax_constants              the parameters, and what is behind them: the first colour of the palette, or struct
+                                 trax_path_params; the compiler folds their loads into the instructions
 
    and its scene's references are addresses, which saves an addition for each node and leaf. */
 #ifndef TRAX_DEVICE_RUN_H
@@ -26,22 +27,33 @@ extern struct trax_buffer scene, params, image;
 /* Does the picture need what features.def calls NAME? */
 #define NEEDS(run, NAME) ((RUN_FEATURES(run) >> TRAX_FEATURE_##NAME & 1u) != 0)
 
+/* path.h, or the paper's workload? */
+#define NEEDS_PATHS(run) ((RUN_FEATURES(run) & TRAX_PATH_FEATURES) != 0)
+
 #ifndef TRAX_STACK_ENTRIES
 #define TRAX_STACK_ENTRIES TRAX_SCENE_MAX_DEPTH
 #endif
 
 #if defined TRAX_SPECIALISED_FEATURES && !defined TRAX_PARAMS_IN_MEMORY
 #define RUN_PARAMS (&trax_constants.params)
+#define RUN_PATH(run) ((const struct trax_path_params *)(const void *)&trax_constants.behind)
 #define RUN_PALETTE(run)                                                                                               \
-  (NEEDS(run, MATERIALS) ? PALETTE_BEHIND((const struct trax_render_params *)params.data) : &trax_constants.palette)
+  (NEEDS(run, MATERIALS) ? PALETTE_BEHIND((const struct trax_render_params *)params.data)                              \
+                         : (const struct trax_palette_entry *)(const void *)&trax_constants.behind)
 #define LOAD_AGAIN(run) ((void)0)
 #else
 #define RUN_PARAMS ((const struct trax_render_params *)params.data)
+#define RUN_PATH(run) ((const struct trax_path_params *)((run) + 1))
 #define RUN_PALETTE(run) PALETTE_BEHIND(run)
 /* What comes of *run is loaded from here on, not kept in a register across what lies before. */
 #define LOAD_AGAIN(run) HIDE_ORIGIN(run)
 #endif
 #define PALETTE_BEHIND(params) ((const struct trax_palette_entry *)((params) + 1))
+
+/* A table behind trax_path_params. */
+static inline const void *path_table(uint32_t offset) {
+  return (const char *)params.data + sizeof(struct trax_render_params) + offset;
+}
 
 /* What a reference leads to, without its low three bits. */
 static inline const char *scene_at(const char *scene_bytes, uint32_t offset) {

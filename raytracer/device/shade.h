@@ -2,6 +2,7 @@
 #ifndef TRAX_DEVICE_SHADE_H
 #define TRAX_DEVICE_SHADE_H
 
+#include "algebra.h"
 #include "bits.h"
 #include "camera.h"
 #include "record.h"
@@ -14,11 +15,9 @@ struct surface {
   struct vector point;  /* where the shadow ray starts */
   struct vector normal; /* towards the viewer; its largest component at most 1 */
   float inverse_length; /* of the normal */
+  struct vector behind; /* where a ray that goes on through the surface starts */
+  bool turned;          /* the viewer is where v0, v1, v2 are clockwise */
 };
-
-static inline float dot(struct vector a, struct vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 /* How far the shadow ray's origin is moved along the normal, so that rounding cannot put it behind its own triangle: a
    bound on all errors off the triangle's plane, in terms of M, the greatest magnitude among v0's coordinates, and E,
@@ -31,7 +30,8 @@ static inline float dot(struct vector a, struct vector b) {
 #define OFFSET_PER_EDGE 0x1p-17f
 #define OFFSET_PER_POSITION 0x1p-22f
 
-static inline void find_surface(struct surface *surface, const struct hit *hit, struct vector eye) {
+static inline __attribute__((always_inline)) void find_surface(struct surface *surface, const struct hit *hit,
+                                                               struct vector eye) {
   const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
   struct vector a = {v0[0], v0[1], v0[2]}, b = {v1[0], v1[1], v1[2]}, c = {v2[0], v2[1], v2[2]};
   struct vector e = {b.x - a.x, b.y - a.y, b.z - a.z}, f = {c.x - a.x, c.y - a.y, c.z - a.z};
@@ -68,12 +68,17 @@ static inline void find_surface(struct surface *surface, const struct hit *hit, 
   surface->point.x = a.x + (inside.x + (offset * n.x - back * sight.x));
   surface->point.y = a.y + (inside.y + (offset * n.y - back * sight.y));
   surface->point.z = a.z + (inside.z + (offset * n.z - back * sight.z));
+  surface->behind.x = a.x + (inside.x - offset * n.x);
+  surface->behind.y = a.y + (inside.y - offset * n.y);
+  surface->behind.z = a.z + (inside.z - offset * n.z);
+  surface->turned = away != 0;
   surface->normal = n;
   surface->inverse_length = inverse_length;
 }
 
 /* Replaces the normal by that of the smooth surface, on the same side of the triangle. */
-static inline void smooth_surface(struct surface *surface, const struct hit *hit, uint32_t normals_distance) {
+static inline __attribute__((always_inline)) void smooth_surface(struct surface *surface, const struct hit *hit,
+                                                                 uint32_t normals_distance) {
   const float *n0 = (const float *)(const void *)(hit->triangle + normals_distance), *n1 = n0 + 3, *n2 = n0 + 6;
   float weight1 = hit->weight1, weight2 = hit->weight2;
   struct vector n = {n0[0] + (weight1 * (n1[0] - n0[0]) + weight2 * (n2[0] - n0[0])),

@@ -69,7 +69,7 @@ static trax_status make_config(trax_config *config, const struct options *option
   if (status != TRAX_OK)
     return status;
   /* The machine's memory grows with what is rendered, unless it is set. */
-  uint64_t bytes = frame->scene->size + frame->params_size + 4ull * frame->params->width * frame->params->height;
+  uint64_t bytes = frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);
   uint64_t mib = (bytes >> 20) + 2;
   if (mib > 1024) {
     char text[32];
@@ -122,13 +122,16 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
                                const struct trax_program *program, trax_machine *machine, trax_error *error) {
   if (mkdir(options->keep, 0777) != 0 && errno != EEXIST)
     return trax_fail(error, "%s: %s", options->keep, strerror(errno));
-  const bool has_params = trax_image_symbol(trax_host_of(machine)->image, "params") != NULL;
+  const struct trax_image *image = trax_host_of(machine)->image;
+  const bool has_params = trax_image_symbol(image, "params") != NULL;
+  const uint32_t paths = trax_image_symbol(image, "paths") ? trax_path_bytes(machine, frame) : 0;
   char *text = NULL;
   size_t size = 0;
   FILE *command = open_memstream(&text, &size);
   if (!command)
     return trax_fail(error, "out of memory");
-  fputs("#!/bin/sh\n# Renders into image.raw: R, G, B, A bytes, row by row.\ncd \"$(dirname \"$0\")\" || exit 1\n"
+  fputs("#!/bin/sh\n# Renders into image.raw: row by row, R, G, B, A bytes, or R, G, B floats.\ncd \"$(dirname "
+        "\"$0\")\" || exit 1\n"
         "exec \"${TRAX_SIM:-trax-sim}\" --config ",
         command);
   quote(command, options->config ? options->config : "4x32");
@@ -139,8 +142,10 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
   fprintf(command,
           " --bind scene=scene.trax%s --alloc image=%u --dump image=image.raw "
           "--progress-total %u \"$@\" ",
-          has_params ? " --bind params=params.bin" : "", 4 * frame->params->width * frame->params->height,
+          has_params ? " --bind params=params.bin" : "", trax_frame_image_bytes(frame),
           frame->params->width * frame->params->height);
+  if (paths)
+    fprintf(command, "--alloc paths=%u ", paths);
   fputs("program.elf\n", command);
   fclose(command);
   const uint8_t *scene;

@@ -1,5 +1,6 @@
 /* The device program's parameters: camera, light, palette, the order of pixels, the margin of boxes. */
 #include "core/machine.h"
+#include "lighting.h"
 #include "render.h"
 
 #include <math.h>
@@ -157,11 +158,15 @@ static void set_tiles(struct trax_render_params *params) {
 
 const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS] = {"watertight", "moller-trumbore"};
 
-static uint32_t features_of(const struct trax_frame_options *options, const struct trax_scene *scene) {
+static uint32_t features_of(const struct trax_frame_options *options, const struct trax_view *view,
+                            const struct trax_scene *scene) {
+  const uint32_t traits = trax_scene_traits(scene);
   uint32_t features = 0;
+#define SECTION(KIND) 0
 #define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) features |= (QUESTION) ? 1u << TRAX_FEATURE_##NAME : 0;
 #include "trax/features.def"
 #undef TRAX_FEATURE
+#undef SECTION
   return features;
 }
 
@@ -196,7 +201,13 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
     return trax_fail(error, "ambient light of %g: it must be 0 to 1", (double)options->ambient);
   if (options->samples < 1 || options->samples > TRAX_RENDER_MAX_SAMPLES)
     return trax_fail(error, "%u samples: there must be 1 to %u", options->samples, TRAX_RENDER_MAX_SAMPLES);
-  size_t size = sizeof(struct trax_render_params) + scene->material_count * sizeof(struct trax_palette_entry);
+  if (options->paths > TRAX_RENDER_MAX_DEPTH)
+    return trax_fail(error, "paths of %u surfaces: there must be %u at most", options->paths, TRAX_RENDER_MAX_DEPTH);
+  const uint32_t features = features_of(options, view, scene);
+  const bool lighting = features & TRAX_PATH_FEATURES;
+  size_t size =
+      sizeof(struct trax_render_params) + (lighting ? trax_lighting_bytes(scene, view, options)
+                                                    : scene->material_count * sizeof(struct trax_palette_entry));
   if (size > UINT32_MAX || !(frame->params = calloc(1, size)))
     return trax_fail(error, "out of memory for %u materials", scene->material_count);
   frame->params_size = (uint32_t)size;
@@ -212,16 +223,25 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   const struct trax_scene_section *sections = scene->header->sections;
   if (scene->normals)
     params->normals_distance = sections[TRAX_SCENE_NORMALS].offset - sections[TRAX_SCENE_TRIANGLES].offset;
-  params->features = features_of(options, scene);
+  params->features = features;
   params->box_margin = box_margin(scene->header, view->eye);
   set_camera(params, view);
-  set_ambient(params, view, options->ambient);
+  set_ambient(params, view, options->paths ? 0 : options->ambient);
   set_tiles(params);
+  if (lighting) {
+    trax_lighting_fill(params, scene, view, options);
+    return TRAX_OK;
+  }
   struct trax_palette_entry *palette = (struct trax_palette_entry *)(params + 1);
   for (uint32_t i = 0; i < scene->material_count; i++)
     for (int channel = 0; channel < 3; channel++)
       palette[i].colour[channel] = (float)(255 * sqrt(fmin(fmax(scene->materials[i].diffuse[channel], 0), 1)));
   return TRAX_OK;
+}
+
+uint32_t trax_frame_image_bytes(const struct trax_frame *frame) {
+  const uint32_t a_pixel = frame->params->features & TRAX_FEATURE_BIT(FLOATS) ? 3 * sizeof(float) : sizeof(uint32_t);
+  return a_pixel * frame->params->width * frame->params->height;
 }
 
 void trax_frame_release(struct trax_frame *frame) {

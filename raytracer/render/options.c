@@ -26,6 +26,9 @@ static const char usage[] =
     "      --texture-size N    at most N texels a side, a power of two up to 4096\n"
     "      --normals WHICH     file: --smooth by the meshes' own normals, computed where there are none (default);\n"
     "                          smooth: by computed ones; flat: no --smooth\n"
+    "      --paths DEPTH       path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples\n"
+    "      --seed N            of the paths' random numbers, 0 to 4294967295 (default 0)\n"
+    "      --float             the program computes linear floats; the picture is made of them here\n"
     "      --smooth            shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
     "                          (of a scene file: by the normals in it, made by trax-scene --smooth)\n"
     "      --no-shadows        the light shines through everything\n"
@@ -69,6 +72,9 @@ enum {
   OPT_NO_TEXTURES,
   OPT_TEXTURE_SIZE,
   OPT_NORMALS,
+  OPT_PATHS,
+  OPT_SEED,
+  OPT_FLOAT,
   OPT_SMOOTH,
   OPT_NO_SHADOWS,
   OPT_AMBIENT,
@@ -104,6 +110,9 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"no-textures", no_argument, NULL, OPT_NO_TEXTURES},
                                              {"texture-size", required_argument, NULL, OPT_TEXTURE_SIZE},
                                              {"normals", required_argument, NULL, OPT_NORMALS},
+                                             {"paths", required_argument, NULL, OPT_PATHS},
+                                             {"seed", required_argument, NULL, OPT_SEED},
+                                             {"float", no_argument, NULL, OPT_FLOAT},
                                              {"smooth", no_argument, NULL, OPT_SMOOTH},
                                              {"no-shadows", no_argument, NULL, OPT_NO_SHADOWS},
                                              {"ambient", required_argument, NULL, OPT_AMBIENT},
@@ -261,6 +270,18 @@ static trax_status take_option(struct options *options, int which, const char *v
   }
   case OPT_NORMALS:
     return take_normals(options, value, error);
+  case OPT_PATHS:
+    if (!parse_number(&value, TRAX_RENDER_MAX_DEPTH, &options->frame.paths) || *value != '\0' ||
+        options->frame.paths == 0)
+      return trax_fail(error, "--paths: expected a number from 1 to %u", TRAX_RENDER_MAX_DEPTH);
+    return TRAX_OK;
+  case OPT_SEED:
+    if (!parse_number(&value, UINT32_MAX, &options->frame.seed) || *value != '\0')
+      return trax_fail(error, "--seed: expected a number from 0 to %u", UINT32_MAX);
+    return TRAX_OK;
+  case OPT_FLOAT:
+    options->frame.floats = true;
+    return TRAX_OK;
   case OPT_SMOOTH:
     options->frame.smooth = true;
     return TRAX_OK;
@@ -393,6 +414,8 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --report are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
+  if (options->frame.seed && !options->frame.paths)
+    return trax_fail(error, "--seed is for --paths: nothing else is random");
   if (options->threads && options->engine != ENGINE_NATIVE && options->engine != ENGINE_FAST)
     return trax_fail(error, "--threads is for engines fast and native");
   return TRAX_OK;

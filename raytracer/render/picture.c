@@ -4,6 +4,7 @@
 #include "render.h"
 
 #include <errno.h>
+#include <math.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 
 trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error) {
   picture->pixels = calloc((size_t)width * height, sizeof *picture->pixels);
+  picture->radiance = NULL;
   if (!picture->pixels)
     return trax_fail(error, "out of memory for a picture of %u x %u", width, height);
   picture->width = width;
@@ -20,7 +22,36 @@ trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint
 
 void trax_picture_release(struct trax_picture *picture) {
   free(picture->pixels);
+  free(picture->radiance);
   memset(picture, 0, sizeof *picture);
+}
+
+/* Gamma 2, as the device has it. */
+static uint32_t pixel_of(const float radiance[3]) {
+  uint32_t pixel = 0xFF000000u;
+  for (int channel = 0; channel < 3; channel++)
+    pixel |= (uint32_t)(255 * sqrt(fmin(fmax((double)radiance[channel], 0), 1)) + 0.5) << 8 * channel;
+  return pixel;
+}
+
+trax_status trax_picture_take(struct trax_picture *picture, const struct trax_frame *frame, const void *image,
+                              trax_error *error) {
+  const uint32_t bytes = trax_frame_image_bytes(frame);
+  const size_t count = (size_t)frame->params->width * frame->params->height;
+  if (trax_picture_init(picture, frame->params->width, frame->params->height, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (!(frame->params->features & TRAX_FEATURE_BIT(FLOATS))) {
+    memcpy(picture->pixels, image, bytes);
+    return TRAX_OK;
+  }
+  if (!(picture->radiance = malloc(bytes))) {
+    trax_picture_release(picture);
+    return trax_fail(error, "out of memory for a picture of %u x %u", frame->params->width, frame->params->height);
+  }
+  memcpy(picture->radiance, image, bytes);
+  for (size_t i = 0; i < count; i++)
+    picture->pixels[i] = pixel_of(picture->radiance + 3 * i);
+  return TRAX_OK;
 }
 
 /* libpng reports errors by a callback that must not return. */

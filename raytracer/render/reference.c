@@ -223,6 +223,8 @@ static trax_status render(struct reference *reference, trax_error *error) {
 }
 
 static trax_status run_reference(struct reference *reference, trax_error *error) {
+  if (reference->frame->params->features & TRAX_PATH_FEATURES)
+    return trax_fail(error, "the reference does not know lights, materials and paths yet");
   RTCDevice device = rtcNewDevice(NULL);
   if (!device)
     return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));

@@ -27,7 +27,7 @@ struct trax_method {
 };
 
 struct trax_frame {
-  struct trax_render_params *params; /* with the palette behind it; from malloc */
+  struct trax_render_params *params; /* with what render_params.h has behind it; from malloc */
   uint32_t params_size;              /* bytes */
   const struct trax_scene *scene;
   struct trax_method method;
@@ -40,6 +40,9 @@ struct trax_frame_options {
   uint32_t samples;       /* rays from the eye through a pixel, 1 to TRAX_RENDER_MAX_SAMPLES */
   bool shadows;           /* false: the light shines through everything */
   bool smooth;            /* shading by the scene's normals, if it has them */
+  bool floats;            /* linear floats as well as pixels */
+  uint32_t paths;         /* path tracing over so many surfaces, up to TRAX_RENDER_MAX_DEPTH; 0: none */
+  uint32_t seed;          /* of the paths */
   struct trax_method method;
 };
 
@@ -56,6 +59,8 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error);
 void trax_frame_release(struct trax_frame *frame);
+/* Of the device program's buffer `image`. */
+uint32_t trax_frame_image_bytes(const struct trax_frame *frame);
 
 /* Its name in reports. */
 const char *trax_feature_name(enum trax_feature feature);
@@ -112,10 +117,14 @@ trax_status trax_program_measure(struct trax_program_size *size, const char *pat
 struct trax_picture {
   uint32_t width, height;
   uint32_t *pixels; /* row by row from the top left; R, G, B, A in the bytes from the lowest; from malloc */
+  float *radiance;  /* R, G, B for each pixel, linear, not bounded by 1; from malloc; NULL: of bytes only */
 };
 
 trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error);
 void trax_picture_release(struct trax_picture *picture);
+/* Of what the device program has left in `image`. */
+trax_status trax_picture_take(struct trax_picture *picture, const struct trax_frame *frame, const void *image,
+                              trax_error *error);
 
 /* 8-bit RGB with the gamma of the palette (2); aside and renamed. */
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error);
@@ -215,6 +224,8 @@ struct trax_simulated_options {
   struct trax_costs *costs;                   /* to fill; NULL: not wanted */
 };
 
+/* What the program's buffer `paths` takes on this machine; 0: nothing uses it. */
+uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame);
 /* Loads the program and binds what it reads. */
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
                                 const struct trax_program *program, trax_error *error);

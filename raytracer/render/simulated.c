@@ -8,12 +8,13 @@
 
 #include <string.h>
 
-static trax_status run(trax_machine *machine, const struct trax_simulated_options *options, trax_error *error) {
+static trax_status run(trax_machine *machine, const struct trax_frame *frame,
+                       const struct trax_simulated_options *options, trax_error *error) {
   struct trax_explain_options wanted = options->explain ? *options->explain : (struct trax_explain_options){0};
   struct trax_explain *explain;
   if (options->costs) {
     wanted.item_buffer = "image";
-    wanted.item_bytes = 4;
+    wanted.item_bytes = trax_frame_image_bytes(frame) / (frame->params->width * frame->params->height);
   }
   if (trax_explain_begin(&explain, machine, &wanted, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -47,9 +48,12 @@ static trax_status bind_record(trax_machine *machine, const struct trax_render_p
   return trax_machine_bind(machine, "record", NULL, (uint32_t)size, error);
 }
 
+uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame) {
+  return frame->params->features & TRAX_PATH_FEATURES ? TRAX_PATH_BYTES * (uint32_t)machine->stats.threads : 0;
+}
+
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
                                 const struct trax_program *program, trax_error *error) {
-  const uint32_t size = 4 * frame->params->width * frame->params->height;
   struct trax_device_scene scene = {0};
   if (frame->scene->size > UINT32_MAX)
     return trax_fail(error, "the scene of %zu bytes exceeds the machine's address space", frame->scene->size);
@@ -68,7 +72,9 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
   if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "params"))
     status = trax_machine_bind(machine, "params", frame->params, frame->params_size, error);
   if (status == TRAX_OK)
-    status = trax_machine_bind(machine, "image", NULL, size, error);
+    status = trax_machine_bind(machine, "image", NULL, trax_frame_image_bytes(frame), error);
+  if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "paths"))
+    status = trax_machine_bind(machine, "paths", NULL, trax_path_bytes(machine, frame), error);
   if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "record"))
     status = bind_record(machine, frame->params, error);
   return status;
@@ -76,8 +82,7 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
 
 trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
                                const struct trax_simulated_options *options, trax_error *error) {
-  const uint32_t width = frame->params->width, height = frame->params->height;
-  trax_status status = run(machine, options, error);
+  trax_status status = run(machine, frame, options, error);
   if (status != TRAX_OK)
     return status;
   const int exit_status = trax_machine_exit_status(machine);
@@ -86,9 +91,5 @@ trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_f
   const uint8_t *bytes;
   uint32_t size;
   status = trax_machine_read_buffer(machine, "image", &bytes, &size, error);
-  if (status == TRAX_OK)
-    status = trax_picture_init(picture, width, height, error);
-  if (status == TRAX_OK)
-    memcpy(picture->pixels, bytes, size);
-  return status;
+  return status == TRAX_OK ? trax_picture_take(picture, frame, bytes, error) : status;
 }

@@ -53,13 +53,14 @@ static bool join(char path[TRAX_PATH_SIZE], const char *folder, const char *name
 
 /* As words, so that every bit is kept and no field is forgotten. */
 static char *constants_text(const struct trax_frame *frame) {
-  const struct {
-    struct trax_render_params params;
-    struct trax_palette_entry palette;
-  } constants = {*frame->params, frame->scene->material_count ? *(const struct trax_palette_entry *)(frame->params + 1)
-                                                              : (struct trax_palette_entry){{0}, 0}};
-  uint32_t words[sizeof constants / 4];
-  memcpy(words, &constants, sizeof words);
+  /* What is behind the parameters, as far as it is always there. */
+  const bool path = frame->params->features & TRAX_PATH_FEATURES;
+  const size_t behind =
+      path ? sizeof(struct trax_path_params) : sizeof(struct trax_palette_entry) * (frame->scene->material_count > 0);
+  uint32_t words[(sizeof(struct trax_render_params) + sizeof(struct trax_path_params)) / 4] = {0};
+  const size_t count =
+      (sizeof *frame->params + (path ? sizeof(struct trax_path_params) : sizeof(struct trax_palette_entry))) / 4;
+  memcpy(words, frame->params, sizeof *frame->params + behind);
   char *text = NULL;
   size_t size;
   FILE *out = open_memstream(&text, &size);
@@ -70,9 +71,9 @@ static char *constants_text(const struct trax_frame *frame) {
           "/* One picture's constants; device/run.h says what they are. */\n"
           "#include \"trax/render_params.h\"\n\n"
           "#define TRAX_SPECIALISED_FEATURES 0x%Xu /*",
-          constants.params.features);
+          frame->params->features);
   for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)
-    if (constants.params.features >> feature & 1)
+    if (frame->params->features >> feature & 1)
       fprintf(out, " %s", trax_feature_name(feature));
   fputs(" */\n", out);
   if (frame->method.triangle == TRAX_TRIANGLE_MOLLER_TRUMBORE)
@@ -83,11 +84,11 @@ static char *constants_text(const struct trax_frame *frame) {
           "  uint32_t words[%zu];\n"
           "  struct {\n"
           "    struct trax_render_params params;\n"
-          "    struct trax_palette_entry palette; /* the first */\n"
+          "    %s behind;\n"
           "  };\n"
           "} trax_constants __attribute__((unused)) = {{",
-          depth ? depth : 1, sizeof words / sizeof *words);
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+          depth ? depth : 1, count, path ? "struct trax_path_params" : "struct trax_palette_entry");
+  for (size_t i = 0; i < count; i++)
     fprintf(out, "%s0x%08Xu,", i % 6 ? " " : "\n    ", words[i]);
   fputs("\n}};\n", out);
   return fclose(out) == 0 ? text : NULL;

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 /* The program's own (raytracer/device/main.c), the variables common to all. */
-extern struct trax_buffer scene, params, image;
+extern struct trax_buffer scene, params, image, paths;
 extern unsigned next_slot;
 int trax_twin_watertight(void);
 int trax_twin_moller_trumbore(void);
@@ -74,17 +74,19 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
     long online = sysconf(_SC_NPROCESSORS_ONLN);
     threads = online > 0 ? (unsigned)online : 1;
   }
-  trax_status status = trax_picture_init(picture, frame->params->width, frame->params->height, error);
-  if (status)
-    return status;
+  const uint32_t image_bytes = trax_frame_image_bytes(frame);
   struct worker *workers = calloc(threads, sizeof *workers);
-  if (!workers) {
-    trax_picture_release(picture);
-    return trax_fail(error, "out of memory for %u threads", threads);
+  void *pixels = calloc(1, image_bytes), *path_bytes = calloc(threads, TRAX_PATH_BYTES);
+  if (!workers || !pixels || !path_bytes) {
+    free(workers);
+    free(pixels);
+    free(path_bytes);
+    return trax_fail(error, "out of memory for %u threads and a picture of %u bytes", threads, image_bytes);
   }
   scene = (struct trax_buffer){frame->scene->bytes, (unsigned)frame->scene->size};
   params = (struct trax_buffer){frame->params, frame->params_size};
-  image = (struct trax_buffer){picture->pixels, 4 * picture->width * picture->height};
+  image = (struct trax_buffer){pixels, image_bytes};
+  paths = (struct trax_buffer){path_bytes, threads * TRAX_PATH_BYTES};
   next_slot = 0;
 
   struct crew crew = {.lock = PTHREAD_MUTEX_INITIALIZER,
@@ -106,9 +108,13 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   for (unsigned i = 0; i < started; i++)
     pthread_join(workers[i].thread, NULL);
   free(workers);
+  free(path_bytes);
   run->rays = crew.rays;
-  if (started > 0 && !interrupted) /* fewer threads render the same picture */
-    return TRAX_OK;
-  trax_picture_release(picture);
-  return interrupted ? TRAX_INTERRUPTED : trax_fail(error, "cannot start a thread: %s", strerror(failure));
+  trax_status status = interrupted    ? TRAX_INTERRUPTED
+                       : started == 0 ? trax_fail(error, "cannot start a thread: %s", strerror(failure))
+                                      : TRAX_OK; /* fewer threads render the same picture */
+  if (status == TRAX_OK)
+    status = trax_picture_take(picture, frame, pixels, error);
+  free(pixels);
+  return status;
 }

@@ -3,8 +3,11 @@
 
    Buffers of the program (docs/abi.md, "Buffers"):
      scene   the scene file (scene_format.h)
-     params  struct trax_render_params and behind it the palette, one struct trax_palette_entry per material
-     image   width * height words, row by row from the top left, each R, G, B, A in its bytes from the lowest */
+     params  struct trax_render_params and behind it the palette, one struct trax_palette_entry per material; or, of a
+             picture with one of TRAX_PATH_FEATURES, struct trax_path_params and its tables
+     image   width * height words, row by row from the top left, each R, G, B, A in its bytes from the lowest; with
+             TRAX_FEATURE_FLOATS width * height times three floats, R, G and B, linear
+     paths   of such a picture: TRAX_PATH_BYTES for each thread of the chip, zero */
 #ifndef TRAX_RENDER_PARAMS_H
 #define TRAX_RENDER_PARAMS_H
 
@@ -20,6 +23,13 @@ enum trax_feature {
 #undef TRAX_FEATURE
   TRAX_FEATURE_COUNT
 };
+
+/* With none of these a picture is the paper's workload: Lambert's law and one point light. */
+#define TRAX_FEATURE_BIT(NAME) (1u << TRAX_FEATURE_##NAME)
+#define TRAX_PATH_FEATURES                                                                                             \
+  (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(REFLECTION) |    \
+   TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) | TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) |    \
+   TRAX_FEATURE_BIT(FLOATS))
 
 /* Pixels are handed out in tiles, so that the threads that share a data cache look at neighbouring parts of the scene.
    Slot s is pixel s % 2^(tile_log2_width + tile_log2_height), row by row, of tile s / 2^(...), row by row. Slots past
@@ -58,6 +68,64 @@ struct trax_palette_entry {
   uint32_t reserved; /* zero */
 };
 
+/* --- more than one light, other materials than Lambert's, paths --- */
+
+#define TRAX_RENDER_MAX_DEPTH 64u /* surfaces on a path */
+#define TRAX_DIRECT_DEPTH 8u      /* mirrors and glass one behind the other, without TRAX_FEATURE_PATHS */
+#define TRAX_RENDER_MAX_LIGHTS 256u
+#define TRAX_MAX_RADIANCE 0x1p40f /* of a light or a path; more is as much */
+#define TRAX_LEAST_ROUGHNESS 0x1p-7f
+
+/* Light is radiance, linear RGB: 1 is white in the picture. Tables are found by their offset from this struct. */
+struct trax_path_params {
+  uint32_t max_depth; /* surfaces that scatter the light of one path, 1 to TRAX_RENDER_MAX_DEPTH */
+  uint32_t seed;
+  float background[3];
+  uint32_t light_count;
+  uint32_t emitter_count;
+  uint32_t choices;     /* what a path chooses from for its shadow ray: the lights, and all emitters as one */
+  uint32_t materials;   /* struct trax_device_material, as the scene numbers them */
+  uint32_t lights;      /* struct trax_device_light */
+  uint32_t emitters;    /* struct trax_emitter */
+  uint32_t reserved[5]; /* zero */
+};
+
+/* struct trax_material (scene_format.h), prepared: numbers within what the program computes with. */
+struct trax_device_material {
+  float diffuse[3];
+  uint32_t kind;
+  float specular[3];
+  float roughness; /* TRAX_LEAST_ROUGHNESS at least */
+  float emission[3];
+  float ior;
+  float opacity, alpha_cutoff;
+  uint32_t texture;
+  float emitter_density; /* probability per area that a path's shadow ray goes to a point of this material; 0: never */
+};
+
+enum trax_device_light_kind { TRAX_FROM_POINT, TRAX_FROM_DIRECTION, TRAX_FROM_FADING_POINT, TRAX_FROM_RECTANGLE };
+
+/* Of trax/view.h's light what a white surface that faces it sends back; of a fading point at distance 1; of a
+   rectangle, which is not seen itself, its radiance times its area / pi. */
+struct trax_device_light {
+  uint32_t kind;
+  float place[3];   /* a point light's; towards a directional one, of unit length; a corner of a rectangle */
+  float edge[2][3]; /* of a rectangle, from that corner */
+  float normal[3];  /* of a rectangle, unit length */
+  float radiance[3];
+};
+
+/* One triangle whose material emits. */
+struct trax_emitter {
+  uint32_t triangle;   /* bytes from the start of the scene */
+  uint32_t cumulative; /* probability of those before it, in units of 2^-32 */
+};
+
+#define TRAX_PATH_BYTES 320u
+
+_Static_assert(sizeof(struct trax_path_params) == 64, "no padding");
+_Static_assert(sizeof(struct trax_device_material) == 64, "one line");
+_Static_assert(sizeof(struct trax_device_light) == 64, "one line");
 _Static_assert(sizeof(struct trax_render_params) == 34 * 4, "no padding");
 _Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
 

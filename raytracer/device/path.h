@@ -1,0 +1,341 @@
+/* Pictures with more than the paper's workload: several lights, mirrors, glass, rough layers, textures, holes, and
+   paths over many surfaces. One loop over rays again, so that there is one copy of the traversal; what a path must
+   remember lies in global memory, since the local one has the traversal's stack.
+
+   Without TRAX_FEATURE_PATHS a ray from the eye is followed through mirrors and glass to the first surface that
+   scatters, which every light is asked for and the ambient light added to. Glass reflects or lets through, whichever is
+   more; with several samples, each according to its share.
+
+   With it, light arrives from lights, emitting triangles and the background over up to max_depth surfaces. At each that
+   scatters, a shadow ray goes to one of the lights or to a point of an emitter, and a ray goes on in a direction that
+   the surface's reflectance suggests. What both could have found is weighted by the balance heuristic (Veach, "Robust
+   Monte Carlo Methods for Light Transport Simulation", 1997); paths that carry little end by Russian roulette. */
+#ifndef TRAX_DEVICE_PATH_H
+#define TRAX_DEVICE_PATH_H
+
+#include "algebra.h"
+#include "camera.h"
+#include "light.h"
+#include "material.h"
+#include "run.h"
+#include "sampler.h"
+#include "shade.h"
+#include "texture.h"
+#include "traverse.h"
+
+#include <stdbool.h>
+
+extern struct trax_buffer paths;
+
+struct path {
+  struct vector sum;                         /* of the pixel's samples so far */
+  struct vector light;                       /* of this sample so far */
+  struct vector weight;                      /* what part of the light along the ray reaches the eye */
+  struct vector pending;                     /* what the shadow ray lets through, if nothing is in its way */
+  struct vector origin, direction;           /* of the ray under way */
+  struct vector next_origin, next_direction; /* of the one after the shadow rays, */
+  struct vector next_weight;                 /* and its weight */
+  struct vector point;                       /* where shadow rays start */
+  struct scatterer at;
+  struct hit hit; /* of the ray */
+  uint32_t layered;
+  float density;         /* pi times that of the ray's direction; 0: there was no choice */
+  int32_t distance_bits; /* how far a shadow ray goes */
+  uint32_t pixel, sample, key;
+  uint32_t depth;       /* surfaces so far */
+  uint32_t lights_left; /* that this surface is still to be lit by */
+  uint32_t holes;       /* that the ray under way has passed */
+  uint32_t goes_on;     /* after the shadow rays there is another */
+};
+_Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
+
+#define MOST_HOLES 1024 /* a ray ends at the next */
+#define SURE_DEPTH 3    /* surfaces that no path ends before by roulette */
+
+static inline struct path *path_of_thread(void) {
+  unsigned end = (trax_thread() + 1) * TRAX_PATH_BYTES;
+  if (end > paths.size)
+    trax_abort("the buffer `paths` has no room for this thread");
+  return (struct path *)(void *)((char *)paths.data + (end - TRAX_PATH_BYTES));
+}
+
+static inline struct place path_point(const struct trax_render_params *run, const struct path *path,
+                                      uint32_t dimension) {
+  dimension += DIMENSIONS_OF_SURFACE * path->depth;
+  if (NEEDS(run, PATHS))
+    return random_point(path->sample, dimension, path->key);
+  return NEEDS(run, SAMPLES) && path->sample ? even_point(path->sample, dimension) : PIXEL_MIDDLE;
+}
+
+static __attribute__((noinline)) void begin_sample(struct path *path, const struct trax_render_params *run) {
+  struct place place = PIXEL_MIDDLE;
+  path->light = (struct vector){0, 0, 0};
+  path->weight = (struct vector){1, 1, 1};
+  path->density = 0;
+  path->depth = 0;
+  path->holes = 0;
+  if (NEEDS(run, PATHS))
+    place = random_point(path->sample, DIMENSION_PIXEL, path->key);
+  else if (NEEDS(run, SAMPLES))
+    place = sample_place(path->sample);
+  path->origin = load_vector(run->eye);
+  path->direction = camera_direction(run, (struct pixel){path->pixel}, place);
+}
+
+static inline const struct trax_device_material *hit_material(const struct trax_render_params *run,
+                                                              const struct hit *hit) {
+  const struct trax_device_material *materials = path_table(RUN_PATH(run)->materials);
+  return NEEDS(run, MATERIALS) ? &materials[triangle_material(hit->triangle)] : materials;
+}
+
+/* Of what the background and, without paths, the ambient light send. */
+static inline void add_to(struct vector *sum, struct vector weight, struct vector light) {
+  *sum = plus(*sum, filtered(weight, light));
+}
+
+/* The light of a surface that shines, found by a ray. A shadow ray might have found it, too. */
+static inline struct vector emission_found(const struct trax_render_params *run, const struct path *path,
+                                           const struct trax_device_material *material, const struct hit *hit) {
+  struct vector light = load_vector(material->emission);
+  if (!NEEDS(run, PATHS) || float_bits(path->density) == 0 || float_bits(material->emitter_density) == 0)
+    return light;
+  float distance = bits_float(hit->distance_bits);
+  float cosine = bits_float(magnitude(dot(path->at.flat, path->direction)));
+  float other =
+      emitter_density(material->emitter_density, distance * distance, cosine, (float)(int32_t)RUN_PATH(run)->choices);
+  return times(path->density / (path->density + other), light);
+}
+
+/* Sets path->at; the normals' lengths become 1. */
+static inline void describe_scatterer(const struct trax_render_params *run, struct path *path, struct surface *surface,
+                                      const struct trax_device_material *material, const struct hit *hit,
+                                      struct vector texel) {
+  struct scatterer *at = &path->at;
+  bool scatters = material->kind == TRAX_MATERIAL_LAMBERT || material->kind == TRAX_MATERIAL_GGX;
+  at->view = unit(times(-1, path->direction));
+  at->flat = times(surface->inverse_length, surface->normal);
+  at->normal = at->flat;
+  if (NEEDS(run, SMOOTH)) {
+    smooth_surface(surface, hit, run->normals_distance);
+    struct vector normal = times(surface->inverse_length, surface->normal);
+    /* Where a mirror's smooth normal is turned away, its triangle's must do. */
+    if (scatters || float_bits(dot(normal, at->view)) > 0)
+      at->normal = normal;
+  }
+  at->diffuse = load_vector(material->diffuse);
+  at->specular = load_vector(material->specular);
+  at->roughness = material->roughness;
+  path->layered = material->kind == TRAX_MATERIAL_GGX;
+  if (NEEDS(run, TEXTURES)) { /* of metals, which have no colour below the layer, the layer's */
+    bool metal = NEEDS(run, GLOSSY) && path->layered && greatest_bits(at->diffuse) == 0;
+    if (metal)
+      at->specular = filtered(texel, at->specular);
+    else
+      at->diffuse = filtered(texel, at->diffuse);
+  }
+}
+
+/* Where a ray goes on from a surface that scatters; the path may end. */
+static inline void choose_direction(const struct trax_render_params *run, struct path *path) {
+  struct place choice = path_point(run, path, DIMENSION_CHOICE);
+  struct vector part = scatter(&path->at, NEEDS(run, GLOSSY) && path->layered, path_point(run, path, DIMENSION_SCATTER),
+                               choice.x, &path->next_direction, &path->density);
+  struct vector weight = filtered(path->weight, part);
+  path->goes_on = greatest_bits(weight) > 0;
+  if (path->depth >= SURE_DEPTH) {
+    float chance = at_most(at_least(bits_float(greatest_bits(weight)), 0x1p-10f), 0.95f);
+    path->goes_on &= choice.y < chance;
+    weight = times(1 / chance, weight);
+  }
+  path->next_weight = weight;
+  path->next_origin = path->point;
+}
+
+/* What a surface does that a ray from the eye or from another surface has found. */
+static inline void meet_surface(const struct trax_render_params *run, struct path *path, struct surface *surface,
+                                const struct trax_device_material *material, const struct hit *hit,
+                                struct vector texel) {
+  path->goes_on = 0;
+  path->lights_left = 0;
+  bool turned = surface->turned;
+  describe_scatterer(run, path, surface, material, hit, texel);
+  if (NEEDS(run, EMISSION))
+    add_to(&path->light, path->weight, emission_found(run, path, material, hit));
+  if (path->depth >= RUN_PATH(run)->max_depth)
+    return;
+  path->point = surface->point;
+  path->next_weight = path->weight;
+  if (NEEDS(run, REFLECTION) && material->kind == TRAX_MATERIAL_MIRROR) {
+    path->next_weight = filtered(path->weight, path->at.specular);
+    path->next_origin = surface->point;
+    path->next_direction = mirror_direction(&path->at);
+    path->density = 0;
+    path->goes_on = 1;
+    return;
+  }
+  if (NEEDS(run, REFRACTION) && material->kind == TRAX_MATERIAL_GLASS) {
+    bool through;
+    float ratio = turned ? material->ior : 1 / material->ior;
+    path->next_direction = glass_direction(&path->at, ratio, path_point(run, path, DIMENSION_CHOICE).x, &through);
+    path->next_origin = through ? surface->behind : surface->point;
+    if (through)
+      path->next_weight = filtered(path->weight, path->at.specular);
+    path->density = 0;
+    path->goes_on = 1;
+    return;
+  }
+  if (NEEDS(run, PATHS)) {
+    path->lights_left = RUN_PATH(run)->choices > 0;
+    choose_direction(run, path);
+    return;
+  }
+  path->lights_left = RUN_PATH(run)->light_count;
+  float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));
+  struct vector reflectance = path->at.diffuse;
+  if (NEEDS(run, GLOSSY) && path->layered)
+    reflectance = plus(reflectance, path->at.specular);
+  add_to(&path->light, path->weight, times(ambient, reflectance));
+}
+
+/* Prepares the next shadow ray; false if there is none, or no need of one. */
+static inline bool next_light(const struct trax_render_params *run, struct path *path) {
+  const struct trax_path_params *more = RUN_PATH(run);
+  const struct trax_device_light *lights = path_table(more->lights);
+  while (path->lights_left > 0) {
+    struct arrival arrival;
+    bool arrives;
+    float choices = 1;
+    uint32_t number = --path->lights_left;
+    struct place place = path_point(run, path, DIMENSION_LIGHT);
+    if (NEEDS(run, PATHS)) {
+      struct words pick = random_words(path->sample, DIMENSION_PICK + DIMENSIONS_OF_SURFACE * path->depth, path->key);
+      number = (uint32_t)((uint64_t)pick.x * more->choices >> 32);
+      choices = (float)(int32_t)more->choices;
+      if (NEEDS(run, EMISSION) && number == more->light_count)
+        arrives = emitter_arrives(&arrival, more, pick.y, path->point, place);
+      else
+        arrives = light_arrives(&arrival, &lights[number], path->point, place);
+    } else {
+      arrives = light_arrives(&arrival, &lights[number], path->point, place);
+    }
+    float cosine = arrives ? dot(path->at.normal, arrival.direction) : 0;
+    if (float_bits(cosine) <= 0 || float_bits(dot(path->at.flat, arrival.direction)) <= 0)
+      continue;
+    float density;
+    struct vector part =
+        reflectance(&path->at, NEEDS(run, GLOSSY) && path->layered, arrival.direction, cosine, &density);
+    float scale = cosine * choices;
+    if (NEEDS(run, EMISSION) && float_bits(arrival.density) > 0)
+      scale = cosine / (arrival.density + density);
+    path->pending = filtered(path->weight, filtered(times(scale, part), arrival.radiance));
+    if (NEEDS(run, SHADOWS)) {
+      path->origin = path->point;
+      path->direction = arrival.direction;
+      path->distance_bits = arrival.distance_bits;
+      path->holes = 0;
+      return true;
+    }
+    path->light = plus(path->light, path->pending);
+  }
+  return false;
+}
+
+/* Has the ray hit a hole, and goes on behind it? */
+static inline bool pass_hole(const struct trax_render_params *run, struct path *path, const struct surface *surface,
+                             const struct trax_device_material *material, const struct hit *hit, float texel_alpha) {
+  if (!NEEDS(run, ALPHA) || material->opacity * texel_alpha >= material->alpha_cutoff || path->holes >= MOST_HOLES)
+    return false;
+  path->origin = surface->behind;
+  path->distance_bits = float_bits(bits_float(path->distance_bits) - bits_float(hit->distance_bits));
+  path->holes++;
+  return true;
+}
+
+static inline void store_radiance(const struct trax_render_params *run, struct pixel pixel, struct vector light) {
+  uint32_t *to = (uint32_t *)image.data;
+  uint32_t number = pixel_y(pixel) * run->width + pixel_x(pixel);
+  if (NEEDS(run, FLOATS)) {
+    to += 3 * number;
+    trax_store_nt(to, (uint32_t)float_bits(light.x));
+    trax_store_nt(to + 1, (uint32_t)float_bits(light.y));
+    trax_store_nt(to + 2, (uint32_t)float_bits(light.z));
+    return;
+  }
+  float red = 255 * root_of_light(at_most(light.x, 1)), green = 255 * root_of_light(at_most(light.y, 1));
+  trax_store_nt(to + number, pixel_of(red, green, 255 * root_of_light(at_most(light.z, 1))));
+}
+
+/* The ray that path has: what does it hit? A function of its own, as what follows, since no thread has room for the
+   frames of both. */
+static __attribute__((noinline)) bool follow_ray(const struct trax_render_params *run, struct path *path, bool shadow) {
+  struct ray ray;
+  struct hit hit = {shadow ? path->distance_bits : FARTHEST_BITS, NULL, 0, 0};
+  prepare_ray(&ray, path->origin.x, path->origin.y, path->origin.z, path->direction.x, path->direction.y,
+              path->direction.z, run->box_margin);
+  bool found = trace_ray(scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
+                         shadow && !NEEDS(run, ALPHA), &hit);
+  trax_count_rays(1);
+  HIDE_ORIGIN(path);
+  path->hit = hit;
+  return found;
+}
+
+enum next_ray { RAY_NONE, RAY_ON, RAY_SHADOW };
+
+/* What follows from it; path has the next ray. */
+static __attribute__((noinline)) enum next_ray after_ray(const struct trax_render_params *run, struct path *path,
+                                                         bool shadow, bool found) {
+  if (found && (!shadow || NEEDS(run, ALPHA))) {
+    const struct hit hit = path->hit;
+    const struct trax_device_material *material = hit_material(run, &hit);
+    struct surface surface;
+    struct texel texel = {{1, 1, 1}, 1};
+    find_surface(&surface, &hit, path->origin);
+    if (NEEDS(run, TEXTURES) && material->texture)
+      texel = texture_of_hit(scene.data, material->texture, &hit);
+    if (pass_hole(run, path, &surface, material, &hit, texel.alpha))
+      return shadow ? RAY_SHADOW : RAY_ON;
+    if (!shadow)
+      meet_surface(run, path, &surface, material, &hit, texel.colour);
+  } else if (!found && shadow) {
+    path->light = plus(path->light, path->pending);
+  } else if (!found) {
+    add_to(&path->light, path->weight, load_vector(RUN_PATH(run)->background));
+    return RAY_NONE;
+  }
+  if (next_light(run, path))
+    return RAY_SHADOW;
+  if (!path->goes_on)
+    return RAY_NONE;
+  path->origin = path->next_origin;
+  path->direction = path->next_direction;
+  path->weight = path->next_weight;
+  path->depth++;
+  path->holes = 0;
+  return RAY_ON;
+}
+
+/* True: the pixel has another sample. */
+static __attribute__((noinline)) bool end_sample(const struct trax_render_params *run, struct path *path) {
+  path->sum = plus(path->sum, bounded_colour(path->light));
+  if (NEEDS(run, SAMPLES) && ++path->sample < run->samples)
+    return true;
+  store_radiance(run, (struct pixel){path->pixel},
+                 NEEDS(run, SAMPLES) ? times(run->sample_weight, path->sum) : path->sum);
+  return false;
+}
+
+/* Little is kept across the calls: the frame of this one and the greatest of theirs are all the stack that there is. */
+static inline void render_path_pixel(const struct trax_render_params *run, struct path *path, struct pixel pixel) {
+  path->pixel = pixel.packed;
+  path->key = hash_word(pixel.packed ^ hash_word(RUN_PATH(run)->seed));
+  path->sum = (struct vector){0, 0, 0};
+  path->sample = 0;
+  do {
+    begin_sample(path, run);
+    for (enum next_ray next = RAY_ON; next != RAY_NONE;)
+      next = after_ray(run, path, next == RAY_SHADOW, follow_ray(run, path, next == RAY_SHADOW));
+  } while (end_sample(run, path));
+}
+
+#endif
