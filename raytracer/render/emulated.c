@@ -123,8 +123,14 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
   if (mkdir(options->keep, 0777) != 0 && errno != EEXIST)
     return trax_fail(error, "%s: %s", options->keep, strerror(errno));
   const struct trax_image *image = trax_host_of(machine)->image;
-  const bool has_params = trax_image_symbol(image, "params") != NULL;
   const uint32_t paths = trax_image_symbol(image, "paths") ? trax_path_bytes(machine, frame) : 0;
+  static const struct {
+    const char *symbol, *file;
+  } inputs[] = {{"scene", "scene.trax"},
+                {"plain_nodes", "nodes.bin"},
+                {"plain_triangles", "triangles.bin"},
+                {"params", "params.bin"}}; /* in the order in which they were bound: addresses depend on it */
+  const size_t input_count = sizeof inputs / sizeof *inputs;
   char *text = NULL;
   size_t size = 0;
   FILE *command = open_memstream(&text, &size);
@@ -139,29 +145,30 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
     fprintf(command, " --set %s=", options->settings[i].key);
     quote(command, options->settings[i].value);
   }
-  fprintf(command,
-          " --bind scene=scene.trax%s --alloc image=%u --dump image=image.raw "
-          "--progress-total %u \"$@\" ",
-          has_params ? " --bind params=params.bin" : "", trax_frame_image_bytes(frame),
-          frame->params->width * frame->params->height);
+  trax_status status = TRAX_OK;
+  for (size_t i = 0; i < input_count && status == TRAX_OK; i++) {
+    const uint8_t *bytes;
+    uint32_t input_bytes;
+    if (!trax_image_symbol(image, inputs[i].symbol))
+      continue;
+    fprintf(command, " --bind %s=%s", inputs[i].symbol, inputs[i].file);
+    status = trax_machine_read_buffer(machine, inputs[i].symbol, &bytes, &input_bytes, error);
+    if (status == TRAX_OK)
+      status = write_bytes(options->keep, inputs[i].file, bytes, input_bytes, error);
+  }
+  fprintf(command, " --alloc image=%u --dump image=image.raw --progress-total %u \"$@\" ",
+          trax_frame_image_bytes(frame), frame->params->width * frame->params->height);
   if (paths)
     fprintf(command, "--alloc paths=%u ", paths);
   fputs("program.elf\n", command);
   fclose(command);
-  const uint8_t *scene;
-  uint32_t scene_bytes;
   uint8_t *elf = NULL;
   size_t elf_bytes;
-  trax_status status = trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error);
-  if (status == TRAX_OK)
-    status = write_bytes(options->keep, "scene.trax", scene, scene_bytes, error);
   if (status == TRAX_OK)
     status = trax_read_file(program->path, TRAX_IMAGE_LIMIT, &elf, &elf_bytes, error);
   if (status == TRAX_OK)
     status = write_bytes(options->keep, "program.elf", elf, elf_bytes, error);
   free(elf);
-  if (status == TRAX_OK && has_params)
-    status = write_bytes(options->keep, "params.bin", frame->params, frame->params_size, error);
   if (status == TRAX_OK)
     status = write_bytes(options->keep, "run.sh", text, size, error);
   free(text);

@@ -3,6 +3,7 @@
 #include "explain/explain.h"
 #include "host/host.h"
 #include "host/image.h"
+#include "plain_scene.h"
 #include "render.h"
 #include "trax/record.h"
 
@@ -66,7 +67,12 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
       status = relocate(machine, error);
     trax_device_scene_release(&scene);
   } else if (status == TRAX_OK) {
-    status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
+    /* Only programs of one's own have the scene as plain arrays, and perhaps not as the file. */
+    if (!trax_image_symbol(trax_host_of(machine)->image, "plain_nodes") ||
+        trax_image_symbol(trax_host_of(machine)->image, "scene"))
+      status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
+    if (status == TRAX_OK)
+      status = trax_plain_scene_bind(machine, frame->scene, error);
   }
   /* A program whose constants are all folded has none. */
   if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "params"))

@@ -45,12 +45,14 @@ def prepare_inputs(out, tools, scene, view, size, program):
             raise Problem(f"{scene}: {run.stderr.strip() or 'trax-render failed'}")
         words = shlex.split(pathlib.Path(scratch, "run.sh").read_text().splitlines()[-1])
         buffers = [words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--bind"]
-        image = next(int(words[i + 1].split("=", 1)[1]) for i, word in enumerate(words) if word == "--alloc")
+        allocations = dict(words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--alloc")
+        if list(allocations) != ["image"]:  # others depend on the machine
+            raise Problem(f"{scene}: this picture needs more than the paper's workload, which a sweep cannot render")
         width, height = map(int, size.split("x"))
         description = {
             "program": hash_file(pathlib.Path(scratch, "program.elf")),
             "buffers": [[symbol, file, hash_file(pathlib.Path(scratch, file))] for symbol, file in buffers],
-            "image_bytes": image,
+            "image_bytes": int(allocations["image"]),
             "width": width,
             "height": height,
         }
