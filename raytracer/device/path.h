@@ -44,7 +44,8 @@ struct path {
   uint32_t pixel, sample, key;
   uint32_t depth;       /* surfaces so far */
   uint32_t lights_left; /* that this surface is still to be lit by */
-  uint32_t holes;       /* that the ray under way has passed */
+  uint32_t holes;       /* that the ray under way has passed, */
+  float travelled;      /* and how far it was to the last of them */
   uint32_t goes_on;     /* after the shadow rays there is another */
 };
 _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
@@ -73,7 +74,7 @@ static __attribute__((noinline)) void begin_sample(struct path *path, const stru
   path->weight = (struct vector){1, 1, 1};
   path->density = 0;
   path->depth = 0;
-  path->holes = 0;
+  path->holes = 0, path->travelled = 0;
   if (NEEDS(run, PATHS))
     place = random_point(path->sample, DIMENSION_PIXEL, path->key);
   else if (NEEDS(run, SAMPLES))
@@ -99,7 +100,7 @@ static inline struct vector emission_found(const struct trax_render_params *run,
   struct vector light = load_vector(material->emission);
   if (!NEEDS(run, PATHS) || float_bits(path->density) == 0 || float_bits(material->emitter_density) == 0)
     return light;
-  float distance = bits_float(hit->distance_bits);
+  float distance = path->travelled + bits_float(hit->distance_bits);
   float cosine = bits_float(magnitude(dot(path->at.flat, path->direction)));
   float other =
       emitter_density(material->emitter_density, distance * distance, cosine, (float)(int32_t)RUN_PATH(run)->choices);
@@ -232,7 +233,7 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
       path->origin = path->point;
       path->direction = arrival.direction;
       path->distance_bits = arrival.distance_bits;
-      path->holes = 0;
+      path->holes = 0, path->travelled = 0;
       return true;
     }
     path->light = plus(path->light, path->pending);
@@ -247,6 +248,7 @@ static inline bool pass_hole(const struct trax_render_params *run, struct path *
     return false;
   path->origin = surface->behind;
   path->distance_bits = float_bits(bits_float(path->distance_bits) - bits_float(hit->distance_bits));
+  path->travelled += bits_float(hit->distance_bits);
   path->holes++;
   return true;
 }
@@ -311,7 +313,7 @@ static __attribute__((noinline)) enum next_ray after_ray(const struct trax_rende
   path->direction = path->next_direction;
   path->weight = path->next_weight;
   path->depth++;
-  path->holes = 0;
+  path->holes = 0, path->travelled = 0;
   return RAY_ON;
 }
 

@@ -10,20 +10,30 @@ static uint32_t round_up(uint32_t bytes) {
   return (bytes + TRAX_SCENE_ALIGNMENT - 1) & ~(TRAX_SCENE_ALIGNMENT - 1);
 }
 
-/* What features may read, in the order of trax_scene_build. References lead to nodes and triangles, and triangles are
-   at a fixed distance from their normals, so all must stay where they are: they do if they come first. Of another file
-   nothing is left out. */
-static const enum trax_scene_section_kind kept[] = {TRAX_SCENE_NODES, TRAX_SCENE_TRIANGLES, TRAX_SCENE_NORMALS};
+/* What features may read, in the order of trax_scene_build. References lead to nodes and triangles, and normals are at a
+   fixed distance from triangles, so these must stay where they are: they do if they come first. The others are found by
+   the section table. Of a file in another order nothing is left out. */
+static const enum trax_scene_section_kind kept[] = {TRAX_SCENE_NODES, TRAX_SCENE_TRIANGLES, TRAX_SCENE_NORMALS,
+                                                    TRAX_SCENE_UVS,   TRAX_SCENE_TEXTURES,  TRAX_SCENE_TEXELS};
+enum { KEPT = sizeof kept / sizeof *kept, KEPT_IN_PLACE = 3 };
 
 static bool in_order(const struct trax_scene_header *header) {
   uint32_t end = sizeof *header;
-  for (unsigned i = 0; i < sizeof kept / sizeof *kept; i++) {
+  for (unsigned i = 0; i < KEPT_IN_PLACE; i++) {
     const struct trax_scene_section *section = &header->sections[kept[i]];
     if (section->count && section->offset != end)
       return false;
     end += round_up(section->size);
   }
   return true;
+}
+
+/* Textures, in the header's new places, know where their texels went from the file's. */
+static void move_texels(unsigned char *bytes, const struct trax_scene_header *header, uint32_t from) {
+  const struct trax_scene_section *section = &header->sections[TRAX_SCENE_TEXTURES];
+  struct trax_texture *textures = (struct trax_texture *)(void *)(bytes + section->offset);
+  for (uint32_t i = 0; i < section->count; i++)
+    textures[i].texels += header->sections[TRAX_SCENE_TEXELS].offset - from;
 }
 
 trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct trax_frame *frame, trax_error *error) {
@@ -40,7 +50,7 @@ trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct
   }
   uint32_t end = sizeof header;
   memset(header.sections, 0, sizeof header.sections);
-  for (unsigned i = 0; i < sizeof kept / sizeof *kept; i++) {
+  for (unsigned i = 0; i < KEPT; i++) {
     const struct trax_scene_section *section = &frame->scene->header->sections[kept[i]];
     if (!(needed >> kept[i] & 1) || section->count == 0)
       continue;
@@ -48,8 +58,10 @@ trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct
     memcpy(scene->bytes + end, file + section->offset, section->size);
     memset(scene->bytes + end + section->size, 0, rounded - section->size);
     header.sections[kept[i]] = *section;
+    header.sections[kept[i]].offset = end;
     end += rounded;
   }
+  move_texels(scene->bytes, &header, frame->scene->header->sections[TRAX_SCENE_TEXELS].offset);
   header.file_size = end;
   header.checksum = 0; /* it is no file */
   memcpy(scene->bytes, &header, sizeof header);
@@ -69,6 +81,10 @@ void trax_scene_relocate(void *bytes, uint32_t address) {
   for (uint32_t i = 0; i < section->count; i++)
     for (int child = 0; child < 2; child++)
       nodes[i].child[child] += address;
+  const struct trax_scene_section *textures = &header->sections[TRAX_SCENE_TEXTURES];
+  struct trax_texture *texture = (struct trax_texture *)(void *)((unsigned char *)bytes + textures->offset);
+  for (uint32_t i = 0; i < textures->count; i++)
+    texture[i].texels += address;
   if (header->root)
     header->root += address;
   header->base = address;

@@ -1,27 +1,13 @@
 /* The reference pictures: Embree finds the hits, in binary32, or they are found in binary64 (exact.c); binary64 shades
    them. They share the camera's arithmetic with the device program and nothing else of it: neither BVH, nor
    intersection, nor shading. */
+#include "reference.h"
+
 #include "core/machine.h"
-#include "exact.h"
-#include "render.h"
 
-#include "../device/camera.h"
-
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-struct reference {
-  RTCScene scene;
-  const struct trax_frame *frame;
-  struct trax_picture *picture; /* to fill, or else the next one */
-  struct trax_exact *exact;     /* whose hits are found in binary64 */
-  struct trax_render_run *run;
-  pthread_mutex_t lock; /* of what follows */
-  uint32_t next_row, finished_rows;
-  uint64_t rays;
-};
 
 /* Squared pixel values, which are linear in the light. */
 static struct double3 shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
@@ -57,8 +43,8 @@ static struct RTCRay make_ray(struct double3 origin, struct double3 direction, f
                          .mask = 0xFFFFFFFFu};
 }
 
-static bool find_hit(const struct reference *reference, struct double3 origin, struct double3 direction,
-                     struct exact_hit *hit) {
+bool reference_hit(const struct reference *reference, struct double3 origin, struct double3 direction,
+                   struct exact_hit *hit) {
   if (reference->exact)
     return exact_nearest(reference->scene, origin, direction, hit);
   struct RTCIntersectContext context;
@@ -69,7 +55,7 @@ static bool find_hit(const struct reference *reference, struct double3 origin, s
   return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-static bool is_blocked(const struct reference *reference, struct double3 origin, struct double3 direction,
+bool reference_blocked(const struct reference *reference, struct double3 origin, struct double3 direction,
                        double distance) {
   if (reference->exact)
     return exact_any(reference->scene, origin, direction, distance);
@@ -78,10 +64,6 @@ static bool is_blocked(const struct reference *reference, struct double3 origin,
   struct RTCRay ray = make_ray(origin, direction, (float)distance);
   rtcOccluded1(reference->scene, &context, &ray);
   return ray.tfar < 0;
-}
-
-static bool needs(const struct trax_render_params *params, enum trax_feature feature) {
-  return params->features >> feature & 1;
 }
 
 /* The light through a place of a pixel. What the rays meet goes to *seen. */
@@ -93,7 +75,7 @@ static struct double3 trace_sample(const struct reference *reference, struct pix
   struct exact_hit hit;
   *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
   ++*rays;
-  if (!find_hit(reference, from(params->eye), direction, &hit))
+  if (!reference_hit(reference, from(params->eye), direction, &hit))
     return squares(params->background);
   seen->triangle = hit.triangle;
   seen->distance = hit.distance;
@@ -112,7 +94,7 @@ static struct double3 trace_sample(const struct reference *reference, struct pix
   point = plus_scaled(plus_scaled(point, offset, normal), -back, sight);
 
   struct double3 flat = normal;
-  if (needs(params, TRAX_FEATURE_SMOOTH)) {
+  if (reference_needs(reference, TRAX_FEATURE_SMOOTH)) {
     const struct trax_triangle_normals *normals = &reference->frame->scene->normals[hit.triangle];
     struct double3 n0 = from(normals->corner[0]), n1 = from(normals->corner[1]), n2 = from(normals->corner[2]);
     normal = plus_scaled(plus_scaled(n0, hit.u, minus(n1, n0)), hit.v, minus(n2, n0));
@@ -125,10 +107,10 @@ static struct double3 trace_sample(const struct reference *reference, struct pix
   double cosine = distance > 0 ? fmin(dot(normal, way) / distance, 1) : 0;
   if (!(cosine > 0) || !(dot(flat, way) > 0))
     return shade(reference->frame, triangle->material, normal, 0);
-  if (!needs(params, TRAX_FEATURE_SHADOWS))
+  if (!reference_needs(reference, TRAX_FEATURE_SHADOWS))
     return shade(reference->frame, triangle->material, normal, cosine);
   struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
-  const bool blocked = is_blocked(reference, point, towards, distance);
+  const bool blocked = reference_blocked(reference, point, towards, distance);
   ++*rays;
   seen->shadow = blocked ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT;
   return shade(reference->frame, triangle->material, normal, blocked ? 0 : cosine);
@@ -137,14 +119,21 @@ static struct double3 trace_sample(const struct reference *reference, struct pix
 static void reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
   const struct trax_render_params *params = reference->frame->params;
   const size_t index = (size_t)y * params->width + x;
+  const bool path = params->features & TRAX_PATH_FEATURES;
   struct trax_exact_sample seen;
   struct double3 sum = {0, 0, 0};
   for (uint32_t sample = 0; sample < params->samples; sample++) {
-    sum = plus_scaled(sum, 1.0 / params->samples,
-                      trace_sample(reference, pixel_at(x, y), sample_place(sample), &seen, rays));
+    const struct double3 light = path ? reference_path(reference, pixel_at(x, y), sample, &seen, rays)
+                                      : trace_sample(reference, pixel_at(x, y), sample_place(sample), &seen, rays);
+    sum = plus_scaled(sum, 1.0 / params->samples, light);
     if (reference->exact && reference->exact->seen)
       reference->exact->seen[index * params->samples + sample] = seen;
   }
+  if (reference->picture && reference->picture->radiance)
+    for (int channel = 0; channel < 3; channel++)
+      reference->picture->radiance[3 * index + channel] = (float)(&sum.x)[channel];
+  if (path) /* bounded by 1, in squared pixel values */
+    sum = (struct double3){65025 * fmin(sum.x, 1), 65025 * fmin(sum.y, 1), 65025 * fmin(sum.z, 1)};
   const struct double3 channels = root(sum);
   if (reference->exact)
     memcpy(&reference->exact->channels[3 * index], &channels, sizeof channels);
@@ -223,8 +212,6 @@ static trax_status render(struct reference *reference, trax_error *error) {
 }
 
 static trax_status run_reference(struct reference *reference, trax_error *error) {
-  if (reference->frame->params->features & TRAX_PATH_FEATURES)
-    return trax_fail(error, "the reference does not know lights, materials and paths yet");
   RTCDevice device = rtcNewDevice(NULL);
   if (!device)
     return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
@@ -243,6 +230,11 @@ trax_status trax_render_reference(struct trax_picture *picture, const struct tra
   trax_status status = trax_picture_init(picture, frame->params->width, frame->params->height, error);
   if (status)
     return status;
+  if (frame->params->features & TRAX_FEATURE_BIT(FLOATS) &&
+      !(picture->radiance = calloc(3 * (size_t)picture->width * picture->height, sizeof *picture->radiance))) {
+    trax_picture_release(picture);
+    return trax_fail(error, "out of memory for a picture of %u x %u", frame->params->width, frame->params->height);
+  }
   struct reference reference = {.frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
   status = run_reference(&reference, error);
   if (status != TRAX_OK)

@@ -30,7 +30,8 @@ void mesh_triangle(struct trax_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, u
 
 uint32_t mesh_material(struct trax_mesh *mesh, float red, float green, float blue) {
   mesh->materials = grown(mesh->materials, mesh->material_count, sizeof *mesh->materials);
-  mesh->materials[mesh->material_count] = (struct trax_mesh_material){.surface = {.diffuse = {red, green, blue}}};
+  mesh->materials[mesh->material_count] = (struct trax_mesh_material){.surface = trax_default_material};
+  memcpy(mesh->materials[mesh->material_count].surface.diffuse, (float[]){red, green, blue}, 3 * sizeof(float));
   return mesh->material_count++;
 }
 

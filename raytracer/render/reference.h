@@ -1,0 +1,53 @@
+/* What the reference's files share: how it finds hits, in binary32 or in binary64. */
+#ifndef TRAX_RENDER_REFERENCE_H
+#define TRAX_RENDER_REFERENCE_H
+
+#include "exact.h"
+#include "render.h"
+
+#include "../device/camera.h"
+
+#include <pthread.h>
+
+struct reference {
+  RTCScene scene;
+  const struct trax_frame *frame;
+  struct trax_picture *picture; /* to fill, or else the next one */
+  struct trax_exact *exact;     /* whose hits are found in binary64 */
+  struct trax_render_run *run;
+  pthread_mutex_t lock; /* of what follows */
+  uint32_t next_row, finished_rows;
+  uint64_t rays;
+};
+
+bool reference_hit(const struct reference *reference, struct double3 origin, struct double3 direction,
+                   struct exact_hit *hit);
+bool reference_blocked(const struct reference *reference, struct double3 origin, struct double3 direction,
+                       double distance);
+
+static inline bool reference_needs(const struct reference *reference, enum trax_feature feature) {
+  return reference->frame->params->features >> feature & 1;
+}
+
+/* reference_path.c: the light of one sample, linear, of a picture with one of TRAX_PATH_FEATURES. */
+struct double3 reference_path(const struct reference *reference, struct pixel pixel, uint32_t sample,
+                              struct trax_exact_sample *seen, uint64_t *rays);
+
+/* reference_material.c: what surfaces do with light, in the formulas of the publications. Directions are of unit length
+   and lead away from the surface. */
+struct reference_surface {
+  struct double3 view, flat, normal; /* flat: the triangle's normal, towards the view; normal: the shading's */
+  struct double3 diffuse, specular;
+  double roughness;
+  bool layered; /* GGX over Lambert; else Lambert */
+};
+
+struct double3 reference_unit(struct double3 v);
+/* The BRDF times the cosine, and the density in solid angle with which reference_sample chooses `way`. */
+struct double3 reference_evaluate(const struct reference_surface *surface, struct double3 way, double *density);
+/* A direction; x, y and choice are from 0 to 1. False: none. */
+bool reference_sample(const struct reference_surface *surface, double x, double y, double choice, struct double3 *way);
+/* Reflectance of a smooth boundary between indices n1 (the view's side) and n2; *cosine2: of the refracted ray. */
+double reference_fresnel(double n1, double n2, double cosine1, double *cosine2);
+
+#endif

@@ -1,0 +1,401 @@
+/* The reference's pictures of several lights, mirrors, glass, rough layers, textures, holes, and paths. What is
+   computed is what device/path.h describes; how, is in binary64 and written apart from it. Both take the same points
+   from the sampler (device/sampler.h), so that their pictures can be compared pixel by pixel. */
+#include "reference.h"
+
+#define PI 3.14159265358979323846
+#define MOST_HOLES 1024
+#define SURE_DEPTH 3
+
+struct sample {
+  const struct reference *reference;
+  const struct trax_render_params *params;
+  const struct trax_path_params *path;
+  uint32_t number, key, depth;
+  bool random; /* --paths */
+  uint64_t *rays;
+};
+
+struct two {
+  double x, y;
+};
+
+static struct two exactly(struct words words) {
+  return (struct two){(words.x >> 8) * 0x1p-24, (words.y >> 8) * 0x1p-24};
+}
+
+static struct two point_for(const struct sample *sample, uint32_t dimension) {
+  dimension += DIMENSIONS_OF_SURFACE * sample->depth;
+  if (sample->random)
+    return exactly(random_words(sample->number, dimension, sample->key));
+  const struct place place = sample->number ? even_point(sample->number, dimension) : PIXEL_MIDDLE;
+  return (struct two){(double)place.x, (double)place.y};
+}
+
+static struct double3 scaled(double factor, struct double3 v) {
+  return (struct double3){factor * v.x, factor * v.y, factor * v.z};
+}
+
+static struct double3 times(struct double3 a, struct double3 b) {
+  return (struct double3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static double largest_of(struct double3 v) {
+  return fmax(v.x, fmax(v.y, v.z));
+}
+
+/* --- textures --- */
+
+struct texel {
+  struct double3 colour;
+  double alpha;
+};
+
+static uint32_t wrap(double number, uint32_t size, bool clamp) {
+  if (clamp)
+    return number < 0 ? 0 : number > size - 1 ? size - 1 : (uint32_t)number;
+  return (uint32_t)(number - size * floor(number / size));
+}
+
+static struct texel look_up(const struct trax_scene *scene, const struct trax_texture *texture, double u, double v) {
+  const uint32_t width = 1u << texture->log2_width, height = 1u << texture->log2_height;
+  const bool clamp = texture->flags & TRAX_TEXTURE_CLAMP;
+  const uint32_t *texels = (const uint32_t *)((const char *)scene->bytes + texture->texels);
+  const double x = u * width - 0.5, y = v * height - 0.5, column = floor(x), row = floor(y);
+  struct texel sum = {{0, 0, 0}, 0};
+  for (int down = 0; down < 2; down++)
+    for (int right = 0; right < 2; right++) {
+      const uint32_t word =
+          texels[(size_t)wrap(row + down, height, clamp) * width + wrap(column + right, width, clamp)];
+      const double weight = (right ? x - column : 1 - x + column) * (down ? y - row : 1 - y + row);
+      const double red = (word & 255) / 255.0, green = (word >> 8 & 255) / 255.0, blue = (word >> 16 & 255) / 255.0;
+      sum.colour = plus_scaled(sum.colour, weight, (struct double3){red * red, green * green, blue * blue});
+      sum.alpha += weight * (word >> 24) / 255.0;
+    }
+  return sum;
+}
+
+static struct texel texel_of(const struct trax_scene *scene, const struct trax_material *material,
+                             const struct exact_hit *hit) {
+  if (!material->texture || !scene->uvs)
+    return (struct texel){{1, 1, 1}, 1};
+  const float(*corner)[2] = scene->uvs[hit->triangle].corner;
+  double place[2];
+  for (int i = 0; i < 2; i++)
+    place[i] =
+        (1 - hit->u - hit->v) * (double)corner[0][i] + hit->u * (double)corner[1][i] + hit->v * (double)corner[2][i];
+  return look_up(scene, &scene->textures[material->texture - 1], place[0], place[1]);
+}
+
+/* --- surfaces --- */
+
+struct surface {
+  const struct trax_material *material;
+  struct exact_hit hit;
+  struct double3 point, behind; /* where rays start */
+  struct texel texel;
+  struct reference_surface at;
+  bool turned;
+};
+
+/* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */
+static struct double3 winding_normal(const struct trax_triangle *triangle) {
+  const struct double3 a = from(triangle->v0);
+  return reference_unit(cross(minus(from(triangle->v1), a), minus(from(triangle->v2), a)));
+}
+
+static struct double3 smooth_normal(const struct trax_triangle_normals *normals, const struct exact_hit *hit,
+                                    struct double3 flat) {
+  const struct double3 a = from(normals->corner[0]), b = from(normals->corner[1]), c = from(normals->corner[2]);
+  const struct double3 n = plus_scaled(plus_scaled(scaled(1 - hit->u - hit->v, a), hit->u, b), hit->v, c);
+  return reference_unit(dot(n, flat) < 0 ? scaled(-1, n) : n);
+}
+
+static void describe(struct surface *surface, const struct sample *sample, const struct exact_hit *hit,
+                     struct double3 origin, struct double3 direction) {
+  const struct trax_scene *scene = sample->reference->frame->scene;
+  const struct trax_triangle *triangle = &scene->triangles[hit->triangle];
+  const struct trax_material *material = &scene->materials[triangle->material];
+  const struct double3 a = from(triangle->v0), e = minus(from(triangle->v1), a), f = minus(from(triangle->v2), a);
+  const struct double3 on = plus_scaled(plus_scaled(a, hit->u, e), hit->v, f);
+  surface->material = material;
+  surface->hit = *hit;
+  surface->texel = texel_of(scene, material, hit);
+  struct double3 normal = winding_normal(triangle);
+  surface->turned = dot(normal, direction) > 0;
+  normal = surface->turned ? scaled(-1, normal) : normal;
+  /* As in device/shade.h: along the normal and back along the sight. */
+  const double offset = 0x1p-22 * greatest(a) + 0x1p-17 * fmax(greatest(e), greatest(f));
+  const struct double3 sight = minus(on, origin);
+  const double back = fmin(0.5 * offset / exp2(floor(log2(greatest(sight)))), 1);
+  surface->point = plus_scaled(plus_scaled(on, offset, normal), -back, sight);
+  surface->behind = plus_scaled(on, -offset, normal);
+
+  struct reference_surface *at = &surface->at;
+  const bool scatters = material->kind == TRAX_MATERIAL_LAMBERT || material->kind == TRAX_MATERIAL_GGX;
+  *at = (struct reference_surface){.view = reference_unit(scaled(-1, direction)),
+                                   .flat = normal,
+                                   .normal = normal,
+                                   .diffuse = from(material->diffuse),
+                                   .specular = from(material->specular),
+                                   .roughness = fmax((double)material->roughness, (double)TRAX_LEAST_ROUGHNESS),
+                                   .layered = material->kind == TRAX_MATERIAL_GGX};
+  if (reference_needs(sample->reference, TRAX_FEATURE_SMOOTH)) {
+    const struct double3 smooth = smooth_normal(&scene->normals[hit->triangle], hit, normal);
+    if (scatters || dot(smooth, at->view) > 0)
+      at->normal = smooth;
+  }
+  if (at->layered && largest_of(at->diffuse) == 0)
+    at->specular = times(at->specular, surface->texel.colour);
+  else
+    at->diffuse = times(at->diffuse, surface->texel.colour);
+}
+
+static bool is_hole(const struct surface *surface) {
+  const struct trax_material *material = surface->material;
+  return (double)material->opacity * surface->texel.alpha < (double)material->alpha_cutoff;
+}
+
+/* The nearest surface that is no hole. *distance: how far the ray went, over all of its pieces. */
+static bool find_surface(struct surface *surface, const struct sample *sample, struct double3 origin,
+                         struct double3 direction, double limit, double *distance) {
+  struct exact_hit hit;
+  *distance = 0;
+  for (int holes = 0;; holes++) {
+    ++*sample->rays;
+    if (!reference_hit(sample->reference, origin, direction, &hit) || *distance + hit.distance > limit)
+      return false;
+    describe(surface, sample, &hit, origin, direction);
+    if (holes == MOST_HOLES || !is_hole(surface)) {
+      *distance += hit.distance;
+      return true;
+    }
+    *distance += hit.distance;
+    origin = surface->behind;
+  }
+}
+
+static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
+                          double distance) {
+  if (!reference_needs(sample->reference, TRAX_FEATURE_SHADOWS))
+    return true;
+  if (reference_needs(sample->reference, TRAX_FEATURE_ALPHA)) {
+    struct surface surface;
+    double far;
+    return !find_surface(&surface, sample, origin, direction, distance * (1 - 0x1p-18), &far);
+  }
+  ++*sample->rays;
+  return !reference_blocked(sample->reference, origin, direction, distance);
+}
+
+/* --- lights --- */
+
+static const void *table(const struct sample *sample, uint32_t offset) {
+  return (const char *)sample->path + offset;
+}
+
+/* Towards a point: its direction and distance. */
+static double towards(struct double3 point, struct double3 target, struct double3 *direction) {
+  const struct double3 way = minus(target, point);
+  const double distance = sqrt(dot(way, way));
+  if (!(distance >= 0x1p-40))
+    return 0;
+  *direction = scaled(1 / distance, way);
+  return distance;
+}
+
+/* The irradiance of a surface at right angles to the light, from a light of the view; false: none. */
+static bool light_at(const struct trax_device_light *light, struct double3 point, struct two place,
+                     struct double3 *direction, double *distance, struct double3 *irradiance) {
+  struct double3 target = from(light->place);
+  double scale = PI;
+  if (light->kind == TRAX_FROM_DIRECTION) {
+    *direction = target;
+    *distance = INFINITY;
+  } else {
+    if (light->kind == TRAX_FROM_RECTANGLE)
+      target = plus_scaled(plus_scaled(target, place.x, from(light->edge[0])), place.y, from(light->edge[1]));
+    *distance = towards(point, target, direction);
+    if (!(*distance > 0))
+      return false;
+    if (light->kind != TRAX_FROM_POINT)
+      scale /= *distance * *distance;
+    if (light->kind == TRAX_FROM_RECTANGLE)
+      scale *= -dot(from(light->normal), *direction);
+  }
+  *irradiance = scaled(scale, from(light->radiance));
+  return scale > 0;
+}
+
+/* The density in solid angle with which a shadow ray from a point goes to a point of an emitter. */
+static double emitter_density(const struct sample *sample, const struct trax_triangle *triangle, double distance,
+                              struct double3 direction) {
+  const struct trax_device_material *material =
+      (const struct trax_device_material *)table(sample, sample->path->materials) + triangle->material;
+  const double cosine = fabs(dot(winding_normal(triangle), direction));
+  return (double)material->emitter_density * distance * distance / (cosine * sample->path->choices);
+}
+
+static const struct trax_triangle *pick_emitter(const struct sample *sample, uint32_t pick) {
+  const struct trax_emitter *emitters = table(sample, sample->path->emitters);
+  uint32_t chosen = sample->path->emitter_count - 1;
+  while (chosen > 0 && emitters[chosen].cumulative > pick)
+    chosen--;
+  return (const struct trax_triangle *)((const char *)sample->reference->frame->scene->bytes +
+                                        emitters[chosen].triangle);
+}
+
+/* What one light of the view sends to the eye by way of the surface. */
+static struct double3 lit_by(const struct sample *sample, const struct surface *surface,
+                             const struct trax_device_light *light, struct two place) {
+  const struct double3 nothing = {0, 0, 0};
+  struct double3 direction, irradiance;
+  double distance, density;
+  if (!light_at(light, surface->point, place, &direction, &distance, &irradiance))
+    return nothing;
+  const struct double3 part = reference_evaluate(&surface->at, direction, &density);
+  if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance))
+    return nothing;
+  return times(part, irradiance);
+}
+
+/* What an emitter does, weighted by the balance heuristic. */
+static struct double3 lit_by_emitter(const struct sample *sample, const struct surface *surface, uint32_t pick,
+                                     struct two place) {
+  const struct double3 nothing = {0, 0, 0};
+  const struct trax_triangle *triangle = pick_emitter(sample, pick);
+  const struct double3 a = from(triangle->v0), b = from(triangle->v1), c = from(triangle->v2);
+  const double side = sqrt(place.x), v = side * (1 - place.y), w = side * place.y;
+  const struct double3 target = plus_scaled(plus_scaled(scaled(1 - v - w, a), v, b), w, c);
+  struct double3 direction;
+  double density;
+  const double distance = towards(surface->point, target, &direction);
+  if (!(distance > 0) || !(fabs(dot(winding_normal(triangle), direction)) >= 0x1p-20))
+    return nothing;
+  const struct double3 part = reference_evaluate(&surface->at, direction, &density);
+  if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance * (1 - 0x1p-18)))
+    return nothing;
+  const double chosen = emitter_density(sample, triangle, distance, direction);
+  const struct trax_material *material = &sample->reference->frame->scene->materials[triangle->material];
+  return scaled(1 / (chosen + density), times(part, from(material->emission)));
+}
+
+/* --- paths --- */
+
+static struct double3 lit_at_random(const struct sample *sample, const struct surface *surface) {
+  if (sample->path->choices == 0)
+    return (struct double3){0, 0, 0};
+  const struct words pick =
+      random_words(sample->number, DIMENSION_PICK + DIMENSIONS_OF_SURFACE * sample->depth, sample->key);
+  const struct two place = point_for(sample, DIMENSION_LIGHT);
+  const uint32_t number = (uint32_t)((uint64_t)pick.x * sample->path->choices >> 32);
+  const struct trax_device_light *lights = table(sample, sample->path->lights);
+  if (number == sample->path->light_count)
+    return lit_by_emitter(sample, surface, pick.y, place);
+  return scaled(sample->path->choices, lit_by(sample, surface, &lights[number], place));
+}
+
+static struct double3 lit_by_all(const struct sample *sample, const struct surface *surface) {
+  const struct trax_device_light *lights = table(sample, sample->path->lights);
+  const struct trax_render_params *params = sample->params;
+  struct double3 albedo = surface->at.diffuse;
+  if (surface->at.layered)
+    albedo = plus_scaled(albedo, 1, surface->at.specular);
+  struct double3 sum = scaled((double)params->ambient + dot(surface->at.normal, from(params->fill)), albedo);
+  for (uint32_t i = 0; i < sample->path->light_count; i++)
+    sum = plus_scaled(sum, 1, lit_by(sample, surface, &lights[i], point_for(sample, DIMENSION_LIGHT)));
+  return sum;
+}
+
+static struct double3 mirrored(struct double3 view, struct double3 normal) {
+  return plus_scaled(scaled(-1, view), 2 * dot(view, normal), normal);
+}
+
+/* A mirror's or a glass's next direction, about the smooth normal unless that leads to the wrong side. */
+static struct double3 deflect(const struct sample *sample, const struct surface *surface, bool *through) {
+  const struct reference_surface *at = &surface->at;
+  struct double3 way = {0, 0, 0}, normal = at->normal;
+  *through = false;
+  if (surface->material->kind == TRAX_MATERIAL_MIRROR) {
+    way = mirrored(at->view, normal);
+    return dot(at->flat, way) > 0 ? way : mirrored(at->view, at->flat);
+  }
+  const double glass = (double)surface->material->ior, n1 = surface->turned ? glass : 1,
+               n2 = surface->turned ? 1 : glass;
+  for (int attempt = 0; attempt < 2; attempt++, normal = at->flat) {
+    double cosine2;
+    const double cosine1 = dot(at->view, normal);
+    *through = point_for(sample, DIMENSION_CHOICE).x >= reference_fresnel(n1, n2, cosine1, &cosine2);
+    way = *through ? plus_scaled(scaled(-n1 / n2, at->view), n1 / n2 * cosine1 - cosine2, normal)
+                   : mirrored(at->view, normal);
+    const double side = dot(at->flat, way);
+    if (*through ? side < 0 : side > 0)
+      break;
+  }
+  return reference_unit(way);
+}
+
+struct double3 reference_path(const struct reference *reference, struct pixel pixel, uint32_t number,
+                              struct trax_exact_sample *seen, uint64_t *rays) {
+  const struct trax_render_params *params = reference->frame->params;
+  struct sample sample = {.reference = reference,
+                          .params = params,
+                          .path = (const struct trax_path_params *)(params + 1),
+                          .number = number,
+                          .random = reference_needs(reference, TRAX_FEATURE_PATHS),
+                          .rays = rays};
+  sample.key = hash_word(pixel.packed ^ hash_word(sample.path->seed));
+  const struct place place = sample.random ? random_point(number, DIMENSION_PIXEL, sample.key) : sample_place(number);
+  const struct vector camera = camera_direction(params, pixel, place);
+  struct double3 origin = from(params->eye), direction = {(double)camera.x, (double)camera.y, (double)camera.z};
+  struct double3 light = {0, 0, 0}, weight = {1, 1, 1};
+  double density = 0; /* of the direction in solid angle; 0: there was no choice */
+  *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
+
+  for (;; sample.depth++) {
+    struct surface surface;
+    double distance;
+    if (!find_surface(&surface, &sample, origin, direction, INFINITY, &distance))
+      return plus_scaled(light, 1, times(weight, from(sample.path->background)));
+    if (sample.depth == 0)
+      seen->triangle = surface.hit.triangle, seen->distance = distance;
+
+    const struct trax_material *material = surface.material;
+    const struct trax_triangle *triangle = &reference->frame->scene->triangles[surface.hit.triangle];
+    if (largest_of(from(material->emission)) > 0) {
+      const double chosen = density > 0 ? emitter_density(&sample, triangle, surface.hit.distance, direction) : 0;
+      const double share = density > 0 ? density / (density + chosen) : 1;
+      light = plus_scaled(light, share, times(weight, from(material->emission)));
+    }
+    if (sample.depth >= sample.path->max_depth)
+      return light;
+
+    if (material->kind == TRAX_MATERIAL_MIRROR || material->kind == TRAX_MATERIAL_GLASS) {
+      bool through;
+      direction = deflect(&sample, &surface, &through);
+      origin = through ? surface.behind : surface.point;
+      if (through || material->kind == TRAX_MATERIAL_MIRROR)
+        weight = times(weight, surface.at.specular);
+      density = 0;
+      continue;
+    }
+    if (!sample.random)
+      return plus_scaled(light, 1, times(weight, lit_by_all(&sample, &surface)));
+
+    light = plus_scaled(light, 1, times(weight, lit_at_random(&sample, &surface)));
+    const struct two choice = point_for(&sample, DIMENSION_CHOICE), scatter = point_for(&sample, DIMENSION_SCATTER);
+    if (!reference_sample(&surface.at, scatter.x, scatter.y, choice.x, &direction))
+      return light;
+    const struct double3 part = reference_evaluate(&surface.at, direction, &density);
+    weight = times(weight, scaled(1 / density, part));
+    if (!(largest_of(weight) > 0))
+      return light;
+    if (sample.depth >= SURE_DEPTH) {
+      const double chance = fmin(fmax(largest_of(weight), 0x1p-10), 0.95);
+      if (choice.y >= chance)
+        return light;
+      weight = scaled(1 / chance, weight);
+    }
+    origin = surface.point;
+  }
+}
