@@ -143,9 +143,12 @@ static trax_status read_direction(const struct group *file, struct trax_view *vi
   trax_status result = read_vector(file, key, view->direction);
   if (result != TRAX_OK)
     return result;
-  if (look_at)
+  if (look_at) {
+    view->has_look_at = true;
+    memcpy(view->look_at, view->direction, sizeof view->look_at);
     for (int axis = 0; axis < 3; axis++)
       view->direction[axis] -= view->eye[axis];
+  }
   if (!normalise(view->direction))
     return fail_in(file, look_at ? look_at : direction, key, look_at ? "is the eye itself" : "has no length");
   return TRAX_OK;
@@ -339,7 +342,8 @@ void trax_view_frame(struct trax_view *view, const float bounds_min[3], const fl
   if (!(radius > 0))
     radius = 1;
 
-  *view = (struct trax_view){.up = {0, 1, 0}, .fov = fov};
+  *view = (struct trax_view){.up = {0, 1, 0}, .fov = fov, .has_look_at = true};
+  memcpy(view->look_at, centre, sizeof centre);
   for (int axis = 0; axis < 3; axis++)
     view->direction[axis] = -toward_eye[axis];
   normalise(view->direction);
@@ -363,4 +367,150 @@ void trax_view_frame(struct trax_view *view, const float bounds_min[3], const fl
     view->eye[axis] = centre[axis] - distance * d[axis];
     view->light[axis] = centre[axis] + 4 * radius * light[axis];
   }
+}
+
+/* --- other views --- */
+
+trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_error *error) {
+  float direction[3];
+  for (int axis = 0; axis < 3; axis++)
+    direction[axis] = look_at[axis] - view->eye[axis];
+  if (!normalise(direction))
+    return scene_fail(error, "the point to look at is the eye itself");
+  memcpy(view->direction, direction, sizeof direction);
+  memcpy(view->look_at, look_at, sizeof view->look_at);
+  view->has_look_at = true;
+  return TRAX_OK;
+}
+
+trax_status trax_view_set_up(struct trax_view *view, const float up[3], trax_error *error) {
+  float unit[3] = {up[0], up[1], up[2]};
+  if (!normalise(unit))
+    return scene_fail(error, "the direction upwards has no length");
+  if (!make_perpendicular(unit, view->direction))
+    return scene_fail(error, "the direction upwards is that in which the eye looks");
+  memcpy(view->up, unit, sizeof unit);
+  return TRAX_OK;
+}
+
+/* Rodrigues' formula, about an axis of unit length through the origin. */
+static void rotate(float v[3], const double axis[3], double degrees) {
+  const double radians = degrees * (3.14159265358979323846 / 180), c = cos(radians), s = sin(radians);
+  const double along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+  double turned[3];
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    turned[i] = v[i] * c + (axis[j] * v[k] - axis[k] * v[j]) * s + axis[i] * along * (1 - c);
+  }
+  for (int i = 0; i < 3; i++)
+    v[i] = (float)turned[i];
+}
+
+void trax_view_orbit(struct trax_view *view, const float centre[3], float angle, float elevation) {
+  const float *d = view->direction, *u = view->up;
+  const double left[3] = {(double)u[1] * d[2] - (double)u[2] * d[1], (double)u[2] * d[0] - (double)u[0] * d[2],
+                          (double)u[0] * d[1] - (double)u[1] * d[0]};
+  double axis[3] = {0};
+  int most = 1;
+  for (int i = 0; i < 3; i++)
+    if (fabsf(u[i]) > fabsf(u[most]))
+      most = i;
+  axis[most] = u[most] < 0 ? -1 : 1;
+  float place[3];
+  for (int i = 0; i < 3; i++)
+    place[i] = view->eye[i] - centre[i];
+  float *const vectors[] = {place, view->direction, view->up};
+  for (int i = 0; i < 3; i++) {
+    rotate(vectors[i], left, elevation);
+    rotate(vectors[i], axis, angle);
+  }
+  for (int i = 0; i < 3; i++)
+    view->eye[i] = centre[i] + place[i];
+  normalise(view->direction);
+  make_perpendicular(view->up, view->direction);
+  if (view->has_look_at) {
+    for (int i = 0; i < 3; i++)
+      place[i] = view->look_at[i] - centre[i];
+    rotate(place, left, elevation);
+    rotate(place, axis, angle);
+    for (int i = 0; i < 3; i++)
+      view->look_at[i] = centre[i] + place[i];
+  }
+}
+
+/* --- writing: text that libconfig reads, with every bit of a float --- */
+
+static void put_number(FILE *out, float value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.9g", (double)value);
+  fprintf(out, "%s%s", text, strpbrk(text, ".e") ? "" : ".0"); /* or it would be an integer */
+}
+
+static void put_key(FILE *out, const char *key, float value) {
+  fprintf(out, "%s = ", key);
+  put_number(out, value);
+  fputs("; ", out);
+}
+
+static void put_vector(FILE *out, const float value[3]) {
+  for (int axis = 0; axis < 3; axis++) {
+    fputs(axis ? ", " : "[", out);
+    put_number(out, value[axis]);
+  }
+  fputc(']', out);
+}
+
+static void put_vector_key(FILE *out, const char *key, const float value[3]) {
+  fprintf(out, "%s = ", key);
+  put_vector(out, value);
+  fputs("; ", out);
+}
+
+static void put_light(FILE *out, const struct trax_light *light) {
+  static const char *const names[] = {"point", "directional", "rectangle"};
+  fprintf(out, "  { type = \"%s\"; ", names[light->kind]);
+  if (light->kind == TRAX_LIGHT_POINT) {
+    put_vector_key(out, "position", light->position);
+    put_key(out, "falloff", light->falloff);
+  } else if (light->kind == TRAX_LIGHT_DIRECTIONAL)
+    put_vector_key(out, "direction", light->direction);
+  else {
+    put_vector_key(out, "corner", light->position);
+    fputs("edges = ( ", out);
+    put_vector(out, light->edges[0]);
+    fputs(", ", out);
+    put_vector(out, light->edges[1]);
+    fputs(" ); ", out);
+  }
+  put_vector_key(out, "colour", light->colour);
+  put_key(out, "strength", light->strength);
+  fputc('}', out);
+}
+
+trax_status trax_view_write(const struct trax_view *view, const char *path, trax_error *error) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    return scene_out_of_memory(error, path);
+  put_vector_key(out, "eye", view->eye);
+  fputc('\n', out);
+  put_vector_key(out, view->has_look_at ? "look_at" : "direction", view->has_look_at ? view->look_at : view->direction);
+  fputc('\n', out);
+  put_vector_key(out, "up", view->up);
+  fputc('\n', out);
+  put_key(out, "fov", view->fov);
+  fputc('\n', out);
+  if (view->light_count == 0)
+    put_vector_key(out, "light", view->light);
+  else
+    fputs("lights = (\n", out);
+  for (uint32_t i = 0; i < view->light_count; i++) {
+    put_light(out, &view->lights[i]);
+    fputs(i + 1 < view->light_count ? ",\n" : "\n);", out);
+  }
+  fputc('\n', out);
+  trax_status result = fclose(out) == 0 ? trax_write_file(path, text, size, error) : scene_out_of_memory(error, path);
+  free(text);
+  return result;
 }

@@ -45,6 +45,18 @@ static void scale_scene(struct trax_scene *scene, int exponent) {
   header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
 }
 
+void trax_scale_view(struct trax_view *view, int exponent) {
+  scale_floats(view->eye, 3, exponent);
+  scale_floats(view->look_at, 3, exponent);
+  scale_floats(view->light, 3, exponent);
+  for (uint32_t i = 0; i < view->light_count; i++) {
+    struct trax_light *light = &view->lights[i];
+    scale_floats(light->position, 3, exponent);
+    scale_floats(light->edges[0], 6, exponent);
+    scale_floats(&light->falloff, 1, exponent);
+  }
+}
+
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error) {
   double size = greatest(greatest(greatest(0, scene->header->bounds_min), scene->header->bounds_max), view->eye);
   if (size == 0)
@@ -63,14 +75,7 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
     return TRAX_OK;
   *exponent = -magnitude;
   scale_scene(scene, *exponent);
-  scale_floats(view->eye, 3, *exponent);
-  scale_floats(view->light, 3, *exponent);
-  for (uint32_t i = 0; i < view->light_count; i++) {
-    struct trax_light *one = &view->lights[i];
-    scale_floats(one->position, 3, *exponent);
-    scale_floats(one->edges[0], 6, *exponent);
-    scale_floats(&one->falloff, 1, *exponent);
-  }
+  trax_scale_view(view, *exponent);
   return TRAX_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "core/machine.h"
 #include "emulated.h"
 #include "host/util.h"
+#include "inputs.h"
 #include "options.h"
 #include "progress.h"
 #include "render.h"
@@ -17,77 +18,6 @@ static volatile sig_atomic_t interrupted;
 static void on_interrupt(int signal_number) {
   interrupted = 1;
   signal(signal_number, SIG_DFL); /* a second one ends the program at once */
-}
-
-static bool has_suffix(const char *text, const char *suffix) {
-  size_t length = strlen(text), suffix_length = strlen(suffix);
-  return length > suffix_length && strcmp(text + length - suffix_length, suffix) == 0;
-}
-
-/* --- the scene --- */
-
-static void show_scene_step(void *context, const char *step, double fraction) {
-  progress_show(context, step, fraction, NULL);
-}
-
-static trax_status import_scene(struct trax_scene *scene, const struct options *options, struct progress *progress,
-                                trax_error *error) {
-  struct trax_import_options import = options->import;
-  import.progress = show_scene_step;
-  import.progress_context = progress;
-  import.interrupt = (const volatile int *)&interrupted;
-  struct trax_build_options build = {.progress = show_scene_step,
-                                     .progress_context = progress,
-                                     .interrupt = (const volatile int *)&interrupted,
-                                     .smooth = options->frame.smooth,
-                                     .compute_normals = options->compute_normals};
-  struct trax_mesh mesh = {0};
-  struct trax_import_report report;
-  trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
-  if (status == TRAX_OK && !options->quiet) {
-    progress_clear(progress);
-    trax_import_print_notes(&report, "trax-render", stderr);
-  }
-  if (status == TRAX_OK)
-    status = trax_scene_build(scene, &mesh, &build, error);
-  trax_mesh_release(&mesh);
-  return status;
-}
-
-static trax_status load_scene(struct trax_scene *scene, const struct options *options, struct progress *progress,
-                              trax_error *error) {
-  for (size_t i = 0; i < options->mesh_count; i++)
-    if (has_suffix(options->meshes[i], ".trax")) {
-      if (options->mesh_count > 1)
-        return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
-                         options->meshes[i]);
-      if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
-          options->compute_normals)
-        return trax_fail(error,
-                         "%s: a scene file is as trax-scene made it: --material, --diffuse, --no-textures, "
-                         "--texture-size and --normals smooth are for meshes",
-                         options->meshes[0]);
-      trax_status status = trax_scene_read(scene, options->meshes[0], error);
-      if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
-        status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",
-                           options->meshes[0]);
-      return status;
-    }
-  return import_scene(scene, options, progress, error);
-}
-
-static trax_status load_view(struct trax_view *view, const struct options *options, const struct trax_scene *scene,
-                             trax_error *error) {
-  if (!options->view) {
-    trax_view_frame(view, scene->header->bounds_min, scene->header->bounds_max,
-                    (float)options->frame.width / (float)options->frame.height);
-    return TRAX_OK;
-  }
-  char path[TRAX_PATH_SIZE];
-  if (access(options->view, F_OK) != 0 && !strchr(options->view, '/') &&
-      installed_file(path, "share/trax/views", options->view, ".view"))
-    return trax_view_read(view, path, error);
-  return trax_view_read(view, options->view, error);
 }
 
 /* --- the other engines --- */
@@ -150,44 +80,47 @@ static trax_status compare(const struct trax_picture *picture, const struct trax
   return TRAX_OK;
 }
 
-static trax_status render(const struct options *options, struct progress *progress, bool *agrees, trax_error *error) {
-  struct trax_scene scene = {0};
-  struct trax_view view;
+static trax_status check_outputs(const struct options *options, trax_error *error) {
+  const char *const paths[] = {options->frames > 1 ? NULL : options->output, options->stats, options->cost_picture,
+                               options->cost_values, options->write_view};
+  trax_status status = TRAX_OK;
+  for (size_t i = 0; i < sizeof paths / sizeof *paths && status == TRAX_OK; i++)
+    if (paths[i])
+      status = trax_output_check(paths[i], error);
+  return status == TRAX_OK ? trax_explain_check(&options->explain, error) : status;
+}
+
+static void print_outputs(const struct options *options, const char *picture) {
+  if (picture)
+    printf("picture     %s\n", picture);
+  if (options->stats)
+    printf("statistics  %s\n", options->stats);
+  if (options->keep)
+    printf("inputs      %s\n", options->keep);
+}
+
+/* One picture. *scaled: the power of two by which the scene was scaled so far. */
+static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
+                               const char *output, int *scaled, struct progress *progress, bool *agrees,
+                               trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
   int exponent;
-  trax_status status = options->output ? trax_output_check(options->output, error) : TRAX_OK;
-  if (status == TRAX_OK && options->stats)
-    status = trax_output_check(options->stats, error);
-  if (status == TRAX_OK && options->cost_picture)
-    status = trax_output_check(options->cost_picture, error);
-  if (status == TRAX_OK && options->cost_values)
-    status = trax_output_check(options->cost_values, error);
-  if (status == TRAX_OK)
-    status = trax_explain_check(&options->explain, error);
-  if (status == TRAX_OK)
-    status = load_scene(&scene, options, progress, error);
-  if (status == TRAX_OK)
-    status = load_view(&view, options, &scene, error);
-  if (status == TRAX_OK)
-    status = trax_normalise(&scene, &view, &exponent, error);
-  if (status == TRAX_OK)
-    status = trax_frame_init(&frame, &scene, &view, &options->frame, error);
+  trax_scale_view(view, *scaled);
+  trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
+  if (status == TRAX_OK) {
+    *scaled += exponent;
+    status = trax_frame_init(&frame, &inputs->scene, view, &options->frame, error);
+  }
   if (status == TRAX_OK)
     status = options->engine <= ENGINE_REFERENCE
                  ? emulate(&picture, options, &frame, progress, (const volatile int *)&interrupted, agrees, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
                                options->quiet, error);
-  if (status == TRAX_OK && options->output)
-    status = trax_picture_write(&picture, options->output, error);
-  if (status == TRAX_OK && !options->quiet) {
-    if (options->output)
-      printf("picture     %s\n", options->output);
-    if (options->stats)
-      printf("statistics  %s\n", options->stats);
-    if (options->keep)
-      printf("inputs      %s\n", options->keep);
-  }
+  if (status == TRAX_OK && output)
+    status = trax_picture_write(&picture, output, error);
+  if (status == TRAX_OK && !options->quiet)
+    print_outputs(options, output);
   if (status == TRAX_OK && options->compare) {
     bool same = true;
     status = compare(&picture, &frame, progress, &same, error);
@@ -195,7 +128,42 @@ static trax_status render(const struct options *options, struct progress *progre
   }
   trax_picture_release(&picture);
   trax_frame_release(&frame);
-  trax_scene_release(&scene);
+  return status;
+}
+
+/* PICTURE.png becomes PICTURE-0001.png; from malloc. */
+static char *numbered(const char *path, unsigned number) {
+  const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+  const size_t length = dot && dot > (slash ? slash + 1 : path) ? (size_t)(dot - path) : strlen(path);
+  const size_t size = strlen(path) + sizeof "-0001";
+  char *name = malloc(size);
+  if (name)
+    snprintf(name, size, "%.*s-%04u%s", (int)length, path, number, path + length);
+  return name;
+}
+
+static trax_status render(const struct options *options, struct progress *progress, bool *agrees, trax_error *error) {
+  struct inputs inputs = {0};
+  struct trax_view view;
+  int scaled = 0;
+  trax_status status = check_outputs(options, error);
+  if (status == TRAX_OK)
+    status = inputs_load(&inputs, options, progress, (const volatile int *)&interrupted, error);
+  if (status == TRAX_OK && options->write_view) {
+    inputs_view(&view, &inputs, options, 0);
+    status = trax_view_write(&view, options->write_view, error);
+  }
+  for (unsigned i = 0; i < options->frames && status == TRAX_OK; i++) {
+    char *output = options->frames > 1 ? numbered(options->output, i + 1) : NULL;
+    if (options->frames > 1 && !output)
+      status = trax_fail(error, "out of memory");
+    inputs_view(&view, &inputs, options, i);
+    if (status == TRAX_OK)
+      status =
+          render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, agrees, error);
+    free(output);
+  }
+  inputs_release(&inputs);
   return status;
 }
 

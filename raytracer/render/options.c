@@ -17,7 +17,15 @@ static const char usage[] =
     "  -o, --output FILE.png   the picture\n"
     "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
-    "                          without it the whole scene is framed\n"
+    "                          without it the whole scene is framed; file:NAME is a camera of a glTF file, file: its\n"
+    "                          first one\n"
+    "      --eye X,Y,Z         the eye; --look-at X,Y,Z, --up X,Y,Z, --fov DEGREES the same: instead of the view's\n"
+    "      --light X,Y,Z       a point light instead of the view's lights; repeated, they share the light\n"
+    "      --orbit A[,E]       turns the eye by A degrees around the point that the view looks at, or the middle of "
+    "the\n"
+    "                          scene, and raises it by E degrees\n"
+    "      --frames N          a turntable: N pictures of a whole turn, PICTURE-0001.png and so on\n"
+    "      --write-view FILE   writes the view as a file\n"
     "      --samples N         rays from the eye through every pixel, 1 to 4096 (default 1)\n"
     "      --material [NAME=]KIND  of the meshes: lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or\n"
     "                          emit:R,G,B, for the material NAME or for all (repeatable)\n"
@@ -66,6 +74,14 @@ static const char usage[] =
 enum {
   OPT_SIZE = 256,
   OPT_VIEW,
+  OPT_EYE,
+  OPT_LOOK_AT,
+  OPT_UP,
+  OPT_FOV,
+  OPT_LIGHT,
+  OPT_ORBIT,
+  OPT_FRAMES,
+  OPT_WRITE_VIEW,
   OPT_SAMPLES,
   OPT_MATERIAL,
   OPT_DIFFUSE,
@@ -104,6 +120,14 @@ enum {
 static const struct option long_options[] = {{"output", required_argument, NULL, 'o'},
                                              {"size", required_argument, NULL, OPT_SIZE},
                                              {"view", required_argument, NULL, OPT_VIEW},
+                                             {"eye", required_argument, NULL, OPT_EYE},
+                                             {"look-at", required_argument, NULL, OPT_LOOK_AT},
+                                             {"up", required_argument, NULL, OPT_UP},
+                                             {"fov", required_argument, NULL, OPT_FOV},
+                                             {"light", required_argument, NULL, OPT_LIGHT},
+                                             {"orbit", required_argument, NULL, OPT_ORBIT},
+                                             {"frames", required_argument, NULL, OPT_FRAMES},
+                                             {"write-view", required_argument, NULL, OPT_WRITE_VIEW},
                                              {"samples", required_argument, NULL, OPT_SAMPLES},
                                              {"material", required_argument, NULL, OPT_MATERIAL},
                                              {"diffuse", required_argument, NULL, OPT_DIFFUSE},
@@ -233,7 +257,64 @@ static trax_status take_normals(struct options *options, const char *value, trax
   return trax_fail(error, "--normals %s: expected file, smooth or flat", value);
 }
 
+/* As many numbers as fit between commas, none beyond `most`; returns how many, 0 if anything else is there. */
+static unsigned parse_floats(const char *text, float *values, unsigned count, float most) {
+  for (unsigned i = 0; i < count; i++) {
+    char *end;
+    values[i] = strtof(text, &end);
+    if (end == text || !(values[i] >= -most && values[i] <= most))
+      return 0;
+    if (*end == '\0')
+      return i + 1;
+    if (*end != ',')
+      return 0;
+    text = end + 1;
+  }
+  return 0;
+}
+
+static trax_status take_point(float point[3], bool *given, const char *name, const char *value, trax_error *error) {
+  if (given)
+    *given = true;
+  return parse_floats(value, point, 3, 1e18f) == 3
+             ? TRAX_OK
+             : trax_fail(error, "--%s %s: expected three numbers, X,Y,Z", name, value);
+}
+
+static trax_status take_camera_option(struct options *options, int which, const char *value, trax_error *error) {
+  struct camera_options *camera = &options->camera;
+  switch (which) {
+  case OPT_EYE:
+    return take_point(camera->eye, &camera->has_eye, "eye", value, error);
+  case OPT_LOOK_AT:
+    return take_point(camera->look_at, &camera->has_look_at, "look-at", value, error);
+  case OPT_UP:
+    return take_point(camera->up, &camera->has_up, "up", value, error);
+  case OPT_FOV:
+    if (parse_floats(value, &camera->fov, 1, 179.9f) != 1 || camera->fov < 0.01f)
+      return trax_fail(error, "--fov %s: expected a number of degrees from 0.01 to 179.9", value);
+    return TRAX_OK;
+  case OPT_LIGHT:
+    if (camera->light_count == TRAX_VIEW_MAX_LIGHTS)
+      return trax_fail(error, "--light: there may be at most %d lights", TRAX_VIEW_MAX_LIGHTS);
+    return take_point(camera->lights[camera->light_count++], NULL, "light", value, error);
+  case OPT_ORBIT:
+    if (parse_floats(value, camera->orbit, 2, 36000) == 0)
+      return trax_fail(error, "--orbit %s: expected degrees, ANGLE or ANGLE,ELEVATION", value);
+    return TRAX_OK;
+  case OPT_FRAMES:
+    if (!parse_number(&value, 9999, &options->frames) || *value != '\0' || options->frames == 0)
+      return trax_fail(error, "--frames: expected a number from 1 to 9999");
+    return TRAX_OK;
+  default: /* OPT_WRITE_VIEW */
+    options->write_view = value;
+    return TRAX_OK;
+  }
+}
+
 static trax_status take_option(struct options *options, int which, const char *value, trax_error *error) {
+  if (which >= OPT_EYE && which <= OPT_WRITE_VIEW)
+    return take_camera_option(options, which, value, error);
   switch (which) {
   case 'o':
     options->output = value;
@@ -414,6 +495,9 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --report are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
+  if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
+                              options->report || options->compare || trax_explain_wanted(&options->explain)))
+    return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->frame.seed && !options->frame.paths)
     return trax_fail(error, "--seed is for --paths: nothing else is random");
   if (options->threads && options->engine != ENGINE_NATIVE && options->engine != ENGINE_FAST)
@@ -422,7 +506,8 @@ static trax_status check(const struct options *options, trax_error *error) {
 }
 
 enum options_result options_parse(struct options *options, int argc, char **argv, trax_error *error) {
-  *options = (struct options){.frame = {.width = 1280,
+  *options = (struct options){.frames = 1,
+                              .frame = {.width = 1280,
                                         .height = 720,
                                         .ambient = TRAX_DEFAULT_AMBIENT,
                                         .background = TRAX_DEFAULT_BACKGROUND,

@@ -13,12 +13,25 @@ struct setting {
   const char *value;
 };
 
+/* What takes the place of the view's values. */
+struct camera_options {
+  bool has_eye, has_look_at, has_up;
+  float eye[3], look_at[3], up[3];
+  float fov;      /* degrees; 0: the view's */
+  float orbit[2]; /* angle, elevation: degrees */
+  float lights[TRAX_VIEW_MAX_LIGHTS][3];
+  uint32_t light_count; /* 0: the view's */
+};
+
 struct options {
   const char **meshes; /* into argv */
   size_t mesh_count;
   const char *output;
   const char *config;
   const char *view; /* NULL: framed automatically */
+  struct camera_options camera;
+  unsigned frames;        /* pictures of a turntable; 1: none */
+  const char *write_view; /* NULL: not wanted */
   const char *stats, *keep, *program;
   const char *cache; /* of specialised programs; NULL: the user's */
   const char *cost;  /* what --cost-picture and --cost-values show */

@@ -55,6 +55,9 @@ struct trax_frame_options {
  */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
+/* By 2^exponent, as of a scene that was scaled before. */
+void trax_scale_view(struct trax_view *view, int exponent);
+
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error);

@@ -88,6 +88,19 @@ done
 refuse 'need the emulator' "$render" "$box" --prepare prepared --engine native
 refuse '--cost without' "$render" "$box" -o x.png --cost cycles
 
+for option in eye look-at up light; do
+  for value in '' 1,2 1,2,3,4 1,2,x 1,,3 1,2,1e30 nan,0,0; do
+    refuse "--$option" "$render" "$box" -o x.png --$option "$value"
+  done
+done
+refuse '--fov 180' "$render" "$box" -o x.png --fov 180
+refuse '--orbit 1,2,3' "$render" "$box" -o x.png --orbit 1,2,3
+refuse '--frames: expected' "$render" "$box" -o x.png --frames 0
+refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
+refuse 'the meshes have no cameras' "$render" "$box" -o x.png --view file:main
+refuse 'is the eye itself' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,3
+refuse 'in which the eye looks' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,5 --up 0,0,1
+
 # --- files
 refuse 'missing.obj' "$render" missing.obj -o x.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.png
@@ -128,6 +141,25 @@ accept "$render" "$box" -o b.png $native --size 32x24 --ambient 0.5
 "$compare" -q a.png b.png && fail "other ambient light makes no difference"
 "$render" --help | grep -q -- --compare || fail "--help"
 "$render" --version | grep -q '^trax-render [0-9]' || fail "--version"
+
+# Views by options: the same values make the same picture, a whole turn leads back, a view that is written is that view.
+accept "$render" "$box" -o b.png --engine native --size 32x24 --eye 0.03,1.02,3.8 --look-at 0,1,0 --up 0,1,0 \
+  --fov 40 --light 0.1,1.85,0.1 --write-view written.view
+accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.view
+accept "$compare" b.png c.png
+accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.view --orbit 30,10
+"$compare" -q b.png c.png && fail "--orbit makes no difference"
+accept "$render" "$box" -o turn.png --engine native --size 32x24 --view written.view --frames 3
+[ "$(echo turn*)" = 'turn-0001.png turn-0002.png turn-0003.png' ] || fail "--frames 3 left $(echo turn*)"
+accept "$compare" b.png turn-0001.png
+accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.view --orbit 240
+accept "$compare" c.png turn-0003.png
+# A scene so small that it is scaled first: each picture of the turntable is as if it was alone.
+sed 's/^v \(\S*\) \(\S*\) \(\S*\)/v \1e-12 \2e-12 \3e-12/' "$source/box.obj" >small.obj
+cp "$source/box.mtl" .
+accept "$render" small.obj -o small.png --engine native --size 32x24 --frames 2
+accept "$render" small.obj -o c.png --engine native --size 32x24 --orbit 180
+accept "$compare" c.png small-0002.png
 
 # Samples, light without shadows: each its own picture, near the reference's.
 for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows --smooth'; do

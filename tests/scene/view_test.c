@@ -157,6 +157,95 @@ static void test_shipped_views(void **state) {
   assert_true(count >= 6);
 }
 
+/* What is written reads back. */
+static void test_writing(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      "eye = [1, 2, 3]; look_at = [1.1, 2.0, 13.3]; up = [0, 1, 0]; fov = 45; light = [1.0e12, -0.1, 1.0e-7];",
+      "eye = (0.3, 1e-20, 3); direction = [1, 1, 1]; up = [0, 1, 0]; fov = 30.3; lights = ("
+      "{ type = \"point\"; position = (0.1, 2, 3); falloff = 0.7; strength = 3; },"
+      "{ type = \"directional\"; direction = [1, 2, 3]; colour = (0.1, 0.2, 1); },"
+      "{ type = \"rectangle\"; corner = [1, 2, 3]; edges = ((0.1, 0, 0), (0, 0.3, 0)); });"};
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+    struct trax_view first, second;
+    trax_error error;
+    read_good(&first, texts[i]);
+    const char *path = test_path("written.view");
+    assert_int_equal(trax_view_write(&first, path, &error), TRAX_OK);
+    if (trax_view_read(&second, path, &error) != TRAX_OK)
+      fail_msg("%s", error.message);
+    assert_memory_equal(first.eye, second.eye, sizeof first.eye);
+    assert_memory_equal(first.light, second.light, sizeof first.light);
+    assert_true(first.has_look_at == second.has_look_at && first.fov == second.fov);
+    assert_memory_equal(first.look_at, second.look_at, sizeof first.look_at);
+    for (int axis = 0; axis < 3; axis++) { /* made of unit length once more */
+      assert_true(fabsf(first.direction[axis] - second.direction[axis]) < 1e-6f);
+      assert_true(fabsf(first.up[axis] - second.up[axis]) < 1e-6f);
+    }
+    assert_int_equal(first.light_count, second.light_count);
+    for (uint32_t k = 0; k < first.light_count; k++) {
+      const struct trax_light *a = &first.lights[k], *b = &second.lights[k];
+      assert_true(a->kind == b->kind && a->strength == b->strength && a->falloff == b->falloff);
+      assert_memory_equal(a->position, b->position, sizeof a->position);
+      assert_memory_equal(a->edges, b->edges, sizeof a->edges);
+      assert_memory_equal(a->colour, b->colour, sizeof a->colour);
+      for (int axis = 0; axis < 3; axis++)
+        assert_true(fabsf(a->direction[axis] - b->direction[axis]) < 1e-6f);
+    }
+  }
+}
+
+static void assert_point(const float point[3], float x, float y, float z) {
+  if (fabsf(point[0] - x) > 1e-5f || fabsf(point[1] - y) > 1e-5f || fabsf(point[2] - z) > 1e-5f)
+    fail_msg("%g %g %g is not %g %g %g", (double)point[0], (double)point[1], (double)point[2], (double)x, (double)y,
+             (double)z);
+}
+
+static void test_orbit(void **state) {
+  (void)state;
+  const float centre[3] = {1, 0, 0};
+  struct trax_view start, view;
+  read_good(&start, "eye = [1, 0, 4]; look_at = [1, 0, 0]; up = [0, 1, 0]; fov = 45; light = [7, 8, 9];");
+  view = start;
+  trax_view_orbit(&view, centre, 90, 0);
+  check_frame_of_reference(&view);
+  assert_point(view.eye, 5, 0, 0);
+  assert_point(view.direction, -1, 0, 0);
+  assert_point(view.up, 0, 1, 0);
+  assert_point(view.light, 7, 8, 9);
+  assert_point(view.look_at, 1, 0, 0);
+  view = start;
+  trax_view_orbit(&view, centre, 0, 30);
+  check_frame_of_reference(&view);
+  assert_point(view.eye, 1, 2, 4 * cosf(3.14159265f / 6));
+  assert_point(view.up, 0, cosf(3.14159265f / 6), -0.5f);
+  trax_view_orbit(&view, centre, 180, 0); /* around y, though the camera is tilted */
+  assert_point(view.eye, 1, 2, -4 * cosf(3.14159265f / 6));
+  view = start;
+  trax_view_orbit(&view, centre, 45, 90); /* straight from above is no special case */
+  check_frame_of_reference(&view);
+  assert_point(view.eye, 1, 4, 0);
+  assert_point(view.direction, 0, -1, 0);
+}
+
+static void test_aiming(void **state) {
+  (void)state;
+  struct trax_view view;
+  trax_error error;
+  read_good(&view, "eye = [1, 0, 4]; direction = [0, 0, -1]; up = [0, 1, 0]; fov = 45; light = [7, 8, 9];");
+  const float at[3] = {1, 0, 4}, aside[3] = {2, 0, 4}, up[3] = {1, 0, 7}, none[3] = {0, 0, 0};
+  assert_int_equal(trax_view_aim(&view, at, &error), TRAX_ERROR);
+  assert_contains(error.message, "is the eye itself");
+  assert_int_equal(trax_view_aim(&view, aside, &error), TRAX_OK);
+  assert_point(view.direction, 1, 0, 0);
+  assert_int_equal(trax_view_set_up(&view, up, &error), TRAX_OK);
+  assert_point(view.up, 0, 0, 1);
+  assert_int_equal(trax_view_set_up(&view, none, &error), TRAX_ERROR);
+  assert_contains(error.message, "has no length");
+  assert_int_equal(trax_view_set_up(&view, view.direction, &error), TRAX_ERROR);
+  assert_contains(error.message, "in which the eye looks");
+}
+
 /* All of a box is in the picture, and its picture fills most of it in one direction. */
 static void test_framing(void **state) {
   (void)state;
@@ -196,7 +285,8 @@ static void test_framing(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_values),        cmocka_unit_test(test_lights),  cmocka_unit_test(test_errors),
-      cmocka_unit_test(test_shipped_views), cmocka_unit_test(test_framing),
+      cmocka_unit_test(test_shipped_views), cmocka_unit_test(test_framing), cmocka_unit_test(test_writing),
+      cmocka_unit_test(test_orbit),         cmocka_unit_test(test_aiming),
   };
   return cmocka_run_group_tests_name("views", tests, NULL, NULL);
 }

@@ -20,6 +20,7 @@
 
 #include "trax/emulator.h" /* trax_status, trax_error */
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -51,6 +52,8 @@ struct trax_light {
 };
 
 struct trax_view {
+  bool has_look_at;
+  float look_at[3]; /* the point that the view was aimed at, if there is one */
   float eye[3];
   float direction[3]; /* unit length */
   float up[3];        /* unit length, perpendicular to direction */
@@ -68,6 +71,18 @@ trax_status trax_view_read(struct trax_view *view, const char *path, trax_error 
 /* A view for a scene that has none: the whole of its bounds in the picture, seen from the front (+z), a little from the
    right and above, y up; the light above, to the left and in front. aspect is width / height. */
 void trax_view_frame(struct trax_view *view, const float bounds_min[3], const float bounds_max[3], float aspect);
+
+/* Looks from the eye at a point. Errors: the point is the eye. */
+trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_error *error);
+/* Sets up, which need not be perpendicular. Errors: no length, or parallel to the direction. */
+trax_status trax_view_set_up(struct trax_view *view, const float up[3], trax_error *error);
+
+/* Turns eye and camera around a point as one: by `angle` degrees, counterclockwise from above, around the coordinate
+   axis that points most upwards, after they were raised by `elevation` degrees. Lights stay where they are. */
+void trax_view_orbit(struct trax_view *view, const float centre[3], float angle, float elevation);
+
+/* A view file which reads back as this view. Written aside and renamed. */
+trax_status trax_view_write(const struct trax_view *view, const char *path, trax_error *error);
 
 #ifdef __cplusplus
 }

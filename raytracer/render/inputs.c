@@ -1,0 +1,167 @@
+/* Scene and views from the command line. */
+#include "inputs.h"
+
+#include "core/machine.h"
+#include "emulated.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool has_suffix(const char *text, const char *suffix) {
+  size_t length = strlen(text), suffix_length = strlen(suffix);
+  return length > suffix_length && strcmp(text + length - suffix_length, suffix) == 0;
+}
+
+/* --- the scene --- */
+
+static void show_scene_step(void *context, const char *step, double fraction) {
+  progress_show(context, step, fraction, NULL);
+}
+
+static trax_status import_scene(struct inputs *inputs, const struct options *options, struct progress *progress,
+                                const volatile int *interrupt, trax_error *error) {
+  struct trax_import_options import = options->import;
+  import.progress = show_scene_step;
+  import.progress_context = progress;
+  import.interrupt = interrupt;
+  struct trax_build_options build = {.progress = show_scene_step,
+                                     .progress_context = progress,
+                                     .interrupt = interrupt,
+                                     .smooth = options->frame.smooth,
+                                     .compute_normals = options->compute_normals};
+  struct trax_mesh mesh = {0};
+  struct trax_import_report report;
+  trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
+  if (status == TRAX_OK && !options->quiet) {
+    progress_clear(progress);
+    trax_import_print_notes(&report, "trax-render", stderr);
+  }
+  if (status == TRAX_OK)
+    status = trax_scene_build(&inputs->scene, &mesh, &build, error);
+  inputs->cameras = mesh.cameras;
+  inputs->camera_count = mesh.camera_count;
+  mesh.cameras = NULL;
+  trax_mesh_release(&mesh);
+  return status;
+}
+
+static trax_status load_scene(struct inputs *inputs, const struct options *options, struct progress *progress,
+                              const volatile int *interrupt, trax_error *error) {
+  struct trax_scene *scene = &inputs->scene;
+  for (size_t i = 0; i < options->mesh_count; i++)
+    if (has_suffix(options->meshes[i], ".trax")) {
+      if (options->mesh_count > 1)
+        return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
+                         options->meshes[i]);
+      if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
+          options->compute_normals)
+        return trax_fail(error,
+                         "%s: a scene file is as trax-scene made it: --material, --diffuse, --no-textures, "
+                         "--texture-size and --normals smooth are for meshes",
+                         options->meshes[0]);
+      trax_status status = trax_scene_read(scene, options->meshes[0], error);
+      if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
+        status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",
+                           options->meshes[0]);
+      return status;
+    }
+  return import_scene(inputs, options, progress, interrupt, error);
+}
+
+/* --- views --- */
+
+static const char camera_prefix[] = "file:";
+
+static trax_status take_camera(struct trax_view *view, const struct inputs *inputs, const char *name,
+                               trax_error *error) {
+  for (uint32_t i = 0; i < inputs->camera_count; i++) {
+    const struct trax_mesh_camera *camera = &inputs->cameras[i];
+    if (*name && strcmp(name, camera->name) != 0)
+      continue;
+    memcpy(view->eye, camera->eye, sizeof view->eye);
+    memcpy(view->direction, camera->direction, sizeof view->direction);
+    memcpy(view->up, camera->up, sizeof view->up);
+    view->fov = camera->fov;
+    view->has_look_at = false;
+    return TRAX_OK;
+  }
+  if (inputs->camera_count == 0)
+    return trax_fail(error, "--view %s%s: the meshes have no cameras", camera_prefix, name);
+  return trax_fail(error, "--view %s%s: no camera has this name; the first of %u is '%s'", camera_prefix, name,
+                   inputs->camera_count, inputs->cameras[0].name);
+}
+
+static trax_status load_view(struct trax_view *view, const struct options *options, const struct inputs *inputs,
+                             trax_error *error) {
+  const struct trax_scene_header *header = inputs->scene.header;
+  const bool camera = options->view && strncmp(options->view, camera_prefix, sizeof camera_prefix - 1) == 0;
+  if (!options->view || camera) {
+    trax_view_frame(view, header->bounds_min, header->bounds_max,
+                    (float)options->frame.width / (float)options->frame.height);
+    return camera ? take_camera(view, inputs, options->view + sizeof camera_prefix - 1, error) : TRAX_OK;
+  }
+  char path[TRAX_PATH_SIZE];
+  if (access(options->view, F_OK) != 0 && !strchr(options->view, '/') &&
+      installed_file(path, "share/trax/views", options->view, ".view"))
+    return trax_view_read(view, path, error);
+  return trax_view_read(view, options->view, error);
+}
+
+/* What single options say takes the place of the view's. */
+static trax_status change_view(struct trax_view *view, const struct camera_options *camera, trax_error *error) {
+  const float up[3] = {view->up[0], view->up[1], view->up[2]};
+  if (camera->has_eye)
+    memcpy(view->eye, camera->eye, sizeof view->eye);
+  trax_status status = TRAX_OK;
+  if (camera->has_look_at)
+    status = trax_view_aim(view, camera->look_at, error);
+  else if (camera->has_eye && view->has_look_at)
+    status = trax_view_aim(view, view->look_at, error);
+  if (status == TRAX_OK)
+    status = trax_view_set_up(view, camera->has_up ? camera->up : up, error);
+  if (camera->fov > 0)
+    view->fov = camera->fov;
+  if (camera->light_count)
+    view->light_count = 0;
+  if (camera->light_count == 1)
+    memcpy(view->light, camera->lights[0], sizeof view->light);
+  for (uint32_t i = 0; camera->light_count > 1 && i < camera->light_count; i++) {
+    struct trax_light *light = &view->lights[view->light_count++];
+    *light =
+        (struct trax_light){.kind = TRAX_LIGHT_POINT, .colour = {1, 1, 1}, .strength = 1 / (float)camera->light_count};
+    memcpy(light->position, camera->lights[i], sizeof light->position);
+  }
+  return status;
+}
+
+trax_status inputs_load(struct inputs *inputs, const struct options *options, struct progress *progress,
+                        const volatile int *interrupt, trax_error *error) {
+  *inputs = (struct inputs){0};
+  trax_status status = load_scene(inputs, options, progress, interrupt, error);
+  if (status == TRAX_OK)
+    status = load_view(&inputs->view, options, inputs, error);
+  if (status == TRAX_OK)
+    status = change_view(&inputs->view, &options->camera, error);
+  for (int axis = 0; axis < 3 && status == TRAX_OK; axis++) {
+    const struct trax_scene_header *header = inputs->scene.header;
+    inputs->centre[axis] = inputs->view.has_look_at ? inputs->view.look_at[axis]
+                                                    : header->bounds_min[axis] * 0.5f + header->bounds_max[axis] * 0.5f;
+  }
+  return status;
+}
+
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number) {
+  const struct camera_options *camera = &options->camera;
+  const float angle = camera->orbit[0] + (number ? 360 * (float)number / (float)options->frames : 0);
+  *view = inputs->view;
+  if (angle != 0 || camera->orbit[1] != 0)
+    trax_view_orbit(view, inputs->centre, angle, camera->orbit[1]);
+}
+
+void inputs_release(struct inputs *inputs) {
+  free(inputs->cameras);
+  trax_scene_release(&inputs->scene);
+  *inputs = (struct inputs){0};
+}

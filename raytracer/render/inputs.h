@@ -1,0 +1,22 @@
+/* What the command line asks to render. */
+#ifndef TRAX_RENDER_INPUTS_H
+#define TRAX_RENDER_INPUTS_H
+
+#include "options.h"
+#include "progress.h"
+
+struct inputs {
+  struct trax_scene scene;
+  struct trax_mesh_camera *cameras; /* of the meshes */
+  uint32_t camera_count;
+  struct trax_view view; /* before it orbits; in the scene's unit of length as the files have it */
+  float centre[3];       /* around which it orbits */
+};
+
+trax_status inputs_load(struct inputs *inputs, const struct options *options, struct progress *progress,
+                        const volatile int *interrupt, trax_error *error);
+/* Of the turntable's picture `number`, from 0. */
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
+void inputs_release(struct inputs *inputs);
+
+#endif
