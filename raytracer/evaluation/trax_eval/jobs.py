@@ -78,7 +78,7 @@ def make_job(tools, inputs, point):
         "format": FORMAT,
         "emulator": tools.hash("trax-sim"),
         "inputs": inputs,
-        "configuration": tools.configuration(point.chip, point.settings),
+        "configuration": tools.configuration(point.chip, point.machine()),
         "engine": "sampled" if point.mode == "sampled" else "fast",
         "series": point.series,
     }

@@ -17,6 +17,7 @@ from .sweep import PROGRAMS, parse_size, read_sweep
 from .tables import print_tables
 from .tools import Tools
 from .util import Problem
+from .values import Areas
 
 HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
@@ -156,7 +157,7 @@ def check_machines(sweeps, tools):
     for sweep in sweeps:
         for point in sweep.points:
             try:
-                tools.configuration(point.chip, point.settings)
+                tools.configuration(point.chip, point.machine())
             except Problem as problem:
                 raise Problem(f"{sweep.file}: {problem}") from None
 
@@ -180,9 +181,9 @@ def evaluate(options, tools, data, command):
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
         return 0
     for sweep, keys in plans:
-        write_plan(out, sweep, keys)
+        write_plan(out, sweep, keys, tools)
     failed = runners.run_all(out, tools, labels, options)
-    results = collect(out, tools, command, time.monotonic() - begin)
+    results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
         print_tables(results, [sweep.name for sweep in sweeps], Paper(data / "paper"), sys.stdout)
         print(f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; {out / 'results.json'}")

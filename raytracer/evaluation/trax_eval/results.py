@@ -5,6 +5,7 @@ import os
 import shlex
 
 from .jobs import error_of, read_series, result_of
+from .sweep import PROGRAMS
 from .util import read_json, write_json
 from .values import values_of
 
@@ -14,13 +15,24 @@ SERIES_ROWS = 2000
 SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict", "wait_memory", "halted")
 
 
-def write_plan(out, sweep, keys):
+def effective(point, tools):
+    """Without settings that are what the machine has anyway, so that equal machines are called equal."""
+    kept = []
+    for pair in point.settings:
+        rest = tuple(other for other in point.machine() if other[0] != pair[0])
+        base = tuple(other for other in PROGRAMS[point.program] if other[0] == pair[0])
+        if tools.configuration(point.chip, rest + base) != tools.configuration(point.chip, rest + (pair,)):
+            kept.append(pair)
+    return dict(kept)
+
+
+def write_plan(out, sweep, keys, tools):
     """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the reason why there is none."""
     points = []
     for point in sweep.points:
         key, reason = keys[point]
         points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, "config": point.chip,
-                       "set": dict(point.settings), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
+                       "set": effective(point, tools), "machine": dict(point.machine()), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
                        "error": reason})
     write_json(out / "sweeps" / f"{sweep.name}.json", {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
                                                        "claim": sweep.claim, "file": sweep.file, "points": points})
@@ -30,7 +42,7 @@ def repeat_command(point, tools):
     """The command that makes this run alone."""
     words = ["trax-render", "SCENE", "--size", "x".join(map(str, point["size"])), "--config", point["config"]]
     words += ["--view", point["view"]] if point["view"] else []
-    for key, value in point["set"].items():
+    for key, value in point["machine"].items():
         words += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
     words += ["--program", tools.era_program()] if point["program"] == "era" else []
     return shlex.join([*words, "--stats", "stats.json", "-o", "picture.png"])
@@ -54,9 +66,9 @@ def thin_series(path, threads):
     return ["cycle", *chosen], result
 
 
-def run_of(out, tools, point):
+def run_of(out, tools, areas, point):
     """What is known of a run, from its files."""
-    run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "mode")}
+    run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")}
     run |= {"experiments": [], "status": "missing", "command": repeat_command(point, tools)}
     found = result_of(out, point["key"]) if point["key"] else None
     error = point["error"] or (error_of(out, point["key"]) if point["key"] else None)
@@ -66,13 +78,13 @@ def run_of(out, tools, point):
         series = out / "runs" / f"{point['key']}.csv"
         run |= {"status": "done", "json": f"runs/{point['key']}.json", "csv": f"runs/{series.name}" if series.exists() else None,
                 "picture": f"pictures/{result['picture']}.png", "host_seconds": host.get("host_seconds"), "host": host or None,
-                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(statistics)}
+                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(statistics, areas)}
     elif error:
         run |= {"status": "failed", "error": error}
     return run
 
 
-def collect(out, tools, command, seconds):
+def collect(out, tools, areas, command, seconds):
     """Writes results.json from the sweeps and runs of the folder, and returns its value."""
     runs, sweeps, series = {}, [], []
     for path in sorted((out / "sweeps").glob("[!.]*.json")):
@@ -81,7 +93,7 @@ def collect(out, tools, command, seconds):
         for number, point in enumerate(plan["points"]):
             label = point["key"] or f"{plan['name']}-{number}"
             if label not in runs:
-                runs[label] = run_of(out, tools, point)
+                runs[label] = run_of(out, tools, areas, point)
             if plan["name"] not in runs[label]["experiments"]:
                 runs[label]["experiments"].append(plan["name"])
     for run in runs.values():

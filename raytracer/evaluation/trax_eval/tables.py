@@ -1,5 +1,6 @@
 """The tables as text: our figures beside the paper's, with their deviation and what they took."""
 
+import json
 import math
 
 from .sweep import CHIPS
@@ -90,16 +91,112 @@ def print_sweep(index, sweep, results, out):
     runs = [run for run in results["runs"] if sweep["name"] in run["experiments"]]
     scenes = list(dict.fromkeys(run["scene"] for run in runs))
     rows = {}
-    for run in runs:
-        settings = ", ".join(f"{key} {value}" for key, value in run["set"].items())
+
+    def cell(run):
+        value, unit = stat(run, sweep["y"]), stat(run, sweep["y_per"]) if sweep["y_per"] else 1
+        return text(value / unit if value is not None and unit else None) + (interval(run) if sweep["y"] == "mrps" else "")
+
+    for run in sorted(runs, key=lambda run: (run["program"] != "ours", CHIPS.index(run["config"]) if run["config"] in CHIPS else 0, stat(run, f"configuration.{sweep['x']}") or 0)):
+        settings = ", ".join(f"{key} {json.dumps(value)}" for key, value in run["set"].items())
         rows.setdefault((run["program"], run["config"], settings), {})[run["scene"]] = run
-    out.write(f"{sweep['title']}: {sweep['y']}\n{sweep['claim']}\n\n")
+    out.write(f"{sweep['title']}: {sweep['y']}{' / ' + sweep['y_per'] if sweep['y_per'] else ''}\n{sweep['claim']}\n\n")
     print_rows(["program", "chip", "set", *scenes, "host s"],
-               [[program, chip, settings or "-", *(text(stat(some.get(scene), sweep["y"])) + interval(some.get(scene)) for scene in scenes),
+               [[program, chip, settings or "-", *(cell(some.get(scene)) for scene in scenes),
                  text(sum(run.get("host_seconds") or 0 for run in some.values()))] for (program, chip, settings), some in rows.items()], out)
 
 
-PRINTERS = {"table2": print_table2}
+def print_table1(index, paper, out):
+    for program in index.programs("table1"):
+        out.write(f"Table 1, chips at 65 nm, program {program}; area: the fit of the paper's, and the sum of our units; utilisation: of adders, multipliers and FPDIV/iSQRT\n\n")
+        rows = []
+        for row in paper.table1:
+            chip, papers = row["name"], {name: float(value) if value else None for name, value in row.items() if name.endswith(("mm2", "gflops"))}
+            runs = [index.find("table1", program, scene, chip) for scene, _ in COLUMNS]
+            gflops = mean([stat(run, "gflops") for run in runs])
+            units = [mean([stat(run, f"{unit}.utilisation") for run in runs]) for unit in ("fp_add", "fp_mul", "special")]
+            if not any(runs) and chip in CHIPS:
+                continue
+            rows.append([chip, text(papers["area_mm2"]), text(stat(runs[0], "area_mm2")), text(stat(runs[0], "values.area_units")),
+                         deviation(stat(runs[0], "values.area_units"), papers["area_mm2"]), text(papers["peak_gflops"]), text(stat(runs[0], "peak_gflops")),
+                         text(papers["rt_gflops"]), text(gflops), deviation(gflops, papers["rt_gflops"]), " ".join("-" if unit is None else f"{unit:.0%}" for unit in units)])
+        print_rows(["chip", "paper mm2", "fit", "units", "dev.", "paper peak", "ours", "paper RT GFLOPS", "ours", "dev.", "utilisation"], rows, out)
+
+
+def print_table3(index, paper, out):
+    for program in index.programs("table3"):
+        out.write(f"Table 3, million rays per second at 8 and 16 GB/s, program {program}: ours, the paper's, deviation\n\n")
+        rows = []
+        for chip, papers in paper.table3.items():
+            row = [chip]
+            gains = []
+            for name, scenes in (("dragon", ["dragon"]), ("average", [scene for scene, _ in COLUMNS])):
+                pair = []
+                for bandwidth in (8, 16):
+                    settings = {} if bandwidth == 8 else {"memory.bandwidth_gbps": 16}
+                    ours = mean([stat(index.find("table3", program, scene, chip, settings), "mrps") for scene in scenes])
+                    published = float(papers[f"{name}_{bandwidth}gbs_mrps"])
+                    row += [text(ours), text(published), deviation(ours, published)]
+                    pair.append(ours)
+                gains.append(text(pair[1] / pair[0]) if None not in pair else "-")
+            rows.append([*row, *gains])
+        print_rows(["chip", *(word for name in ("dragon 8", "dragon 16", "average 8", "average 16") for word in (name, "paper", "dev.")), "gain dragon", "average"], rows, out)
+
+
+def print_scaling(index, paper, out):
+    """Speed-up from 1x32, which tells of the machine whatever the program's speed is."""
+    for program in index.programs("table2"):
+        rows = []
+        for chip in CHIPS[1:]:
+            row = [chip]
+            for scene, _ in COLUMNS:
+                ours, base = (stat(index.find("table2", program, scene, name), "mrps") for name in (chip, "1x32"))
+                speed_up = ours / base if ours and base else None
+                papers = paper.mrps(scene, chip) / paper.mrps(scene, "1x32")
+                row += [text(speed_up), text(papers), deviation(speed_up, papers)]
+            if any(cell != "-" for cell in row[1::3]):
+                rows.append(row)
+        if rows:
+            out.write(f"Speed-up from 1x32, program {program}: ours, the paper's, deviation\n\n")
+            print_rows(["chip", *(word for _, title in COLUMNS for word in (title, "paper", "dev."))], rows, out)
+
+
+def print_claims(index, paper, out):
+    """Figures of the paper that are in its text."""
+    published, rows = paper.published, []
+    for program in index.programs("table2"):
+        dragon = index.find("table2", program, "dragon", "4x32")
+        runs = [index.find("table2", program, scene, "4x32") for scene, _ in COLUMNS]
+        power = mean([stat(run, "energy.average_power") for run in runs])
+        flops = mean([stat(run, "values.flops_per_ray") for run in runs])
+        speed = stat(dragon, "mrps")
+        for title, ours, papers in (
+            ("dragon on 4x32 against MRTP scaled to 500 MHz, times", speed / published["mrtp_mrps_scaled"] if speed else None, published["mrtp_speedup"]),
+            ("dragon on 4x32, frames of 1280x720 per second", stat(dragon, "values.frames_per_second"), published["frames_per_second"]),
+            ("power of 4x32, W, average of the scenes (a lower bound: docs/emulator.md, Energy)", power, published["power_4x32_w"]),
+            ("adds and multiplies per ray, average of the scenes", flops, published["flops_per_ray"]),
+        ):
+            rows.append([program, title, text(ours), text(papers), deviation(ours, papers)])
+    if rows:
+        print_rows(["program", "4x32", "ours", "paper", "dev."], rows, out)
+
+
+def print_table2_and_text(index, paper, out):
+    print_table2(index, paper, out)
+    print_scaling(index, paper, out)
+    print_claims(index, paper, out)
+
+
+def print_scenes(index, paper, out):
+    rows = []
+    for run in index.runs:
+        if "scenes" in run["experiments"]:
+            ours, papers = stat(run, "mrps"), paper.mrps(run["scene"], run["config"])
+            rows.append([run["scene"], f"{stat(run, 'cycles'):,}", f"{stat(run, 'rays'):,}", text(ours), text(papers), deviation(ours, papers),
+                         *(text(stat(run, name)) for name in ("values.flops_per_ray", "values.bytes_per_ray", "memory.bandwidth_gbps")), text(run["host_seconds"])])
+    print_rows(["scene", "cycles", "rays", "MRPS", "paper's", "deviation", "FLOPs/ray", "bytes/ray", "GB/s", "host s"], rows, out)
+
+
+PRINTERS = {"table1": print_table1, "table2": print_table2_and_text, "table3": print_table3, "scenes": print_scenes}
 
 
 def print_tables(results, names, paper, out):
