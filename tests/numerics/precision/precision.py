@@ -9,12 +9,11 @@ For each precision b: the errors of frsqrt and fdiv themselves (precision-units)
 (loops.c on the emulator), and of pictures of the ray tracer against those of b = 24, with its cycles; once at the latency of
 a unit that produces four bits a cycle, once at that of a unit that multiplies:
 
-    digits   ceil((b + 2) / 4) + 1 cycles: a recurrence of radix 16, two bits more than the result for its rounding, and a cycle to
-             normalise and round (Ercegovac and Lang, "Digital Arithmetic", 2004, chapters 5 and 6)
-    newton   2 + 3 ceil(log2(b / 8)) cycles, at least 2: a table of 8 bits, read and rounded, and steps of Newton's iteration, each of which
-             doubles the bits with two products and a difference (the same, chapter 7)
+    digits   four bits a cycle
+    newton   a table and Newton's iteration
 
-Both give the paper's 8 cycles for 24 bits. The bunny of Debian's glmark2-data is rendered, and conference if --scenes is given.
+emulator/core/special_latency.h defines both, and both give the paper's 8 cycles for 24 bits. The bunny of Debian's glmark2-data is
+rendered, and conference if --scenes is given.
 """
 
 import argparse
@@ -43,15 +42,8 @@ def fail(text):
     sys.exit(f"precision.py: {text}")
 
 
-def digits(bits):
-    return math.ceil((bits + 2) / 4) + 1
-
-
-def newton(bits):
-    return 2 + 3 * max(0, math.ceil(math.log2(bits / 8)))
-
-
-MODELS = {"digits": digits, "newton": newton}
+MODELS = ("digits", "newton")
+LATENCIES = {}  # {(model, bits): cycles}, from precision-units
 
 
 def run(command):
@@ -65,13 +57,14 @@ def run(command):
 
 
 def unit_errors(bin_directory, stride):
-    """{(operation, bits): {column: number}}"""
-    rows = csv.DictReader(run([bin_directory / "precision-units", stride]).splitlines())
-    return {(r["operation"], int(r["bits"])): {k: float(v) for k, v in r.items() if k != "operation"} for r in rows}
+    """{(operation, bits): {column: number}}; LATENCIES is filled too."""
+    rows = list(csv.DictReader(run([bin_directory / "precision-units", stride]).splitlines()))
+    LATENCIES.update({(model, int(r["bits"])): int(r[model]) for r in rows for model in MODELS})
+    return {(r["operation"], int(r["bits"])): {k: float(v) for k, v in r.items() if k not in ("operation", *MODELS)} for r in rows}
 
 
 def special(bits, model):
-    return ["--set", f"special.precision_bits={bits}", "--set", f"special.latency_cycles={MODELS[model](bits)}"]
+    return ["--set", f"special.precision_bits={bits}", "--set", f"special.latency_cycles={LATENCIES[model, bits]}"]
 
 
 def draw_state(state):
@@ -197,7 +190,7 @@ def measure(options, scratch):
     start, done, steps = time.monotonic(), 0, 24 * (1 + 2 * len(packed))
     rows, exact, others = [], {}, None
     for bits in range(24, 0, -1):
-        row = {"bits": bits, "digits_latency": digits(bits), "newton_latency": newton(bits)}
+        row = {"bits": bits, "digits_latency": LATENCIES["digits", bits], "newton_latency": LATENCIES["newton", bits]}
         for operation in ("frsqrt", "fdiv"):
             for column, value in units[operation, bits].items():
                 if column != "bits":

@@ -5,8 +5,10 @@
 
    frsqrt over all significands of x in [1, 2) and [2, 4), both parities of the exponent; fdiv over all significands of
    the divisor in [1, 2) for the dividends below. Other exponents only scale the results. Errors are against the
-   quotient or root in binary64, in units of the last place of binary32 and relative. Prints CSV: operation, bits,
-   greatest and mean error in units, relative. */
+   quotient or root in binary64, in units of the last place of binary32 and relative. Prints CSV: operation, bits, the
+   latency of either design (core/special_latency.h), greatest and mean error in units, relative. */
+#include "core/special_latency.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -67,8 +69,8 @@ static void *work(void *argument) {
 }
 
 static void print(const char *operation, unsigned bits, struct error e, uint64_t count) {
-  printf("%s,%u,%.9g,%.9g,%.9g,%.9g\n", operation, bits, e.greatest, e.sum / (double)count, e.greatest_relative,
-         e.sum_relative / (double)count);
+  printf("%s,%u,%u,%u,%.9g,%.9g,%.9g,%.9g\n", operation, bits, trax_latency_digits(bits), trax_latency_newton(bits),
+         e.greatest, e.sum / (double)count, e.greatest_relative, e.sum_relative / (double)count);
 }
 
 static void merge(struct error *into, const struct error *from) {
@@ -97,7 +99,7 @@ int main(int argc, char **argv) {
   }
   for (size_t i = 0; i < JOBS; i++)
     pthread_join(threads[i], NULL);
-  puts("operation,bits,max_ulp,mean_ulp,max_relative,mean_relative");
+  puts("operation,bits,digits,newton,max_ulp,mean_ulp,max_relative,mean_relative");
   for (unsigned bits = 1; bits <= BITS; bits++) {
     struct block total = {0};
     for (size_t i = 0; i < BLOCKS; i++) {
