@@ -10,9 +10,9 @@ static uint32_t round_up(uint32_t bytes) {
   return (bytes + TRAX_SCENE_ALIGNMENT - 1) & ~(TRAX_SCENE_ALIGNMENT - 1);
 }
 
-/* What features may read, in the order of trax_scene_build. References lead to nodes and triangles, and normals are at a
-   fixed distance from triangles, so these must stay where they are: they do if they come first. The others are found by
-   the section table. Of a file in another order nothing is left out. */
+/* What features may read, in the order of trax_scene_build. References lead to nodes and triangles, and normals are at
+   a fixed distance from triangles, so these must stay where they are: they do if they come first. The others are found
+   by the section table. Of a file in another order nothing is left out. */
 static const enum trax_scene_section_kind kept[] = {TRAX_SCENE_NODES, TRAX_SCENE_TRIANGLES, TRAX_SCENE_NORMALS,
                                                     TRAX_SCENE_UVS,   TRAX_SCENE_TEXTURES,  TRAX_SCENE_TEXELS};
 enum { KEPT = sizeof kept / sizeof *kept, KEPT_IN_PLACE = 3 };

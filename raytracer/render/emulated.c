@@ -10,8 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The folder above this program's own. */
-static bool installation(char root[TRAX_PATH_SIZE]) {
+bool installation(char root[TRAX_PATH_SIZE]) {
   char self[TRAX_PATH_SIZE - 4];
   ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
   if (length <= 0)
@@ -63,13 +62,13 @@ static trax_status find_program(struct trax_program *program, const struct optio
 
 /* --- the machine --- */
 
-static trax_status make_config(trax_config *config, const struct options *options, const struct trax_frame *frame,
-                               trax_error *error) {
+trax_status emulated_config(trax_config *config, const struct options *options, const struct trax_frame *frame,
+                            uint64_t more_bytes, trax_error *error) {
   trax_status status = trax_config_load(config, options->config ? options->config : "4x32", error);
   if (status != TRAX_OK)
     return status;
   /* The machine's memory grows with what is rendered, unless it is set. */
-  uint64_t bytes = frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);
+  uint64_t bytes = frame->scene->size + frame->params_size + trax_frame_image_bytes(frame) + more_bytes;
   uint64_t mib = (bytes >> 20) + 2;
   if (mib > 1024) {
     char text[32];
@@ -222,7 +221,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
                                struct progress *progress, const volatile int *interrupt, struct figures *figures,
                                trax_error *error) {
   trax_config *config = trax_config_create();
-  trax_status status = config ? make_config(config, options, frame, error) : trax_fail(error, "out of memory");
+  trax_status status = config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
   trax_machine *machine = status == TRAX_OK ? trax_machine_create(config, error) : NULL;
   if (status == TRAX_OK)
     status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;

@@ -7,6 +7,13 @@
 
 #include <stdbool.h>
 
+/* Where this program is installed: the folder above its own. */
+bool installation(char root[TRAX_PATH_SIZE]);
+
+/* The chip that the options ask for, with memory for the frame and more_bytes besides. */
+trax_status emulated_config(trax_config *config, const struct options *options, const struct trax_frame *frame,
+                            uint64_t more_bytes, trax_error *error);
+
 /* What the installation has, next to this program: ../FOLDER/NAME with its suffix. False if it cannot be read. */
 bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix);
 

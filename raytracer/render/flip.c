@@ -105,8 +105,8 @@ static void convolve_columns(struct plane *out, const struct plane *in, const st
 
 /* --- contrast sensitivity (4.1) --- */
 
-/* A sum of two Gaussians of the frequency, in cycles per degree; transformed, one of Gaussians of the distance, each with
-   the weight a sqrt(pi / b) (equation 5 of the paper), and the product of a row's and a column's. */
+/* A sum of two Gaussians of the frequency, in cycles per degree; transformed, one of Gaussians of the distance, each
+   with the weight a sqrt(pi / b) (equation 5 of the paper), and the product of a row's and a column's. */
 static const struct {
   double a, b;
 } sensitivity[3][2] = {{{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};

@@ -1,4 +1,5 @@
 /* trax-render: from meshes to a picture in one command. */
+#include "bench_accuracy.h"
 #include "core/machine.h"
 #include "emulated.h"
 #include "host/util.h"
@@ -81,8 +82,8 @@ static trax_status compare(const struct trax_picture *picture, const struct trax
 }
 
 static trax_status check_outputs(const struct options *options, trax_error *error) {
-  const char *const paths[] = {options->frames > 1 ? NULL : options->output, options->stats, options->cost_picture,
-                               options->cost_values, options->write_view};
+  const char *const paths[] = {options->frames > 1 || options->bench_accuracy ? NULL : options->output, options->stats,
+                               options->cost_picture, options->cost_values, options->write_view};
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < sizeof paths / sizeof *paths && status == TRAX_OK; i++)
     if (paths[i])
@@ -108,6 +109,8 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   int exponent;
   trax_scale_view(view, *scaled);
   trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
+  if (status == TRAX_OK && options->bench_accuracy)
+    return bench_accuracy(options, &inputs->scene, view, progress, (const volatile int *)&interrupted, error);
   if (status == TRAX_OK) {
     *scaled += exponent;
     status = trax_frame_init(&frame, &inputs->scene, view, &options->frame, error);

@@ -59,6 +59,9 @@ static const char usage[] =
     "                          99.9 % of the pixels are within 2/255 of the reference\n"
     "      --triangle METHOD   watertight (default) or moller-trumbore, which misses some rays between triangles\n"
     "      --fast-math         compiles the program with -ffast-math: its picture is not the twin's in every bit\n"
+    "      --bench-accuracy    renders by each method and precision and prints what each costs and how wrong it is;\n"
+    "                          -o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
+    "                          so that a run that was stopped goes on\n"
     "      --program FILE.elf  another program for the TPs than the one that comes with trax\n"
     "      --no-specialise     the program that can render every picture, instead of one compiled for this one\n"
     "      --cache DIR         where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
@@ -112,6 +115,7 @@ enum {
   OPT_REPORT,
   OPT_TRIANGLE,
   OPT_FAST_MATH,
+  OPT_BENCH_ACCURACY,
   OPT_KEEP,
   OPT_PREPARE,
   OPT_VERSION
@@ -158,6 +162,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"report", no_argument, NULL, OPT_REPORT},
                                              {"triangle", required_argument, NULL, OPT_TRIANGLE},
                                              {"fast-math", no_argument, NULL, OPT_FAST_MATH},
+                                             {"bench-accuracy", no_argument, NULL, OPT_BENCH_ACCURACY},
                                              {"keep", required_argument, NULL, OPT_KEEP},
                                              {"prepare", required_argument, NULL, OPT_PREPARE},
                                              {"quiet", no_argument, NULL, 'q'},
@@ -385,6 +390,9 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_FAST_MATH:
     options->frame.method.fast_math = true;
     return TRAX_OK;
+  case OPT_BENCH_ACCURACY:
+    options->bench_accuracy = true;
+    return TRAX_OK;
   case OPT_AMBIENT:
     if (!parse_fraction(value, &options->frame.ambient))
       return trax_fail(error, "--ambient %s: expected a number from 0 to 1", value);
@@ -466,6 +474,16 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (!options->output && !options->prepare)
     return trax_fail(error, "no picture given: -o PICTURE.png");
+  if (options->bench_accuracy) {
+    if (options->engine != ENGINE_FAST || options->program || options->no_specialise)
+      return trax_fail(error, "--bench-accuracy chooses engines and programs itself");
+    if (options->frame.samples != 1 || options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT ||
+        options->frame.method.fast_math)
+      return trax_fail(error, "--bench-accuracy varies --samples, --triangle and --fast-math itself");
+    if (options->stats || options->cost_picture || options->cost_values || options->compare || options->report ||
+        options->keep || options->prepare || options->frames > 1 || trax_explain_wanted(&options->explain))
+      return trax_fail(error, "--bench-accuracy makes tables and diagrams of its own, and nothing else");
+  }
   if (options->engine > ENGINE_REFERENCE) {
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");

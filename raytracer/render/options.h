@@ -44,7 +44,8 @@ struct options {
   bool compute_normals; /* --normals smooth */
   struct trax_frame_options frame;
   enum engine engine;
-  unsigned threads; /* of the fast engine and the native twin; 0: as many as the host has */
+  unsigned threads;    /* of the fast engine and the native twin; 0: as many as the host has */
+  bool bench_accuracy; /* output is a folder */
   bool compare, quiet, report, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */
 };

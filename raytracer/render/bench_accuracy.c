@@ -1,0 +1,317 @@
+#include "bench_accuracy.h"
+
+#include "accuracy.h"
+#include "core/machine.h"
+#include "emulated.h"
+#include "host/util.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+/* Of C. Its own error is measured in docs/accuracy.md. */
+#define CONVERGED_SAMPLES 1024
+#define STACK_BYTES (64u << 10) /* of a thread of the program that records */
+
+struct bench {
+  const struct options *options;
+  const struct trax_scene *scene;
+  const struct trax_view *view;
+  struct progress *progress;
+  const volatile int *interrupt;
+  char root[TRAX_PATH_SIZE];
+  uint64_t own_hash; /* of this program, which has the emulator in it */
+  struct trax_variant *variants;
+  struct trax_accuracy_row *rows; /* of the variants */
+  bool *done;                     /* read from a file */
+  size_t count;
+  double samples, samples_done; /* to render, for the progress */
+  double samples_now;
+  struct trax_exact converged;
+};
+
+static bool path_in(const struct bench *bench, char path[TRAX_PATH_SIZE], const char *folder, const char *name,
+                    const char *suffix) {
+  const int length = snprintf(path, TRAX_PATH_SIZE, "%s%s%s%s", bench->options->output, folder, name, suffix);
+  return length > 0 && length < TRAX_PATH_SIZE;
+}
+
+static trax_status make_folders(const struct bench *bench, trax_error *error) {
+  char path[TRAX_PATH_SIZE];
+  for (int kept = 0; kept < 2; kept++) {
+    if (!path_in(bench, path, kept ? "/measured" : "", "", ""))
+      return trax_fail(error, "%s: the path is too long", bench->options->output);
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+      return trax_fail(error, "%s: %s", path, strerror(errno));
+  }
+  char probe[TRAX_PATH_SIZE];
+  return path_in(bench, probe, "/accuracy.md", "", "") ? trax_output_check(probe, error)
+                                                       : trax_fail(error, "%s: the path is too long", path);
+}
+
+static trax_status hash_self(uint64_t *hash, trax_error *error) {
+  uint8_t *bytes;
+  size_t size;
+  if (trax_read_file("/proc/self/exe", (size_t)1 << 30, &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  *hash = XXH3_64bits(bytes, size);
+  free(bytes);
+  return TRAX_OK;
+}
+
+static trax_status frame_of(struct trax_frame *frame, const struct bench *bench, const struct trax_variant *variant,
+                            uint32_t samples, trax_error *error) {
+  struct trax_frame_options options = bench->options->frame;
+  options.samples = samples;
+  options.method = variant->method;
+  return trax_frame_init(frame, bench->scene, bench->view, &options, error);
+}
+
+/* --- the pictures in binary64 --- */
+
+static void show_converging(void *context, uint64_t done, uint64_t total) {
+  progress_show(context, "the converged picture", (double)done / (double)total, NULL);
+}
+
+static void show_exact(void *context, uint64_t done, uint64_t total) {
+  (void)done, (void)total;
+  progress_show(context, "the picture in binary64", -1, NULL);
+}
+
+static trax_status render_exact(struct trax_exact *exact, const struct bench *bench, const struct trax_frame *frame,
+                                bool seen, trax_error *error) {
+  struct trax_render_run run = {.progress = seen ? show_exact : show_converging,
+                                .progress_context = bench->progress,
+                                .interrupt = bench->interrupt};
+  return trax_render_exact(exact, frame, seen, &run, error);
+}
+
+/* C, from its file or into it. */
+static trax_status converge(struct bench *bench, trax_error *error) {
+  struct trax_frame frame = {0};
+  trax_status status = frame_of(&frame, bench, &bench->variants[0], CONVERGED_SAMPLES, error);
+  if (status != TRAX_OK)
+    return status;
+  const uint64_t parts[] = {XXH3_64bits(frame.params, frame.params_size), bench->scene->header->checksum,
+                            bench->scene->size, bench->own_hash};
+  char name[48], path[TRAX_PATH_SIZE];
+  snprintf(name, sizeof name, "converged-%016llx", (unsigned long long)XXH3_64bits(parts, sizeof parts));
+  const size_t size = 3 * sizeof(double) * frame.params->width * frame.params->height;
+  uint8_t *bytes = NULL;
+  size_t got;
+  trax_error unread;
+  if (!path_in(bench, path, "/measured/", name, "")) {
+    status = trax_fail(error, "%s: the path is too long", bench->options->output);
+  } else if (trax_read_file(path, size, &bytes, &got, &unread) == TRAX_OK && got == size) {
+    bench->converged = (struct trax_exact){.width = frame.params->width,
+                                           .height = frame.params->height,
+                                           .samples = CONVERGED_SAMPLES,
+                                           .channels = (double *)(void *)bytes};
+  } else {
+    free(bytes);
+    status = render_exact(&bench->converged, bench, &frame, false, error);
+    trax_output output;
+    if (status == TRAX_OK)
+      status = trax_output_open(&output, path, error);
+    if (status == TRAX_OK && fwrite(bench->converged.channels, 1, size, output.file) != size) {
+      trax_output_discard(&output);
+      status = trax_fail(error, "%s: %s", path, strerror(errno));
+    } else if (status == TRAX_OK) {
+      status = trax_output_commit(&output, error);
+    }
+  }
+  trax_frame_release(&frame);
+  return status;
+}
+
+/* --- rows --- */
+
+static void show_row(void *context, double fraction) {
+  const struct bench *bench = context;
+  char detail[96];
+  const double done = bench->samples_done + fraction * bench->samples_now;
+  snprintf(detail, sizeof detail, "%.0f of %.0f pictures", bench->samples_done, bench->samples);
+  progress_show(bench->progress, "measuring", bench->samples > 0 ? done / bench->samples : -1, detail);
+}
+
+static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *config, const struct trax_exact *exact) {
+  return (struct trax_accuracy_run){
+      .specialise = {.root = bench->root, .cache = bench->options->cache, .interrupt = bench->interrupt},
+      .config = config,
+      .exact = exact,
+      .converged = &bench->converged,
+      .host_threads = bench->options->threads,
+      .progress = show_row,
+      .progress_context = bench};
+}
+
+static trax_status row_path(char path[TRAX_PATH_SIZE], struct bench *bench, const struct trax_variant *variant,
+                            const struct trax_frame *frame, const trax_config *config, trax_error *error) {
+  char key[33], name[64];
+  const struct trax_accuracy_run run = run_of(bench, config, NULL);
+  const trax_status status = trax_accuracy_key(key, variant, frame, &run, error);
+  if (status != TRAX_OK)
+    return status;
+  snprintf(name, sizeof name, "%s-%016llx", key, (unsigned long long)bench->own_hash);
+  return path_in(bench, path, "/measured/", name, ".json")
+             ? TRAX_OK
+             : trax_fail(error, "%s: the path is too long", bench->options->output);
+}
+
+/* The chip, with memory for what is recorded and for the stacks of the threads that record. */
+static trax_status chip(trax_config **config, const struct bench *bench, const struct trax_frame *frame,
+                        trax_error *error) {
+  *config = trax_config_create();
+  if (!*config)
+    return trax_fail(error, "out of memory");
+  const struct trax_render_params *params = frame->params;
+  const uint64_t recorded = (uint64_t)params->width * params->height *
+                            (sizeof(struct trax_pixel_record) + params->samples * sizeof(struct trax_sample_record));
+  return emulated_config(*config, bench->options, frame, recorded + 4096ull * STACK_BYTES, error);
+}
+
+/* With measure false the row is only looked for. */
+static trax_status take_row(struct bench *bench, size_t i, const struct trax_exact *exact, bool measure,
+                            trax_error *error) {
+  struct trax_frame frame = {0};
+  trax_config *config = NULL;
+  char path[TRAX_PATH_SIZE];
+  const struct trax_variant *variant = &bench->variants[i];
+  trax_status status = frame_of(&frame, bench, variant, variant->samples, error);
+  if (status == TRAX_OK)
+    status = chip(&config, bench, &frame, error);
+  if (status == TRAX_OK)
+    status = row_path(path, bench, variant, &frame, config, error);
+  if (status == TRAX_OK && !measure) {
+    bench->done[i] = trax_accuracy_read_row(&bench->rows[i], path);
+  } else if (status == TRAX_OK) {
+    const struct trax_accuracy_run run = run_of(bench, config, exact);
+    status = trax_accuracy_measure(&bench->rows[i], variant, &frame, &run, error);
+    if (status == TRAX_OK)
+      status = trax_accuracy_write_row(&bench->rows[i], path, error);
+  }
+  bench->rows[i].variant = *variant;
+  trax_config_destroy(config);
+  trax_frame_release(&frame);
+  return status;
+}
+
+static trax_status find_rows(struct bench *bench, trax_error *error) {
+  trax_status status = TRAX_OK;
+  for (size_t i = 0; i < bench->count && status == TRAX_OK; i++) {
+    progress_show(bench->progress, "compiling", (double)i / (double)bench->count, NULL);
+    status = take_row(bench, i, NULL, false, error);
+    if (!bench->done[i])
+      bench->samples += bench->variants[i].samples;
+  }
+  return status;
+}
+
+/* Rows of as many samples share E; they stand together. */
+static trax_status measure_rows(struct bench *bench, trax_error *error) {
+  trax_status status = TRAX_OK;
+  struct trax_exact exact = {0};
+  for (size_t i = 0; i < bench->count && status == TRAX_OK; i++) {
+    if (bench->done[i])
+      continue;
+    const uint32_t samples = bench->variants[i].samples;
+    if (exact.samples != samples) {
+      struct trax_frame frame = {0};
+      trax_exact_release(&exact);
+      status = frame_of(&frame, bench, &bench->variants[i], samples, error);
+      if (status == TRAX_OK)
+        status = render_exact(&exact, bench, &frame, true, error);
+      trax_frame_release(&frame);
+    }
+    bench->samples_now = samples;
+    if (status == TRAX_OK)
+      status = take_row(bench, i, &exact, true, error);
+    bench->samples_done += samples;
+  }
+  trax_exact_release(&exact);
+  return status;
+}
+
+/* --- the report --- */
+
+static const char *base_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static trax_status report(struct bench *bench, trax_error *error) {
+  const struct options *options = bench->options;
+  trax_accuracy_fronts(bench->rows, bench->count);
+  const struct trax_accuracy_report report = {.rows = bench->rows,
+                                              .count = bench->count,
+                                              .scene = base_name(options->meshes[0]),
+                                              .view = options->view ? base_name(options->view) : "of the whole",
+                                              .chip = options->config ? base_name(options->config) : "4x32",
+                                              .width = options->frame.width,
+                                              .height = options->frame.height,
+                                              .converged_samples = CONVERGED_SAMPLES};
+  char path[TRAX_PATH_SIZE];
+  trax_output output;
+  bool drawn = false;
+  path_in(bench, path, "/accuracy", "", ".md");
+  trax_status status = trax_output_open(&output, path, error);
+  if (status != TRAX_OK)
+    return status;
+  trax_accuracy_print(&report, output.file);
+  status = trax_output_commit(&output, error);
+  path_in(bench, path, "/accuracy", "", ".csv");
+  if (status == TRAX_OK)
+    status = trax_accuracy_write_csv(&report, path, error);
+  path_in(bench, path, "/accuracy", "", ".json");
+  if (status == TRAX_OK)
+    status = trax_accuracy_write_json(&report, path, error);
+  if (status == TRAX_OK)
+    status = trax_accuracy_draw(&report, options->output, &drawn, error);
+  if (status != TRAX_OK)
+    return status;
+  progress_clear(bench->progress);
+  if (!drawn)
+    fprintf(stderr,
+            "trax-render: note: no diagrams: gnuplot does not run (Debian's gnuplot-nox); "
+            "gnuplot %s/accuracy.gnuplot > accuracy.svg draws them\n",
+            options->output);
+  if (!options->quiet) {
+    trax_accuracy_print(&report, stdout);
+    printf("\nwritten     %s/accuracy.md, .csv, .json%s\n", options->output, drawn ? ", .svg" : "");
+  }
+  return TRAX_OK;
+}
+
+trax_status bench_accuracy(const struct options *options, const struct trax_scene *scene, const struct trax_view *view,
+                           struct progress *progress, const volatile int *interrupt, trax_error *error) {
+  struct bench bench = {.options = options, .scene = scene, .view = view, .progress = progress, .interrupt = interrupt};
+  if (!installation(bench.root))
+    return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
+  trax_status status = make_folders(&bench, error);
+  if (status == TRAX_OK)
+    status = hash_self(&bench.own_hash, error);
+  if (status == TRAX_OK)
+    status = trax_variants(&bench.variants, &bench.count, error);
+  if (status == TRAX_OK) {
+    bench.rows = calloc(bench.count, sizeof *bench.rows);
+    bench.done = calloc(bench.count, sizeof *bench.done);
+    if (!bench.rows || !bench.done)
+      status = trax_fail(error, "out of memory");
+  }
+  if (status == TRAX_OK)
+    status = converge(&bench, error);
+  if (status == TRAX_OK)
+    status = find_rows(&bench, error);
+  if (status == TRAX_OK)
+    status = measure_rows(&bench, error);
+  if (status == TRAX_OK)
+    status = report(&bench, error);
+  trax_exact_release(&bench.converged);
+  free(bench.variants);
+  free(bench.rows);
+  free(bench.done);
+  return status;
+}
