@@ -199,6 +199,25 @@ static trax_status take_row(struct bench *bench, size_t i, const struct trax_exa
   return status;
 }
 
+/* What is known to be right is the picture that the reference in binary64 renders. */
+static trax_status check_workload(const struct bench *bench, trax_error *error) {
+  struct trax_frame frame = {0};
+  trax_status status = frame_of(&frame, bench, &bench->variants[0], 1, error);
+  if (status != TRAX_OK)
+    return status;
+  const uint32_t others = frame.params->features & TRAX_PATH_FEATURES;
+  unsigned feature = 0;
+  while (feature < TRAX_FEATURE_COUNT && !(others >> feature & 1))
+    feature++;
+  trax_frame_release(&frame);
+  return others
+             ? trax_fail(error,
+                         "--bench-accuracy measures the paper's workload, one point light and Lambert surfaces; this "
+                         "picture needs %s",
+                         trax_feature_name(feature))
+             : TRAX_OK;
+}
+
 static trax_status find_rows(struct bench *bench, trax_error *error) {
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < bench->count && status == TRAX_OK; i++) {
@@ -301,6 +320,8 @@ trax_status bench_accuracy(const struct options *options, const struct trax_scen
     if (!bench.rows || !bench.done)
       status = trax_fail(error, "out of memory");
   }
+  if (status == TRAX_OK)
+    status = check_workload(&bench, error);
   if (status == TRAX_OK)
     status = converge(&bench, error);
   if (status == TRAX_OK)
