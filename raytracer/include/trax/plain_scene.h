@@ -11,8 +11,8 @@
 
 #include <stdint.h>
 
-/* Two siblings stand one behind the other, in one line of 64 bytes; pairs follow in the order of a depth-first traversal.
-   The root is number 0, and number 1 is none. A scene without triangles has one leaf of none. */
+/* Two siblings stand one behind the other, in one line of 64 bytes; pairs follow in the order of a depth-first
+   traversal. The root is number 0, and number 1 is none. A scene without triangles has one leaf of none. */
 struct trax_plain_node {
   float min[3], max[3]; /* bounds of every triangle below, exactly */
   int32_t count;        /* triangles of a leaf; -1: an inner node */
