@@ -4,7 +4,7 @@
     emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
                             [--max-cycles 400000] [--repeats 3] [--build build]
 
-SCENES_DIRECTORY holds the scenes as for raytracer/bench/paper.py. Prints what engine-bench prints (emulator/bench/engines.c):
+SCENES_DIRECTORY holds the scenes as for raytracer/bench/lean.py. Prints what engine-bench prints (emulator/bench/engines.c):
 million simulated instructions per second of wall time for each engine, and ratios, all of one run. The timed engines run
 the same first cycles of the picture, the functional mode the whole picture.
 """

@@ -3,8 +3,8 @@
 
     raytracer/bench/lean.py SCENES_DIRECTORY [--size 320x180] [--config 4x32] [--render build/bin/trax-render]
 
-SCENES_DIRECTORY is that of paper.py. Every cell has the general program's figure and the
-specialised one's. Exit status 1 if a picture is not the same bit for bit.
+SCENES_DIRECTORY holds conference.ply.xz, crytek-sponza.ply.xz, dragon.ply.xz with dragon_box.obj, and sibenik.ply.xz (also
+without .xz). Every cell has the general program's figure and the specialised one's. Exit status 1 if a picture is not the same bit for bit.
 """
 
 import argparse
@@ -13,7 +13,24 @@ import subprocess
 import sys
 import tempfile
 
-from paper import SCENES, find
+# Scene and its files.
+SCENES = [
+    ("conference", ["conference.ply"]),
+    ("crytek-sponza", ["crytek-sponza.ply"]),
+    ("dragon", ["dragon.ply", "dragon_box.obj"]),
+    ("sibenik", ["sibenik.ply"]),
+    ("forest", ["generate:forest"]),
+]
+
+
+def find(directory, name):
+    if name.startswith("generate:"):
+        return name
+    for candidate in (directory / name, directory / (name + ".xz")):
+        if candidate.exists():
+            return str(candidate)
+    sys.exit(f"lean.py: error: {directory}: neither {name} nor {name}.xz is there")
+
 
 ROWS = ["bytes of code", "bytes of stack", "bytes of scene", "instructions run", "cycles", "bytes from and to memory"]
 
@@ -44,7 +61,7 @@ def main():
     print(f"{options.config}, {options.size}")
     print("| scene | " + " | ".join(ROWS) + " | change of cycles |")
     print("| --- |" + " --- |" * (len(ROWS) + 1))
-    scenes = [(name, [find(options.scenes, file) for file in files]) for name, files, _ in SCENES]
+    scenes = [(name, [find(options.scenes, file) for file in files]) for name, files in SCENES]
     with tempfile.TemporaryDirectory() as scratch:
         for scene, files in scenes:
             run = subprocess.run([options.render, *files, "--view", scene, "--config", options.config, "--size", options.size, "--report",
