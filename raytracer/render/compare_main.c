@@ -5,16 +5,19 @@
 #include <getopt.h>
 #include <stdlib.h>
 
-static const char usage[] =
-    "Usage: trax-compare [options] A.png B.png\n"
-    "\n"
-    "Compares two pictures of one size, all four channels. Exit status 0: they agree; 1: they do not, or an error.\n"
-    "\n"
-    "      --within N      differences up to N of 255 count as agreement (default 0)\n"
-    "      --at-least P    per cent of the pixels that must agree (default 100)\n"
-    "  -q, --quiet         prints errors only\n"
-    "  -h, --help\n"
-    "      --version\n";
+static const char usage[] = "Usage: trax-compare [options] A B\n"
+                            "\n"
+                            "Compares two pictures of one size, PNG, PFM or EXR: all four channels as they are seen, "
+                            "of linear floats with gamma\n"
+                            "2. Prints also the root of the mean square of the differences of R, G and B, of 255 and, "
+                            "of two pictures of floats,\n"
+                            "of their values. Exit status 0: they agree; 1: they do not, or an error.\n"
+                            "\n"
+                            "      --within N      differences up to N of 255 count as agreement (default 0)\n"
+                            "      --at-least P    per cent of the pixels that must agree (default 100)\n"
+                            "  -q, --quiet         prints errors only\n"
+                            "  -h, --help\n"
+                            "      --version\n";
 
 enum { OPT_WITHIN = 256, OPT_AT_LEAST, OPT_VERSION };
 
@@ -48,8 +51,11 @@ static int compare(const char *path_a, const char *path_b, unsigned within, doub
       printf("%.4f %% of %llu pixels within %u/255, %llu differ", percent, (unsigned long long)difference.pixels,
              within, (unsigned long long)difference.unequal);
       if (difference.unequal)
-        printf(", by up to %u at (%u, %u)", difference.largest, difference.x, difference.y);
+        printf(", by up to %u at (%u, %u), RMSE %.4g", difference.largest, difference.x, difference.y, difference.rmse);
       putchar('\n');
+      if (difference.floats)
+        printf("RMSE %.6g of linear floats, %llu channels not finite\n", difference.radiance_rmse,
+               (unsigned long long)difference.not_finite);
     }
     exit_status = percent >= at_least ? 0 : 1;
   }

@@ -14,7 +14,7 @@ static const char usage[] =
     "Renders meshes, or one scene file (.trax), on the emulated ray-tracing accelerator: a ray from the eye through\n"
     "every pixel, and a shadow ray towards one point light. generate:forest[:SEED] is a mesh made on the spot.\n"
     "\n"
-    "  -o, --output FILE.png   the picture\n"
+    "  -o, --output FILE       the picture: linear floats for .pfm and .exr, else a PNG\n"
     "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
     "                          without it the whole scene is framed; file:NAME is a camera of a glTF file, file: its\n"
@@ -546,6 +546,7 @@ enum options_result options_parse(struct options *options, int argc, char **argv
   }
   options->meshes = (const char **)(argv + optind);
   options->mesh_count = (size_t)(argc - optind);
+  options->frame.floats = options->frame.floats || (options->output && trax_picture_is_float(options->output));
   return check(options, error) ? OPTIONS_WRONG : OPTIONS_RUN;
 }
 

@@ -1,14 +1,15 @@
-/* Pictures in memory and as PNG files. */
+/* Pictures in memory and in files. */
 #include "core/machine.h"
 #include "host/util.h"
+#include "radiance.h"
 #include "render.h"
 
-#include <errno.h>
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error) {
   picture->pixels = calloc((size_t)width * height, sizeof *picture->pixels);
@@ -88,8 +89,50 @@ static void encode(png_structp png, png_infop info, FILE *file, const struct tra
   png_write_end(png, info);
 }
 
+/* Without linear floats, those that the pixels stand for. */
+static trax_status write_floats(const struct trax_picture *picture, const char *path,
+                                trax_status (*encode)(struct trax_bytes *, const struct trax_picture *, const char *,
+                                                      trax_error *),
+                                trax_error *error) {
+  struct trax_picture made = *picture;
+  struct trax_bytes bytes = {0};
+  if (!picture->radiance) {
+    const size_t count = (size_t)picture->width * picture->height;
+    made.radiance = malloc(3 * count * sizeof *made.radiance);
+    if (!made.radiance)
+      return trax_fail(error, "out of memory for a picture of %u x %u", picture->width, picture->height);
+    for (size_t i = 0; i < 3 * count; i++) {
+      const float value = (float)(picture->pixels[i / 3] >> 8 * (i % 3) & 255) / 255;
+      made.radiance[i] = value * value;
+    }
+  }
+  trax_status status = encode(&bytes, &made, path, error);
+  trax_output output;
+  if (status == TRAX_OK)
+    status = trax_output_open(&output, path, error);
+  if (status == TRAX_OK) {
+    fwrite(bytes.data, 1, bytes.size, output.file); /* a failure is remembered until the end */
+    status = trax_output_commit(&output, error);
+  }
+  free(bytes.data);
+  if (!picture->radiance)
+    free(made.radiance);
+  return status;
+}
+
+static bool ends_with(const char *path, const char *ending) {
+  const size_t length = strlen(path), tail = strlen(ending);
+  return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+bool trax_picture_is_float(const char *path) {
+  return ends_with(path, ".pfm") || ends_with(path, ".exr");
+}
+
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error) {
   trax_output output;
+  if (trax_picture_is_float(path))
+    return write_floats(picture, path, ends_with(path, ".pfm") ? trax_pfm_encode : trax_exr_encode, error);
   trax_status status = trax_output_open(&output, path, error);
   if (status)
     return status;
@@ -110,9 +153,21 @@ trax_status trax_picture_write(const struct trax_picture *picture, const char *p
   return trax_fail(error, "%s: cannot write the picture: %s", path, failure.reason);
 }
 
+struct source {
+  const uint8_t *at, *end;
+};
+
+static void take_bytes(png_structp png, png_bytep to, size_t count) {
+  struct source *source = png_get_io_ptr(png);
+  if ((size_t)(source->end - source->at) < count)
+    png_error(png, "cut off");
+  memcpy(to, source->at, count);
+  source->at += count;
+}
+
 /* *pixels is freed by the caller, also after a failure in here. */
-static void decode(png_structp png, png_infop info, FILE *file, struct trax_picture *picture) {
-  png_init_io(png, file);
+static void decode(png_structp png, png_infop info, struct source *source, struct trax_picture *picture) {
+  png_set_read_fn(png, source, take_bytes);
   png_set_user_limits(png, TRAX_RENDER_MAX_SIDE, TRAX_RENDER_MAX_SIDE);
   png_read_info(png, info);
   picture->width = png_get_image_width(png, info);
@@ -135,30 +190,74 @@ static void decode(png_structp png, png_infop info, FILE *file, struct trax_pict
   png_read_end(png, NULL);
 }
 
-trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error) {
-  memset(picture, 0, sizeof *picture);
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return trax_fail(error, "%s: %s", path, strerror(errno));
+static trax_status decode_png(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
+                              trax_error *error) {
+  struct source source = {bytes, bytes + size};
   struct png_failure failure = {.reason = "out of memory"};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
   png_infop info = png ? png_create_info_struct(png) : NULL;
   volatile bool read = false;
   if (info && !setjmp(failure.place)) {
-    decode(png, info, file, picture);
+    decode(png, info, &source, picture);
     read = true;
   }
   png_destroy_read_struct(&png, &info, NULL);
-  fclose(file);
-  if (read)
-    return TRAX_OK;
-  trax_picture_release(picture);
-  return trax_fail(error, "%s: not a readable PNG: %s", path, failure.reason);
+  return read ? TRAX_OK : trax_fail(error, "%s: not a readable PNG: %s", name, failure.reason);
+}
+
+trax_status trax_picture_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
+                                trax_error *error) {
+  memset(picture, 0, sizeof *picture);
+  trax_status status = trax_is_pfm(bytes, size)   ? trax_pfm_decode(picture, bytes, size, name, error)
+                       : trax_is_exr(bytes, size) ? trax_exr_decode(picture, bytes, size, name, error)
+                                                  : decode_png(picture, bytes, size, name, error);
+  if (status == TRAX_OK && picture->radiance) {
+    const size_t count = (size_t)picture->width * picture->height;
+    picture->pixels = malloc(count * sizeof *picture->pixels);
+    if (!picture->pixels)
+      status = trax_fail(error, "out of memory for a picture of %u x %u", picture->width, picture->height);
+    for (size_t i = 0; status == TRAX_OK && i < count; i++)
+      picture->pixels[i] = pixel_of(picture->radiance + 3 * i);
+  }
+  if (status != TRAX_OK)
+    trax_picture_release(picture);
+  return status;
+}
+
+trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error) {
+  enum { max_size = 1 << 30 };
+  uint8_t *bytes;
+  size_t size;
+  memset(picture, 0, sizeof *picture);
+  if (trax_read_file(path, max_size, &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  trax_status status = trax_picture_decode(picture, bytes, size, path, error);
+  free(bytes);
+  return status;
+}
+
+/* Of the channels that are numbers in both. */
+static void compare_floats(struct trax_difference *difference, const struct trax_picture *a,
+                           const struct trax_picture *b) {
+  const size_t count = 3 * (size_t)a->width * a->height;
+  double sum = 0;
+  size_t finite = 0;
+  for (size_t i = 0; i < count; i++) {
+    const double delta = (double)a->radiance[i] - (double)b->radiance[i];
+    if (!isfinite(delta)) {
+      difference->not_finite++;
+      continue;
+    }
+    sum += delta * delta;
+    finite++;
+  }
+  difference->radiance_rmse = finite ? sqrt(sum / (double)finite) : 0;
 }
 
 void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,
                           const struct trax_picture *b, unsigned within) {
   memset(difference, 0, sizeof *difference);
+  double sum = 0;
   for (uint32_t y = 0; y < a->height; y++)
     for (uint32_t x = 0; x < a->width; x++) {
       size_t i = (size_t)y * a->width + x;
@@ -166,6 +265,8 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
       for (int shift = 0; shift < 32; shift += 8) {
         int delta = (int)(a->pixels[i] >> shift & 0xFF) - (int)(b->pixels[i] >> shift & 0xFF);
         unsigned size = (unsigned)abs(delta);
+        if (shift < 24)
+          sum += (double)delta * delta;
         worst = size > worst ? size : worst;
       }
       difference->pixels++;
@@ -174,6 +275,10 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
       if (worst > difference->largest)
         difference->largest = worst, difference->x = x, difference->y = y;
     }
+  difference->rmse = sqrt(sum / (3 * (double)a->width * a->height));
+  difference->floats = a->radiance && b->radiance;
+  if (difference->floats)
+    compare_floats(difference, a, b);
 }
 
 double trax_difference_percent(const struct trax_difference *difference) {

@@ -129,10 +129,15 @@ void trax_picture_release(struct trax_picture *picture);
 trax_status trax_picture_take(struct trax_picture *picture, const struct trax_frame *frame, const void *image,
                               trax_error *error);
 
-/* 8-bit RGB with the gamma of the palette (2); aside and renamed. */
+/* By the ending of the path: linear floats for .pfm and .exr, else a PNG of 8-bit RGB with the gamma of the palette
+   (2); aside and renamed. */
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error);
-/* Any PNG, brought to 8-bit RGBA without touching its gamma. */
+bool trax_picture_is_float(const char *path);
+/* A PNG, brought to 8-bit RGBA without touching its gamma, or a PFM or EXR (radiance.h), by its first bytes. */
 trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error);
+/* The same of a file in memory. */
+trax_status trax_picture_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
+                                trax_error *error);
 
 struct trax_difference {
   unsigned largest; /* of all channels' differences, 0 to 255 */
@@ -140,6 +145,11 @@ struct trax_difference {
   uint64_t unequal; /* pixels that differ at all */
   uint64_t beyond;  /* pixels with a channel that differs by more than `within` */
   uint32_t x, y;    /* the first pixel with the largest difference */
+  double rmse;      /* root of the mean square of the differences of R, G and B, 0 to 255 */
+  /* Of two pictures with linear floats: */
+  bool floats;
+  double radiance_rmse; /* of the channels that are finite in both */
+  uint64_t not_finite;  /* the other channels */
 };
 
 /* Of two pictures of one size, alpha included. */

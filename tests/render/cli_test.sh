@@ -171,6 +171,30 @@ for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows --smooth';
   accept "$compare" b.png reference.png --within 2 --at-least 99
 done
 
+# Linear floats: both kinds of files hold the same ones, and they are what the pixels are made of.
+accept "$render" "$box" -o floats.pfm $native --size 33x25
+accept "$render" "$box" -o floats.exr $native --size 33x25
+accept "$render" "$box" -o pixels.png $native --size 33x25
+accept "$compare" floats.pfm floats.exr
+grep -q '^RMSE 0 of linear floats, 0 channels not finite$' "$out" || fail "PFM and EXR: $(cat "$out")"
+accept "$compare" pixels.png floats.exr --within 1
+grep -q 'of linear floats' "$out" && fail "a PNG has no floats"
+[ "$(wc -c <floats.pfm)" -eq $((14 + 12 * 33 * 25)) ] || fail "floats.pfm has $(wc -c <floats.pfm) bytes"
+accept "$render" "$box" -o again.exr $native --size 33x25 --threads 3
+cmp -s floats.exr again.exr || fail "not the same EXR again"
+accept "$render" "$box" -o b.pfm $native --size 33x25 --ambient 0.5
+"$compare" floats.exr b.pfm >"$out" && fail "other ambient light makes no difference to the floats"
+grep -q '^RMSE 0\.[0-9]* of linear floats' "$out" || fail "no RMSE: $(cat "$out")"
+for file in floats.pfm floats.exr; do
+  head -c 700 $file >cut
+  refuse 'cut: not a readable' "$compare" cut pixels.png
+done
+sed '2s/.*/33/' floats.pfm >odd.pfm
+refuse 'odd.pfm: not a readable PFM' "$compare" odd.pfm pixels.png
+printf 'PF\n99999 99999\n-1.0\n' >vast.pfm
+refuse 'vast.pfm: a picture of 99999 x 99999' "$compare" vast.pfm pixels.png
+refuse 'nowhere' "$render" "$box" -o nowhere/x.exr $native
+
 # --- comparison
 refuse 'two pictures' "$compare" a.png
 refuse 'missing.png' "$compare" a.png missing.png
