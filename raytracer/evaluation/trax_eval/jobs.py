@@ -181,7 +181,7 @@ def run_job(out, tools, key, threads=1, on_start=None):
     job = read_json(out / "jobs" / f"{key}.json")
     if hash_value(job) != key:
         raise Problem(f"{out}/jobs/{key}.json is damaged: its name is not its hash")
-    if job["emulator"] != tools.hash("trax-sim"):
+    if job["emulator"] != hash_file(tools.path("trax-sim")):  # hashed anew: it may have been built since the command began
         raise Problem(f"job {key} is for another trax-sim than {tools.path('trax-sim')}")
     inputs = out / "inputs" / hash_value(job["inputs"])
     check_inputs(job, inputs)
