@@ -2,7 +2,7 @@
 
 from .claims import speedup
 from .plots import Bars, Lines, Series, log_ticks
-from .results import number, ratio
+from .results import SCENES, number, ratio
 
 # Styles of page.css. Of programs, each with a mark of its own.
 PAPER = (0, "circle")
@@ -129,7 +129,7 @@ def _sweep(results, sweep, identity):
     doubling = len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
     ticks = [(value, f"{value:g}") for value in values] if len(values) <= 9 else None
     per = f" / {sweep['y_per']}" if sweep.get("y_per") else ""
-    return Lines(identity, str(sweep.get("title") or sweep.get("name") or "sweep"), key, unit + per, series, log_x=doubling, base=2, x_ticks=ticks)
+    return Lines(identity, f"{unit}{per} against {key}", key, unit + per, series, log_x=doubling, base=2, x_ticks=ticks)
 
 
 def _over_time(record, identity):
@@ -140,7 +140,7 @@ def _over_time(record, identity):
         points = [(number(row[0]), None if number(row[place]) is None else 100 * number(row[place]),
                    f"to cycle {row[0]}: {column} {100 * number(row[place]):.1f} %" if number(row[place]) is not None else "") for row in rows]
         series.append(Series(str(column), [2, 1, 3, 4, 5, 6][(place - 1) % 6], points, line=True))
-    return Lines(identity, str(record.get("title") or record.get("name") or "series"), "cycle", "per cent of thread-cycles", series)
+    return Lines(identity, str(record.get("title") or record.get("name") or "series"), "cycle", "per cent of thread-cycles", series, x_format="%.0s%c")
 
 
 def all_figures(results, paper):
@@ -155,6 +155,5 @@ def all_figures(results, paper):
 
 
 def _paper_scenes(results):
-    """Those of the paper, measured or not, and the others that have runs on its chips."""
-    from .results import SCENES
+    """Those of the paper, measured or not, and the others that have runs."""
     return list(SCENES.values()) + [scene for scene in results.scenes() if scene not in SCENES.values()]

@@ -37,16 +37,16 @@ class Series:
 class Lines:
     """Marks and lines over two axes; x_ticks: (value, text) where the axis is to have them."""
 
-    def __init__(self, identity, title, x, y, series, log_x=False, log_y=False, x_ticks=None, from_zero=True, base=10):
+    def __init__(self, identity, title, x, y, series, log_x=False, x_ticks=None, from_zero=True, base=10, x_format="%g"):
         self.identity, self.title, self.x, self.y, self.series = identity, title, x, y, series
-        self.log_x, self.log_y, self.x_ticks, self.from_zero, self.base = log_x, log_y, x_ticks, from_zero, base
+        self.log_x, self.x_ticks, self.from_zero, self.base, self.x_format = log_x, x_ticks, from_zero, base, x_format
         self.height = HEIGHT
 
     def tips(self):
         return [tip for series in self.series for _, _, tip in self._drawn(series)]
 
     def _drawn(self, series):
-        return [(x, y, tip) for x, y, tip in series.known() if not (self.log_x and x <= 0) and not (self.log_y and y <= 0)]
+        return [(x, y, tip) for x, y, tip in series.known() if x > 0 or not self.log_x]
 
     def empty(self):
         return not self.tips()
@@ -56,11 +56,11 @@ class Lines:
 
     def script(self):
         points = [point for series in self.series for point in self._drawn(series)]
-        lines = [f"set xlabel {_quoted(self.x)}", f"set ylabel {_quoted(self.y)}", "unset logscale", "set xtics auto", "set autoscale"]
-        for axis, log, place in (("x", self.log_x, 0), ("y", self.log_y, 1)):
+        lines = [f"set xlabel {_quoted(self.x)}", f"set ylabel {_quoted(self.y)}", f"set format x {_quoted(self.x_format)}"]
+        for axis, log, place in (("x", self.log_x, 0), ("y", False, 1)):
             low, high = min(p[place] for p in points), max(p[place] for p in points)
             if log:
-                lines.append(f"set logscale {axis} {self.base if axis == 'x' else 10}")
+                lines.append(f"set logscale x {self.base}")
                 lines.append(f"set {axis}range [{low / 1.25!r}:{high * 1.25!r}]")
             else:
                 low = 0 if self.from_zero and low >= 0 else low
@@ -85,7 +85,8 @@ class Lines:
             if series.line:
                 plots.append(f"$d{index} using 1:2 with lines lc rgb {colour} lw 2{' dt 2' if series.dashed else ''}")
             kind, size = MARKS[series.mark]
-            plots.append(f"$d{index} using 1:2 with points pt {kind} ps {size} lw 1.5 lc rgb {colour}")
+            if not (series.line and len(drawn) > 40):  # so many are the line
+                plots.append(f"$d{index} using 1:2 with points pt {kind} ps {size} lw 1.5 lc rgb {colour}")
             plots.append(f"$d{index} using 1:2:3 with labels hypertext point pt 7 ps 1.4 lc rgb \"#ff000000\"")
         return lines + ["plot " + ", ".join(plots)]
 
@@ -110,9 +111,9 @@ class Bars:
 
     def script(self):
         count = len(self.bars)
-        lines = ["unset logscale", "set autoscale", f"set xlabel {_quoted(self.x)}", "unset ylabel", f"set yrange [{count - 0.4}:-0.6]"]
+        lines = [f"set xlabel {_quoted(self.x)}", f"set yrange [{count - 0.4}:-0.6]"]
         longest = max(sum(length for _, length, _ in parts) for _, parts in self.bars)
-        lines += [f"set xrange [0:{longest!r}]", "set xtics auto"]
+        lines.append(f"set xrange [0:{longest!r}]")
         lines.append("set ytics (" + ", ".join(f"{_quoted(name)} {row}" for row, (name, _) in enumerate(self.bars)) + ")")
         block = []
         for row, (_, parts) in enumerate(self.bars):
@@ -242,10 +243,9 @@ def marks():
 
 
 def log_ticks(values):
-    """Round numbers for a logarithmic axis that is short."""
+    """1, 2, 5, 10, ... for a logarithmic axis over these values."""
     values = [value for value in values if value and value > 0]
     if not values:
         return None
-    low, high = math.floor(math.log10(min(values))), math.ceil(math.log10(max(values)))
-    return [(float(10 ** power), f"{10 ** power:g}") for power in range(low, high + 1)]
-
+    powers = range(math.floor(math.log10(min(values))), math.ceil(math.log10(max(values))) + 1)
+    return [(digit * 10.0 ** power, f"{digit * 10.0 ** power:g}") for power in powers for digit in (1, 2, 5)]
