@@ -42,6 +42,12 @@ trax_status trax_variants(struct trax_variant **variants, size_t *count, trax_er
       snprintf(variant->name, sizeof variant->name, "%s%s", trax_triangle_names[triangle],
                fast_math ? ", fast-math" : "");
     }
+  for (unsigned bits = 0; bits <= 16; bits += 16) {
+    struct trax_variant *variant = add(all, count, "scene");
+    variant->rebuilt = true;
+    variant->vertex_bits = bits;
+    strcpy(variant->name, bits ? "vertices of 16 bits" : "scene built anew");
+  }
   for (unsigned bits = MOST_BITS; bits >= LEAST_BITS; bits--) {
     add_unit(all, count, bits, TRAX_LATENCY_DIGITS);
     if (trax_latency_newton(bits) != trax_latency_digits(bits))
@@ -195,7 +201,8 @@ static trax_status take_errors(double figures[TRAX_ACCURACY_FIGURE_COUNT], const
   trax_channel_errors(&sampling, run->exact->channels, run->converged->channels, pixels);
   trax_channel_errors(&total, channels, run->converged->channels, pixels);
   struct trax_hit_errors hits;
-  trax_hit_errors(&hits, run->exact, (const struct trax_sample_record *)(const void *)(recorded + pixels), frame);
+  trax_hit_errors(&hits, run->exact, (const struct trax_sample_record *)(const void *)(recorded + pixels), frame,
+                  run->original);
   figures[TRAX_ACCURACY_RMSE] = numerical.rmse;
   figures[TRAX_ACCURACY_LARGEST] = numerical.largest;
   figures[TRAX_ACCURACY_SAMPLING_RMSE] = sampling.rmse;

@@ -18,17 +18,25 @@ enum trax_latency { TRAX_LATENCY_AS_CONFIGURED, TRAX_LATENCY_DIGITS, TRAX_LATENC
 
 /* A row of the table. */
 struct trax_variant {
-  const char *group; /* what it varies: "default", "triangle", "math", "unit", "samples" */
+  const char *group; /* what it varies: "default", "triangle", "math", "scene", "unit", "samples" */
   char name[64];
   struct trax_method method;
   uint32_t samples;
-  unsigned bits; /* of the special unit; 0: as configured */
+  bool rebuilt;         /* the scene is one of trax_scene_rebuild */
+  unsigned vertex_bits; /* its argument */
+  unsigned bits;        /* of the special unit; 0: as configured */
   enum trax_latency latency;
 };
 
 /* The default first. *variants is from malloc. */
 trax_status trax_variants(struct trax_variant **variants, size_t *count, trax_error *error);
 unsigned trax_variant_latency(const struct trax_variant *variant); /* cycles; 0: as configured */
+
+/* rebuilt.c: a scene of the same triangles, built again. With vertex_bits its vertices are the nearest ones on a grid
+   of 2^vertex_bits planes along each axis, the scene's bounds being the outermost, as if they were stored in so many
+   bits; 0: as they are. The source ids are the triangles' numbers in `scene`. */
+trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_scene *scene, unsigned vertex_bits,
+                               const volatile int *interrupt, trax_error *error);
 
 /* FIGURE(NAME, key, unit, meaning) */
 #define TRAX_ACCURACY_FIGURES(FIGURE)                                                                                  \
@@ -75,6 +83,7 @@ void trax_accuracy_fronts(struct trax_accuracy_row *rows, size_t count);
 struct trax_accuracy_run {
   struct trax_specialise_options specialise;
   const trax_config *config;          /* the chip; bits and latency are the variant's */
+  const struct trax_scene *original;  /* what the next two are of */
   const struct trax_exact *exact;     /* E, with what its rays met: for as many samples as the frame has */
   const struct trax_exact *converged; /* C */
   unsigned host_threads;              /* 0: one for each processor */
@@ -87,7 +96,7 @@ trax_status trax_accuracy_key(char key[33], const struct trax_variant *variant, 
                               const struct trax_accuracy_run *run, trax_error *error);
 
 /* The variant's picture is rendered once on the cycle-exact emulator, and once without time by the program that
-   records. The frame has the variant's samples and method. */
+   records. The frame has the variant's samples, method and scene. */
 trax_status trax_accuracy_measure(struct trax_accuracy_row *row, const struct trax_variant *variant,
                                   const struct trax_frame *frame, const struct trax_accuracy_run *run,
                                   trax_error *error);
@@ -99,7 +108,8 @@ struct trax_accuracy_report {
   size_t count;
   const char *scene, *view, *chip; /* names for the heading */
   uint32_t width, height;
-  uint32_t converged_samples;
+  uint32_t converged_samples, rough_samples;
+  double rough_rmse; /* between C and a picture of rough_samples, of 255 */
 };
 
 /* A row's figures as a file that trax_accuracy_read_row reads back. */

@@ -82,10 +82,12 @@ static void print_grouped(double number, FILE *out) {
 }
 
 void trax_accuracy_print(const struct trax_accuracy_report *report, FILE *out) {
-  fprintf(out,
-          "%s, view %s, %u x %u, chip %s. C has %u samples a pixel; front: N of cycles against numerical error, of one "
-          "sample,\nT of cycles against total error.\n\n",
-          report->scene, report->view, report->width, report->height, report->chip, report->converged_samples);
+  fprintf(
+      out,
+      "%s, view %s, %u x %u, chip %s. C has %u samples a pixel; RMSE to one of %u: %.2g. Front: N of cycles against "
+      "numerical\nerror, of one sample; T of cycles against total error.\n\n",
+      report->scene, report->view, report->width, report->height, report->chip, report->converged_samples,
+      report->rough_samples, report->rough_rmse);
   fprintf(out,
           "| method | cycles | to default | instructions | code | memory, MB | energy, mJ | MRPS | numerical RMSE | "
           "largest | wrong pixels: missed, grown, other | tied | shadows | FLIP | sampling RMSE | total RMSE | "
@@ -144,16 +146,18 @@ trax_status trax_accuracy_write_json(const struct trax_accuracy_report *report, 
   for (size_t i = 0; i < report->count; i++) {
     const struct trax_accuracy_row *row = &report->rows[i];
     json_array_append_new(
-        rows, json_pack("{s:s, s:s, s:s, s:b, s:i, s:i, s:i, s:b, s:b, s:o}", "method", row->variant.name, "group",
-                        row->variant.group, "triangle", trax_triangle_names[row->variant.method.triangle], "fast_math",
-                        row->variant.method.fast_math, "samples", (int)row->variant.samples, "bits",
+        rows, json_pack("{s:s, s:s, s:s, s:b, s:b, s:i, s:i, s:i, s:i, s:b, s:b, s:o}", "method", row->variant.name,
+                        "group", row->variant.group, "triangle", trax_triangle_names[row->variant.method.triangle],
+                        "fast_math", row->variant.method.fast_math, "scene_rebuilt", row->variant.rebuilt,
+                        "vertex_bits", (int)row->variant.vertex_bits, "samples", (int)row->variant.samples, "bits",
                         (int)row->variant.bits, "latency", (int)trax_variant_latency(&row->variant), "numerical_front",
                         row->numerical_front, "total_front", row->total_front, "figures", figures_json(row)));
   }
-  return write_json(json_pack("{s:s, s:i, s:s, s:s, s:s, s:[ii], s:i, s:o, s:o}", "format", "trax-accuracy", "version",
-                              1, "scene", report->scene, "view", report->view, "chip", report->chip, "size",
+  return write_json(json_pack("{s:s, s:i, s:s, s:s, s:s, s:[ii], s:i, s:i, s:f, s:o, s:o}", "format", "trax-accuracy",
+                              "version", 1, "scene", report->scene, "view", report->view, "chip", report->chip, "size",
                               (int)report->width, (int)report->height, "converged_samples",
-                              (int)report->converged_samples, "figures", described, "rows", rows),
+                              (int)report->converged_samples, "rough_samples", (int)report->rough_samples, "rough_rmse",
+                              report->rough_rmse, "figures", described, "rows", rows),
                     path, error);
 }
 
@@ -174,6 +178,7 @@ static const struct {
 } groups[] = {{"default", "default", "black"},
               {"triangle", "other triangle test", "#0072b2"},
               {"math", "-ffast-math", "#d55e00"},
+              {"scene", "scene built anew; vertices of 16 bits", "#56b4e9"},
               {"unit", "special unit of so many bits", "#009e73"},
               {"samples", "more samples", "#cc79a7"}};
 enum { GROUPS = sizeof groups / sizeof *groups };

@@ -12,8 +12,9 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-/* Of C. Its own error is measured in docs/accuracy.md. */
+/* Of C, and of a picture whose difference from C tells how far C has converged. */
 #define CONVERGED_SAMPLES 1024
+#define ROUGH_SAMPLES 256
 #define STACK_BYTES (64u << 10) /* of a thread of the program that records */
 
 struct bench {
@@ -31,6 +32,15 @@ struct bench {
   double samples, samples_done; /* to render, for the progress */
   double samples_now;
   struct trax_exact converged;
+  double rough_rmse;       /* of a picture of ROUGH_SAMPLES against it */
+  struct rebuilt *rebuilt; /* the latest first */
+};
+
+/* A scene of trax_scene_rebuild. */
+struct rebuilt {
+  struct trax_scene scene;
+  unsigned vertex_bits;
+  struct rebuilt *next;
 };
 
 static bool path_in(const struct bench *bench, char path[TRAX_PATH_SIZE], const char *folder, const char *name,
@@ -62,12 +72,43 @@ static trax_status hash_self(uint64_t *hash, trax_error *error) {
   return TRAX_OK;
 }
 
-static trax_status frame_of(struct trax_frame *frame, const struct bench *bench, const struct trax_variant *variant,
-                            uint32_t samples, trax_error *error) {
+static trax_status frame_of(struct trax_frame *frame, const struct bench *bench, const struct trax_scene *scene,
+                            struct trax_method method, uint32_t samples, trax_error *error) {
   struct trax_frame_options options = bench->options->frame;
   options.samples = samples;
-  options.method = variant->method;
-  return trax_frame_init(frame, bench->scene, bench->view, &options, error);
+  options.method = method;
+  return trax_frame_init(frame, scene, bench->view, &options, error);
+}
+
+/* As the default has it, of the scene as it is. */
+static trax_status plain_frame(struct trax_frame *frame, const struct bench *bench, uint32_t samples,
+                               trax_error *error) {
+  return frame_of(frame, bench, bench->scene, (struct trax_method){0}, samples, error);
+}
+
+static trax_status scene_of(const struct trax_scene **scene, struct bench *bench, const struct trax_variant *variant,
+                            trax_error *error) {
+  *scene = bench->scene;
+  if (!variant->rebuilt)
+    return TRAX_OK;
+  struct rebuilt *rebuilt = bench->rebuilt;
+  while (rebuilt && rebuilt->vertex_bits != variant->vertex_bits)
+    rebuilt = rebuilt->next;
+  if (!rebuilt) {
+    rebuilt = calloc(1, sizeof *rebuilt);
+    const trax_status status =
+        rebuilt ? trax_scene_rebuild(&rebuilt->scene, bench->scene, variant->vertex_bits, bench->interrupt, error)
+                : trax_fail(error, "out of memory");
+    if (status != TRAX_OK) {
+      free(rebuilt);
+      return status;
+    }
+    rebuilt->vertex_bits = variant->vertex_bits;
+    rebuilt->next = bench->rebuilt;
+    bench->rebuilt = rebuilt;
+  }
+  *scene = &rebuilt->scene;
+  return TRAX_OK;
 }
 
 /* --- the pictures in binary64 --- */
@@ -89,42 +130,66 @@ static trax_status render_exact(struct trax_exact *exact, const struct bench *be
   return trax_render_exact(exact, frame, seen, &run, error);
 }
 
+/* C and the difference from one of fewer samples. */
+static trax_status render_converged(struct bench *bench, trax_error *error) {
+  struct trax_frame frame = {0};
+  struct trax_exact rough = {0};
+  trax_status status = plain_frame(&frame, bench, CONVERGED_SAMPLES, error);
+  if (status == TRAX_OK)
+    status = render_exact(&bench->converged, bench, &frame, false, error);
+  trax_frame_release(&frame);
+  if (status == TRAX_OK)
+    status = plain_frame(&frame, bench, ROUGH_SAMPLES, error);
+  if (status == TRAX_OK)
+    status = render_exact(&rough, bench, &frame, false, error);
+  if (status == TRAX_OK) {
+    struct trax_channel_errors errors;
+    trax_channel_errors(&errors, rough.channels, bench->converged.channels, (size_t)rough.width * rough.height);
+    bench->rough_rmse = errors.rmse;
+  }
+  trax_frame_release(&frame);
+  trax_exact_release(&rough);
+  return status;
+}
+
+static trax_status write_converged(const struct bench *bench, const char *path, size_t count, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (fwrite(bench->converged.channels, sizeof(double), count, output.file) == count &&
+      fwrite(&bench->rough_rmse, sizeof(double), 1, output.file) == 1)
+    return trax_output_commit(&output, error);
+  trax_output_discard(&output);
+  return trax_fail(error, "%s: %s", path, strerror(errno));
+}
+
 /* C, from its file or into it. */
 static trax_status converge(struct bench *bench, trax_error *error) {
   struct trax_frame frame = {0};
-  trax_status status = frame_of(&frame, bench, &bench->variants[0], CONVERGED_SAMPLES, error);
+  trax_status status = plain_frame(&frame, bench, CONVERGED_SAMPLES, error);
   if (status != TRAX_OK)
     return status;
   const uint64_t parts[] = {XXH3_64bits(frame.params, frame.params_size), bench->scene->header->checksum,
                             bench->scene->size, bench->own_hash};
+  const uint32_t width = frame.params->width, height = frame.params->height;
+  trax_frame_release(&frame);
   char name[48], path[TRAX_PATH_SIZE];
   snprintf(name, sizeof name, "converged-%016llx", (unsigned long long)XXH3_64bits(parts, sizeof parts));
-  const size_t size = 3 * sizeof(double) * frame.params->width * frame.params->height;
+  if (!path_in(bench, path, "/measured/", name, ""))
+    return trax_fail(error, "%s: the path is too long", bench->options->output);
+  const size_t count = 3 * (size_t)width * height, size = (count + 1) * sizeof(double);
   uint8_t *bytes = NULL;
-  size_t got;
+  size_t got = 0;
   trax_error unread;
-  if (!path_in(bench, path, "/measured/", name, "")) {
-    status = trax_fail(error, "%s: the path is too long", bench->options->output);
-  } else if (trax_read_file(path, size, &bytes, &got, &unread) == TRAX_OK && got == size) {
-    bench->converged = (struct trax_exact){.width = frame.params->width,
-                                           .height = frame.params->height,
-                                           .samples = CONVERGED_SAMPLES,
-                                           .channels = (double *)(void *)bytes};
-  } else {
-    free(bytes);
-    status = render_exact(&bench->converged, bench, &frame, false, error);
-    trax_output output;
-    if (status == TRAX_OK)
-      status = trax_output_open(&output, path, error);
-    if (status == TRAX_OK && fwrite(bench->converged.channels, 1, size, output.file) != size) {
-      trax_output_discard(&output);
-      status = trax_fail(error, "%s: %s", path, strerror(errno));
-    } else if (status == TRAX_OK) {
-      status = trax_output_commit(&output, error);
-    }
+  if (trax_read_file(path, size, &bytes, &got, &unread) == TRAX_OK && got == size) {
+    bench->converged = (struct trax_exact){
+        .width = width, .height = height, .samples = CONVERGED_SAMPLES, .channels = (double *)(void *)bytes};
+    bench->rough_rmse = bench->converged.channels[count];
+    return TRAX_OK;
   }
-  trax_frame_release(&frame);
-  return status;
+  free(bytes);
+  status = render_converged(bench, error);
+  return status == TRAX_OK ? write_converged(bench, path, count, error) : status;
 }
 
 /* --- rows --- */
@@ -141,6 +206,7 @@ static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *c
   return (struct trax_accuracy_run){
       .specialise = {.root = bench->root, .cache = bench->options->cache, .interrupt = bench->interrupt},
       .config = config,
+      .original = bench->scene,
       .exact = exact,
       .converged = &bench->converged,
       .host_threads = bench->options->threads,
@@ -180,7 +246,10 @@ static trax_status take_row(struct bench *bench, size_t i, const struct trax_exa
   trax_config *config = NULL;
   char path[TRAX_PATH_SIZE];
   const struct trax_variant *variant = &bench->variants[i];
-  trax_status status = frame_of(&frame, bench, variant, variant->samples, error);
+  const struct trax_scene *scene;
+  trax_status status = scene_of(&scene, bench, variant, error);
+  if (status == TRAX_OK)
+    status = frame_of(&frame, bench, scene, variant->method, variant->samples, error);
   if (status == TRAX_OK)
     status = chip(&config, bench, &frame, error);
   if (status == TRAX_OK)
@@ -202,7 +271,7 @@ static trax_status take_row(struct bench *bench, size_t i, const struct trax_exa
 /* What is known to be right is the picture that the reference in binary64 renders. */
 static trax_status check_workload(const struct bench *bench, trax_error *error) {
   struct trax_frame frame = {0};
-  trax_status status = frame_of(&frame, bench, &bench->variants[0], 1, error);
+  trax_status status = plain_frame(&frame, bench, 1, error);
   if (status != TRAX_OK)
     return status;
   const uint32_t others = frame.params->features & TRAX_PATH_FEATURES;
@@ -240,7 +309,7 @@ static trax_status measure_rows(struct bench *bench, trax_error *error) {
     if (exact.samples != samples) {
       struct trax_frame frame = {0};
       trax_exact_release(&exact);
-      status = frame_of(&frame, bench, &bench->variants[i], samples, error);
+      status = plain_frame(&frame, bench, samples, error);
       if (status == TRAX_OK)
         status = render_exact(&exact, bench, &frame, true, error);
       trax_frame_release(&frame);
@@ -271,7 +340,9 @@ static trax_status report(struct bench *bench, trax_error *error) {
                                               .chip = options->config ? base_name(options->config) : "4x32",
                                               .width = options->frame.width,
                                               .height = options->frame.height,
-                                              .converged_samples = CONVERGED_SAMPLES};
+                                              .converged_samples = CONVERGED_SAMPLES,
+                                              .rough_samples = ROUGH_SAMPLES,
+                                              .rough_rmse = bench->rough_rmse};
   char path[TRAX_PATH_SIZE];
   trax_output output;
   bool drawn = false;
@@ -331,6 +402,11 @@ trax_status bench_accuracy(const struct options *options, const struct trax_scen
   if (status == TRAX_OK)
     status = report(&bench, error);
   trax_exact_release(&bench.converged);
+  for (struct rebuilt *next; bench.rebuilt; bench.rebuilt = next) {
+    next = bench.rebuilt->next;
+    trax_scene_release(&bench.rebuilt->scene);
+    free(bench.rebuilt);
+  }
   free(bench.variants);
   free(bench.rows);
   free(bench.done);

@@ -73,6 +73,7 @@ static int tear_down(void **state) {
 static struct trax_accuracy_run run_of(void) {
   return (struct trax_accuracy_run){.specialise = {.root = root, .cache = cache},
                                     .config = common.config,
+                                    .original = &common.scene,
                                     .exact = &common.exact,
                                     .converged = &common.converged,
                                     .host_threads = 1};
@@ -149,6 +150,45 @@ static void test_other_methods(void **state) {
   free(variants);
 }
 
+/* The same triangles in another order are the same picture; vertices on a grid are not, the less so the finer it is. */
+static void test_rebuilt_scenes(void **state) {
+  (void)state;
+  const unsigned bits[] = {0, 16, 8};
+  double rmse[3];
+  const struct trax_scene scene = common.scene;
+  for (int i = 0; i < 3; i++) {
+    struct trax_scene rebuilt;
+    trax_error error;
+    assert_int_equal(trax_scene_rebuild(&rebuilt, &scene, bits[i], NULL, &error), TRAX_OK);
+    assert_int_equal(rebuilt.triangle_count, scene.triangle_count);
+    double farthest = 0, size = 0;
+    for (uint32_t triangle = 0; triangle < rebuilt.triangle_count; triangle++)
+      for (int axis = 0; axis < 3; axis++) {
+        const float *own = rebuilt.triangles[triangle].v0, *other = scene.triangles[rebuilt.source_ids[triangle]].v0;
+        farthest = fmax(farthest, fabs((double)own[axis] - other[axis]));
+        size = fmax(size, (double)scene.header->bounds_max[axis] - scene.header->bounds_min[axis]);
+      }
+    /* Half a cell of the longest axis, at most; of 6,000 coordinates one is not far from that. */
+    const double half = bits[i] ? size / (ldexp(1, (int)bits[i]) - 1) / 2 : 0;
+    assert_true(farthest >= 0.9 * half && farthest <= 1.01 * half); /* rounded to binary32 */
+    struct trax_frame frame = {0};
+    const struct trax_frame_options options = {
+        .width = WIDTH, .height = HEIGHT, .samples = 1, .shadows = true, .ambient = 0.1f, .background = 0xFF102030};
+    assert_int_equal(trax_frame_init(&frame, &rebuilt, &common.view, &options, &error), TRAX_OK);
+    const struct trax_variant variant = {.group = "scene", .samples = 1, .rebuilt = true, .vertex_bits = bits[i]};
+    const struct trax_accuracy_run run = run_of();
+    struct trax_accuracy_row row;
+    if (trax_accuracy_measure(&row, &variant, &frame, &run, &error) != TRAX_OK)
+      fail_msg("%s", error.message);
+    if (bits[i] == 0)
+      assert_true(FIGURE(row, WRONG) == 0 && FIGURE(row, TIED) == 0);
+    rmse[i] = FIGURE(row, RMSE);
+    trax_frame_release(&frame);
+    trax_scene_release(&rebuilt);
+  }
+  assert_true(rmse[0] < 1e-3 && rmse[1] > 10 * rmse[0] && rmse[2] > 2 * rmse[1]);
+}
+
 static void test_keys(void **state) {
   (void)state;
   struct trax_frame frame = frame_of((struct trax_method){0}, 1);
@@ -223,9 +263,9 @@ int main(int argc, char **argv) {
   if (argc != 3)
     return 2;
   root = argv[1], cache = argv[2];
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_the_default),  cmocka_unit_test(test_shrunk_boxes),
-                                     cmocka_unit_test(test_fewer_bits),   cmocka_unit_test(test_other_methods),
-                                     cmocka_unit_test(test_keys),         cmocka_unit_test(test_fronts),
-                                     cmocka_unit_test(test_rows_in_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_the_default),    cmocka_unit_test(test_shrunk_boxes),
+                                     cmocka_unit_test(test_fewer_bits),     cmocka_unit_test(test_other_methods),
+                                     cmocka_unit_test(test_rebuilt_scenes), cmocka_unit_test(test_keys),
+                                     cmocka_unit_test(test_fronts),         cmocka_unit_test(test_rows_in_files)};
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
