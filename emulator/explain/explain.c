@@ -102,6 +102,7 @@ static const struct {
     {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), trax_perfetto_create},
     {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), trax_heat_create},
     {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), trax_items_create},
+    {FILE_OF(lockstep), FILE_OF(lockstep), FILE_OF(lockstep), trax_lockstep_create},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -124,7 +125,7 @@ bool trax_explain_wanted(const struct trax_explain_options *options) {
 trax_status trax_explain_check(const struct trax_explain_options *options, trax_error *error) {
   const char *const files[] = {options->profile, options->folded,   options->annotate, options->trace,
                                options->konata,  options->perfetto, options->heat,     options->heat_lines,
-                               options->items,   options->series};
+                               options->items,   options->lockstep, options->series};
   for (size_t i = 0; i < sizeof files / sizeof *files; i++)
     if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
       return TRAX_ERROR;

@@ -22,7 +22,8 @@ struct trax_explain_options {
   const char *perfetto; /* the window as JSON trace events */
   const char *heat;     /* accesses to memory by object */
   const char *heat_lines;
-  const char *items; /* what each item cost */
+  const char *items;    /* what each item cost */
+  const char *lockstep; /* what the items would take on a SIMD machine */
   const char *series;
 
   uint64_t series_interval; /* cycles; 0: TRAX_SERIES_INTERVAL */

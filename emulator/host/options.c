@@ -26,6 +26,7 @@ enum option_id {
   OPTION_HEAT_LINES,
   OPTION_ITEMS,
   OPTION_ITEM_BUFFER,
+  OPTION_LOCKSTEP,
   OPTION_SERIES,
   OPTION_SERIES_INTERVAL,
   OPTION_TRACE,
@@ -77,6 +78,7 @@ static const struct {
     [OPTION_HEAT_LINES] = {"heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV"},
     [OPTION_ITEMS] = {"items", "FILE", "what each item (pixel) cost, as CSV"},
     [OPTION_ITEM_BUFFER] = {"item-buffer", "SYMBOL", "the buffer of words that items store to, for their places"},
+    [OPTION_LOCKSTEP] = {"lockstep", "FILE", "what the items would take on a SIMD machine, as CSV"},
     [OPTION_SERIES] = {"series", "FILE", "what was counted in every interval, as CSV"},
     [OPTION_SERIES_INTERVAL] = {"series-interval", "N", "cycles of an interval; default 10000"},
     [OPTION_TRACE] = {"trace", "FILE", "every instruction issued in the window, with values"},
@@ -302,6 +304,8 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return set_once(id, &options->explain.items, value, error);
   case OPTION_ITEM_BUFFER:
     return set_once(id, &options->explain.item_buffer, value, error);
+  case OPTION_LOCKSTEP:
+    return set_once(id, &options->explain.lockstep, value, error);
   case OPTION_SERIES:
     return set_once(id, &options->explain.series, value, error);
   case OPTION_SERIES_INTERVAL:

@@ -91,6 +91,7 @@ CASES = {
     "items": Case(["out.txt"], file_holds("out.txt", ","), "items.elf", bad=FILES, twice="b"),
     "item-buffer": Case(["output", "--items", "out.txt", "--bind", "input=in.bin", "--alloc", "output=16"], file_holds("out.txt", ","),
                         "copy.elf", bad=("nothing",), twice="b"),
+    "lockstep": Case(["out.txt"], file_holds("out.txt", r"width,.*\n1,\d+,(\d+),\1,1.0"), "items.elf", bad=FILES, twice="b"),
     "series": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES, twice="b"),
     "series-interval": Case(["100", "--series", "out.txt"], file_holds("out.txt", "(.*\n){4}"), bad=NUMBERS + ("0",)),
     "trace": Case(["trace.txt"], file_holds("trace.txt", "addi"), bad=FILES, twice="b"),
