@@ -31,6 +31,7 @@ struct bench {
   size_t count;
   double samples, samples_done; /* to render, for the progress */
   double samples_now;
+  size_t now; /* the variant that is being measured */
   struct trax_exact converged;
   double rough_rmse;       /* of a picture of ROUGH_SAMPLES against it */
   struct rebuilt *rebuilt; /* the latest first */
@@ -113,20 +114,25 @@ static trax_status scene_of(const struct trax_scene **scene, struct bench *bench
 
 /* --- the pictures in binary64 --- */
 
-static void show_converging(void *context, uint64_t done, uint64_t total) {
-  progress_show(context, "the converged picture", (double)done / (double)total, NULL);
+struct step {
+  struct bench *bench;
+  const char *name; /* NULL: a part of measuring */
+};
+
+static void show_row(void *context, double fraction);
+
+static void show_step(void *context, uint64_t done, uint64_t total) {
+  const struct step *step = context;
+  if (step->name)
+    progress_show(step->bench->progress, step->name, (double)done / (double)total, NULL);
+  else
+    show_row(step->bench, 0);
 }
 
-static void show_exact(void *context, uint64_t done, uint64_t total) {
-  (void)done, (void)total;
-  progress_show(context, "the picture in binary64", -1, NULL);
-}
-
-static trax_status render_exact(struct trax_exact *exact, const struct bench *bench, const struct trax_frame *frame,
-                                bool seen, trax_error *error) {
-  struct trax_render_run run = {.progress = seen ? show_exact : show_converging,
-                                .progress_context = bench->progress,
-                                .interrupt = bench->interrupt};
+static trax_status render_exact(struct trax_exact *exact, struct bench *bench, const struct trax_frame *frame,
+                                const char *step_name, bool seen, trax_error *error) {
+  struct step step = {bench, step_name};
+  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = bench->interrupt};
   return trax_render_exact(exact, frame, seen, &run, error);
 }
 
@@ -136,12 +142,12 @@ static trax_status render_converged(struct bench *bench, trax_error *error) {
   struct trax_exact rough = {0};
   trax_status status = plain_frame(&frame, bench, CONVERGED_SAMPLES, error);
   if (status == TRAX_OK)
-    status = render_exact(&bench->converged, bench, &frame, false, error);
+    status = render_exact(&bench->converged, bench, &frame, "the converged picture", false, error);
   trax_frame_release(&frame);
   if (status == TRAX_OK)
     status = plain_frame(&frame, bench, ROUGH_SAMPLES, error);
   if (status == TRAX_OK)
-    status = render_exact(&rough, bench, &frame, false, error);
+    status = render_exact(&rough, bench, &frame, "how far it has converged", false, error);
   if (status == TRAX_OK) {
     struct trax_channel_errors errors;
     trax_channel_errors(&errors, rough.channels, bench->converged.channels, (size_t)rough.width * rough.height);
@@ -196,10 +202,9 @@ static trax_status converge(struct bench *bench, trax_error *error) {
 
 static void show_row(void *context, double fraction) {
   const struct bench *bench = context;
-  char detail[96];
   const double done = bench->samples_done + fraction * bench->samples_now;
-  snprintf(detail, sizeof detail, "%.0f of %.0f pictures", bench->samples_done, bench->samples);
-  progress_show(bench->progress, "measuring", bench->samples > 0 ? done / bench->samples : -1, detail);
+  progress_show(bench->progress, "measuring", bench->samples > 0 ? done / bench->samples : -1,
+                bench->variants[bench->now].name);
 }
 
 static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *config, const struct trax_exact *exact) {
@@ -306,12 +311,14 @@ static trax_status measure_rows(struct bench *bench, trax_error *error) {
     if (bench->done[i])
       continue;
     const uint32_t samples = bench->variants[i].samples;
+    bench->now = i;
+    bench->samples_now = 0;
     if (exact.samples != samples) {
       struct trax_frame frame = {0};
       trax_exact_release(&exact);
       status = plain_frame(&frame, bench, samples, error);
       if (status == TRAX_OK)
-        status = render_exact(&exact, bench, &frame, true, error);
+        status = render_exact(&exact, bench, &frame, NULL, true, error);
       trax_frame_release(&frame);
     }
     bench->samples_now = samples;
@@ -330,13 +337,21 @@ static const char *base_name(const char *path) {
   return slash ? slash + 1 : path;
 }
 
+static bool is_moved(const struct camera_options *camera) {
+  return camera->has_eye || camera->has_look_at || camera->has_up || camera->fov > 0 || camera->orbit[0] != 0 ||
+         camera->orbit[1] != 0 || camera->light_count > 0;
+}
+
 static trax_status report(struct bench *bench, trax_error *error) {
   const struct options *options = bench->options;
+  char view[256];
+  snprintf(view, sizeof view, "%.200s%s", options->view ? base_name(options->view) : "of the whole",
+           is_moved(&options->camera) ? ", changed by options" : "");
   trax_accuracy_fronts(bench->rows, bench->count);
   const struct trax_accuracy_report report = {.rows = bench->rows,
                                               .count = bench->count,
                                               .scene = base_name(options->meshes[0]),
-                                              .view = options->view ? base_name(options->view) : "of the whole",
+                                              .view = view,
                                               .chip = options->config ? base_name(options->config) : "4x32",
                                               .width = options->frame.width,
                                               .height = options->frame.height,
