@@ -62,7 +62,8 @@ def complete():
     sweeps = [{"name": "table2", "title": "Table 2", "x": "threads", "y": "mrps"},
               {"name": "fpu-sharing", "title": "TPs that share an FPU", "x": "fpu.tps_per_cluster", "y": "mrps", "claim": "Eight are sufficient.", "file": "sweeps/fpu.json"},
               {"name": "fpu-density", "title": "The same for each mm²", "x": "fpu.tps_per_cluster", "y": "mrps", "y_per": "area_mm2"}]
-    runs[-1]["experiments"].append("fpu-density")
+    for record in runs[-5:]:
+        record["experiments"].append("fpu-density")
     rows = [[10_000 * (n + 1), 0.4 / (1 + n) + 0.05, 0.3 + 0.002 * n] for n in range(100)]
     series = [{"name": "staggering", "title": "Instruction-bank conflicts over time", "run": "era-conference-4x32-exact-0",
                "columns": ["cycle", "icache_bank_conflict", "issued"], "rows": rows}]

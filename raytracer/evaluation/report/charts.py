@@ -112,6 +112,11 @@ def sweep_value(run, sweep):
     return ratio(value, run.get(sweep["y_per"])) if sweep.get("y_per") else value
 
 
+def is_plotted(results, sweep):
+    """A sweep over one value has no plot."""
+    return len({run.setting(str(sweep.get("x") or "")) for run in sweep_runs(results, sweep)}) > 1 and not str(sweep.get("name")).startswith("table")
+
+
 def _sweep(results, sweep, identity):
     key, unit = str(sweep.get("x") or ""), sweep.get("y") or "mrps"
     groups = {}
@@ -128,6 +133,8 @@ def _sweep(results, sweep, identity):
     values = sorted({point[0] for one in series for point in one.known()})
     doubling = len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
     ticks = [(value, f"{value:g}") for value in values] if len(values) <= 9 else None
+    if any(isinstance(run.set.get(key), bool) for run in sweep_runs(results, sweep)):
+        ticks = [(0, "false"), (1, "true")]
     per = f" / {sweep['y_per']}" if sweep.get("y_per") else ""
     return Lines(identity, f"{unit}{per} against {key}", key, unit + per, series, log_x=doubling, base=2, x_ticks=ticks)
 
@@ -135,12 +142,16 @@ def _sweep(results, sweep, identity):
 def _over_time(record, identity):
     columns = record.get("columns") if isinstance(record.get("columns"), list) else []
     rows = [row for row in record.get("rows") or [] if isinstance(row, list) and len(row) == len(columns)]
-    series = []
+    series, used = [], set()
     for place, column in enumerate(columns[1:], 1):
         points = [(number(row[0]), None if number(row[place]) is None else 100 * number(row[place]),
                    f"to cycle {row[0]}: {column} {100 * number(row[place]):.1f} %" if number(row[place]) is not None else "") for row in rows]
-        series.append(Series(str(column), [2, 1, 3, 4, 5, 6][(place - 1) % 6], points, line=True))
-    return Lines(identity, str(record.get("title") or record.get("name") or "series"), "cycle", "per cent of thread-cycles", series, x_format="%.0s%c")
+        style = next((style for style, _, causes in CAUSES if column in causes), 1 + place % 6)
+        style = 4 if style in used else style  # the second of a group
+        series.append(Series(str(column), style, points))
+        used.add(style)
+    title = ": ".join(str(part) for part in (record.get("name"), record.get("title")) if part)
+    return Lines(identity, title or "series", "cycle", "per cent of thread-cycles", series, x_format="%.0s%c")
 
 
 def all_figures(results, paper):
@@ -149,11 +160,12 @@ def all_figures(results, paper):
     for program in results.programs():
         figures += [_stalls(results, paper, program, scene) for scene in _paper_scenes(results)]
     figures.append(_error_time(results, paper))
-    figures += [_sweep(results, sweep, f"sweep-{index}") for index, sweep in enumerate(results.sweeps)]
+    figures += [_sweep(results, sweep, f"sweep-{index}") for index, sweep in enumerate(results.sweeps) if is_plotted(results, sweep)]
     figures += [_over_time(record, f"series-{index}") for index, record in enumerate(results.series)]
     return figures
 
 
 def _paper_scenes(results):
-    """Those of the paper, measured or not, and the others that have runs."""
-    return list(SCENES.values()) + [scene for scene in results.scenes() if scene not in SCENES.values()]
+    """Those of the paper, measured or not, and others that have runs on several chips."""
+    chips = {scene: {run.config for run in results.runs if run.scene == scene} for scene in results.scenes()}
+    return list(SCENES.values()) + [scene for scene in chips if scene not in SCENES.values() and len(chips[scene]) > 1]

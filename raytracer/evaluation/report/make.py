@@ -105,13 +105,13 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
                 ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper)])),
                 ("error", "Error and run time", join([figures("error-"), tables.sampled(results)]))]
     if results.series:
-        sections.append(("time", "Over time", figures("series-")))
+        sections.append(("time", "Over time", join([el("p", "Shares of the thread-cycles of each interval."), figures("series-")])))
     shown = []
     for index, sweep in enumerate(results.sweeps):
         if sweep.get("name") in ("table1", "table2", "table3"):
             continue  # they are above
         parts = [el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")),
-                 el("p", str(sweep["claim"])) if sweep.get("claim") else None, drawn[f"sweep-{index}"],
+                 el("p", str(sweep["claim"])) if sweep.get("claim") else None, drawn.get(f"sweep-{index}"),
                  el("details", el("summary", "Every run of it"), tables.sweep_table(results, sweep, f"table-sweep-{index}"))]
         shown.append(el("section", *(part for part in parts if part is not None), class_="sweep"))
     if shown:

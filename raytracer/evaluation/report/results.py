@@ -90,11 +90,16 @@ class Run:
         return number(value)
 
     def setting(self, name):
-        """The configuration's value of a key, or the number of threads."""
+        """The configuration's value of a key, true and false as 1 and 0, or the number of threads."""
         if name == "threads":
             return self.get("threads")
         value = self.set.get(name)
-        return number(value) if value is not None else self.get("configuration." + name)
+        if value is None:
+            section, _, key = name.partition(".")
+            value = self.stats.get("configuration")
+            for part in (section, key):
+                value = value.get(part) if isinstance(value, dict) else None
+        return float(value) if isinstance(value, bool) else number(value)
 
     def interval(self):
         """MRPS between which an estimate lies, or None. Of a sampled run cycles_low is the fast end."""

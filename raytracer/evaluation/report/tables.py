@@ -47,7 +47,8 @@ def table1(results, paper):
     programs = results.programs()
     head = [("chip", "t"), ("threads", "n"), ("area, paper (mm²)", "n"), ("area, fit", "n"), ("peak GFLOPS, paper", "n"), ("peak, ours", "n"),
             ("RT GFLOPS, paper", "n")] + [(f"RT GFLOPS, {program}", "n") for program in programs]
-    if any("area_sum_mm2" in run.values for run in results.runs):
+    units = {run.config: run.get("values.area_units") for run in results.runs if run.done and not run.set and "area_units" in run.values}
+    if units:
         head.insert(4, ("area, sum of units", "n"))
     rows = []
     for row in paper.table1:
@@ -56,9 +57,8 @@ def table1(results, paper):
         one = next((run for run in results.runs if run.config == chip and run.done and not run.set), None) if ours else None
         cells = [cell(chip, threads), number_cell(threads, shown=None if threads else Html("")), paper_cell(row.get("area_mm2")),
                  compared(one.get("area_mm2") if one else None, row.get("area_mm2")) if ours else cell("")]
-        if len(head) == 8 + len(programs):
-            sums = next((run.get("values.area_sum_mm2") for run in results.runs if run.config == chip and "area_sum_mm2" in run.values), None)
-            cells.append(compared(sums, row.get("area_mm2")) if ours else cell(""))
+        if units:
+            cells.append(compared(units.get(chip), row.get("area_mm2")) if ours else cell(""))
         cells += [paper_cell(row.get("peak_gflops")), compared(one.get("peak_gflops") if one else None, row.get("peak_gflops")) if ours else cell(""),
                   paper_cell(row.get("rt_gflops"))]
         cells += [compared(_figures_of(results, program, chip, "gflops"), row.get("rt_gflops")) if ours else cell("") for program in programs]
