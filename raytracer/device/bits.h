@@ -22,6 +22,13 @@ static inline float bits_float(int32_t bits) {
    floats, which the adder would do). Takes no instruction. */
 #define HIDE_ORIGIN(value) __asm__("" : "+r"(value))
 
+/* Before a loop that takes few turns. */
+#ifdef __clang__
+#define KEEP_ROLLED _Pragma("clang loop unroll(disable)")
+#else
+#define KEEP_ROLLED
+#endif
+
 #define SIGN_BIT INT32_MIN
 
 /* The bits of |value|; ordered like the magnitudes themselves. */

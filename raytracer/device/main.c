@@ -40,9 +40,11 @@ next_sample:
 
   for (;;) {
     struct ray ray;
-    prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin);
+    prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin,
+                RUN_GRID(run));
     HIDE_ORIGIN(shadow); /* or the loop would be unrolled into two copies */
-    bool found = trace_ray(scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
+    bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
+                           shadow, &hit);
     LOAD_AGAIN(run);
     if (shadow) {
       RECORD_SHADOW(run, pixel, sample, found);

@@ -273,8 +273,8 @@ static __attribute__((noinline)) bool follow_ray(const struct trax_render_params
   struct ray ray;
   struct hit hit = {shadow ? path->distance_bits : FARTHEST_BITS, NULL, 0, 0};
   prepare_ray(&ray, path->origin.x, path->origin.y, path->origin.z, path->direction.x, path->direction.y,
-              path->direction.z, run->box_margin);
-  bool found = trace_ray(scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
+              path->direction.z, run->box_margin, RUN_GRID(run));
+  bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
                          shadow && !NEEDS(run, ALPHA), &hit);
   trax_count_rays(1);
   HIDE_ORIGIN(path);

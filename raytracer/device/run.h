@@ -3,6 +3,7 @@
 
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
      TRAX_STACK_ENTRIES          as many as this scene takes
+     TRAX_NODE_LAYOUT            that of this scene
      trax_constants              the parameters, and what is behind them: the first colour of the palette, or struct
                                  trax_path_params; the compiler folds their loads into the instructions
 
@@ -29,6 +30,14 @@ extern struct trax_buffer scene, params, image;
 
 /* path.h, or the paper's workload? */
 #define NEEDS_PATHS(run) ((RUN_FEATURES(run) & TRAX_PATH_FEATURES) != 0)
+
+/* How the scene's nodes are laid out (enum trax_node_layout), and the grid if they are quantised. */
+#ifdef TRAX_NODE_LAYOUT
+#define RUN_LAYOUT(run) TRAX_NODE_LAYOUT
+#else
+#define RUN_LAYOUT(run) ((run)->node_layout)
+#endif
+#define RUN_GRID(run) (RUN_LAYOUT(run) == TRAX_NODES_BINARY ? NULL : &(run)->grid)
 
 #ifndef TRAX_STACK_ENTRIES
 #define TRAX_STACK_ENTRIES TRAX_SCENE_MAX_DEPTH

@@ -12,38 +12,46 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define BOX_MISSED INT32_MAX
-
 static inline uint32_t load_word(const char *address) {
   return *(const uint32_t *)(const void *)address;
 }
 
-/* Where the ray enters the slab between two planes of a child's box, as bits, given where it has entered (at 0 or
-   later) and left the box so far; BOX_MISSED if it has left before it enters. Distances are compared as integers: a
-   negative far distance, whatever its size, is less than `enter`, which is never negative; a negative near distance is
-   less too. */
-#define CLIP_TO_SLAB(AXIS, BYTES)                                                                                      \
+/* Where along the ray a plane is, as bits: binary32, or a number on the grid (ray.h). */
+static inline __attribute__((always_inline)) int32_t plane_distance(bool on_grid, const char *address, float origin,
+                                                                    float inverse) {
+  if (on_grid)
+    return float_bits(bits_float(*(const uint16_t *)(const void *)address) * inverse - origin);
+  return float_bits((load_float(address) - origin) * inverse);
+}
+
+/* Clips the ray's way through a box to the slab between two of its planes, and leaves for `missed` if nothing remains.
+   Distances are compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good
+   as another place, and who leaves before 0 has missed in any case, which is asked at the end. A box is six planes of
+   `plane` bytes each, `box` bytes from the node's beginning, the three least ones first. */
+#define CLIP_TO_SLAB(AXIS, NUMBER, BOX, ENTER, LEAVE, MISSED)                                                          \
   do {                                                                                                                 \
-    float plane_near = load_float(node + ray->near_offset_##AXIS + (BYTES) + 24 * child);                              \
-    float plane_far = load_float(node - ray->near_offset_##AXIS + 12 + (BYTES) + 24 * child);                          \
-    int32_t near_bits = float_bits((plane_near - ray->near_origin_##AXIS) * ray->inverse_##AXIS);                      \
-    int32_t far_bits = float_bits((plane_far - ray->far_origin_##AXIS) * ray->inverse_##AXIS);                         \
-    if (near_bits > enter)                                                                                             \
-      enter = near_bits;                                                                                               \
-    if (far_bits < leave)                                                                                              \
-      leave = far_bits;                                                                                                \
-    if (enter > leave)                                                                                                 \
-      return BOX_MISSED;                                                                                               \
+    int32_t near_bits = plane_distance(on_grid, node + ray->near_offset_##AXIS + ((BOX) + (NUMBER) * plane),           \
+                                       ray->near_origin_##AXIS, ray->inverse_##AXIS);                                  \
+    int32_t far_bits = plane_distance(on_grid, node - ray->near_offset_##AXIS + ((BOX) + ((NUMBER) + 3) * plane),      \
+                                      ray->far_origin_##AXIS, ray->inverse_##AXIS);                                    \
+    if ((NUMBER) == 0 || near_bits > ENTER)                                                                            \
+      ENTER = near_bits;                                                                                               \
+    if (far_bits < LEAVE)                                                                                              \
+      LEAVE = far_bits;                                                                                                \
+    if (ENTER > LEAVE)                                                                                                 \
+      goto MISSED;                                                                                                     \
   } while (0)
 
-static inline __attribute__((always_inline)) int32_t enter_box(const struct ray *ray, const char *node, int child,
-                                                               int32_t limit_bits) {
-  int32_t enter = 0, leave = limit_bits;
-  CLIP_TO_SLAB(x, 0);
-  CLIP_TO_SLAB(y, 4);
-  CLIP_TO_SLAB(z, 8);
-  return enter;
-}
+/* Where the ray enters a box, as bits, if it does so before `limit`. */
+#define ENTER_BOX(BOX, ENTER, MISSED)                                                                                  \
+  do {                                                                                                                 \
+    int32_t leave = limit;                                                                                             \
+    CLIP_TO_SLAB(x, 0, BOX, ENTER, leave, MISSED);                                                                     \
+    CLIP_TO_SLAB(y, 1, BOX, ENTER, leave, MISSED);                                                                     \
+    CLIP_TO_SLAB(z, 2, BOX, ENTER, leave, MISSED);                                                                     \
+    if (leave < 0)                                                                                                     \
+      goto MISSED;                                                                                                     \
+  } while (0)
 
 /* The stack holds the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which
    the host checks; TRAX_STACK_ENTRIES is that or what the scene takes. */
@@ -52,30 +60,51 @@ struct stack_entry {
   int32_t enter; /* where the ray enters its box */
 };
 
+/* Goes from a node to the nearer of the children that the ray enters; the other one is put on the stack. False: it
+   enters none. */
+static inline __attribute__((always_inline)) bool visit_node(bool on_grid, const char *node, const struct ray *ray,
+                                                             int32_t limit, trax_scene_ref *reference,
+                                                             struct stack_entry **top) {
+  const int plane = on_grid ? 2 : 4, second_box = 6 * plane, children = 12 * plane;
+  int32_t enter0, enter1;
+  ENTER_BOX(0, enter0, second_only);
+  ENTER_BOX(second_box, enter1, first_only);
+  if (enter0 <= enter1) {
+    *reference = load_word(node + children);
+    *(*top)++ = (struct stack_entry){load_word(node + children + 4), enter1};
+  } else {
+    *reference = load_word(node + children + 4);
+    *(*top)++ = (struct stack_entry){load_word(node + children), enter0};
+  }
+  return true;
+first_only:
+  *reference = load_word(node + children);
+  return true;
+second_only:
+  ENTER_BOX(second_box, enter1, neither);
+  *reference = load_word(node + children + 4);
+  return true;
+neither:
+  return false;
+}
+
 /* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The probabilities
    tell the register allocator what matters: rays visit many more nodes than triangles. */
-static inline __attribute__((always_inline)) bool trace_ray(const char *scene, trax_scene_ref reference,
-                                                            const struct ray *ray, bool any, struct hit *hit) {
+static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene,
+                                                            trax_scene_ref reference, const struct ray *ray, bool any,
+                                                            struct hit *hit) {
   struct stack_entry stack[TRAX_STACK_ENTRIES], *top = stack;
+#define LIMIT() (layout == TRAX_NODES_BINARY ? hit->distance_bits : distance_on_grid(hit->distance_bits))
+  int32_t limit = LIMIT(); /* boxes that begin there or later are left out */
 
   if (reference == 0)
     return false;
   for (;;) {
     while (__builtin_expect_with_probability(TRAX_SCENE_REF_COUNT(reference) == 0, 1, 0.95)) {
       const char *node = scene_at(scene, reference);
-      int32_t enter0 = enter_box(ray, node, 0, hit->distance_bits);
-      int32_t enter1 = enter_box(ray, node, 1, hit->distance_bits);
-      if (enter0 <= enter1) {
-        if (enter0 == BOX_MISSED)
-          goto back;
-        reference = load_word(node + 48);
-        if (enter1 != BOX_MISSED)
-          *top++ = (struct stack_entry){load_word(node + 52), enter1};
-      } else {
-        reference = load_word(node + 52);
-        if (enter0 != BOX_MISSED)
-          *top++ = (struct stack_entry){load_word(node + 48), enter0};
-      }
+      if (!(layout == TRAX_NODES_BINARY ? visit_node(false, node, ray, limit, &reference, &top)
+                                        : visit_node(true, node, ray, limit, &reference, &top)))
+        goto back;
     }
 
     const char *triangle = scene_at(scene, TRAX_SCENE_REF_OFFSET(reference));
@@ -86,13 +115,16 @@ static inline __attribute__((always_inline)) bool trace_ray(const char *scene, t
         return true;
       triangle += sizeof(struct trax_triangle);
     } while (__builtin_expect_with_probability(triangle != end, 1, 0.5));
+    limit = LIMIT();
+#undef LIMIT
 
   back:
+    KEEP_ROLLED
     do {
       if (top == stack)
         return hit->triangle != NULL;
       top--;
-    } while (top->enter >= hit->distance_bits);
+    } while (top->enter >= limit);
     reference = top->reference;
   }
 }

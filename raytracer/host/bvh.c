@@ -23,6 +23,7 @@ struct built_node {
   uint32_t below;          /* triangles of the subtree */
   uint32_t height;         /* most inner nodes from here to a leaf */
   struct built_node *child[2];
+  struct scene_box box; /* of a leaf */
   uint32_t triangles[];
 };
 
@@ -50,6 +51,11 @@ static void ignore_bounds(void *node, const struct RTCBounds **bounds, unsigned 
   (void)node, (void)bounds, (void)child_count, (void)context;
 }
 
+static struct scene_box box_of(const struct RTCBuildPrimitive *primitive) {
+  return (struct scene_box){{primitive->lower_x, primitive->lower_y, primitive->lower_z},
+                            {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
+}
+
 static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *primitives, size_t count,
                          void *context) {
   if (count == 0 || count > TRAX_SCENE_MAX_LEAF) {
@@ -57,12 +63,18 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
     count = 0;
   }
   struct built_node *leaf = rtcThreadLocalAlloc(allocator, sizeof *leaf + count * sizeof leaf->triangles[0], 16);
-  *leaf = (struct built_node){.triangle_count = (uint32_t)count};
+  *leaf = (struct built_node){.box = scene_empty_box()};
   for (size_t i = 0; i < count; i++) { /* insertion sort: the builder's order carries no meaning */
-    size_t at = i;
-    for (; at > 0 && leaf->triangles[at - 1] > primitives[i].primID; at--)
-      leaf->triangles[at] = leaf->triangles[at - 1];
+    const struct scene_box part = box_of(&primitives[i]);
+    scene_box_add_box(&leaf->box, &part);
+    size_t at = leaf->triangle_count;
+    while (at > 0 && leaf->triangles[at - 1] > primitives[i].primID)
+      at--;
+    if (at > 0 && leaf->triangles[at - 1] == primitives[i].primID)
+      continue; /* another part of the same triangle */
+    memmove(leaf->triangles + at + 1, leaf->triangles + at, (leaf->triangle_count - at) * sizeof *leaf->triangles);
     leaf->triangles[at] = primitives[i].primID;
+    leaf->triangle_count++;
   }
   return leaf;
 }
@@ -87,6 +99,15 @@ static void fill_primitives(struct RTCBuildPrimitive *primitives, const struct t
                                                .upper_z = box.max[2],
                                                .primID = i};
   }
+}
+
+static struct scene_box bounds_of(const struct RTCBuildPrimitive *primitives, uint32_t count) {
+  struct scene_box bounds = scene_empty_box();
+  for (uint32_t i = 0; i < count; i++) {
+    const struct scene_box box = box_of(&primitives[i]);
+    scene_box_add_box(&bounds, &box);
+  }
+  return bounds;
 }
 
 /* --- numbering, depth first, and rebuilding what is too deep --- */
@@ -128,6 +149,7 @@ static struct scene_tree_node *add_node(struct scene_tree *tree, unsigned depth,
   node->triangle_count = triangle_count;
   if (triangle_count) {
     memcpy(node->triangles, triangles, triangle_count * sizeof *triangles);
+    tree->ref_count += triangle_count;
     if (triangle_count > tree->max_leaf)
       tree->max_leaf = triangle_count;
   } else {
@@ -172,7 +194,12 @@ static double middle(const struct RTCBuildPrimitive *primitive, int axis) {
 static bool add_balanced(struct numbering *numbering, uint32_t *triangles, uint32_t count, unsigned depth) {
   if (count <= numbering->max_leaf) {
     qsort(triangles, count, sizeof *triangles, compare_numbers);
-    add_node(numbering->tree, depth, triangles, count);
+    struct scene_tree_node *leaf = add_node(numbering->tree, depth, triangles, count);
+    leaf->box = scene_empty_box();
+    for (uint32_t i = 0; i < count; i++) {
+      const struct scene_box part = box_of(&numbering->primitives[triangles[i]]);
+      scene_box_add_box(&leaf->box, &part);
+    }
     return true;
   }
   int widest = 0;
@@ -208,7 +235,7 @@ static bool add_balanced(struct numbering *numbering, uint32_t *triangles, uint3
    their triangles: as far down as possible. */
 static bool number_nodes(struct numbering *numbering, const struct built_node *built, unsigned depth) {
   if (built->triangle_count) {
-    add_node(numbering->tree, depth, built->triangles, built->triangle_count);
+    add_node(numbering->tree, depth, built->triangles, built->triangle_count)->box = built->box;
     return true;
   }
   if (depth + built->height > numbering->max_depth)
@@ -280,6 +307,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     result = scene_fail(error, "BVH: Embree cannot be started (error %d)", (int)rtcGetDeviceError(NULL));
   else {
     fill_primitives(primitives, mesh);
+    tree->bounds = bounds_of(primitives, mesh->triangle_count);
     struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
     arguments.maxBranchingFactor = 2;

@@ -23,7 +23,7 @@ static const struct {
   const char *name;
   uint32_t record_size;
 } section_kinds[TRAX_SCENE_SECTIONS] = {
-    [TRAX_SCENE_NODES] = {"nodes", sizeof(struct trax_bvh_node)},
+    [TRAX_SCENE_NODES] = {"nodes", 0}, /* as long as their layout says */
     [TRAX_SCENE_TRIANGLES] = {"triangles", sizeof(struct trax_triangle)},
     [TRAX_SCENE_MATERIALS] = {"materials", sizeof(struct trax_material)},
     [TRAX_SCENE_SOURCE_IDS] = {"source ids", sizeof(uint32_t)},
@@ -56,7 +56,7 @@ static trax_status check_header(const struct checker *checker, const struct trax
                       TRAX_SCENE_ALIGNMENT);
   if (header->base)
     return scene_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
-  if (header->node_layout != TRAX_NODES_BINARY)
+  if (header->node_layout >= TRAX_NODE_LAYOUTS)
     return scene_fail(error, "%s: nodes of an unknown layout, %u", name, header->node_layout);
   return TRAX_OK;
 }
@@ -67,9 +67,11 @@ static trax_status check_sections(const struct checker *checker, const struct tr
     if (section->offset == 0 && section->size == 0 && section->count == 0 && section->record_size == 0)
       continue;
     const char *what = section_kinds[kind].name;
-    if (section->record_size != section_kinds[kind].record_size)
+    const uint32_t record_size =
+        kind == TRAX_SCENE_NODES ? trax_node_formats[header->node_layout].bytes : section_kinds[kind].record_size;
+    if (section->record_size != record_size)
       return scene_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
-                        section->record_size, section_kinds[kind].record_size);
+                        section->record_size, record_size);
     if (section->count == 0 || section->size != (uint64_t)section->count * section->record_size)
       return scene_fail(checker->error, "%s: %s: %u records do not make %u bytes", checker->name, what, section->count,
                         section->size);
@@ -226,16 +228,23 @@ static trax_status check_leaf(struct checker *checker, trax_scene_ref ref, struc
   return TRAX_OK;
 }
 
+static bool same_box(const struct scene_box *a, const struct scene_box *b) {
+  for (int axis = 0; axis < 3; axis++)
+    if (a->min[axis] != b->min[axis] || a->max[axis] != b->max[axis])
+      return false;
+  return true;
+}
+
 /* The subtree below ref, with depth inner nodes above it; adds its triangles to box. The recursion ends because a node
    is entered once and depth is limited. */
 static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
   if (TRAX_SCENE_REF_COUNT(ref))
     return check_leaf(checker, ref, box);
+  const struct trax_node_format *format = &trax_node_formats[checker->view.header->node_layout];
   if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
-      (ref - checker->nodes_offset) % sizeof(struct trax_bvh_node) != 0)
+      (ref - checker->nodes_offset) % format->bytes != 0)
     return scene_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
-  uint32_t number = (ref - checker->nodes_offset) / (uint32_t)sizeof(struct trax_bvh_node);
-  const struct trax_bvh_node *node = &checker->view.nodes[number];
+  uint32_t number = (ref - checker->nodes_offset) / format->bytes;
   if (checker->node_seen[number])
     return scene_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
   checker->node_seen[number] = 1;
@@ -244,16 +253,24 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     return scene_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
   if (depth > checker->max_depth)
     checker->max_depth = depth;
-  if (node->reserved[0] || node->reserved[1])
-    return scene_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
+  if (format->reserved_bytes) {
+    static const unsigned char zeros[TRAX_SCENE_ALIGNMENT];
+    const unsigned char *reserved = (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes +
+                                    format->bytes - format->reserved_bytes;
+    if (memcmp(reserved, zeros, format->reserved_bytes) != 0)
+      return scene_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
+  }
+  struct scene_box boxes[TRAX_MAX_WIDTH];
+  trax_scene_ref children[TRAX_MAX_WIDTH];
+  scene_node_boxes(boxes, children, &checker->view, number);
   for (int i = 0; i < 2; i++) {
     struct scene_box child = scene_empty_box();
-    trax_status result = check_subtree(checker, node->child[i], depth, &child);
+    trax_status result = check_subtree(checker, children[i], depth, &child);
     if (result != TRAX_OK)
       return result;
-    for (int axis = 0; axis < 3; axis++)
-      if (node->box[i].min[axis] != child.min[axis] || node->box[i].max[axis] != child.max[axis])
-        return scene_fail(checker->error, "%s: node %u: box %d is not that of its triangles", checker->name, number, i);
+    const struct scene_box expected = format->quantised ? scene_box_in_cells(&checker->view.grid, &child) : child;
+    if (!same_box(&boxes[i], &expected))
+      return scene_fail(checker->error, "%s: node %u: box %d is not that of its triangles", checker->name, number, i);
     scene_box_add_box(box, &child);
   }
   return TRAX_OK;
@@ -313,7 +330,8 @@ trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t
                                      .triangle_count = sections[TRAX_SCENE_TRIANGLES].count,
                                      .material_count = sections[TRAX_SCENE_MATERIALS].count,
                                      .texture_count = sections[TRAX_SCENE_TEXTURES].count,
-                                     .texel_count = sections[TRAX_SCENE_TEXELS].count};
+                                     .texel_count = sections[TRAX_SCENE_TEXELS].count,
+                                     .grid = trax_scene_grid_of(header->bounds_min, header->bounds_max)};
   checker.nodes_offset = sections[TRAX_SCENE_NODES].offset;
   checker.nodes_size = sections[TRAX_SCENE_NODES].size;
   checker.triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset;

@@ -157,36 +157,6 @@ void scene_polygon_work_release(struct scene_polygon_work *work);
 /* The same in a child process, which is killed when *options->interrupt becomes true. */
 scene_reader scene_read_mesh_isolated;
 
-/* --- bvh.c --- */
-
-/* A tree as the builder makes it; links are indices into nodes. */
-struct scene_tree {
-  struct scene_tree_node {
-    uint32_t triangle_count; /* 0: an inner node */
-    union {
-      uint32_t child[2];
-      uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh */
-    };
-  } *nodes; /* depth first, the root first */
-  uint32_t node_count, inner_count, max_depth, max_leaf;
-};
-
-trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
-                             const struct trax_build_options *options, trax_error *error);
-void scene_tree_release(struct scene_tree *tree);
-
-/* --- duplicates.c --- */
-
-/* Has triangles whose vertices are the same stand in the tree, depth first, in the order of their numbers. */
-trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error);
-
-/* --- order.c --- */
-
-/* *positions, to be freed, gets for each inner node of the tree its position among the nodes of the file; the root's is
-   0. cache_lines: of the direct-mapped cache it is made for; below 8 the order is depth first. */
-trax_status scene_order_nodes(uint32_t **positions, const struct scene_tree *tree, const struct trax_mesh *mesh,
-                              uint32_t cache_lines, trax_error *error);
-
 /* --- boxes, in host arithmetic --- */
 
 struct scene_box {
@@ -217,5 +187,62 @@ static inline void scene_box_add_box(struct scene_box *box, const struct scene_b
   scene_box_add_point(box, other->min);
   scene_box_add_point(box, other->max);
 }
+
+/* --- nodes.c --- */
+
+struct scene_tree;
+
+/* The least box of grid planes that contains the box, as numbers of planes. */
+struct scene_box scene_box_in_cells(const struct trax_scene_grid *grid, const struct scene_box *box);
+void scene_node_write(void *node, enum trax_node_layout layout, const struct trax_scene_grid *grid,
+                      const struct scene_box boxes[], const trax_scene_ref children[]);
+/* Is the scene's grid fine enough for nearly all of the tree's boxes? */
+bool scene_grid_suits(const struct scene_tree *tree);
+/* The boxes of a node as the file has them: numbers of planes if they are quantised. */
+void scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,
+                      uint32_t number);
+
+/* --- bvh.c --- */
+
+/* A tree as the builder makes it; links are indices into nodes. */
+struct scene_tree {
+  struct scene_tree_node {
+    uint32_t triangle_count; /* 0: an inner node */
+    union {
+      uint32_t child[2];
+      struct {
+        uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh */
+        struct scene_box box;                    /* of the triangles' parts that are in this leaf */
+      };
+    };
+  } *nodes; /* depth first, the root first */
+  uint32_t node_count, inner_count, max_depth, max_leaf;
+  uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
+  struct scene_box bounds; /* of all triangles */
+};
+
+trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
+                             const struct trax_build_options *options, trax_error *error);
+void scene_tree_release(struct scene_tree *tree);
+
+/* --- duplicates.c --- */
+
+/* Has triangles whose vertices are the same stand in the tree, depth first, in the order of their numbers. */
+trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error);
+
+/* --- order.c --- */
+
+/* Where the inner nodes of a tree stand in the file. Those of one group share a line; the root of a group is its first
+   node, and stands first in it. */
+struct scene_order {
+  uint32_t *position; /* of each inner node of the tree, among those of the file; the root's is 0 */
+  uint32_t *group;    /* of each inner node: the root of its group */
+  uint32_t *next;     /* of each inner node: the next one of its group; 0: none */
+};
+
+/* cache_lines: of the direct-mapped cache it is made for; below 8 the order is depth first. */
+trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree *tree, enum trax_node_layout layout,
+                              uint32_t cache_lines, trax_error *error);
+void scene_order_release(struct scene_order *order);
 
 #endif

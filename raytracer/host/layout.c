@@ -12,9 +12,11 @@ struct layout {
   const struct scene_tree *tree;
   const uint32_t *materials; /* of the mesh to the file's */
   const uint32_t *positions; /* of the tree's inner nodes in the file */
+  enum trax_node_layout node_layout;
+  struct trax_scene_grid grid;
   /* the file's sections */
   unsigned char *bytes;
-  struct trax_bvh_node *nodes;
+  unsigned char *nodes;
   struct trax_triangle *triangles;
   struct trax_triangle_normals *normals; /* NULL: left out */
   struct trax_triangle_uvs *uvs;         /* NULL: left out */
@@ -144,16 +146,14 @@ static trax_status make_palette(struct palette *palette, const struct trax_mesh 
 
 /* --- the tree --- */
 
-static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_node *node, struct scene_box *box) {
+static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_node *node) {
   uint32_t offset = layout->triangles_offset + layout->next_triangle * (uint32_t)sizeof(struct trax_triangle);
   for (uint32_t i = 0; i < node->triangle_count; i++) {
     const struct trax_mesh_triangle *source = &layout->mesh->triangles[node->triangles[i]];
     struct trax_triangle *triangle = &layout->triangles[layout->next_triangle];
     float *corners[3] = {triangle->v0, triangle->v1, triangle->v2};
-    for (int corner = 0; corner < 3; corner++) {
+    for (int corner = 0; corner < 3; corner++)
       memcpy(corners[corner], layout->mesh->vertices[source->vertices[corner]], 3 * sizeof(float));
-      scene_box_add_point(box, corners[corner]);
-    }
     triangle->material = layout->materials[source->material];
     if (layout->normals && layout->file_normals)
       memcpy(layout->normals[layout->next_triangle].corner, layout->mesh->normals[node->triangles[i]],
@@ -168,22 +168,24 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
   return offset | node->triangle_count;
 }
 
-/* Depth first; returns the reference and adds the subtree's triangles to box. Recursion is bounded by the depth of the
-   tree, at most TRAX_SCENE_MAX_DEPTH. */
+/* Depth first; returns the reference and the subtree's box. Recursion is bounded by the depth of the tree, at most
+   TRAX_SCENE_MAX_DEPTH. */
 static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_box *box) {
   const struct scene_tree_node *node = &layout->tree->nodes[index];
-  if (node->triangle_count)
-    return place_leaf(layout, node, box);
-  uint32_t number = layout->positions[index];
-  struct trax_bvh_node *out = &layout->nodes[number];
-  for (int i = 0; i < 2; i++) {
-    struct scene_box child = scene_empty_box();
-    out->child[i] = place(layout, node->child[i], &child);
-    memcpy(out->box[i].min, child.min, sizeof child.min);
-    memcpy(out->box[i].max, child.max, sizeof child.max);
-    scene_box_add_box(box, &child);
+  if (node->triangle_count) {
+    *box = node->box;
+    return place_leaf(layout, node);
   }
-  return layout->nodes_offset + number * (uint32_t)sizeof(struct trax_bvh_node);
+  struct scene_box boxes[2];
+  trax_scene_ref children[2];
+  *box = scene_empty_box();
+  for (int i = 0; i < 2; i++) {
+    children[i] = place(layout, node->child[i], &boxes[i]);
+    scene_box_add_box(box, &boxes[i]);
+  }
+  const uint32_t offset = layout->positions[index] * trax_node_formats[layout->node_layout].bytes;
+  scene_node_write(layout->nodes + offset, layout->node_layout, &layout->grid, boxes, children);
+  return layout->nodes_offset + offset;
 }
 
 /* --- the file --- */
@@ -238,12 +240,13 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                            const struct trax_build_options *options, trax_error *error) {
   struct trax_scene_header header = {.magic = TRAX_SCENE_MAGIC,
                                      .version = TRAX_SCENE_VERSION,
+                                     .node_layout = options->nodes,
                                      .max_depth = tree->max_depth,
                                      .max_leaf = tree->max_leaf,
                                      .triangle_count = mesh->triangle_count};
   uint64_t end = sizeof header;
   struct trax_scene_section *sections = header.sections;
-  plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, sizeof(struct trax_bvh_node));
+  plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, trax_node_formats[options->nodes].bytes);
   plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, mesh->triangle_count, sizeof(struct trax_triangle));
   if (options->smooth)
     plan_section(&sections[TRAX_SCENE_NORMALS], &end, mesh->triangle_count, sizeof(struct trax_triangle_normals));
@@ -271,6 +274,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                           .tree = tree,
                           .materials = palette->of_mesh,
                           .positions = positions,
+                          .node_layout = options->nodes,
                           .bytes = bytes,
                           .nodes = section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
                           .triangles = section_bytes(bytes, &sections[TRAX_SCENE_TRIANGLES]),
@@ -285,10 +289,11 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
            palette->count * sizeof *palette->materials);
   copy_textures(bytes, sections, palette, mesh);
   if (mesh->triangle_count) {
-    struct scene_box bounds = scene_empty_box();
+    memcpy(header.bounds_min, tree->bounds.min, sizeof tree->bounds.min);
+    memcpy(header.bounds_max, tree->bounds.max, sizeof tree->bounds.max);
+    layout.grid = trax_scene_grid_of(header.bounds_min, header.bounds_max);
+    struct scene_box bounds;
     header.root = place(&layout, 0, &bounds);
-    memcpy(header.bounds_min, bounds.min, sizeof bounds.min);
-    memcpy(header.bounds_max, bounds.max, sizeof bounds.max);
   }
   if (layout.normals) {
     const double degrees = options->crease_degrees > 0 ? options->crease_degrees : TRAX_DEFAULT_CREASE;
@@ -317,7 +322,8 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                .triangle_count = mesh->triangle_count,
                                .material_count = palette->count,
                                .texture_count = palette->texture_count,
-                               .texel_count = (uint32_t)palette->texel_count};
+                               .texel_count = (uint32_t)palette->texel_count,
+                               .grid = layout.grid};
   return TRAX_OK;
 }
 
@@ -333,18 +339,22 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   trax_status result = scene_build_tree(&tree, mesh, options, error);
   if (result != TRAX_OK)
     return result;
+  struct trax_build_options chosen = *options;
+  if (chosen.choose_nodes && tree.inner_count)
+    chosen.nodes = scene_grid_suits(&tree) ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
+  options = &chosen;
   struct palette palette = {0};
-  uint32_t *positions = NULL;
+  struct scene_order order = {0};
   result = scene_order_duplicates(&tree, mesh, error);
   if (result == TRAX_OK)
-    result = scene_order_nodes(&positions, &tree, mesh,
+    result = scene_order_nodes(&order, &tree, options->nodes,
                                options->cache_lines ? options->cache_lines : default_cache_lines, error);
   if (result == TRAX_OK) {
     result = make_palette(&palette, mesh, mesh->uvs != NULL, error);
     if (result == TRAX_OK)
-      result = lay_out(scene, mesh, &tree, &palette, positions, options, error);
+      result = lay_out(scene, mesh, &tree, &palette, order.position, options, error);
     palette_release(&palette);
-    free(positions);
+    scene_order_release(&order);
   }
   scene_tree_release(&tree);
   return result;

@@ -1,70 +1,139 @@
-/* Where in the file each node stands. A node is one line of the cache, so order cannot make two of them share a line;
-   in a direct-mapped cache it decides which of them drive each other out. Nodes are taken by the area of their boxes,
-   to which the chance of a visit is proportional:
-   - Treelets: from a root, the largest nodes that a part of the cache has room for stand together, hence in different
-     sets; then, for each node below them, the next treelet.
-   - The hottest nodes of all have sets of their own: they stand first, and what shares their sets, in every further
-     stretch of the size of the cache, are the smallest nodes of the tree.
+/* Where in the file each node stands. Order decides which nodes come with one line of the cache, if a line has room for
+   more than one, and in a direct-mapped cache which lines drive each other out. Nodes are taken by the area of their
+   boxes, to which the chance of a visit is proportional:
+   - Groups: a node and the larger of its children share a line; what is left alone shares one with the next such.
+   - Treelets: from a root, the groups with the largest nodes that a part of the cache has room for stand together,
+     hence in different sets; then, for each group below them, the next treelet.
+   - The hottest groups of all have sets of their own: they stand first, and what shares their sets, in every further
+     stretch of the size of the cache, are the smallest of the tree.
    docs/raytracer.md has the measurements. */
 #include "internal.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-struct order {
+#define LINE_BYTES 64
+
+struct placing {
   const struct scene_tree *tree;
-  const double *areas; /* of every node's box */
-  uint32_t *sequence;  /* nodes of the tree in treelet order */
+  const struct scene_order *order;
+  double *areas;       /* of every node's box; of a group's root, after grouping, that of all of its nodes */
+  uint32_t *sequence;  /* roots of groups in treelet order */
+  unsigned char *done; /* of each group: it is in the sequence */
   uint32_t placed;
-  uint32_t treelet; /* nodes in one */
+  uint32_t treelet; /* groups in one */
 };
 
 static bool is_inner(const struct scene_tree *tree, uint32_t node) {
   return tree->nodes[node].triangle_count == 0;
 }
 
-static void measure_areas(double *areas, struct scene_box *boxes, const struct scene_tree *tree,
-                          const struct trax_mesh *mesh) {
+static void measure_areas(double *areas, struct scene_box *boxes, const struct scene_tree *tree) {
   for (uint32_t i = tree->node_count; i-- > 0;) { /* children stand behind their parents */
     const struct scene_tree_node *node = &tree->nodes[i];
-    boxes[i] = scene_empty_box();
-    for (uint32_t t = 0; t < node->triangle_count; t++)
-      for (int corner = 0; corner < 3; corner++)
-        scene_box_add_point(&boxes[i], mesh->vertices[mesh->triangles[node->triangles[t]].vertices[corner]]);
+    boxes[i] = node->triangle_count ? node->box : scene_empty_box();
     for (int c = 0; c < 2 && !node->triangle_count; c++)
       scene_box_add_box(&boxes[i], &boxes[node->child[c]]);
     areas[i] = scene_half_area(boxes[i].min, boxes[i].max);
   }
 }
 
+/* --- groups --- */
+
+/* The inner child of the group's nodes with the largest box that is not in the group; 0: there is none. */
+static uint32_t largest_below(const struct scene_order *order, const struct scene_tree *tree, const double *areas,
+                              uint32_t root) {
+  uint32_t largest = 0;
+  for (uint32_t node = root;; node = order->next[node]) {
+    for (int c = 0; c < 2; c++) {
+      uint32_t child = tree->nodes[node].child[c];
+      if (is_inner(tree, child) && order->group[child] != root && (!largest || areas[child] > areas[largest]))
+        largest = child;
+    }
+    if (!order->next[node])
+      return largest;
+  }
+}
+
+/* Nodes stand behind their parents, so a node that is in no group yet when its turn comes begins one. */
+static void make_groups(const struct scene_order *order, const struct scene_tree *tree, double *areas,
+                        uint32_t group_size) {
+  uint32_t alone = 0; /* a group with room and nothing below it; the root is none unless it is the only one */
+  for (uint32_t i = 0; i < tree->node_count; i++)
+    order->group[i] = UINT32_MAX, order->next[i] = 0;
+  for (uint32_t root = 0; root < tree->node_count; root++) {
+    if (!is_inner(tree, root) || order->group[root] != UINT32_MAX)
+      continue;
+    order->group[root] = root;
+    uint32_t last = root, size = 1;
+    for (uint32_t node; size < group_size && (node = largest_below(order, tree, areas, root)) != 0; size++) {
+      order->group[node] = root;
+      order->next[last] = node;
+      areas[root] += areas[node];
+      last = node;
+    }
+    if (size < group_size && alone && size == 1) {
+      order->group[root] = alone;
+      order->next[alone] = root;
+      areas[alone] += areas[root];
+      alone = 0;
+    } else if (size < group_size) {
+      alone = root;
+    }
+  }
+}
+
+/* --- treelets --- */
+
+/* Those of the groups below a group that are not in the sequence. */
+static uint32_t groups_below(uint32_t below[], const struct placing *placing, uint32_t root) {
+  const struct scene_order *order = placing->order;
+  uint32_t count = 0;
+  for (uint32_t node = root;; node = order->next[node]) {
+    for (int c = 0; c < 2; c++) {
+      uint32_t child = placing->tree->nodes[node].child[c];
+      if (is_inner(placing->tree, child) && order->group[child] != root && !placing->done[order->group[child]])
+        below[count++] = order->group[child];
+    }
+    if (!order->next[node])
+      return count;
+  }
+}
+
+enum { MOST_IN_GROUP = 2, MOST_BELOW = MOST_IN_GROUP + 1 };
+
 /* The treelet below root and, recursively, those below it; each level of recursion is at least one of the tree.
-   frontier has room for treelet + 1 nodes for every level. */
-static void place_treelets(struct order *order, uint32_t root, uint32_t *frontier) {
+   frontier has room for (MOST_BELOW - 1) * treelet + 1 groups for every level. */
+static void place_treelets(struct placing *placing, uint32_t root, uint32_t *frontier) {
   uint32_t count = 1;
   frontier[0] = root;
-  for (uint32_t taken = 0; taken < order->treelet && count > 0; taken++) {
+  for (uint32_t taken = 0; taken < placing->treelet && count > 0;) {
     uint32_t largest = 0;
     for (uint32_t i = 1; i < count; i++)
-      if (order->areas[frontier[i]] > order->areas[frontier[largest]])
+      if (placing->areas[frontier[i]] > placing->areas[frontier[largest]])
         largest = i;
-    uint32_t node = frontier[largest];
-    order->sequence[order->placed++] = node;
-    /* The node's place in the frontier is taken by those of its children that are nodes: it stays depth first. */
-    uint32_t children[2], inner = 0;
-    for (int c = 0; c < 2; c++)
-      if (is_inner(order->tree, order->tree->nodes[node].child[c]))
-        children[inner++] = order->tree->nodes[node].child[c];
-    memmove(frontier + largest + inner, frontier + largest + 1, (count - largest - 1) * sizeof *frontier);
-    memcpy(frontier + largest, children, inner * sizeof *frontier);
-    count += inner - 1;
+    uint32_t group = frontier[largest], below[MOST_BELOW], below_count = 0;
+    if (!placing->done[group]) { /* it may stand below two others */
+      placing->done[group] = 1;
+      placing->sequence[placing->placed++] = group;
+      below_count = groups_below(below, placing, group);
+      taken++;
+    }
+    /* The group's place in the frontier is taken by those below it: it stays depth first. */
+    memmove(frontier + largest + below_count, frontier + largest + 1, (count - largest - 1) * sizeof *frontier);
+    memcpy(frontier + largest, below, below_count * sizeof *frontier);
+    count += below_count - 1;
   }
   for (uint32_t i = 0; i < count; i++)
-    place_treelets(order, frontier[i], frontier + count);
+    if (!placing->done[frontier[i]])
+      place_treelets(placing, frontier[i], frontier + count);
 }
+
+/* --- lines --- */
 
 struct ranked {
   double area;
-  uint32_t node;
+  uint32_t group;
 };
 
 /* Largest first; equal ones as they stand in the tree, so that the order is one. */
@@ -72,76 +141,115 @@ static int compare_ranked(const void *a, const void *b) {
   const struct ranked *left = a, *right = b;
   if (left->area != right->area)
     return left->area > right->area ? -1 : 1;
-  return left->node < right->node ? -1 : left->node > right->node;
+  return left->group < right->group ? -1 : left->group > right->group;
 }
 
-/* Gives each node its final position: hot ones the first, cold ones those that share the hot ones' sets, the others the
-   rest, each kind in treelet order. */
-static void assign_positions(uint32_t *positions, const struct order *order, struct ranked *ranked, uint32_t cache,
-                             uint32_t hot) {
-  uint32_t count = order->placed;
+/* Gives each group its line: hot ones the first, cold ones those that share the hot ones' sets, the others the rest,
+   each kind in treelet order. */
+static void assign_lines(uint32_t *lines, const struct placing *placing, struct ranked *ranked, uint32_t cache,
+                         uint32_t hot) {
+  uint32_t count = placing->placed;
   for (uint32_t i = 0; i < count; i++)
-    ranked[i] = (struct ranked){order->areas[order->sequence[i]], order->sequence[i]};
+    ranked[i] = (struct ranked){placing->areas[placing->sequence[i]], placing->sequence[i]};
   qsort(ranked, count, sizeof *ranked, compare_ranked);
   uint32_t hot_count = count < hot ? count : hot, cold_count = 0;
   if (count > cache)
     cold_count = (count / cache - 1) * hot + (count % cache < hot ? count % cache : hot);
   enum { warm_kind, hot_kind, cold_kind };
-  /* positions first holds each node's kind */
+  /* lines first holds each group's kind */
   for (uint32_t i = 0; i < count; i++)
-    positions[ranked[i].node] = i < hot_count ? hot_kind : i >= count - cold_count ? cold_kind : warm_kind;
+    lines[ranked[i].group] = i < hot_count ? hot_kind : i >= count - cold_count ? cold_kind : warm_kind;
   uint32_t next_hot = 0, next_cold = cache, next_warm = hot_count;
   for (uint32_t i = 0; i < count; i++) {
-    uint32_t *position = &positions[order->sequence[i]];
-    switch (*position) {
+    uint32_t *line = &lines[placing->sequence[i]];
+    switch (*line) {
     case hot_kind:
-      *position = next_hot++;
+      *line = next_hot++;
       break;
     case cold_kind:
-      *position = next_cold++;
+      *line = next_cold++;
       if (next_cold % cache == hot)
         next_cold += cache - hot;
       break;
     default:
-      *position = next_warm++;
+      *line = next_warm++;
       if (next_warm % cache == 0)
         next_warm += hot;
     }
   }
 }
 
-trax_status scene_order_nodes(uint32_t **positions, const struct scene_tree *tree, const struct trax_mesh *mesh,
-                              uint32_t cache_lines, trax_error *error) {
-  size_t count = tree->node_count;
-  *positions = malloc((count + 1) * sizeof **positions);
-  if (!*positions)
-    return scene_out_of_memory(error, "BVH");
-  if (cache_lines < 8 || tree->inner_count == 0) { /* depth first */
-    for (uint32_t i = 0, inner = 0; i < count; i++)
-      (*positions)[i] = is_inner(tree, i) ? inner++ : 0;
-    return TRAX_OK;
+/* From lines, which are at the groups' roots, to nodes. The group that is not full, if there is one, gets the last
+   line, so that no record is left empty. */
+static void assign_positions(const struct placing *placing, uint32_t group_size) {
+  const struct scene_order *order = placing->order;
+  uint32_t *position = order->position, last = 0, short_one = UINT32_MAX;
+  for (uint32_t i = 0; i < placing->placed; i++) {
+    uint32_t root = placing->sequence[i], size = 1;
+    for (uint32_t node = root; order->next[node]; node = order->next[node])
+      size++;
+    if (size < group_size)
+      short_one = root;
+    if (position[root] > position[last])
+      last = root;
   }
-  struct order order = {.tree = tree, .treelet = cache_lines / 2};
-  double *areas = malloc(count * sizeof *areas);
-  struct scene_box *boxes = malloc(count * sizeof *boxes);
-  struct ranked *ranked = malloc(count * sizeof *ranked);
-  uint32_t *sequence = malloc(count * sizeof *sequence);
-  uint32_t *frontier = malloc((tree->max_depth + (size_t)1) * (order.treelet + 1) * sizeof *frontier);
+  if (short_one != UINT32_MAX) {
+    uint32_t line = position[short_one];
+    position[short_one] = position[last];
+    position[last] = line;
+  }
+  for (uint32_t i = 0; i < placing->placed; i++) {
+    uint32_t root = placing->sequence[i], at = position[root] * group_size;
+    for (uint32_t node = root;; node = order->next[node]) {
+      position[node] = at++;
+      if (!order->next[node])
+        break;
+    }
+  }
+}
+
+trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree *tree, enum trax_node_layout layout,
+                              uint32_t cache_lines, trax_error *error) {
+  const size_t count = tree->node_count;
+  const uint32_t group_size = LINE_BYTES / trax_node_formats[layout].bytes;
+  *order = (struct scene_order){malloc((count + 1) * sizeof(uint32_t)), malloc((count + 1) * sizeof(uint32_t)),
+                                malloc((count + 1) * sizeof(uint32_t))};
+  const bool depth_first = cache_lines < 8 || tree->inner_count == 0;
+  struct placing placing = {.tree = tree, .order = order, .treelet = cache_lines / 2};
+  const size_t frontier_size = (MOST_BELOW - 1) * (size_t)placing.treelet + 1;
+  placing.areas = malloc((count + 1) * sizeof *placing.areas);
+  placing.sequence = malloc((count + 1) * sizeof *placing.sequence);
+  placing.done = calloc(count + 1, 1);
+  struct scene_box *boxes = malloc((count + 1) * sizeof *boxes);
+  struct ranked *ranked = malloc((count + 1) * sizeof *ranked);
+  uint32_t *frontier = malloc((tree->max_depth + (size_t)1) * frontier_size * sizeof *frontier);
   trax_status result = TRAX_OK;
-  if (areas && boxes && ranked && sequence && frontier) {
-    measure_areas(areas, boxes, tree, mesh);
-    order.areas = areas;
-    order.sequence = sequence;
-    place_treelets(&order, 0, frontier);
-    assign_positions(*positions, &order, ranked, cache_lines, cache_lines / 4);
-  } else
+  if (!order->position || !order->group || !order->next || !placing.areas || !placing.sequence || !placing.done ||
+      !boxes || !ranked || !frontier) {
     result = scene_out_of_memory(error, "BVH");
-  free(areas);
+    scene_order_release(order);
+  } else if (depth_first) {
+    for (uint32_t i = 0, inner = 0; i < count; i++)
+      order->position[i] = is_inner(tree, i) ? inner++ : 0;
+  } else {
+    measure_areas(placing.areas, boxes, tree);
+    make_groups(order, tree, placing.areas, group_size);
+    place_treelets(&placing, 0, frontier);
+    assign_lines(order->position, &placing, ranked, cache_lines, cache_lines / 4);
+    assign_positions(&placing, group_size);
+  }
+  free(placing.areas);
+  free(placing.sequence);
+  free(placing.done);
   free(boxes);
   free(ranked);
-  free(sequence);
   free(frontier);
-  if (result != TRAX_OK)
-    free(*positions);
   return result;
+}
+
+void scene_order_release(struct scene_order *order) {
+  free(order->position);
+  free(order->group);
+  free(order->next);
+  *order = (struct scene_order){0};
 }

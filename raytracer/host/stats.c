@@ -8,6 +8,11 @@ struct walk {
   double area; /* of the scene */
 };
 
+static double half_area(const double min[3], const double max[3]) {
+  const double x = max[0] - min[0], y = max[1] - min[1], z = max[2] - min[2];
+  return x * y + y * z + z * x;
+}
+
 /* probability: that a ray which hits the scene's box enters what ref stands for. */
 static void measure(const struct walk *walk, trax_scene_ref ref, unsigned depth, double probability) {
   uint32_t count = TRAX_SCENE_REF_COUNT(ref);
@@ -18,12 +23,12 @@ static void measure(const struct walk *walk, trax_scene_ref ref, unsigned depth,
     walk->stats->sah_triangles += probability * count;
     return;
   }
-  const struct trax_bvh_node *node =
-      &walk->scene->nodes[(ref - walk->scene->header->sections[TRAX_SCENE_NODES].offset) / sizeof *node];
+  const struct trax_scene_section *section = &walk->scene->header->sections[TRAX_SCENE_NODES];
+  struct trax_node_children node;
+  trax_node_read(&node, walk->scene, (ref - section->offset) / section->record_size);
   walk->stats->sah_nodes += probability;
-  for (int i = 0; i < 2; i++)
-    measure(walk, node->child[i], depth + 1,
-            walk->area > 0 ? scene_half_area(node->box[i].min, node->box[i].max) / walk->area : 0);
+  for (uint32_t i = 0; i < node.count; i++)
+    measure(walk, node.child[i], depth + 1, walk->area > 0 ? half_area(node.min[i], node.max[i]) / walk->area : 0);
 }
 
 void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene *scene) {

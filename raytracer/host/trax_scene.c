@@ -31,6 +31,9 @@ static const char usage[] =
     "      --drop-nonfinite         leave triangles with NaN or infinite vertices out instead of refusing the mesh\n"
     "      --keep-degenerate        keep triangles of exactly zero area, which no ray can hit\n"
     "      --allow-empty            write a scene without triangles if the mesh has none\n"
+    "      --nodes KIND             binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an "
+    "axis;\n"
+    "                               auto (default): quantised, if the grid is fine enough for nine leaves in ten\n"
     "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"
     "      --depth N                at most N nodes from the root to a leaf, 1 to %u\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
@@ -154,6 +157,8 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
   list[n++] = (struct statistic){"scene.materials", "", "in use, each once", f->scene->material_count};
   list[n++] = (struct statistic){"scene.textures", "", "", f->scene->texture_count};
   list[n++] = (struct statistic){"scene.texels", "", "", f->scene->texel_count};
+  list[n++] = (struct statistic){"bvh.node_bytes", "B", trax_node_formats[f->scene->header->node_layout].name,
+                                 trax_node_formats[f->scene->header->node_layout].bytes};
   list[n++] = (struct statistic){"bvh.nodes", "", "inner nodes", f->scene->node_count};
   list[n++] = (struct statistic){"bvh.leaves", "", "", f->tree.leaves};
   list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path", f->scene->header->max_depth};
@@ -276,6 +281,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     drop,
     keep,
     empty,
+    nodes,
     leaf,
     depth,
     traversal,
@@ -297,6 +303,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"drop-nonfinite", no_argument, NULL, drop},
                                           {"keep-degenerate", no_argument, NULL, keep},
                                           {"allow-empty", no_argument, NULL, empty},
+                                          {"nodes", required_argument, NULL, nodes},
                                           {"leaf", required_argument, NULL, leaf},
                                           {"depth", required_argument, NULL, depth},
                                           {"traversal-cost", required_argument, NULL, traversal},
@@ -346,6 +353,11 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       break;
     case empty:
       arguments->build.allow_empty = true;
+      break;
+    case nodes:
+      good = trax_node_layout_choose(optarg, &arguments->build);
+      if (!good)
+        complain("--nodes: '%s' is none of auto, binary and quantised", optarg);
       break;
     case leaf:
       good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_LEAF, &arguments->build.max_leaf);
@@ -480,7 +492,7 @@ static trax_status run(const struct arguments *arguments, struct progress *progr
 }
 
 int main(int argc, char **argv) {
-  static struct arguments arguments;
+  static struct arguments arguments = {.build.choose_nodes = true};
   int status = parse_arguments(&arguments, argc, argv);
   if (status >= 0)
     return status;

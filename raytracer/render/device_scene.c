@@ -77,10 +77,13 @@ void trax_device_scene_release(struct trax_device_scene *scene) {
 void trax_scene_relocate(void *bytes, uint32_t address) {
   struct trax_scene_header *header = bytes;
   const struct trax_scene_section *section = &header->sections[TRAX_SCENE_NODES];
-  struct trax_bvh_node *nodes = (struct trax_bvh_node *)(void *)((unsigned char *)bytes + section->offset);
-  for (uint32_t i = 0; i < section->count; i++)
-    for (int child = 0; child < 2; child++)
-      nodes[i].child[child] += address;
+  const struct trax_node_format *format = &trax_node_formats[header->node_layout];
+  unsigned char *node = (unsigned char *)bytes + section->offset;
+  for (uint32_t i = 0; i < section->count; i++, node += format->bytes) {
+    trax_scene_ref *child = (trax_scene_ref *)(void *)(node + format->first_child);
+    for (uint32_t k = 0; k < format->width && child[k]; k++)
+      child[k] += address;
+  }
   const struct trax_scene_section *textures = &header->sections[TRAX_SCENE_TEXTURES];
   struct trax_texture *texture = (struct trax_texture *)(void *)((unsigned char *)bytes + textures->offset);
   for (uint32_t i = 0; i < textures->count; i++)

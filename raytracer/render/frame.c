@@ -24,13 +24,15 @@ static void scale_floats(float *values, size_t count, int exponent) {
     values[i] = ldexpf(values[i], exponent);
 }
 
-/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. */
+/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. Those on a grid scale with it. */
 static void scale_scene(struct trax_scene *scene, int exponent) {
   struct trax_scene_header *header = scene->bytes;
   scale_floats(header->bounds_min, 3, exponent);
   scale_floats(header->bounds_max, 3, exponent);
+  scale_floats(scene->grid.origin, 3, exponent);
+  scale_floats(scene->grid.cell, 3, exponent);
   struct trax_bvh_node *nodes = (struct trax_bvh_node *)scene->nodes;
-  for (uint32_t i = 0; i < scene->node_count; i++)
+  for (uint32_t i = 0; i < scene->node_count && header->node_layout == TRAX_NODES_BINARY; i++)
     for (int child = 0; child < 2; child++) {
       scale_floats(nodes[i].box[child].min, 3, exponent);
       scale_floats(nodes[i].box[child].max, 3, exponent);
@@ -87,8 +89,9 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
    - the distances to the planes have a relative error of 7 (reciprocal, subtraction, product), as if each plane were 7
    off;
    - a direction component that was moved away from zero turns the ray by 2^-30, less than 1.
-   32 is above their sum. As the margin is added to a ray's origin, it must be no less than that coordinate's rounding:
-   hence the doubling and the second term. */
+   - of quantised planes: the factor (1), the products of plane and origin with it (2) and the origin's distance from
+   the grid's (2) in place of one subtraction: 4 more. 32 is above their sum. As the margin is added to a ray's origin,
+   it must be no less than that coordinate's rounding: hence the doubling and the second term. */
 static float box_margin(const struct trax_scene_header *header, const float eye[3]) {
   double distance = 0, magnitude = greatest(greatest(greatest(0, header->bounds_min), header->bounds_max), eye);
   for (int i = 0; i < 3; i++) {
@@ -96,6 +99,21 @@ static float box_margin(const struct trax_scene_header *header, const float eye[
     distance = fmax(distance, fmax(high - low, fmax(fabs(low - eye[i]), fabs(high - eye[i]))));
   }
   return (float)(0x1p-18 * distance + 0x1p-22 * magnitude);
+}
+
+/* Of quantised nodes. The traversal's arithmetic has room for cells within 2^-44 and 2^5: more than enough once the
+   scene is normalised, unless the eye is very far away from a very small one. */
+static trax_status set_grid(struct trax_render_params *params, const struct trax_scene *scene, trax_error *error) {
+  params->node_layout = scene->header->node_layout;
+  if (params->node_layout == TRAX_NODES_BINARY || scene->triangle_count == 0)
+    return TRAX_OK;
+  for (int axis = 0; axis < 3; axis++) {
+    if (!(scene->grid.cell[axis] >= 0x1p-44f && scene->grid.cell[axis] <= 0x1p6f))
+      return trax_fail(error, "the scene is too small, as seen from the eye, for quantised nodes");
+    params->grid.origin[axis] = scene->grid.origin[axis];
+    params->grid.cell[axis] = scene->grid.cell[axis];
+  }
+  return TRAX_OK;
 }
 
 static void cross(double result[3], const double a[3], const double b[3]) {
@@ -230,6 +248,10 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
     params->normals_distance = sections[TRAX_SCENE_NORMALS].offset - sections[TRAX_SCENE_TRIANGLES].offset;
   params->features = features;
   params->box_margin = box_margin(scene->header, view->eye);
+  if (set_grid(params, scene, error) != TRAX_OK) {
+    trax_frame_release(frame);
+    return TRAX_ERROR;
+  }
   set_camera(params, view);
   set_ambient(params, view, options->paths ? 0 : options->ambient);
   set_tiles(params);

@@ -32,6 +32,7 @@ static const char usage[] =
     "      --diffuse [NAME=]R,G,B  their colour, linear, 0 to 1 (repeatable)\n"
     "      --no-textures       reads no images; colours remain\n"
     "      --texture-size N    at most N texels a side, a power of two up to 4096\n"
+    "      --nodes KIND        of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto)\n"
     "      --normals WHICH     file: --smooth by the meshes' own normals, computed where there are none (default);\n"
     "                          smooth: by computed ones; flat: no --smooth\n"
     "      --paths DEPTH       path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples\n"
@@ -90,6 +91,7 @@ enum {
   OPT_DIFFUSE,
   OPT_NO_TEXTURES,
   OPT_TEXTURE_SIZE,
+  OPT_NODES,
   OPT_NORMALS,
   OPT_PATHS,
   OPT_SEED,
@@ -136,6 +138,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"material", required_argument, NULL, OPT_MATERIAL},
                                              {"diffuse", required_argument, NULL, OPT_DIFFUSE},
                                              {"no-textures", no_argument, NULL, OPT_NO_TEXTURES},
+                                             {"nodes", required_argument, NULL, OPT_NODES},
                                              {"texture-size", required_argument, NULL, OPT_TEXTURE_SIZE},
                                              {"normals", required_argument, NULL, OPT_NORMALS},
                                              {"paths", required_argument, NULL, OPT_PATHS},
@@ -346,6 +349,13 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_NO_TEXTURES:
     options->import.no_textures = true;
     return TRAX_OK;
+  case OPT_NODES: {
+    struct trax_build_options build;
+    if (!trax_node_layout_choose(value, &build))
+      return trax_fail(error, "--nodes %s: expected auto, binary or quantised", value);
+    options->nodes = value;
+    return TRAX_OK;
+  }
   case OPT_TEXTURE_SIZE: {
     const char *text = value;
     if (!parse_number(&text, 1u << TRAX_TEXTURE_MAX_LOG2, &options->import.texture_size) || *text != '\0' ||

@@ -79,7 +79,8 @@ static char *constants_text(const struct trax_frame *frame) {
   if (frame->method.triangle == TRAX_TRIANGLE_MOLLER_TRUMBORE)
     fputs("#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE\n", out);
   fprintf(out,
-          "#define TRAX_STACK_ENTRIES %u\n\n"
+          "#define TRAX_STACK_ENTRIES %u\n"
+          "#define TRAX_NODE_LAYOUT %u\n\n"
           "static const union {\n"
           "  uint32_t words[%zu];\n"
           "  struct {\n"
@@ -87,7 +88,8 @@ static char *constants_text(const struct trax_frame *frame) {
           "    %s behind;\n"
           "  };\n"
           "} trax_constants __attribute__((unused)) = {{",
-          depth ? depth : 1, count, path ? "struct trax_path_params" : "struct trax_palette_entry");
+          depth ? depth : 1, frame->params->node_layout, count,
+          path ? "struct trax_path_params" : "struct trax_palette_entry");
   for (size_t i = 0; i < count; i++)
     fprintf(out, "%s0x%08Xu,", i % 6 ? " " : "\n    ", words[i]);
   fputs("\n}};\n", out);

@@ -60,6 +60,7 @@ done
 refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
+refuse '--nodes octal: expected auto, binary or quantised' "$render" "$box" -o x.png --nodes octal
 refuse '--texture-size 3: expected a power of two' "$render" "$box" -o x.png --texture-size 3
 refuse '--normals round: expected file' "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
@@ -134,6 +135,18 @@ accept "$bin/trax-scene" "$box" -o box.trax
 accept "$render" box.trax -o b.png $native --size 32x24
 refuse 'box.trax: --smooth: the scene has no normals' "$render" box.trax -o x.png $native --smooth
 accept "$compare" a.png b.png
+refuse '--nodes and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
+
+# The picture does not depend on how the tree is stored; the file does.
+for nodes in binary quantised auto; do
+  accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
+  for input in "$nodes.trax" "$box --nodes $nodes"; do
+    accept "$render" $input -o b.png $native --size 32x24
+    accept "$compare" a.png b.png
+  done
+done
+cmp -s binary.trax quantised.trax && fail "--nodes makes no difference"
+cmp -s quantised.trax auto.trax || fail "--nodes auto is not quantised"
 accept "$render" "$box" -o tiny.png --engine native --size 1x1
 accept "$render" "$box" -o line.png --engine native --size 1x1000
 accept "$render" "$box" -o sky.png --engine native --size 4x3 --background 123456

@@ -75,22 +75,26 @@ static void test_slots_of_large_pictures(void **state) {
 
 static bool shoot(const struct trax_scene *scene, const float from[3], const float to[3], struct hit *hit) {
   struct ray ray;
+  const enum trax_node_layout layout = scene->header->node_layout;
+  struct trax_ray_grid grid;
+  memcpy(grid.origin, scene->grid.origin, sizeof grid.origin);
+  memcpy(grid.cell, scene->grid.cell, sizeof grid.cell);
   float margin = 0x1p-16f; /* as frame.c has it for a scene of this size */
-  prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], margin);
+  prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], margin,
+              layout == TRAX_NODES_BINARY ? NULL : &grid);
   *hit = (struct hit){0x7F000000, 0, 0, 0};
-  bool nearest = trace_ray(scene->bytes, scene->header->root, &ray, false, hit);
+  bool nearest = trace_ray(layout, scene->bytes, scene->header->root, &ray, false, hit);
   struct hit any = {0x7F000000, 0, 0, 0};
-  assert_int_equal(nearest, trace_ray(scene->bytes, scene->header->root, &ray, true, &any));
+  assert_int_equal(nearest, trace_ray(layout, scene->bytes, scene->header->root, &ray, true, &any));
   return nearest;
 }
 
 /* From within a closed surface, aimed exactly at vertices, at points of edges, and anywhere: every ray hits. */
 static void test_no_ray_leaves_a_closed_surface(void **state) {
-  (void)state;
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};
   mesh_sphere(&mesh, 1.5f, 4, 0);
-  build(&scene, &mesh, NULL);
+  build(&scene, &mesh, &(struct trax_build_options){.nodes = *(const enum trax_node_layout *)*state});
   uint32_t seed = 7;
   struct hit hit;
   for (int i = 0; i < 40; i++) {
@@ -116,11 +120,10 @@ static void test_no_ray_leaves_a_closed_surface(void **state) {
 /* The nearest of all hits, against every triangle tested in binary64. Rays that pass within 1e-5 of an edge are left
    out: there both answers are right. */
 static void test_nearest_hit(void **state) {
-  (void)state;
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};
   mesh_soup(&mesh, 400, 99);
-  build(&scene, &mesh, NULL);
+  build(&scene, &mesh, &(struct trax_build_options){.nodes = *(const enum trax_node_layout *)*state});
   uint32_t seed = 3;
   unsigned hits = 0, misses = 0;
   for (int i = 0; i < 20000; i++) {
@@ -190,7 +193,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
       to[c] = values[c] + weight1 * (values[3 + c] - values[c]) + weight2 * (values[6 + c] - values[c]);
     }
     struct ray ray;
-    prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], 0);
+    prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], 0, NULL);
     if (!hit_triangle(&ray.triangle, (const char *)&triangle, false, &hit))
       continue;
     struct surface surface;
@@ -201,7 +204,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};
     if (dot(way, surface.normal) < 0)
       way.x = -way.x, way.y = -way.y, way.z = -way.z;
-    prepare_ray(&ray, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0);
+    prepare_ray(&ray, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0, NULL);
     struct hit self = {0x7F000000, 0, 0, 0};
     assert_false(hit_triangle(&ray.triangle, (const char *)&triangle, true, &self));
     tested++;
@@ -210,11 +213,14 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
 }
 
 int main(void) {
+  enum trax_node_layout binary = TRAX_NODES_BINARY, quantised = TRAX_NODES_QUANTISED;
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_slots_are_pixels),
       cmocka_unit_test(test_slots_of_large_pictures),
-      cmocka_unit_test(test_no_ray_leaves_a_closed_surface),
-      cmocka_unit_test(test_nearest_hit),
+      {"rays in a closed surface, binary nodes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &binary},
+      {"rays in a closed surface, quantised nodes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &quantised},
+      {"nearest hits, binary nodes", test_nearest_hit, NULL, NULL, &binary},
+      {"nearest hits, quantised nodes", test_nearest_hit, NULL, NULL, &quantised},
       cmocka_unit_test(test_shadow_rays_start_off_the_surface),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

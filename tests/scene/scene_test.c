@@ -360,7 +360,7 @@ static void test_bad_options(void **state) {
   const struct {
     struct trax_build_options options;
     const char *message;
-  } bad[] = {{{.max_leaf = 8}, "at most 7"},          {{.max_depth = 41}, "at most 40"},
+  } bad[] = {{{.max_leaf = 8}, "at most 7"},          {{.max_depth = 33}, "at most 32"},
              {{.cache_lines = 4097}, "at most 4096"}, {{.crease_degrees = 181}, "up to 180"},
              {{.crease_degrees = NAN}, "up to 180"},  {{.traversal_cost = NAN}, "costs"},
              {{.intersection_cost = -1}, "costs"}};

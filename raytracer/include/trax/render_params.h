@@ -31,6 +31,11 @@ enum trax_feature {
    TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) | TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) |    \
    TRAX_FEATURE_BIT(FLOATS))
 
+/* The grid of quantised nodes (struct trax_scene_grid), for rays. */
+struct trax_ray_grid {
+  float origin[3], cell[3];
+};
+
 /* Pixels are handed out in tiles, so that the threads that share a data cache look at neighbouring parts of the scene.
    Slot s is pixel s % 2^(tile_log2_width + tile_log2_height), row by row, of tile s / 2^(...), row by row. Slots past
    the picture's right or lower edge are no pixels. A tile's row is its number divided by tiles_across, which takes no
@@ -60,6 +65,9 @@ struct trax_render_params {
   float sample_weight; /* 1 / samples */
 
   uint32_t normals_distance; /* bytes from a triangle to its normals, if the scene has them */
+
+  uint32_t node_layout; /* enum trax_node_layout */
+  struct trax_ray_grid grid;
 };
 
 /* A material's colour as it is stored in the picture: 255 * sqrt(diffuse), since the picture has gamma 2. */
@@ -126,7 +134,7 @@ struct trax_emitter {
 _Static_assert(sizeof(struct trax_path_params) == 64, "no padding");
 _Static_assert(sizeof(struct trax_device_material) == 64, "one line");
 _Static_assert(sizeof(struct trax_device_light) == 64, "one line");
-_Static_assert(sizeof(struct trax_render_params) == 34 * 4, "no padding");
+_Static_assert(sizeof(struct trax_render_params) == 41 * 4, "no padding");
 _Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
 
 #endif

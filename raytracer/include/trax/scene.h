@@ -131,12 +131,17 @@ void trax_mesh_release(struct trax_mesh *mesh);
 
 /* --- scenes --- */
 
+/* Of quantised nodes: plane number q of an axis is at origin + q * cell. */
+struct trax_scene_grid {
+  float origin[3], cell[3];
+};
+
 struct trax_scene {
   void *bytes; /* the file, 64-byte aligned */
   size_t size; /* bytes */
   /* Views into it; pointers of empty sections are NULL. */
   const struct trax_scene_header *header;
-  const struct trax_bvh_node *nodes;
+  const void *nodes; /* as header->node_layout says */
   const struct trax_triangle *triangles;
   const struct trax_triangle_normals *normals;
   const struct trax_triangle_uvs *uvs;
@@ -145,9 +150,35 @@ struct trax_scene {
   const uint32_t *texels;
   const uint32_t *source_ids;
   uint32_t node_count, triangle_count, material_count, texture_count, texel_count;
+  struct trax_scene_grid grid;
 };
 
+/* What there is to know of a layout without its nodes. */
+struct trax_node_format {
+  const char *name;     /* as trax-scene --nodes has it */
+  uint32_t bytes;       /* of a node */
+  uint32_t width;       /* children, at most */
+  uint32_t first_child; /* where in the node the references are, one behind the other; 0: none, behind the last */
+  bool quantised;
+  uint32_t reserved_bytes; /* at its end; zero */
+};
+extern const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS];
+
+struct trax_scene_grid trax_scene_grid_of(const float bounds_min[3], const float bounds_max[3]);
+
+#define TRAX_MAX_WIDTH 4
+
+/* A node as any layout has it. Boxes are exact: grid planes too are sums that binary64 has. */
+struct trax_node_children {
+  uint32_t count;
+  trax_scene_ref child[TRAX_MAX_WIDTH];
+  double min[TRAX_MAX_WIDTH][3], max[TRAX_MAX_WIDTH][3];
+};
+void trax_node_read(struct trax_node_children *children, const struct trax_scene *scene, uint32_t number);
+
 struct trax_build_options {
+  enum trax_node_layout nodes;
+  bool choose_nodes;       /* quantised ones instead, if the scene's grid is fine enough for nearly all boxes */
   unsigned max_leaf;       /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
   unsigned max_depth;      /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
   unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
@@ -162,6 +193,9 @@ struct trax_build_options {
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */
 };
+
+/* From a layout's name, or auto. False: there is no such layout. */
+bool trax_node_layout_choose(const char *name, struct trax_build_options *build);
 
 #define TRAX_DEFAULT_CREASE 60 /* degrees */
 

@@ -27,18 +27,25 @@
 #define TRAX_SCENE_VERSION 2u
 #define TRAX_SCENE_ALIGNMENT 64u
 #define TRAX_SCENE_MAX_LEAF 7u   /* triangles in a leaf, at most */
-#define TRAX_SCENE_MAX_DEPTH 40u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
+#define TRAX_SCENE_MAX_DEPTH 32u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
 
 typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_COUNT(ref) ((ref) & 7u)   /* triangles of a leaf; 0: an inner node */
 #define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
 
+/* What the records of the section of nodes are. */
 enum trax_node_layout {
-  TRAX_NODES_BINARY = 0 /* struct trax_bvh_node */
+  TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
+  TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
+  TRAX_NODE_LAYOUTS = 2
 };
 
+/* The grid of quantised nodes: along each axis 2^16 planes at equal distances, of which the first is at bounds_min and
+   all triangles are below the last but one. trax_scene_grid_of (scene.h) computes it. */
+#define TRAX_GRID_LAST 65535u
+
 enum trax_scene_section_kind {
-  TRAX_SCENE_NODES = 0,      /* struct trax_bvh_node, the root first, otherwise in any order */
+  TRAX_SCENE_NODES = 0,      /* as header.node_layout says, the root first, otherwise in any order */
   TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in the order of a depth-first traversal, without gaps */
   TRAX_SCENE_MATERIALS = 2,  /* struct trax_material; at least one if there are triangles */
   TRAX_SCENE_SOURCE_IDS = 3, /* uint32_t per triangle: its number in the imported mesh; for the host only */
@@ -84,6 +91,14 @@ struct trax_bvh_node {
   } box[2];
   trax_scene_ref child[2]; /* never 0 */
   uint32_t reserved[2];    /* zero */
+};
+
+/* The same boxes as numbers of planes, the least ones that contain them. Aligned to 32 bytes. */
+struct trax_quantised_node {
+  struct {
+    uint16_t min[3], max[3];
+  } box[2];
+  trax_scene_ref child[2]; /* never 0 */
 };
 
 struct trax_triangle {
@@ -151,6 +166,7 @@ struct trax_texture {
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_section, 16);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
+TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));

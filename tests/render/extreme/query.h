@@ -4,6 +4,8 @@
 #ifndef TRAX_EXTREME_QUERY_H
 #define TRAX_EXTREME_QUERY_H
 
+#include "trax/render_params.h"
+
 #include <stdint.h>
 
 struct query_ray {
@@ -15,6 +17,8 @@ struct query_params {
   uint32_t shadows; /* 1: a second ray from what was hit to the light */
   float box_margin; /* as in struct trax_render_params */
   float light[3];
+  uint32_t node_layout; /* these two, too */
+  struct trax_ray_grid grid;
 };
 
 enum query_light { QUERY_NOT_ASKED, QUERY_BEHIND, QUERY_SHADOWED, QUERY_LIT };

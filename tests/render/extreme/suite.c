@@ -34,14 +34,15 @@ static const struct method {
 
 struct row {
   struct exact_tally tally;
-  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner;
+  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, layout_differs;
   uint64_t cycles, emulated;
 };
 
 struct prepared {
   struct setup setup;
   struct trax_scene scene;
-  struct trax_frame frame; /* of cases with pictures */
+  struct trax_scene by_layout[TRAX_NODE_LAYOUTS]; /* the same with other nodes, where that can be made */
+  struct trax_frame frame;                        /* of cases with pictures */
   struct query_params params;
   struct query_ray *rays; /* in the scaled scene */
   struct exact_scene exact;
@@ -84,6 +85,21 @@ static void turn_children(const struct trax_scene *scene) {
   }
 }
 
+/* The same meshes with other layouts of nodes, scaled alike. A tree that was made by hand has one layout. */
+static void make_layouts(struct prepared *prepared, const struct trax_view *view, const char *name) {
+  trax_error error;
+  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS && prepared->setup.mesh.triangle_count; layout++) {
+    struct trax_build_options build = prepared->setup.build;
+    struct trax_view unscaled = *view;
+    build.nodes = layout;
+    if (layout == TRAX_NODES_BINARY || prepared->setup.turned)
+      continue;
+    if (trax_scene_build(&prepared->by_layout[layout], &prepared->setup.mesh, &build, &error) != TRAX_OK)
+      die(name, &error);
+    normalise(&prepared->by_layout[layout], &unscaled);
+  }
+}
+
 /* The rays' extremes decide how the scene is scaled, and how far boxes are widened: no ray starts beyond them. */
 static void prepare(struct prepared *prepared, const struct extreme_case *extreme, uint32_t rays, uint32_t seed) {
   trax_error error;
@@ -114,6 +130,7 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
     view.eye[axis] = fabsf(low[axis]) > fabsf(high[axis]) ? low[axis] : high[axis];
     view.light[axis] = setup->light[axis];
   }
+  make_layouts(prepared, &view, extreme->name);
   int exponent = normalise(&prepared->scene, &view);
   prepared->exact = (struct exact_scene){prepared->triangles, prepared->scene.triangle_count, exponent, {0, 0, 0}};
   memcpy(prepared->exact.light, setup->light, sizeof setup->light);
@@ -157,6 +174,8 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
 static void release(struct prepared *prepared) {
   trax_frame_release(&prepared->frame);
   trax_scene_release(&prepared->scene);
+  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS; layout++)
+    trax_scene_release(&prepared->by_layout[layout]);
   free(prepared->rays);
   free(prepared->triangles);
   setup_release(&prepared->setup);
@@ -168,6 +187,7 @@ struct share {
   pthread_t thread;
   const struct method *method;
   const struct prepared *prepared;
+  const struct trax_scene *scene;
   const struct query_params *params;
   struct query_answer *answers;
   uint32_t first, last;
@@ -175,20 +195,32 @@ struct share {
 
 static void *trace_share(void *argument) {
   const struct share *share = argument;
-  share->method->trace(share->prepared->scene.bytes, share->params, share->prepared->rays, share->answers, share->first,
+  share->method->trace(share->scene->bytes, share->params, share->prepared->rays, share->answers, share->first,
                        share->last);
   return NULL;
 }
 
-static struct query_answer *trace(const struct prepared *prepared, const struct method *method) {
+/* What the method's program is told for a scene, which is prepared->scene or one with other nodes. */
+static struct query_params params_for(const struct prepared *prepared, const struct trax_scene *scene,
+                                      const struct method *method) {
   struct query_params params = prepared->params;
   if (method->plain_boxes)
     params.box_margin = 0;
+  params.node_layout = scene->header->node_layout;
+  memcpy(params.grid.origin, scene->grid.origin, sizeof params.grid.origin);
+  memcpy(params.grid.cell, scene->grid.cell, sizeof params.grid.cell);
+  return params;
+}
+
+static struct query_answer *trace(const struct prepared *prepared, const struct trax_scene *scene,
+                                  const struct method *method) {
+  const struct query_params params = params_for(prepared, scene, method);
   struct query_answer *answers = allocate(params.count * sizeof *answers);
   struct share shares[NATIVE_THREADS];
   for (uint32_t i = 0; i < NATIVE_THREADS; i++) {
     shares[i] = (struct share){.method = method,
                                .prepared = prepared,
+                               .scene = scene,
                                .params = &params,
                                .answers = answers,
                                .first = (uint32_t)((uint64_t)params.count * i / NATIVE_THREADS),
@@ -202,17 +234,15 @@ static struct query_answer *trace(const struct prepared *prepared, const struct 
 }
 
 /* The first rays again, on the emulated machine: the same bits. */
-static void emulate(struct row *row, const struct prepared *prepared, const struct method *method,
-                    const char *directory, const struct query_answer *native) {
+static void emulate(struct row *row, uint64_t *cycles, const struct prepared *prepared, const struct trax_scene *scene,
+                    const struct method *method, const char *directory, const struct query_answer *native) {
   char program[4096];
   snprintf(program, sizeof program, "%s/%s", directory, method->program);
-  struct query_params params = prepared->params;
+  struct query_params params = params_for(prepared, scene, method);
   params.count = params.count < EMULATED_RAYS ? params.count : EMULATED_RAYS;
-  if (method->plain_boxes)
-    params.box_margin = 0;
   struct query_answer answers[EMULATED_RAYS];
   trax_error error;
-  if (machine_trace(program, &prepared->scene, &params, prepared->rays, answers, &row->cycles, &error) != TRAX_OK)
+  if (machine_trace(program, scene, &params, prepared->rays, answers, cycles, &error) != TRAX_OK)
     die(method->program, &error);
   row->emulated = params.count;
   for (uint32_t i = 0; i < params.count; i++)
@@ -251,6 +281,27 @@ static void count_all(struct row *row, const struct prepared *prepared, const st
     row->escapes += (extreme->flags & CASE_CLOSED) && number < 0;
     row->not_finite += !finite_answer(&answers[i]);
     row->wrong_winner += (extreme->flags & CASE_DUPLICATES) && number >= 0 && has_lower_duplicate(prepared, number);
+  }
+}
+
+/* Other nodes, the same answers but for where in the file the triangle stands. */
+static void compare_layouts(struct row *row, const struct prepared *prepared, const char *directory, bool first,
+                            const struct query_answer *answers) {
+  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS; layout++) {
+    const struct trax_scene *scene = &prepared->by_layout[layout];
+    if (!scene->bytes)
+      continue;
+    struct query_answer *others = trace(prepared, scene, &methods[0]);
+    uint64_t cycles;
+    if (first)
+      emulate(row, &cycles, prepared, scene, &methods[0], directory, others);
+    for (uint32_t i = 0; i < prepared->params.count; i++) {
+      const int64_t number = triangle_number(scene, others[i].triangle);
+      row->layout_differs += number != triangle_number(&prepared->scene, answers[i].triangle);
+      others[i].triangle = answers[i].triangle;
+      row->layout_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
+    }
+    free(others);
   }
 }
 
@@ -306,11 +357,12 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
     struct query_answer *answers[METHODS];
     prepare(&prepared, extreme, (uint32_t)(rays - done < CHUNK ? rays - done : CHUNK), seed);
     for (int m = 0; m < METHODS; m++) {
-      answers[m] = trace(&prepared, &methods[m]);
+      answers[m] = trace(&prepared, &prepared.scene, &methods[m]);
       count_all(&rows[m], &prepared, extreme, answers[m]);
       if (done == 0)
-        emulate(&rows[m], &prepared, &methods[m], directory, answers[m]);
+        emulate(&rows[m], &rows[m].cycles, &prepared, &prepared.scene, &methods[m], directory, answers[m]);
     }
+    compare_layouts(&rows[0], &prepared, directory, done == 0, answers[0]);
     if (done == 0)
       judge(rows, &prepared, answers);
     if (done == 0 && prepared.setup.width > 0) {
@@ -384,6 +436,7 @@ static unsigned check_row(const struct extreme_case *extreme, const struct row *
   unsigned failures = complain(name, "the emulated machine answers otherwise", row->twin_differs);
   if (!is_default)
     return failures;
+  failures += complain(name, "nodes of another layout answer otherwise", row->layout_differs);
   failures += complain(name, "wrong beyond what rounding explains", row->tally.unexplained);
   if (!(extreme->flags & CASE_BELOW_ROUNDING)) {
     failures += complain(name, "left a closed surface", row->escapes);
