@@ -27,7 +27,7 @@ MUTANTS = [
     ("far-planes", "ray.h", "far_origin_x = ox - margin_x", "far_origin_x = ox + margin_x", "closed-globe"),
     ("length-of-direction", "ray.h", "return bits_float(larger(0x7F000000 - exponent, 0x00800000))",
      "return exponent ? 1.0f : 1.0f", "directions-10^-20"),
-    ("stack-dropped", "traverse.h", "top->enter >= hit->distance_bits", "top->enter >= 0", "soup"),
+    ("stack-dropped", "traverse.h", "top->enter >= limit", "top->enter >= 0", "soup"),
     ("no-offset", "shade.h", "float offset = bound * inverse_length", "float offset = 0 * inverse_length", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
     ("no-slack", "shade.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
