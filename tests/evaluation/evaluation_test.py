@@ -139,6 +139,7 @@ REFUSED = [
     ('{"name": "x", "size": "0x10"}', "size: expected"),
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "sampled"'),
     ('{"name": "x", "series": -1}', "series: expected"),
+    ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),
     ('{"name": "../x"}', "name: expected letters"),
     ('{"chips": "4x32"}', "name: expected letters"),
     ("[]", "expected an object"),

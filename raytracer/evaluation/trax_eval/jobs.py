@@ -81,6 +81,7 @@ def make_job(tools, inputs, point):
         "configuration": tools.configuration(point.chip, point.machine()),
         "engine": "sampled" if point.mode == "sampled" else "fast",
         "series": point.series,
+        "lockstep": point.lockstep,
     }
 
 
@@ -165,6 +166,8 @@ def command_of(tools, inputs, job, scratch, threads):
         command += ["--host-threads", str(threads)]
     if job["series"]:
         command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
+    if job["lockstep"]:
+        command += ["--lockstep", f"{scratch}/lockstep.csv"]
     return [*command, str(inputs / "program.elf")]
 
 
@@ -216,8 +219,12 @@ def keep_results(out, key, job, scratch, statistics, host):
         write_file(path, png(job["inputs"]["width"], job["inputs"]["height"], pixels))
     if job["series"]:
         write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
+    result = {"key": key, "job": job, "picture": picture, "statistics": statistics}
+    if job["lockstep"]:
+        columns, rows = read_csv(pathlib.Path(scratch, "lockstep.csv"))
+        result["lockstep"] = [dict(zip(columns, map(float, row))) for row in rows]
     write_json(out / "runs" / f"{key}.host.json", host)
-    write_json(out / "runs" / f"{key}.json", {"key": key, "job": job, "picture": picture, "statistics": statistics})
+    write_json(out / "runs" / f"{key}.json", result)
     (out / "runs" / f"{key}.error").unlink(missing_ok=True)
 
 
@@ -232,8 +239,8 @@ def processor():
     return platform.machine()
 
 
-def read_series(path):
-    """(columns, rows) of the chip in a time series."""
+def read_csv(path):
+    """(columns, rows)"""
     with open(path, newline="") as file:
         rows = list(csv.reader(file))
     return rows[0], rows[1:]

@@ -4,7 +4,7 @@ import datetime
 import os
 import shlex
 
-from .jobs import error_of, read_series, result_of
+from .jobs import error_of, read_csv, result_of
 from .sweep import PROGRAMS
 from .util import read_json, write_json
 from .values import values_of
@@ -50,7 +50,7 @@ def repeat_command(point, tools):
 
 def thin_series(path, threads):
     """Columns and at most SERIES_ROWS rows of a time series: the end of each interval, and shares of its thread-cycles."""
-    names, rows = read_series(path)
+    names, rows = read_csv(path)
     place = {name: index for index, name in enumerate(names)}
     chosen = [name for name in SERIES_COLUMNS if name in place]
     result, group = [], []
@@ -78,7 +78,7 @@ def run_of(out, tools, areas, point):
         series = out / "runs" / f"{point['key']}.csv"
         run |= {"status": "done", "json": f"runs/{point['key']}.json", "csv": f"runs/{series.name}" if series.exists() else None,
                 "picture": f"pictures/{result['picture']}.png", "host_seconds": host.get("host_seconds"), "host": host or None,
-                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(statistics, areas)}
+                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(result, areas)}
     elif error:
         run |= {"status": "failed", "error": error}
     return run

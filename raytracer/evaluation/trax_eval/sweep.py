@@ -26,6 +26,7 @@ class Point:
     size: str
     mode: str
     series: int  # cycles of an interval of the time series; 0: none
+    lockstep: bool  # what the pixels would take on a SIMD machine
 
     def machine(self):
         """All changes of the chip's configuration; of the same key the sweep's."""
@@ -127,7 +128,7 @@ class Reader:
         return chosen
 
 
-KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series")
+KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep")
 
 
 def parse_size(text):
@@ -157,6 +158,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     series = value.get("series", 0)
     if type(series) is not int or not 0 <= series <= 10**9:
         reader.fail("series", f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
+    lockstep = value.get("lockstep", False)
+    if type(lockstep) is not bool:
+        reader.fail("lockstep", f"expected true or false, is {canonical(lockstep)}")
     scenes = reader.scenes()
     chips = reader.strings("chips", "4x32", None)
     chips = CHIPS if chips == ["paper"] else chips
@@ -164,7 +168,7 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     if programs:
         chosen_programs = [program for program in chosen_programs if program in programs]
     points = [
-        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series)
+        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep)
         for scene, program, chip, settings in itertools.product(scenes, chosen_programs, chips, reader.settings())
     ]
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"),

@@ -53,8 +53,10 @@ class Index:
 
 def stat(run, name):
     """A statistic, with dots in its name; None if there is no run, or if it failed."""
-    value = (run or {}).get("values" if name.startswith("values.") else "stats")
-    for part in name.removeprefix("values.").split("."):
+    if name.startswith("values."):
+        return (run or {}).get("values", {}).get(name.removeprefix("values."))
+    value = (run or {}).get("stats")
+    for part in name.split("."):
         value = value.get(part) if isinstance(value, dict) else None
     return value
 
@@ -196,7 +198,16 @@ def print_scenes(index, paper, out):
     print_rows(["scene", "cycles", "rays", "MRPS", "paper's", "deviation", "FLOPs/ray", "bytes/ray", "GB/s", "host s"], rows, out)
 
 
-PRINTERS = {"table1": print_table1, "table2": print_table2_and_text, "table3": print_table3, "scenes": print_scenes}
+def print_lockstep(index, paper, out):
+    """Of the issue slots of warps in lockstep, what their threads would use; and the most that any order of execution could."""
+    out.write("Warps in lockstep: slots used (at most, whatever the order of execution); independent threads use all of theirs\n\n")
+    widths = (2, 4, 8, 16, 32, 64)
+    rows = [[run["program"], run["scene"], *(f"{stat(run, f'values.simd_utilisation.{width}'):.0%} ({stat(run, f'values.simd_bound.{width}'):.0%})" for width in widths)]
+            for run in index.runs if "lockstep" in run["experiments"]]
+    print_rows(["program", "scene", *(f"{width} wide" for width in widths)], rows, out)
+
+
+PRINTERS = {"lockstep": print_lockstep, "table1": print_table1, "table2": print_table2_and_text, "table3": print_table3, "scenes": print_scenes}
 
 
 def print_tables(results, names, paper, out):

@@ -48,7 +48,8 @@ class Areas:
         return configuration["chip"]["tms"] * area
 
 
-def values_of(statistics, areas):
+def values_of(result, areas):
+    statistics = result["statistics"]
     rays, memory = statistics["rays"], statistics["memory"]
     area = areas.chip(statistics["configuration"])
     values = {
@@ -64,4 +65,7 @@ def values_of(statistics, areas):
     if sampled and sampled["cycles_low"]:
         values["mrps_low"] = statistics["mrps"] * statistics["cycles"] / sampled["cycles_high"]
         values["mrps_high"] = statistics["mrps"] * statistics["cycles"] / sampled["cycles_low"]
+    for row in result.get("lockstep", []):
+        values[f"simd_utilisation.{row['width']:.0f}"] = row["utilisation"]
+        values[f"simd_bound.{row['width']:.0f}"] = row["longest"]
     return values
