@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The report's page as text: page_test.py REPORT_FOLDER, the folder that holds the package `report` and `paper`.
+"""The report's page as text: page_test.py REPORT_FOLDER TRAX_EVAL, the folder that holds the package `report` and `paper`, and the command.
 
 What it shows against the results it was made of; missing, wrong and hostile results; that it asks for nothing from elsewhere."""
 
@@ -16,7 +16,7 @@ import unittest
 
 import example
 
-FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
+FOLDER, COMMAND = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 VOID = {"meta", "img", "br", "hr", "col", "input", "link"}
 
 
@@ -222,6 +222,16 @@ class ReportTest(unittest.TestCase):
         first = self.text
         self.make(example.complete())
         self.assertEqual(self.text, first)
+
+    def test_command(self):
+        """trax-eval makes the same page, by default beside the results."""
+        self.make(example.complete())
+        (self.folder / "report.html").unlink(missing_ok=True)
+        done = subprocess.run([COMMAND, "report", self.folder / "results.json"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((self.folder / "report.html").read_text(), self.text)
+        done = subprocess.run([COMMAND, "report", self.folder / "none.json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
 
     def test_links_follow_the_page(self):
         source = self.folder / "results.json"

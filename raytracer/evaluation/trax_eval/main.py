@@ -187,9 +187,8 @@ def evaluate(options, tools, data, command):
     if not options.quiet:
         print_tables(results, [sweep.name for sweep in sweeps], Paper(data / "paper"), sys.stdout)
         print(f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; {out / 'results.json'}")
-    if options.all:
-        make_report([str(out / "results.json"), "-o", str(out / "report.html")], data)
-    return 1 if failed or without else 0
+    unreported = options.all and make_report([str(out / "results.json"), "-o", str(out / "report.html")], data)
+    return 1 if failed or without or unreported else 0
 
 
 def make_report(arguments, data):
