@@ -18,8 +18,9 @@ struct arrival {
   float density;           /* of an emitter: pi times that in solid angle with which the direction was taken; else 0 */
 };
 
+/* From 0 to what is as good as infinite; what is no number stays so, to be seen. */
 static inline float bounded(float value) {
-  return at_most(at_least(value, 0), TRAX_MAX_RADIANCE);
+  return magnitude(value) > 0x7F800000 ? value : at_most(at_least(value, 0), TRAX_MAX_RADIANCE);
 }
 
 static inline struct vector bounded_colour(struct vector colour) {

@@ -78,7 +78,7 @@ static inline struct place place_of(struct words words) {
 /* The same in every pixel, and the middle for the first sample: no noise, and one sample is the most likely one. */
 static inline struct place even_point(uint32_t sample, uint32_t dimension) {
   struct words first = scrambled_point(0, hash_word(dimension)), words = scrambled_point(sample, hash_word(dimension));
-  return place_of((struct words){words.x - first.x + 0x80000000u, words.y - first.y + 0x80000000u});
+  return place_of((struct words){words.x ^ first.x ^ 0x80000000u, words.y ^ first.y ^ 0x80000000u}); /* still a net */
 }
 
 /* key: of pixel and seed. */

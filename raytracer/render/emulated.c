@@ -3,6 +3,7 @@
 #include "core/machine.h"
 #include "host/host.h"
 #include "host/util.h"
+#include "report.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -180,17 +181,12 @@ static double statistic(const trax_machine *machine, const char *name) {
   return value;
 }
 
-struct figures {
-  struct trax_program_size size;
-  double scene_bytes, instructions, cycles, memory_bytes;
-};
-
 static void print_machine(const trax_machine *machine) {
   printf("cycles      %.0f (%.3f ms)\n", statistic(machine, "cycles"), 1e3 * statistic(machine, "seconds"));
   printf("rays        %.0f, %.2f million per second\n", statistic(machine, "rays"), statistic(machine, "mrps"));
 }
 
-static trax_status measure(struct figures *figures, const struct trax_program *program, trax_machine *machine,
+static trax_status measure(struct program_figures *figures, const struct trax_program *program, trax_machine *machine,
                            trax_error *error) {
   const uint8_t *scene;
   uint32_t scene_bytes;
@@ -218,7 +214,7 @@ static trax_status write_costs(const struct trax_costs *costs, const struct opti
 /* One picture by one program. figures may be NULL. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_program *program,
-                               struct progress *progress, const volatile int *interrupt, struct figures *figures,
+                               struct progress *progress, const volatile int *interrupt, struct program_figures *figures,
                                trax_error *error) {
   trax_config *config = trax_config_create();
   trax_status status = config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
@@ -265,26 +261,6 @@ static trax_status run_program(struct trax_picture *picture, const struct option
 
 /* --- both ways --- */
 
-static void print_row(const char *name, double general, double specialised) {
-  printf("%-26s %15.0f %15.0f  %+6.2f %%\n", name, general, specialised,
-         general > 0 ? 100 * (specialised / general - 1) : 0);
-}
-
-static void print_report(const struct figures *general, const struct figures *specialised, uint32_t features) {
-  printf("features                               all ");
-  for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)
-    if (features >> feature & 1)
-      printf(" %s", trax_feature_name(feature));
-  printf("\nprogram                            general     specialised    change\n");
-  print_row("instructions of code", general->size.code_bytes / 4, specialised->size.code_bytes / 4);
-  print_row("bytes of code", general->size.code_bytes, specialised->size.code_bytes);
-  print_row("bytes of stack", general->size.stack_bytes, specialised->size.stack_bytes);
-  print_row("bytes of scene", general->scene_bytes, specialised->scene_bytes);
-  print_row("instructions run", general->instructions, specialised->instructions);
-  print_row("cycles", general->cycles, specialised->cycles);
-  print_row("bytes from and to memory", general->memory_bytes, specialised->memory_bytes);
-}
-
 static trax_status report(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
                           const struct trax_program *specialised, struct progress *progress,
                           const volatile int *interrupt, bool *agrees, trax_error *error) {
@@ -293,7 +269,7 @@ static trax_status report(struct trax_picture *picture, const struct options *op
   plain.explain = (struct trax_explain_options){0};
   struct trax_program program;
   struct trax_picture other = {0};
-  struct figures figures[2];
+  struct program_figures figures[2];
   trax_status status = general_program(&program, options, error);
   if (status == TRAX_OK)
     status = run_program(&other, &plain, frame, &program, progress, interrupt, &figures[0], error);
@@ -302,13 +278,15 @@ static trax_status report(struct trax_picture *picture, const struct options *op
   if (status == TRAX_OK) {
     struct trax_difference difference;
     trax_picture_compare(&difference, picture, &other, 0);
-    print_report(&figures[0], &figures[1], frame->params->features);
+    report_print(&figures[0], &figures[1], frame->params->features);
     if (difference.unequal)
       printf("pictures    %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
              (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
     else
       printf("pictures    identical in every bit\n");
     *agrees = difference.unequal == 0;
+    if (options->stats)
+      status = report_add_json(options->stats, &figures[0], &figures[1], frame->params->features, *agrees, error);
   }
   trax_picture_release(&other);
   return status;

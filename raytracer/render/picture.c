@@ -270,7 +270,9 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
         worst = size > worst ? size : worst;
       }
       difference->pixels++;
-      difference->unequal += worst > 0;
+      const bool same_floats = !a->radiance || !b->radiance ||
+                               memcmp(a->radiance + 3 * i, b->radiance + 3 * i, 3 * sizeof *a->radiance) == 0;
+      difference->unequal += worst > 0 || !same_floats;
       difference->beyond += worst > within;
       if (worst > difference->largest)
         difference->largest = worst, difference->x = x, difference->y = y;
@@ -279,6 +281,16 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
   difference->floats = a->radiance && b->radiance;
   if (difference->floats)
     compare_floats(difference, a, b);
+}
+
+double trax_picture_light(const struct trax_picture *picture) {
+  double sum = 0;
+  for (size_t i = 0; i < (size_t)picture->width * picture->height; i++)
+    for (int shift = 0; shift < 24; shift += 8) {
+      const double value = picture->pixels[i] >> shift & 255;
+      sum += value * value;
+    }
+  return sum / (3 * 65025.0 * picture->width * picture->height);
 }
 
 double trax_difference_percent(const struct trax_difference *difference) {

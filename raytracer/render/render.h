@@ -111,7 +111,7 @@ bool trax_program_cache(char path[TRAX_PATH_SIZE]);
 
 struct trax_program_size {
   uint32_t code_bytes;
-  uint32_t stack_bytes; /* the frames of all functions: no path through a program without recursion takes more */
+  uint32_t stack_bytes; /* the frames along the deepest path of calls */
 };
 trax_status trax_program_measure(struct trax_program_size *size, const char *path, trax_error *error);
 
@@ -142,7 +142,7 @@ trax_status trax_picture_decode(struct trax_picture *picture, const uint8_t *byt
 struct trax_difference {
   unsigned largest; /* of all channels' differences, 0 to 255 */
   uint64_t pixels;  /* compared */
-  uint64_t unequal; /* pixels that differ at all */
+  uint64_t unequal; /* pixels that differ at all, if only in a bit of their floats */
   uint64_t beyond;  /* pixels with a channel that differs by more than `within` */
   uint32_t x, y;    /* the first pixel with the largest difference */
   double rmse;      /* root of the mean square of the differences of R, G and B, 0 to 255 */
@@ -155,6 +155,8 @@ struct trax_difference {
 /* Of two pictures of one size, alpha included. */
 void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,
                           const struct trax_picture *b, unsigned within);
+/* The mean of the light that the pixels show, linear, 0 to 1. */
+double trax_picture_light(const struct trax_picture *picture);
 double trax_difference_percent(const struct trax_difference *difference); /* of pixels not beyond */
 
 /* --- renderers --- */

@@ -57,6 +57,13 @@ refuse '--ambient nan' "$render" "$box" -o x.png --ambient nan
 for samples in 0 4097 2.5 '' -1; do
   refuse '--samples' "$render" "$box" -o x.png --samples "$samples"
 done
+for depth in 0 65 2.5 '' -1 x; do
+  refuse '--paths' "$render" "$box" -o x.png --paths "$depth"
+done
+for seed in -1 4294967296 '' x; do
+  refuse '--seed' "$render" "$box" -o x.png --paths 2 --seed "$seed"
+done
+refuse '--seed is for --paths' "$render" "$box" -o x.png --seed 3
 refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
@@ -183,6 +190,14 @@ for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows --smooth';
   accept "$render" "$box" -o reference.png --engine embree --view "$source/box.view" --size 32x24 $options
   accept "$compare" b.png reference.png --within 2 --at-least 99
 done
+
+# Paths: noise follows from the seed; the reference has the same light.
+accept "$render" "$box" -o p.png $native --size 64x48 --paths 3 --samples 4
+accept "$render" "$box" -o q.png $native --size 64x48 --paths 3 --samples 4 --seed 0 --threads 5
+accept "$compare" -q p.png q.png
+accept "$render" "$box" -o q.png $native --size 64x48 --paths 3 --samples 4 --seed 1 --compare
+grep -q '^            light of the whole picture [-+]0[.]0' "$out" || fail "--compare of paths: $(cat "$out")"
+"$compare" -q p.png q.png && fail "another seed makes no difference"
 
 # Linear floats: both kinds of files hold the same ones, and they are what the pixels are made of.
 accept "$render" "$box" -o floats.pfm $native --size 33x25

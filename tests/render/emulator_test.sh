@@ -98,6 +98,15 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
 both "$source/box.obj" $view --size 64x36
 grep -q '^features .* shadows materials$' .out || fail "box: $(cat .out)"
 both "$source/box.obj" $view --size 64x36 --engine reference --config 1x32
+# The same in the statistics.
+both "$source/box.obj" $view --size 16x9 --config 1x32 --stats report.json
+for row in 'bytes of code:code_bytes' 'bytes of stack:stack_bytes' 'cycles:cycles'; do
+  for column in 1 2; do
+    value=$(sed -n "s/^${row%:*} *\([0-9]*\) *\([0-9]*\) .*/\\$column/p" .out)
+    sed -n '/"report"/,$p' report.json | grep -q "\"${row#*:}\": $value,\{0,1\}\$" || fail "${row#*:} is not $value in report.json"
+  done
+done
+grep -q '"identical": true' report.json || fail "report.json: $(tail -n 30 report.json)"
 both "$source/box.obj" $view --size 40x30 --no-shadows
 grep -q '^features .* all  materials$' .out || fail "box without shadows: $(cat .out)"
 both "$source/box.obj" $view --size 20x30 --samples 3

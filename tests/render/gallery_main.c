@@ -1,4 +1,5 @@
-/* render-gallery DIRECTORY: gallery.trax, and gallery.view with all lights. For tests of programs, and to look at. */
+/* render-gallery DIRECTORY [PARTS]: gallery.trax with those parts, a sum of gallery.h's (63: all), and gallery.view
+   with all lights. For tests of programs, and to look at. */
 #include "gallery.h"
 
 #include <stdlib.h>
@@ -17,9 +18,9 @@ int main(int argc, char **argv) {
   struct trax_scene scene = {0};
   trax_error error;
   char path[4096];
-  if (argc != 2)
+  if (argc < 2)
     return 2;
-  gallery_mesh(&mesh, GALLERY_ALL);
+  gallery_mesh(&mesh, argc > 2 ? (unsigned)atoi(argv[2]) : GALLERY_ALL);
   build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
   snprintf(path, sizeof path, "%s/gallery.trax", argv[1]);
   trax_status status = trax_scene_write(&scene, path, &error);

@@ -1,0 +1,450 @@
+/* Pictures with more than the paper's workload: against the reference, and against what physics says of them. */
+#include "gallery.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const struct trax_frame_options plain = {.width = 96,
+                                                .height = 54,
+                                                .ambient = TRAX_DEFAULT_AMBIENT,
+                                                .background = TRAX_DEFAULT_BACKGROUND,
+                                                .samples = 1,
+                                                .shadows = true};
+
+static struct trax_picture shoot(const struct trax_scene *scene, const struct trax_view *view,
+                                 const struct trax_frame_options *options, bool reference, unsigned threads) {
+  struct trax_frame frame = {0};
+  struct trax_picture picture = {0};
+  struct trax_render_run run = {0};
+  trax_error error;
+  trax_status status = trax_frame_init(&frame, scene, view, options, &error);
+  if (status == TRAX_OK)
+    status = reference ? trax_render_reference(&picture, &frame, &run, &error)
+                       : trax_render_twin(&picture, &frame, threads, &run, &error);
+  if (status != TRAX_OK) {
+    fprintf(stderr, "shoot: %s\n", error.message);
+    abort();
+  }
+  assert_true(run.rays >= (uint64_t)options->width * options->height);
+  trax_frame_release(&frame);
+  return picture;
+}
+
+static size_t count_of(const struct trax_picture *picture) {
+  return 3 * (size_t)picture->width * picture->height;
+}
+
+/* Of a picture of floats; every one is a finite number. */
+static double mean_of(const struct trax_picture *picture) {
+  double sum = 0;
+  for (size_t i = 0; i < count_of(picture); i++) {
+    assert_true(isfinite(picture->radiance[i]) && picture->radiance[i] >= 0 && picture->radiance[i] <= TRAX_MAX_RADIANCE);
+    sum += (double)picture->radiance[i];
+  }
+  return sum / (double)count_of(picture);
+}
+
+static void build_gallery(struct trax_scene *scene, unsigned parts) {
+  struct trax_mesh mesh = {0};
+  gallery_mesh(&mesh, parts);
+  build(scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
+  trax_mesh_release(&mesh);
+}
+
+/* --- every feature with every other --- */
+
+/* Twelve rows in which any two columns have all four pairs of values (Plackett and Burman, "The Design of Optimum
+   Multifactorial Experiments", 1946), and the same rows inverted: then any three have all eight. */
+static bool design(unsigned row, unsigned column) {
+  static const char first[] = "11011100010"; /* each row is the one before, turned by one */
+  const bool high = row % 12 == 11 ? false : first[(column + 11 - row % 12) % 11] == '1';
+  return row < 12 ? high : !high;
+}
+
+static void test_combinations(void **state) {
+  (void)state;
+  for (unsigned row = 0; row < 24; row++) {
+    unsigned parts = 0;
+    for (unsigned part = 0; part < 6; part++)
+      parts |= (unsigned)design(row, part) << part;
+    struct trax_frame_options options = plain;
+    options.smooth = design(row, 6);
+    options.samples = design(row, 7) ? 3 : 1;
+    options.shadows = design(row, 8);
+    options.floats = design(row, 9);
+    const struct trax_view view = gallery_view(design(row, 10) ? 3 : 0);
+    struct trax_scene scene = {0};
+    build_gallery(&scene, parts);
+    struct trax_picture twin = shoot(&scene, &view, &options, false, 2);
+    struct trax_picture reference = shoot(&scene, &view, &options, true, 0);
+    struct trax_difference difference;
+    trax_picture_compare(&difference, &twin, &reference, 2);
+    if (difference.beyond > 5) /* of 5184 pixels: 99.9 % */
+      print_error("row %u: %llu pixels beyond 2/255, worst %u at (%u, %u)\n", row,
+                  (unsigned long long)difference.beyond, difference.largest, difference.x, difference.y);
+    assert_true(difference.beyond <= 5);
+    assert_int_equal(twin.radiance != NULL, options.floats);
+    if (options.floats)
+      assert_true(fabs(mean_of(&twin) / mean_of(&reference) - 1) < 1e-3);
+    trax_picture_release(&twin);
+    trax_picture_release(&reference);
+
+    /* The same with paths: of the same random numbers, so nearly all pixels are alike, too. */
+    options.paths = 1 + row % 5;
+    options.seed = row;
+    options.floats = true;
+    twin = shoot(&scene, &view, &options, false, 2);
+    reference = shoot(&scene, &view, &options, true, 0);
+    trax_picture_compare(&difference, &twin, &reference, 2);
+    if (difference.beyond > 26)
+      print_error("row %u, paths: %llu pixels beyond 2/255\n", row, (unsigned long long)difference.beyond);
+    assert_true(difference.beyond <= 26); /* 0.5 %: some paths take another turn at a last place */
+    mean_of(&twin);
+    trax_picture_release(&twin);
+    trax_picture_release(&reference);
+    trax_scene_release(&scene);
+  }
+}
+
+/* Floats and bytes are the same picture, and a Lambert scene is what it is without path.h. */
+static void test_floats_are_the_picture(void **state) {
+  (void)state;
+  for (unsigned parts = 0; parts <= GALLERY_ALL; parts += GALLERY_ALL) {
+    struct trax_scene scene = {0};
+    build_gallery(&scene, parts);
+    const struct trax_view view = gallery_view(0);
+    struct trax_frame_options options = plain;
+    for (options.samples = 1; options.samples <= 4; options.samples += 3) {
+      struct trax_difference difference;
+      options.floats = false;
+      struct trax_picture bytes = shoot(&scene, &view, &options, false, 2);
+      options.floats = true;
+      struct trax_picture floats = shoot(&scene, &view, &options, false, 2);
+      trax_picture_compare(&difference, &bytes, &floats, 1);
+      assert_int_equal(difference.beyond, 0);
+      assert_true(difference.unequal < 100); /* of rounding alone */
+      trax_picture_release(&bytes);
+      trax_picture_release(&floats);
+    }
+    trax_scene_release(&scene);
+  }
+}
+
+static void test_paths_of_any_number_of_threads(void **state) {
+  (void)state;
+  struct trax_scene scene = {0};
+  build_gallery(&scene, GALLERY_ALL);
+  const struct trax_view view = gallery_view(3);
+  struct trax_frame_options options = plain;
+  options.paths = 5, options.samples = 2, options.smooth = true, options.seed = 4;
+  struct trax_picture one = shoot(&scene, &view, &options, false, 1);
+  for (unsigned threads = 2; threads < 90; threads *= 3) {
+    struct trax_picture more = shoot(&scene, &view, &options, false, threads);
+    assert_memory_equal(one.pixels, more.pixels, 4 * (size_t)options.width * options.height);
+    trax_picture_release(&more);
+  }
+  options.seed = 5; /* another seed is other noise */
+  struct trax_picture other = shoot(&scene, &view, &options, false, 2);
+  struct trax_difference difference;
+  trax_picture_compare(&difference, &one, &other, 0);
+  assert_true(difference.unequal > difference.pixels / 2);
+  trax_picture_release(&one);
+  trax_picture_release(&other);
+  trax_scene_release(&scene);
+}
+
+/* --- light adds up --- */
+
+static void test_lights_add_up(void **state) {
+  (void)state;
+  struct trax_scene scene = {0};
+  build_gallery(&scene, GALLERY_ALL & ~GALLERY_LAMP);
+  struct trax_frame_options options = plain;
+  options.floats = true, options.ambient = 0, options.background = 0xFF000000u;
+  const struct trax_view all = gallery_view(3);
+  struct trax_picture sum = shoot(&scene, &all, &options, false, 2);
+  for (int light = 0; light < 3; light++) {
+    struct trax_view view = all;
+    view.light_count = 1;
+    view.lights[0] = all.lights[light];
+    struct trax_picture one = shoot(&scene, &view, &options, false, 2);
+    assert_true(mean_of(&one) > 0.005);
+    for (size_t i = 0; i < count_of(&sum); i++)
+      sum.radiance[i] -= one.radiance[i];
+    trax_picture_release(&one);
+  }
+  for (size_t i = 0; i < count_of(&sum); i++)
+    assert_true(fabsf(sum.radiance[i]) < 1e-5f);
+  trax_picture_release(&sum);
+  trax_scene_release(&scene);
+}
+
+/* A mesh of one sphere about the origin, all of one material. */
+static void build_sphere(struct trax_scene *scene, float radius, const struct trax_material *material) {
+  struct trax_mesh whole = {0};
+  mesh_sphere(&whole, radius, 4, mesh_material(&whole, 0, 0, 0));
+  for (uint32_t i = 0; i < whole.triangle_count; i++) { /* outwards: counterclockwise from outside */
+    uint32_t *v = whole.triangles[i].vertices;
+    const float *a = whole.vertices[v[0]], *b = whole.vertices[v[1]], *c = whole.vertices[v[2]];
+    float outwards = 0;
+    for (int k = 0; k < 3; k++) {
+      int l = (k + 1) % 3, m = (k + 2) % 3;
+      outwards += ((b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l])) * a[k];
+    }
+    if (outwards < 0) {
+      const uint32_t swapped = v[1];
+      v[1] = v[2], v[2] = swapped;
+    }
+  }
+  whole.materials[0].surface = *material;
+  build(scene, &whole, &(struct trax_build_options){.smooth = true});
+  trax_mesh_release(&whole);
+}
+
+static const struct trax_view *dark_view(void) {
+  static struct trax_view view;
+  view = view_from(0, 0, 3, 0, 0, -1, 60, 0, 0, 0);
+  view.light_count = 1; /* one that does not shine: it is left out */
+  view.lights[0] = (struct trax_light){.kind = TRAX_LIGHT_POINT, .colour = {1, 1, 1}};
+  return &view;
+}
+
+/* Inside of a closed surface that shines e and reflects r, light is e + e r + e r^2 + ..., as far as paths go. */
+static void test_furnace_from_inside(void **state) {
+  (void)state;
+  const struct trax_material material = {
+      .diffuse = {0.5f, 0.8f, 0}, .emission = {1, 0.5f, 0.25f}, .ior = 1, .opacity = 1};
+  struct trax_scene scene = {0};
+  build_sphere(&scene, 1, &material);
+  struct trax_view view = *dark_view();
+  view.eye[0] = 0.3f, view.eye[2] = 0.1f;
+  struct trax_frame_options options = plain;
+  options.floats = true, options.samples = 16;
+  for (uint32_t depth = 1; depth <= 16; depth *= 2) {
+    options.paths = depth;
+    struct trax_picture picture = shoot(&scene, &view, &options, false, 2);
+    for (int channel = 0; channel < 3; channel++) {
+      const double r = (double)material.diffuse[channel], e = (double)material.emission[channel];
+      double mean = 0, exact = 0;
+      for (size_t i = (size_t)channel; i < count_of(&picture); i += 3)
+        mean += (double)picture.radiance[i] * 3 / (double)count_of(&picture);
+      for (uint32_t k = 0; k <= depth; k++)
+        exact += e * pow(r, k);
+      assert_true(fabs(mean / exact - 1) < 0.004);
+    }
+    trax_picture_release(&picture);
+  }
+  trax_scene_release(&scene);
+}
+
+/* A body that loses no light is not seen before a background that is the same everywhere. */
+static void test_furnace_from_outside(void **state) {
+  (void)state;
+  const struct trax_material bodies[] = {
+      {.diffuse = {1, 1, 1}, .ior = 1, .opacity = 1},
+      {.kind = TRAX_MATERIAL_MIRROR, .specular = {1, 1, 1}, .ior = 1, .opacity = 1},
+      {.kind = TRAX_MATERIAL_GLASS, .specular = {1, 1, 1}, .ior = 1.5f, .opacity = 1},
+      {.kind = TRAX_MATERIAL_GGX, .specular = {1, 1, 1}, .roughness = 0.1f, .ior = 1, .opacity = 1},
+      {.kind = TRAX_MATERIAL_GGX,
+       .specular = {0.04f, 0.04f, 0.04f},
+       .diffuse = {1, 1, 1},
+       .roughness = 0.6f,
+       .ior = 1,
+       .opacity = 1},
+      {.kind = TRAX_MATERIAL_GGX, .specular = {1, 1, 1}, .roughness = 1, .ior = 1, .opacity = 1},
+  };
+  const double least[] = {0.99999, 0.99999, 0.999, 0.97, 0.85, 0.35},
+               most[] = {1.00001, 1.00001, 1.00001, 1.002, 1.002, 1.002};
+  for (int i = 0; i < 6; i++)
+    for (int smooth = 0; smooth < 2; smooth++) {
+      struct trax_scene scene = {0};
+      build_sphere(&scene, 1, &bodies[i]);
+      struct trax_frame_options options = plain;
+      options.floats = true, options.samples = 16, options.paths = 32, options.background = 0xFFFFFFFFu;
+      options.smooth = smooth;
+      struct trax_picture picture = shoot(&scene, dark_view(), &options, false, 2);
+      double mean = 0;
+      unsigned seen = 0;
+      for (uint32_t y = 0; y < options.height; y++)
+        for (uint32_t x = 0; x < options.width; x++) {
+          const double dx = x + 0.5 - 48, dy = y + 0.5 - 27;
+          if (dx * dx + dy * dy < 15 * 15) { /* the sphere's radius is 16.5 pixels */
+            mean += (double)picture.radiance[3 * (y * options.width + x)];
+            seen++;
+          }
+        }
+      mean /= seen;
+      /* Smooth normals let some ways lead into the body, at its rim. */
+      if (mean < least[i] - (smooth ? 0.01 : 0) || mean > most[i])
+        print_error("body %d, smooth %d: %g\n", i, smooth, mean);
+      assert_true(mean >= least[i] - (smooth ? 0.01 : 0) && mean <= most[i]);
+      trax_picture_release(&picture);
+      trax_scene_release(&scene);
+    }
+}
+
+/* --- two ways to the same light --- */
+
+static void floor_mesh(struct trax_mesh *mesh, bool lamp) {
+  const uint32_t grey = mesh_material(mesh, 0.6f, 0.6f, 0.6f), bright = mesh_material(mesh, 0, 0, 0);
+  const uint32_t first = mesh_vertex(mesh, -3, 0, -3);
+  mesh_vertex(mesh, 3, 0, -3), mesh_vertex(mesh, 3, 0, 3), mesh_vertex(mesh, -3, 0, 3);
+  mesh_triangle(mesh, first, first + 1, first + 2, grey), mesh_triangle(mesh, first, first + 2, first + 3, grey);
+  mesh_box(mesh, (float[]){-0.3f, 0, -0.3f}, (float[]){0.3f, 0.4f, 0.3f}, grey);
+  const float height = lamp ? 1 : -1; /* below the floor it does nothing */
+  const uint32_t corner = mesh_vertex(mesh, -0.8f, height, -0.5f);
+  mesh_vertex(mesh, 0.2f, height, -0.5f), mesh_vertex(mesh, 0.2f, height, 0.5f), mesh_vertex(mesh, -0.8f, height, 0.5f);
+  mesh_triangle(mesh, corner, corner + 1, corner + 2, bright);
+  mesh_triangle(mesh, corner, corner + 2, corner + 3, bright);
+  for (int channel = 0; channel < 3; channel++)
+    mesh->materials[bright].surface.emission[channel] = 2;
+}
+
+/* A rectangle of the view, without paths and with them; a lamp of the same place and radiance, found by shadow rays and
+   by chance: all shine alike on a floor. */
+static void test_rectangles_and_lamps(void **state) {
+  (void)state;
+  double means[4];
+  for (int way = 0; way < 4; way++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene = {0};
+    floor_mesh(&mesh, way >= 2);
+    if (way == 3)
+      mesh.materials[1].surface.alpha_cutoff = 0.5f; /* it has no holes, but shadow rays leave it out */
+    build(&scene, &mesh, NULL);
+    struct trax_view view = view_from(0, 0.9f, 2.9f, 0, -0.5f, -1, 40, 0, 0, 0);
+    view.light_count = 1;
+    view.lights[0] = (struct trax_light){.kind = TRAX_LIGHT_RECTANGLE,
+                                         .position = {-0.8f, 1, -0.5f},
+                                         .direction = {0, -1, 0},
+                                         .edges = {{1, 0, 0}, {0, 0, 1}},
+                                         .colour = {1, 1, 1},
+                                         .strength = way < 2 ? 2 : 0};
+    struct trax_frame_options options = plain;
+    options.floats = true, options.ambient = 0, options.background = 0xFF000000u;
+    options.samples = way == 3 ? 512 : 64;
+    options.paths = way > 0;
+    struct trax_picture picture = shoot(&scene, &view, &options, false, 2);
+    mean_of(&picture);
+    double sum = 0;
+    for (uint32_t y = options.height / 2; y < options.height; y++) /* below the lamp itself */
+      for (uint32_t x = 0; x < options.width; x++)
+        sum += (double)picture.radiance[3 * (y * options.width + x)];
+    means[way] = sum;
+    trax_picture_release(&picture);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+  assert_true(means[0] > 10);
+  for (int way = 1; way < 4; way++) {
+    if (fabs(means[way] / means[0] - 1) > 0.005)
+      print_error("way %d: %g instead of %g\n", way, means[way], means[0]);
+    assert_true(fabs(means[way] / means[0] - 1) < 0.005);
+  }
+}
+
+/* A leaf that is one hole is not there. */
+static void test_holes_are_nothing(void **state) {
+  (void)state;
+  struct trax_picture pictures[2];
+  for (int leaves = 0; leaves < 2; leaves++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene = {0};
+    const uint32_t hole = mesh_material(&mesh, 1, 0, 0);
+    mesh.materials[hole].surface.alpha_cutoff = 0.5f;
+    mesh.materials[hole].surface.opacity = 0.25f;
+    floor_mesh(&mesh, true);
+    for (int i = 0; leaves && i < 5; i++)
+      mesh_box(&mesh, (float[]){-1 - 0.1f * (float)i, 0.1f, -1}, (float[]){1 + 0.1f * (float)i, 0.8f, 1}, hole);
+    build(&scene, &mesh, NULL);
+    struct trax_view view = view_from(0, 0.9f, 2.9f, 0, -0.5f, -1, 40, 1, 2, 1);
+    struct trax_frame_options options = plain;
+    options.paths = 3, options.samples = 4;
+    pictures[leaves] = shoot(&scene, &view, &options, false, 2);
+    trax_picture_release(&pictures[leaves]);
+    options.paths = 0, options.samples = 1;
+    pictures[leaves] = shoot(&scene, &view, &options, false, 2);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+  struct trax_difference difference;
+  trax_picture_compare(&difference, &pictures[0], &pictures[1], 2);
+  assert_true(difference.beyond <= 5);
+  trax_picture_release(&pictures[0]);
+  trax_picture_release(&pictures[1]);
+}
+
+/* --- nothing that a file may say leads to infinity --- */
+
+static float extreme(uint32_t *seed, float most) {
+  const float choices[] = {0, most, 0.5f * most, 0x1p-20f * most};
+  return choices[(unsigned)(4 * random_unit(seed))];
+}
+
+static void test_hostile_materials(void **state) {
+  (void)state;
+  uint32_t seed = 11;
+  for (int round = 0; round < 12; round++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene = {0};
+    for (uint32_t i = 0; i < 16; i++) {
+      struct trax_material *material = &mesh.materials[mesh_material(&mesh, 0, 0, 0)].surface;
+      material = &mesh.materials[i].surface;
+      material->kind = (uint32_t)(4 * random_unit(&seed));
+      for (int k = 0; k < 3; k++) {
+        material->diffuse[k] = extreme(&seed, 1), material->specular[k] = extreme(&seed, 1);
+        material->emission[k] = i % 4 ? 0 : extreme(&seed, TRAX_SCENE_MAX_EMISSION);
+      }
+      material->roughness = extreme(&seed, 1), material->ior = 1 + extreme(&seed, TRAX_SCENE_MAX_IOR - 1);
+      material->opacity = extreme(&seed, 1), material->alpha_cutoff = i % 3 ? 0 : extreme(&seed, 1);
+    }
+    mesh_soup(&mesh, 600, (uint32_t)round + 1);
+    for (uint32_t i = 0; i < mesh.triangle_count; i++)
+      mesh.triangles[i].material = (uint32_t)(16 * random_unit(&seed));
+    mesh_box(&mesh, (float[]){-1, -1, -1}, (float[]){1, 1, 1}, (uint32_t)round);
+    build(&scene, &mesh, &(struct trax_build_options){.smooth = true});
+    struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 0, 0, 0);
+    view.light_count = 4;
+    for (int i = 0; i < 4; i++) /* two in corners of the box, one on a vertex, one of no area */
+      view.lights[i] = (struct trax_light){.kind = i == 1  ? TRAX_LIGHT_DIRECTIONAL
+                                                   : i > 1 ? TRAX_LIGHT_RECTANGLE
+                                                           : TRAX_LIGHT_POINT,
+                                           .position = {1, 1, i == 0 ? 1 : -1},
+                                           .direction = {0, i == 1 ? -1 : 1, 0},
+                                           .edges = {{i == 3 ? 0x1p-40f : 2, 0, 0}, {0, 0, i == 3 ? 0x1p-40f : 2}},
+                                           .colour = {1, 0, 1},
+                                           .strength = TRAX_VIEW_MAX_STRENGTH,
+                                           .falloff = round & 1 ? 1000 : 0};
+    struct trax_frame_options options = plain;
+    options.floats = true, options.smooth = round & 2;
+    struct trax_picture direct = shoot(&scene, &view, &options, false, 2);
+    assert_true(mean_of(&direct) > 0);
+    options.paths = TRAX_RENDER_MAX_DEPTH, options.samples = 2, options.seed = (uint32_t)round;
+    struct trax_picture picture = shoot(&scene, &view, &options, false, 2);
+    assert_true(mean_of(&picture) > 0);
+    trax_picture_release(&direct);
+    trax_picture_release(&picture);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_combinations),
+      cmocka_unit_test(test_floats_are_the_picture),
+      cmocka_unit_test(test_paths_of_any_number_of_threads),
+      cmocka_unit_test(test_lights_add_up),
+      cmocka_unit_test(test_furnace_from_inside),
+      cmocka_unit_test(test_furnace_from_outside),
+      cmocka_unit_test(test_rectangles_and_lamps),
+      cmocka_unit_test(test_holes_are_nothing),
+      cmocka_unit_test(test_hostile_materials),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
