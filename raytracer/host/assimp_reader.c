@@ -109,12 +109,26 @@ static void close_file(struct aiFileIO *io, struct aiFile *file) {
 
 /* --- geometry --- */
 
+static trax_status check_nodes(const struct aiScene *scene, const struct aiNode *node, const char *path,
+                               trax_error *error) {
+  for (unsigned i = 0; i < node->mNumMeshes; i++)
+    if (node->mMeshes[i] >= scene->mNumMeshes)
+      return scene_fail(error, "%s: a node's mesh %u is out of range (%u meshes)", path, node->mMeshes[i],
+                        scene->mNumMeshes);
+  for (unsigned i = 0; i < node->mNumChildren; i++)
+    if (check_nodes(scene, node->mChildren[i], path, error) != TRAX_OK)
+      return TRAX_ERROR;
+  return TRAX_OK;
+}
+
 static trax_status check_indices(const struct aiScene *scene, const char *path, trax_error *error) {
   for (unsigned m = 0; m < scene->mNumMeshes; m++) {
     const struct aiMesh *part = scene->mMeshes[m];
     if (part->mMaterialIndex >= (scene->mNumMaterials ? scene->mNumMaterials : 1))
       return scene_fail(error, "%s: mesh %u: material %u is out of range (%u materials)", path, m, part->mMaterialIndex,
                         scene->mNumMaterials);
+    if (part->mNumVertices && !part->mVertices)
+      return scene_fail(error, "%s: mesh %u: its vertices have no positions", path, m);
     for (unsigned f = 0; f < part->mNumFaces; f++) {
       const struct aiFace *face = &part->mFaces[f];
       if (face->mNumIndices == 0)
@@ -125,7 +139,7 @@ static trax_status check_indices(const struct aiScene *scene, const char *path, 
                             face->mIndices[i], part->mNumVertices);
     }
   }
-  return TRAX_OK;
+  return check_nodes(scene, scene->mRootNode, path, error);
 }
 
 /* What the nodes below one refer to, instances counted each time. */

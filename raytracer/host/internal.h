@@ -87,6 +87,9 @@ struct scene_textures {
    read, which the report notes. */
 trax_status scene_find_texture(struct scene_textures *textures, const struct scene_texture *wanted,
                                const char *referrer, const struct scene_texture **found, trax_error *error);
+/* Adds an image to the mesh as its last texture. */
+trax_status scene_add_image(struct scene_textures *textures, const struct scene_image *image, uint32_t flags,
+                            const char *name, trax_error *error);
 void scene_textures_release(struct scene_textures *textures);
 
 /* --- attributes.c --- */

@@ -136,8 +136,8 @@ static uint32_t log2_side(uint32_t side, uint32_t most) {
   return result;
 }
 
-static trax_status add_texture(struct scene_textures *textures, const struct scene_image *image, uint32_t flags,
-                               uint32_t *number, const char *name, trax_error *error) {
+trax_status scene_add_image(struct scene_textures *textures, const struct scene_image *image, uint32_t flags,
+                            const char *name, trax_error *error) {
   struct trax_mesh *mesh = textures->mesh;
   const uint32_t most = textures->options->texture_size ? textures->options->texture_size : 1u << TRAX_TEXTURE_MAX_LOG2;
   struct trax_mesh_texture texture = {mesh->texel_count, log2_side(image->width, most), log2_side(image->height, most),
@@ -161,7 +161,6 @@ static trax_status add_texture(struct scene_textures *textures, const struct sce
       texture.flags |= TRAX_TEXTURE_ALPHA;
   mesh->textures[mesh->texture_count++] = texture;
   mesh->texel_count += count;
-  *number = mesh->texture_count;
   return TRAX_OK;
 }
 
@@ -253,7 +252,9 @@ static trax_status make(struct scene_textures *textures, struct scene_texture *t
     texture->good = true;
     mean_of(texture->mean, &image, texture->use == SCENE_TEXTURE_COLOUR);
     if (texture->use == SCENE_TEXTURE_COLOUR && !texture->mean_only)
-      result = add_texture(textures, &image, texture->flags, &texture->number, referrer, error);
+      result = scene_add_image(textures, &image, texture->flags, referrer, error);
+    if (result == TRAX_OK && texture->use == SCENE_TEXTURE_COLOUR && !texture->mean_only)
+      texture->number = textures->mesh->texture_count;
   }
   scene_image_release(&image);
   scene_image_release(&mask);

@@ -171,9 +171,24 @@ static int channel_number(const char *name) {
   return -1;
 }
 
+struct compressor {
+  exr_result_t (*function)(exr_encode_pipeline_t *);
+};
+
+/* A chunk as long as its data stands for the data themselves, so it must be them. The library (3.1.5) leaves packed
+   data there if they happen to be of that very length. */
+static exr_result_t compress_chunk(exr_encode_pipeline_t *encoder) {
+  const struct compressor *compressor = encoder->encoding_user_data;
+  const exr_result_t result = compressor->function(encoder);
+  if (result == EXR_ERR_SUCCESS && encoder->compressed_bytes == encoder->packed_bytes)
+    memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
+  return result;
+}
+
 static exr_result_t write_lines(exr_context_t context, const struct trax_picture *picture) {
   int32_t lines;
   exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+  struct compressor compressor;
   bool begun = false;
   exr_result_t result = exr_get_scanlines_per_chunk(context, 0, &lines);
   for (uint32_t y = 0; result == EXR_ERR_SUCCESS && y < picture->height; y += (uint32_t)lines) {
@@ -191,8 +206,12 @@ static exr_result_t write_lines(exr_context_t context, const struct trax_picture
       encoder.channels[i].encode_from_ptr =
           (const uint8_t *)(picture->radiance + 3 * (size_t)y * picture->width + channel);
     }
-    if (result == EXR_ERR_SUCCESS && !begun)
+    if (result == EXR_ERR_SUCCESS && !begun) {
       result = exr_encoding_choose_default_routines(context, 0, &encoder);
+      compressor.function = encoder.compress_fn;
+      encoder.encoding_user_data = &compressor;
+      encoder.compress_fn = compress_chunk;
+    }
     begun = true;
     if (result == EXR_ERR_SUCCESS)
       result = exr_encoding_run(context, 0, &encoder);

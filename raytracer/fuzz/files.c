@@ -1,0 +1,39 @@
+#include "files.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const fuzz_case *fuzz_files;
+
+trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error);
+trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error);
+trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path);
+
+/* A NUL is behind the last byte, or there is no byte more than there should be: a sanitizer sees what is read beyond.
+ */
+static trax_status load(struct scene_bytes *bytes, const char *path, size_t more, trax_error *error) {
+  const char *slash = strrchr(path, '/');
+  const fuzz_file *file = fuzz_case_find(fuzz_files, slash ? slash + 1 : path);
+  *bytes = (struct scene_bytes){0};
+  if (!file)
+    return scene_fail(error, "%s: cannot open: it is not in the case", path);
+  bytes->data = calloc(1, file->size + more ? file->size + more : 1);
+  if (!bytes->data)
+    abort();
+  if (file->size)
+    memcpy(bytes->data, file->bytes, file->size);
+  bytes->size = file->size;
+  return TRAX_OK;
+}
+
+trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error) {
+  return load(bytes, path, 0, error);
+}
+
+trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error) {
+  return load(bytes, path, 1, error);
+}
+
+trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path) {
+  return load(bytes, path, 0, NULL);
+}

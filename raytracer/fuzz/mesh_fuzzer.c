@@ -1,0 +1,112 @@
+/* Meshes under libFuzzer: a case's first file is one, by its ending, and refers to the others. What is accepted makes a
+   scene that passes every check. The words of the first line are materials as --material takes them. */
+#include "files.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { most_triangles = 3000 }; /* of which a tree is built */
+
+static void build(const struct trax_mesh *mesh) {
+  struct trax_scene scene;
+  trax_error error = {.message = ""};
+  const struct trax_build_options options = {.smooth = true, .allow_empty = true};
+  if (trax_scene_build(&scene, mesh, &options, &error) != TRAX_OK) {
+    fprintf(stderr, "an imported mesh makes no scene: %s\n", error.message);
+    abort();
+  }
+  if (trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error) != TRAX_OK) {
+    fprintf(stderr, "a scene that was built is refused: %s\n", error.message);
+    abort();
+  }
+  trax_scene_release(&scene);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
+  enum { most_words = 8 };
+  fuzz_case fuzz_case;
+  fuzz_case_read(&fuzz_case, bytes, size);
+  fuzz_files = &fuzz_case;
+  char *words[most_words];
+  const size_t count = fuzz_case_words(fuzz_case.options, words, most_words);
+  struct trax_material_override overrides[most_words];
+  struct trax_import_options options = {
+      .in_process = true, .overrides = overrides, .texture_size = 64, .drop_nonfinite = size % 2};
+  trax_error error = {.message = ""};
+  for (size_t i = 0; i < count; i++)
+    options.override_count += trax_override_material(&overrides[options.override_count], words[i], &error) == TRAX_OK;
+  const char *path = fuzz_case.file_count ? fuzz_case.files[0].name : "none.obj";
+  const size_t length = strlen(path);
+  if (length > 4 && (!strcmp(path + length - 4, ".obj") || !strcmp(path + length - 4, ".ply"))) {
+    struct trax_mesh mesh;
+    error.message[0] = 0;
+    if (trax_mesh_import(&mesh, &path, 1, &options, NULL, &error) == TRAX_OK) {
+      if (mesh.triangle_count <= most_triangles)
+        build(&mesh);
+      trax_mesh_release(&mesh);
+    } else if (!error.message[0])
+      abort(); /* refused without a reason */
+  }
+  fuzz_case_free(&fuzz_case);
+  return 0;
+}
+
+/* --- mutation: within files, by words of their formats --- */
+
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
+                                 uint8_t *result, size_t capacity, unsigned seed);
+
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
+  static const char *const words[] = {"mirror", "glass:2", "a=ggx:0.5", "emit:1,2,3", "b=lambert", NULL};
+  static const char *const lines[] = {"f 1/1/1 2/2/2 3/3/3\n",
+                                      "f -1 -2 -3 -4 -5\n",
+                                      "vt 0.5 1e9\n",
+                                      "vn 0 0 1\n",
+                                      "usemtl a\n",
+                                      "mtllib a.mtl\n",
+                                      "newmtl b\n",
+                                      "map_Kd -clamp on a.png\n",
+                                      "map_d a.png\n",
+                                      "illum 7\n",
+                                      "Ns 1e3\nKs 1 1 1\n",
+                                      "v 1e30 nan -inf\n",
+                                      "property float nx\n",
+                                      "property list uchar int vertex_indices\n",
+                                      "element face 4294967295\n",
+                                      "comment TextureFile a.png\n"};
+  fuzz_random random = {seed + 1u};
+  fuzz_case fuzz_case;
+  if (fuzz_below(&random, 4) == 0)
+    return fuzz_case_mutate(bytes, size, capacity, seed, words);
+  fuzz_case_read(&fuzz_case, bytes, size);
+  if (fuzz_case.file_count == 0) {
+    fuzz_case_free(&fuzz_case);
+    return fuzz_case_mutate(bytes, size, capacity, seed, words);
+  }
+  fuzz_file *file = &fuzz_case.files[fuzz_below(&random, (uint32_t)fuzz_case.file_count)];
+  const size_t room = file->size + 256;
+  uint8_t *grown = realloc(file->bytes, room);
+  if (!grown)
+    abort();
+  file->bytes = grown;
+  if (fuzz_below(&random, 2)) { /* a line of the format, at the start of a line */
+    const char *line = lines[fuzz_below(&random, sizeof lines / sizeof *lines)];
+    size_t at = file->size ? fuzz_below(&random, (uint32_t)file->size) : 0;
+    while (at > 0 && file->bytes[at - 1] != '\n')
+      at--;
+    memmove(file->bytes + at + strlen(line), file->bytes + at, file->size - at);
+    memcpy(file->bytes + at, line, strlen(line));
+    file->size += strlen(line);
+  } else
+    file->size = LLVMFuzzerMutate(file->bytes, file->size, room);
+  size = fuzz_case_write(&fuzz_case, bytes, capacity);
+  fuzz_case_free(&fuzz_case);
+  return size;
+}
+
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
+                                 uint8_t *result, size_t capacity, unsigned seed) {
+  return fuzz_case_cross(first, first_size, second, second_size, result, capacity, seed);
+}
