@@ -26,7 +26,7 @@ static void add_unit(struct trax_variant *variants, size_t *count, unsigned bits
            latency == TRAX_LATENCY_DIGITS ? "digits" : "newton");
 }
 
-trax_status trax_variants(struct trax_variant **variants, size_t *count, trax_error *error) {
+trax_status trax_variants(struct trax_variant **variants, size_t *count, enum trax_node_layout own, trax_error *error) {
   *count = 0;
   struct trax_variant *all = *variants = calloc(MOST_VARIANTS, sizeof **variants);
   if (!all)
@@ -42,12 +42,19 @@ trax_status trax_variants(struct trax_variant **variants, size_t *count, trax_er
       snprintf(variant->name, sizeof variant->name, "%s%s", trax_triangle_names[triangle],
                fast_math ? ", fast-math" : "");
     }
-  for (unsigned bits = 0; bits <= 16; bits += 16) {
-    struct trax_variant *variant = add(all, count, "scene");
+  for (enum trax_node_layout nodes = 0; nodes < TRAX_NODE_LAYOUTS; nodes++) {
+    if (nodes == own)
+      continue;
+    struct trax_variant *variant = add(all, count, "nodes");
     variant->rebuilt = true;
-    variant->vertex_bits = bits;
-    strcpy(variant->name, bits ? "vertices of 16 bits" : "scene built anew");
+    variant->nodes = nodes;
+    snprintf(variant->name, sizeof variant->name, "%s nodes", trax_node_formats[nodes].name);
   }
+  struct trax_variant *coarse = add(all, count, "vertices");
+  coarse->rebuilt = true;
+  coarse->nodes = own;
+  coarse->vertex_bits = 16;
+  strcpy(coarse->name, "vertices of 16 bits");
   for (unsigned bits = MOST_BITS; bits >= LEAST_BITS; bits--) {
     add_unit(all, count, bits, TRAX_LATENCY_DIGITS);
     if (trax_latency_newton(bits) != trax_latency_digits(bits))
@@ -58,6 +65,9 @@ trax_status trax_variants(struct trax_variant **variants, size_t *count, trax_er
     variant->samples = samples;
     snprintf(variant->name, sizeof variant->name, "%u samples", samples);
   }
+  for (size_t i = 0; i < *count; i++)
+    if (!all[i].rebuilt)
+      all[i].nodes = own;
   return TRAX_OK;
 }
 
@@ -172,8 +182,8 @@ static trax_status find_program(struct trax_program *program, const struct trax_
 
 /* --- figures --- */
 
-static void take_costs(double figures[TRAX_ACCURACY_FIGURE_COUNT], const trax_machine *machine,
-                       const struct trax_program_size *size) {
+static trax_status take_costs(double figures[TRAX_ACCURACY_FIGURE_COUNT], trax_machine *machine,
+                              const struct trax_program_size *size, trax_error *error) {
   static const struct {
     enum trax_accuracy_figure figure;
     const char *name;
@@ -183,6 +193,12 @@ static void take_costs(double figures[TRAX_ACCURACY_FIGURE_COUNT], const trax_ma
   for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)
     trax_stats_get(machine, taken[i].name, &figures[taken[i].figure]);
   figures[TRAX_ACCURACY_CODE] = size->code_bytes;
+  const uint8_t *scene;
+  uint32_t scene_bytes;
+  if (trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error) != TRAX_OK)
+    return TRAX_ERROR;
+  figures[TRAX_ACCURACY_SCENE] = scene_bytes;
+  return TRAX_OK;
 }
 
 static trax_status take_errors(double figures[TRAX_ACCURACY_FIGURE_COUNT], const struct trax_frame *frame,
@@ -256,7 +272,7 @@ trax_status trax_accuracy_measure(struct trax_accuracy_row *row, const struct tr
     status = render(&machine, &picture, frame, &measured, config, TRAX_ENGINE_FAST,
                     (struct step){.run = run, .part = 0.75}, error);
   if (status == TRAX_OK)
-    take_costs(row->figures, machine, &size);
+    status = take_costs(row->figures, machine, &size, error);
   trax_machine_destroy(machine);
   machine = NULL;
   if (status == TRAX_OK)

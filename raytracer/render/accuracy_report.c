@@ -89,11 +89,12 @@ void trax_accuracy_print(const struct trax_accuracy_report *report, FILE *out) {
       report->scene, report->view, report->width, report->height, report->chip, report->converged_samples,
       report->rough_samples, report->rough_rmse);
   fprintf(out,
-          "| method | cycles | to default | instructions | code | memory, MB | energy, mJ | MRPS | numerical RMSE | "
+          "| method | cycles | to default | instructions | code | scene, MB | memory, MB | energy, mJ | MRPS | "
+          "numerical RMSE | "
           "largest | wrong pixels: missed, grown, other | tied | shadows | FLIP | sampling RMSE | total RMSE | "
           "total FLIP | front |\n"
           "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
-          "--- |\n");
+          "--- | --- |\n");
   const struct trax_accuracy_row *first = report->rows;
   for (const struct trax_accuracy_row *row = first; row < first + report->count; row++) {
     fprintf(out, "| %s", row->variant.name);
@@ -106,9 +107,10 @@ void trax_accuracy_print(const struct trax_accuracy_report *report, FILE *out) {
     else
       fprintf(out, " | %+.2f %% | ", 100 * (value(row, TRAX_ACCURACY_CYCLES) / value(first, TRAX_ACCURACY_CYCLES) - 1));
     print_grouped(value(row, TRAX_ACCURACY_INSTRUCTIONS), out);
-    fprintf(out, " | %.0f | %.2f | %.3f | %.2f | %.2g | %.2g | ", value(row, TRAX_ACCURACY_CODE),
-            1e-6 * value(row, TRAX_ACCURACY_MEMORY), 1e3 * value(row, TRAX_ACCURACY_ENERGY),
-            value(row, TRAX_ACCURACY_MRPS), value(row, TRAX_ACCURACY_RMSE), value(row, TRAX_ACCURACY_LARGEST));
+    fprintf(out, " | %.0f | %.2f | %.2f | %.3f | %.2f | %.2g | %.2g | ", value(row, TRAX_ACCURACY_CODE),
+            1e-6 * value(row, TRAX_ACCURACY_SCENE), 1e-6 * value(row, TRAX_ACCURACY_MEMORY),
+            1e3 * value(row, TRAX_ACCURACY_ENERGY), value(row, TRAX_ACCURACY_MRPS), value(row, TRAX_ACCURACY_RMSE),
+            value(row, TRAX_ACCURACY_LARGEST));
     fprintf(out, "%.0f", value(row, TRAX_ACCURACY_WRONG));
     if (value(row, TRAX_ACCURACY_WRONG) > 0)
       fprintf(out, ": %.0f, %.0f, %.0f", value(row, TRAX_ACCURACY_MISSED), value(row, TRAX_ACCURACY_GROWN),
@@ -146,9 +148,9 @@ trax_status trax_accuracy_write_json(const struct trax_accuracy_report *report, 
   for (size_t i = 0; i < report->count; i++) {
     const struct trax_accuracy_row *row = &report->rows[i];
     json_array_append_new(
-        rows, json_pack("{s:s, s:s, s:s, s:b, s:b, s:i, s:i, s:i, s:i, s:b, s:b, s:o}", "method", row->variant.name,
+        rows, json_pack("{s:s, s:s, s:s, s:b, s:s, s:i, s:i, s:i, s:i, s:b, s:b, s:o}", "method", row->variant.name,
                         "group", row->variant.group, "triangle", trax_triangle_names[row->variant.method.triangle],
-                        "fast_math", row->variant.method.fast_math, "scene_rebuilt", row->variant.rebuilt,
+                        "fast_math", row->variant.method.fast_math, "nodes", trax_node_formats[row->variant.nodes].name,
                         "vertex_bits", (int)row->variant.vertex_bits, "samples", (int)row->variant.samples, "bits",
                         (int)row->variant.bits, "latency", (int)trax_variant_latency(&row->variant), "numerical_front",
                         row->numerical_front, "total_front", row->total_front, "figures", figures_json(row)));
@@ -178,7 +180,8 @@ static const struct {
 } groups[] = {{"default", "default", "black"},
               {"triangle", "other triangle test", "#0072b2"},
               {"math", "-ffast-math", "#d55e00"},
-              {"scene", "scene built anew; vertices of 16 bits", "#56b4e9"},
+              {"nodes", "other nodes", "#e69f00"},
+              {"vertices", "vertices of 16 bits", "#56b4e9"},
               {"unit", "special unit of so many bits", "#009e73"},
               {"samples", "more samples", "#cc79a7"}};
 enum { GROUPS = sizeof groups / sizeof *groups };

@@ -40,6 +40,7 @@ struct bench {
 /* A scene of trax_scene_rebuild. */
 struct rebuilt {
   struct trax_scene scene;
+  enum trax_node_layout nodes;
   unsigned vertex_bits;
   struct rebuilt *next;
 };
@@ -93,17 +94,18 @@ static trax_status scene_of(const struct trax_scene **scene, struct bench *bench
   if (!variant->rebuilt)
     return TRAX_OK;
   struct rebuilt *rebuilt = bench->rebuilt;
-  while (rebuilt && rebuilt->vertex_bits != variant->vertex_bits)
+  while (rebuilt && (rebuilt->vertex_bits != variant->vertex_bits || rebuilt->nodes != variant->nodes))
     rebuilt = rebuilt->next;
   if (!rebuilt) {
     rebuilt = calloc(1, sizeof *rebuilt);
-    const trax_status status =
-        rebuilt ? trax_scene_rebuild(&rebuilt->scene, bench->scene, variant->vertex_bits, bench->interrupt, error)
-                : trax_fail(error, "out of memory");
+    const trax_status status = rebuilt ? trax_scene_rebuild(&rebuilt->scene, bench->scene, variant->nodes,
+                                                            variant->vertex_bits, bench->interrupt, error)
+                                       : trax_fail(error, "out of memory");
     if (status != TRAX_OK) {
       free(rebuilt);
       return status;
     }
+    rebuilt->nodes = variant->nodes;
     rebuilt->vertex_bits = variant->vertex_bits;
     rebuilt->next = bench->rebuilt;
     bench->rebuilt = rebuilt;
@@ -399,7 +401,7 @@ trax_status bench_accuracy(const struct options *options, const struct trax_scen
   if (status == TRAX_OK)
     status = hash_self(&bench.own_hash, error);
   if (status == TRAX_OK)
-    status = trax_variants(&bench.variants, &bench.count, error);
+    status = trax_variants(&bench.variants, &bench.count, scene->header->node_layout, error);
   if (status == TRAX_OK) {
     bench.rows = calloc(bench.count, sizeof *bench.rows);
     bench.done = calloc(bench.count, sizeof *bench.done);

@@ -27,8 +27,8 @@ static void copy_triangle(struct trax_mesh *mesh, const struct trax_scene *scene
     memcpy(mesh->normals[number], scene->normals[number].corner, sizeof mesh->normals[number]);
 }
 
-trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_scene *scene, unsigned vertex_bits,
-                               const volatile int *interrupt, trax_error *error) {
+trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_scene *scene, enum trax_node_layout nodes,
+                               unsigned vertex_bits, const volatile int *interrupt, trax_error *error) {
   const uint32_t count = scene->triangle_count;
   struct trax_mesh mesh = {.vertex_count = 3 * count, .triangle_count = count, .material_count = scene->material_count};
   mesh.vertices = malloc(3 * (size_t)count * sizeof *mesh.vertices + 1);
@@ -44,7 +44,7 @@ trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_sce
     for (uint32_t i = 0; i < count; i++)
       copy_triangle(&mesh, scene, i, vertex_bits);
     const struct trax_build_options options = {
-        .allow_empty = true, .smooth = scene->normals != NULL, .interrupt = interrupt};
+        .nodes = nodes, .allow_empty = true, .smooth = scene->normals != NULL, .interrupt = interrupt};
     status = trax_scene_build(rebuilt, &mesh, &options, error);
   }
   trax_mesh_release(&mesh);

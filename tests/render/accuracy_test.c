@@ -135,7 +135,7 @@ static void test_other_methods(void **state) {
   struct trax_variant *variants;
   size_t count, measured = 0;
   trax_error error;
-  assert_int_equal(trax_variants(&variants, &count, &error), TRAX_OK);
+  assert_int_equal(trax_variants(&variants, &count, TRAX_NODES_BINARY, &error), TRAX_OK);
   assert_string_equal(variants[0].group, "default");
   for (size_t i = 1; i < count; i++) {
     for (size_t j = 0; j < i; j++)
@@ -150,43 +150,72 @@ static void test_other_methods(void **state) {
   free(variants);
 }
 
-/* The same triangles in another order are the same picture; vertices on a grid are not, the less so the finer it is. */
-static void test_rebuilt_scenes(void **state) {
+static struct trax_accuracy_row measure_scene(const struct trax_scene *scene, const struct trax_variant *variant) {
+  const struct trax_frame_options options = {
+      .width = WIDTH, .height = HEIGHT, .samples = 1, .shadows = true, .ambient = 0.1f, .background = 0xFF102030};
+  struct trax_frame frame;
+  trax_error error;
+  assert_int_equal(trax_frame_init(&frame, scene, &common.view, &options, &error), TRAX_OK);
+  const struct trax_accuracy_run run = run_of();
+  struct trax_accuracy_row row;
+  if (trax_accuracy_measure(&row, variant, &frame, &run, &error) != TRAX_OK)
+    fail_msg("%s", error.message);
+  trax_frame_release(&frame);
+  return row;
+}
+
+static struct trax_scene rebuild(enum trax_node_layout nodes, unsigned vertex_bits) {
+  struct trax_scene rebuilt;
+  trax_error error;
+  assert_int_equal(trax_scene_rebuild(&rebuilt, &common.scene, nodes, vertex_bits, NULL, &error), TRAX_OK);
+  assert_int_equal(rebuilt.triangle_count, common.scene.triangle_count);
+  return rebuilt;
+}
+
+/* Half a cell of the longest axis is how far a vertex is moved, at most; of thousands one is moved nearly so far. */
+static void check_grid(const struct trax_scene *scene, unsigned bits) {
+  double farthest = 0, size = 0;
+  for (int axis = 0; axis < 3; axis++)
+    size = fmax(size, (double)common.scene.header->bounds_max[axis] - common.scene.header->bounds_min[axis]);
+  for (uint32_t triangle = 0; triangle < scene->triangle_count; triangle++)
+    for (int axis = 0; axis < 3; axis++)
+      farthest = fmax(farthest, fabs((double)scene->triangles[triangle].v0[axis] -
+                                     common.scene.triangles[scene->source_ids[triangle]].v0[axis]));
+  const double half = size / (ldexp(1, (int)bits) - 1) / 2;
+  assert_true(farthest >= 0.9 * half && farthest <= 1.01 * half); /* rounded to binary32 */
+}
+
+static void test_coarse_vertices(void **state) {
   (void)state;
-  const unsigned bits[] = {0, 16, 8};
-  double rmse[3];
-  const struct trax_scene scene = common.scene;
-  for (int i = 0; i < 3; i++) {
-    struct trax_scene rebuilt;
-    trax_error error;
-    assert_int_equal(trax_scene_rebuild(&rebuilt, &scene, bits[i], NULL, &error), TRAX_OK);
-    assert_int_equal(rebuilt.triangle_count, scene.triangle_count);
-    double farthest = 0, size = 0;
-    for (uint32_t triangle = 0; triangle < rebuilt.triangle_count; triangle++)
-      for (int axis = 0; axis < 3; axis++) {
-        const float *own = rebuilt.triangles[triangle].v0, *other = scene.triangles[rebuilt.source_ids[triangle]].v0;
-        farthest = fmax(farthest, fabs((double)own[axis] - other[axis]));
-        size = fmax(size, (double)scene.header->bounds_max[axis] - scene.header->bounds_min[axis]);
-      }
-    /* Half a cell of the longest axis, at most; of 6,000 coordinates one is not far from that. */
-    const double half = bits[i] ? size / (ldexp(1, (int)bits[i]) - 1) / 2 : 0;
-    assert_true(farthest >= 0.9 * half && farthest <= 1.01 * half); /* rounded to binary32 */
-    struct trax_frame frame = {0};
-    const struct trax_frame_options options = {
-        .width = WIDTH, .height = HEIGHT, .samples = 1, .shadows = true, .ambient = 0.1f, .background = 0xFF102030};
-    assert_int_equal(trax_frame_init(&frame, &rebuilt, &common.view, &options, &error), TRAX_OK);
-    const struct trax_variant variant = {.group = "scene", .samples = 1, .rebuilt = true, .vertex_bits = bits[i]};
-    const struct trax_accuracy_run run = run_of();
-    struct trax_accuracy_row row;
-    if (trax_accuracy_measure(&row, &variant, &frame, &run, &error) != TRAX_OK)
-      fail_msg("%s", error.message);
-    if (bits[i] == 0)
-      assert_true(FIGURE(row, WRONG) == 0 && FIGURE(row, TIED) == 0);
-    rmse[i] = FIGURE(row, RMSE);
-    trax_frame_release(&frame);
-    trax_scene_release(&rebuilt);
+  double before = 1e-3;
+  for (unsigned bits = 16; bits >= 8; bits -= 8) {
+    struct trax_scene scene = rebuild(TRAX_NODES_BINARY, bits);
+    check_grid(&scene, bits);
+    const struct trax_variant variant = {.samples = 1, .rebuilt = true, .vertex_bits = bits};
+    const struct trax_accuracy_row row = measure_scene(&scene, &variant);
+    assert_true(FIGURE(row, RMSE) > 2 * before);
+    before = FIGURE(row, RMSE);
+    trax_scene_release(&scene);
   }
-  assert_true(rmse[0] < 1e-3 && rmse[1] > 10 * rmse[0] && rmse[2] > 2 * rmse[1]);
+}
+
+/* Built anew a scene is the same, so what another layout costs is due to the layout; and it changes no hit. */
+static void test_other_nodes(void **state) {
+  (void)state;
+  const struct trax_scene_section *sections = common.scene.header->sections;
+  for (enum trax_node_layout nodes = 0; nodes < TRAX_NODE_LAYOUTS; nodes++) {
+    struct trax_scene scene = rebuild(nodes, 0);
+    if (nodes == common.scene.header->node_layout) {
+      assert_memory_equal(scene.nodes, common.scene.nodes, sections[TRAX_SCENE_NODES].size);
+      assert_memory_equal(scene.triangles, common.scene.triangles, sections[TRAX_SCENE_TRIANGLES].size);
+    } else {
+      const struct trax_variant variant = {.samples = 1, .rebuilt = true, .nodes = nodes};
+      const struct trax_accuracy_row row = measure_scene(&scene, &variant);
+      assert_true(FIGURE(row, WRONG) == 0 && FIGURE(row, TIED) == 0 && FIGURE(row, SHADOW) == 0);
+      assert_true(FIGURE(row, RMSE) < 1e-3 && FIGURE(row, SCENE) < common.scene.size);
+    }
+    trax_scene_release(&scene);
+  }
 }
 
 static void test_keys(void **state) {
@@ -263,9 +292,14 @@ int main(int argc, char **argv) {
   if (argc != 3)
     return 2;
   root = argv[1], cache = argv[2];
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_the_default),    cmocka_unit_test(test_shrunk_boxes),
-                                     cmocka_unit_test(test_fewer_bits),     cmocka_unit_test(test_other_methods),
-                                     cmocka_unit_test(test_rebuilt_scenes), cmocka_unit_test(test_keys),
-                                     cmocka_unit_test(test_fronts),         cmocka_unit_test(test_rows_in_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_the_default),
+                                     cmocka_unit_test(test_shrunk_boxes),
+                                     cmocka_unit_test(test_fewer_bits),
+                                     cmocka_unit_test(test_other_methods),
+                                     cmocka_unit_test(test_coarse_vertices),
+                                     cmocka_unit_test(test_other_nodes),
+                                     cmocka_unit_test(test_keys),
+                                     cmocka_unit_test(test_fronts),
+                                     cmocka_unit_test(test_rows_in_files)};
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
