@@ -10,16 +10,9 @@
 
 #define LIKELY(CONDITION) __builtin_expect(CONDITION, true)
 
-static inline unsigned data_bank(const struct trax_fast_tm *ftm, uint32_t address) {
-  const uint32_t banks = ftm->data_banks;
-  return LIKELY((banks & (banks - 1)) == 0) ? address / 4 & (banks - 1) : address / 4 % banks;
-}
-
-/* Bit line % 64 of the lines from one instruction to another. */
-static uint64_t lines_of(const struct trax_fast_inst *first, const struct trax_fast_inst *last) {
-  const unsigned count = (unsigned)(last->line - first->line), begin = first->line % 64u;
-  const uint64_t lines = count < 63 ? ((uint64_t)2 << count) - 1 : ~(uint64_t)0;
-  return begin ? lines << begin | lines >> (64 - begin) : lines;
+/* `mask`: banks - 1 if that is one, else 0. */
+static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address) {
+  return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
 /* Notes the rest of a stretch from one of its instructions on, as steps `at`... */

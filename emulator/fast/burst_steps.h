@@ -20,12 +20,12 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const struct trax_config *const config = ftm->tm->config;
   const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_ASKS_SLOWLY : 0;
   const uint16_t slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0;
+  const uint32_t banks = ftm->data_banks, bank_mask = banks & (banks - 1) ? 0 : banks - 1;
   uint8_t *const blocks = fast->blocks.state;
   const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
   uint32_t address, word, jumps = 0;
   uint64_t resume_pc = ftp->resume_pc; /* of the outside */
   int64_t *const changes = ftm->changes;
-  const struct trax_fast_inst *run = inst; /* where the latest jump went */
   uint64_t lines = 0;
   ftp->undo_count = 0;
   /* inst minus this is where the step is noted: it changes with each jump. */
@@ -59,7 +59,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
         __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                                  \
       }                                                                                                                \
       memcpy(&word, global + address, BYTES);                                                                          \
-      ftp->asks[at] |= (uint16_t)(TRAX_ASKS_BANK | data_bank(ftm, address) << TRAX_ASKS_BANK_SHIFT);                   \
+      ftp->asks[at] |= (uint16_t)(TRAX_ASKS_BANK | data_bank(banks, bank_mask, address) << TRAX_ASKS_BANK_SHIFT);      \
     } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
       memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
       ftp->asks[at] |= slow_local;                                                                                     \
@@ -110,14 +110,18 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   do_##NAME : {                                                                                                        \
     uint64_t next_pc = NOWHERE;                                                                                        \
     __VA_ARGS__                                                                                                        \
-    if (next_pc != NOWHERE && (uint32_t)next_pc != PC + 4) {                                                           \
+    const bool is_relative = trax_fast_is_relative(TRAX_OP_##NAME);                                                    \
+    if (next_pc != NOWHERE && (is_relative || (uint32_t)next_pc != PC + 4)) {                                          \
       jumps++;                                                                                                         \
-      lines |= lines_of(run, inst);                                                                                    \
       at = AT;                                                                                                         \
       ftp->asks[at] |= slow_jump;                                                                                      \
       changes[inst + 1 - program->inst]--;                                                                             \
-      run = inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                      \
-      resume_pc = next_pc;                                                                                             \
+      if (is_relative) {                                                                                               \
+        inst += inst->imm / 4;                                                                                         \
+      } else {                                                                                                         \
+        inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                          \
+        resume_pc = next_pc;                                                                                           \
+      }                                                                                                                \
       changes[inst - program->inst]++;                                                                                 \
       begin = (uintptr_t)inst - (at + 1) * sizeof *inst;                                                               \
       goto stretch;                                                                                                    \
@@ -132,6 +136,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 stretch:
   at = AT;
   const uint32_t index = (uint32_t)(inst - program->inst);
+  lines |= program->lines_ahead[index];
 #if EXACTLY
   if (at == limit)
     goto stop;
@@ -149,7 +154,7 @@ stop:
   ftp->resume = inst;
   ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->pc[inst - program->inst];
   ftp->burst_jumps = jumps;
-  ftp->burst_lines = lines | lines_of(run, inst);
+  ftp->burst_lines = lines;
   return AT;
 }
 

@@ -2,6 +2,8 @@
 #include "core/ahead.h"
 #include "fast/head.h"
 
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 static inline unsigned count_bits(uint64_t mask) {
   return (unsigned)__builtin_popcountll(mask);
 }
@@ -21,7 +23,7 @@ static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
 }
 
 /* Returns those who wake with their instruction. */
-static uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
+static ALWAYS_INLINE uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const uint64_t awake = tm->awake;
   arrive(ftm, t);
@@ -70,16 +72,20 @@ static uint64_t lose_fetches_somehow(struct trax_fast_tm *ftm, uint64_t askers, 
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
-static inline uint64_t lose_fetches(struct trax_fast_tm *ftm, uint64_t askers) {
+static ALWAYS_INLINE uint64_t lose_fetches(struct trax_fast_tm *ftm, const bool wide, uint64_t askers) {
   uint64_t bit[TRAX_FAST_BANK_BITS];
-  trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_FETCH_SHIFT, 4, bit);
+  trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_FETCH_SHIFT, 4, bit);
   if (ftm->simple_fetch) {
+#ifdef __AVX512BW__
+    if (wide)
+      return trax_fast_lose_four(&ftm->behind16, askers, bit);
+#endif
     uint64_t losers = 0;
     for (unsigned pair = 0; pair < 2 && askers >> 32 * pair; pair++)
       losers |= (uint64_t)trax_fast_lose_pair(&ftm->behind16, pair, askers, bit) << 32 * pair;
     return losers;
   }
-  trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_FETCH_SHIFT + 4, 2, bit + 4);
+  trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_FETCH_SHIFT + 4, 2, bit + 4);
   return lose_fetches_somehow(ftm, askers, bit);
 }
 
@@ -156,14 +162,15 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
 }
 
 /* Steps 1 and 2; woken: those whose operands may be usable now. */
-static inline void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, struct trax_fast_lost *lost, uint64_t t) {
+static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool wide, uint64_t woken,
+                                          struct trax_fast_lost *lost, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   if (ftm->outside)
     fault_outside(ftm, t);
   const uint64_t askers = tm->awake & ~tm->holding;
   uint64_t hits = 0;
   if (askers) {
-    const uint64_t losers = lose_fetches(ftm, askers);
+    const uint64_t losers = lose_fetches(ftm, wide, askers);
     lost->fetch = losers;
     hits = askers & ~losers;
   }
@@ -185,7 +192,8 @@ static inline void fetch_and_check(struct trax_fast_tm *ftm, uint64_t woken, str
 /* --- steps 3 and 4 --- */
 
 /* Those who win a bank of the data cache; `hits` receives those of them whose lines are there and who need no more. */
-static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, uint64_t *bit, uint64_t *hits) {
+static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool wide, uint64_t askers, uint64_t *bit,
+                                          uint64_t *hits) {
   const struct trax_cache_tags tags = ftm->tm->dcache.tags;
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
@@ -193,8 +201,8 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, ui
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
   uint64_t winners = 0, there = 0;
   if (ftm->data_bank_bits > 3) {
-    trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_BANK_SHIFT + 3, 1, bit + 3);
-    trax_fast_transpose(&ftm->heads, ftm->tm->tps, TRAX_ASKS_BANK_SHIFT + 4, 2, bit + 4);
+    trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 3, 1, bit + 3);
+    trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 4, 2, bit + 4);
   }
   for (uint32_t first = 0; first < ftm->data_banks; first += TRAX_FAST_LANES) {
     uint64_t asking = askers;
@@ -204,6 +212,7 @@ static inline uint64_t grant_banks(struct trax_fast_tm *ftm, uint64_t askers, ui
     TRAX_FAST_ARBITRATE(trax_fast_lanes, &ftm->data_bank_behind[first / TRAX_FAST_LANES], by_low_bits & (none + asking),
                         &winner);
     winners |= trax_fast_any(&winner);
+#pragma GCC unroll 4
     for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
       const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
       const uint32_t line = trax_line_of(&tags, ftm->address_of[number][ftm->heads.at[number]]);
@@ -262,10 +271,11 @@ static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers
 }
 
 /* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do. */
-static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t *slow, uint64_t t) {
+static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_lost *lost,
+                                    uint64_t *slow, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   uint64_t bit[TRAX_ASKS_BANK_SHIFT + TRAX_FAST_BANK_BITS];
-  trax_fast_transpose(&ftm->heads, tm->tps, 0, TRAX_ASKS_BANK_SHIFT + 3, bit);
+  trax_fast_transpose(&ftm->heads, wide, 0, TRAX_ASKS_BANK_SHIFT + 3, bit);
   const uint64_t ready = ftm->ready, ready_low = ready & ~bit[3], ready_high = ready & bit[3];
   /* By kind: see TRAX_ASKS_FP_ADD and those that follow it. */
   uint64_t granted = ready_low & ~(bit[1] | bit[2]);
@@ -287,7 +297,7 @@ static inline uint64_t grant(struct trax_fast_tm *ftm, struct trax_fast_lost *lo
   uint64_t queue_askers = ready_high & bit[2];
   if ((askers = ready_high & ~(bit[1] | bit[2]))) {
     uint64_t hits;
-    won = grant_banks(ftm, askers, bit + TRAX_ASKS_BANK_SHIFT, &hits);
+    won = grant_banks(ftm, wide, askers, bit + TRAX_ASKS_BANK_SHIFT, &hits);
     lost->bank = askers & ~won;
     if (ftm->hits_in_turn)
       hits = 0; /* serve sees to that */
@@ -343,47 +353,78 @@ struct turn {
   struct trax_fast_lost lost;
 };
 
-/* A cycle of each of several TMs, which have nothing to do with each other: step by step, so that the host has
+static ALWAYS_INLINE void begin(struct turn *turn) {
+  turn->ftm->tm->now = turn->t;
+  turn->woken = wake(turn->ftm, turn->t);
+}
+
+static ALWAYS_INLINE void issue(const struct turn *turn, const bool wide) {
+  const uint64_t quick = turn->granted & ~turn->slow, slow = turn->granted & turn->slow;
+  if (slow)
+    trax_fast_issue(turn->ftm, quick, slow, turn->t);
+  else
+    trax_fast_issue_quickly(turn->ftm, wide, quick);
+}
+
+static ALWAYS_INLINE void end(const struct turn *turn) {
+  struct trax_fast_tm *const ftm = turn->ftm;
+  trax_fast_count(&ftm->tally, &turn->lost);
+  if (__builtin_expect(ftm->tm->observer != NULL, false))
+    trax_fast_tell(ftm, &turn->lost);
+  ftm->tm->next_cycle = ftm->tm->awake ? turn->t + 1 : trax_tm_next_cycle(ftm->tm, turn->t);
+}
+
+/* A cycle of each of one or two TMs, which have nothing to do with each other: step by step, so that the host has
    something else to do while it waits for one TM's results. */
-static inline void take_turns(struct turn *turns, unsigned count) {
-  for (struct turn *turn = turns; turn < turns + count; turn++) {
-    turn->ftm->tm->now = turn->t;
-    turn->woken = wake(turn->ftm, turn->t);
-    trax_fast_look_up_asks(&turn->ftm->heads, turn->ftm->tm->tps);
-  }
-  for (struct turn *turn = turns; turn < turns + count; turn++) {
-    turn->lost = (struct trax_fast_lost){0};
-    fetch_and_check(turn->ftm, turn->woken, &turn->lost, turn->t);
-  }
-  for (struct turn *turn = turns; turn < turns + count; turn++)
-    turn->granted = grant(turn->ftm, &turn->lost, &turn->slow, turn->t);
-  for (struct turn *turn = turns; turn < turns + count; turn++)
-    trax_fast_issue(turn->ftm, turn->granted & ~turn->slow, turn->granted & turn->slow, turn->t);
-  for (struct turn *turn = turns; turn < turns + count; turn++) {
-    struct trax_fast_tm *const ftm = turn->ftm;
-    trax_fast_count(&ftm->tally, &turn->lost);
-    if (__builtin_expect(ftm->tm->observer != NULL, false))
-      trax_fast_tell(ftm, &turn->lost);
-    ftm->tm->next_cycle = ftm->tm->awake ? turn->t + 1 : trax_tm_next_cycle(ftm->tm, turn->t);
-  }
+static ALWAYS_INLINE void take_turns(struct turn one, struct turn other, const bool two, const bool wide) {
+  begin(&one);
+  if (two)
+    begin(&other);
+  fetch_and_check(one.ftm, wide, one.woken, &one.lost, one.t);
+  if (two)
+    fetch_and_check(other.ftm, wide, other.woken, &other.lost, other.t);
+  one.granted = grant(one.ftm, wide, &one.lost, &one.slow, one.t);
+  if (two)
+    other.granted = grant(other.ftm, wide, &other.lost, &other.slow, other.t);
+  issue(&one, wide);
+  if (two)
+    issue(&other, wide);
+  end(&one);
+  if (two)
+    end(&other);
+}
+
+_Static_assert(TRAX_FAST_ABREAST == 2, "what take_turns can do");
+
+static void take_turn(struct trax_fast_tm *ftm, uint64_t t) {
+  const struct turn turn = {.ftm = ftm, .t = t};
+  if (ftm->wide)
+    take_turns(turn, turn, false, true);
+  else
+    take_turns(turn, turn, false, false);
 }
 
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t) {
-  take_turns(&(struct turn){.ftm = &fast->tm[tm], .t = t}, 1);
+  take_turn(&fast->tm[tm], t);
+}
+
+static inline bool runs(const struct trax_fast_tm *ftm, uint64_t end) {
+  return ftm->tm->next_cycle < end && !ftm->tm->ahead->stop && !ftm->tm->fault.kind;
+}
+
+static ALWAYS_INLINE void run_two(struct trax_fast_tm *one, struct trax_fast_tm *other, uint64_t end, const bool wide) {
+  while (runs(one, end) && runs(other, end))
+    take_turns((struct turn){.ftm = one, .t = one->tm->next_cycle},
+               (struct turn){.ftm = other, .t = other->tm->next_cycle}, true, wide);
 }
 
 void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
-  struct turn turns[TRAX_FAST_ABREAST];
-  unsigned running;
-  do {
-    running = 0;
-    for (uint32_t i = first; i < first + count; i++) {
-      const struct trax_tm *const tm = fast->tm[i].tm;
-      if (tm->next_cycle < end && !tm->ahead->stop && !tm->fault.kind) {
-        turns[running].ftm = &fast->tm[i];
-        turns[running++].t = tm->next_cycle;
-      }
-    }
-    take_turns(turns, running);
-  } while (running);
+  struct trax_fast_tm *const one = &fast->tm[first], *const other = one + count - 1;
+  if (count > 1 && one->wide)
+    run_two(one, other, end, true);
+  else if (count > 1)
+    run_two(one, other, end, false);
+  for (struct trax_fast_tm *ftm = one; ftm <= other; ftm++)
+    while (runs(ftm, end))
+      take_turn(ftm, ftm->tm->next_cycle);
 }

@@ -41,6 +41,7 @@ static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
 static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm, trax_error *error) {
   ftm->fast = fast;
   ftm->tm = tm;
+  ftm->wide = tm->tps > 32;
   ftm->tp = create_aligned(tm->tps, sizeof *ftm->tp);
   ftm->changes = calloc(fast->program.inst_count + 1, sizeof *ftm->changes);
   if (!create_fetch(ftm, tm) || !ftm->tp || !ftm->changes)
@@ -53,7 +54,7 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
   ftm->heads.steps = ftm->tp->asks;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* those that do not exist are looked at in place of nobody */
-    ftm->heads.begin[i] = i < tm->tps ? i * (uint32_t)(sizeof *ftm->tp / sizeof(uint16_t)) : 0;
+    trax_fast_begin_heads(&ftm->heads, i, i < tm->tps ? i * (uint32_t)(sizeof *ftm->tp / sizeof(uint16_t)) : 0);
     ftm->address_of[i] = ftm->tp[i < tm->tps ? i : 0].address;
   }
   for (unsigned i = 0; i < tm->tps; i++) {

@@ -72,6 +72,7 @@ struct trax_fast_program {
   struct trax_fast_inst *inst;
   uint16_t *asks;                 /* [inst_count + TRAX_STRETCH]: of a step, unless its address says more */
   uint32_t *pc;                   /* [inst_count] */
+  uint64_t *lines_ahead;          /* [inst_count]: bit line % 64 of the lines from here to the end of the stretch */
   struct trax_fast_inst *outside; /* the last */
 };
 
@@ -87,7 +88,7 @@ struct trax_fast_tp {
   /* Of the bursts that are over: how much of them was issued. */
   uint64_t issued, jumps;
   uint32_t burst_jumps; /* of the current burst, its last step included */
-  uint64_t burst_lines; /* bit line % 64: in which lines of the program its steps are */
+  uint64_t burst_lines; /* bit line % 64: in which lines of the program its steps are, and perhaps in more */
 
   /* The steps of the burst, what timing needs of instructions that have been executed; or only the deferred head.
      Behind the last one there may be more. */
@@ -109,6 +110,7 @@ struct trax_fast_tm {
   /* How often each instruction was executed since that was collected: the sum of this up to it, in its section. */
   int64_t *changes; /* [inst_count + 1] */
   struct trax_fast_heads heads;
+  bool wide;                                       /* more than 32 TPs */
   const uint32_t *address_of[TRAX_MAX_TPS_PER_TM]; /* trax_fast_tp.address; of those that do not exist, TP 0's */
   /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
      it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
@@ -188,6 +190,13 @@ static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_f
     if (pc - program->sections[i].begin < program->sections[i].bytes)
       return program->sections[i].inst + (pc - program->sections[i].begin) / 4;
   return program->outside;
+}
+
+/* Jumps to pc + imm. In trax_fast_program.inst, such an instruction's target is imm / 4 behind it, and not the next
+   one: all others stop bursts. */
+static inline bool trax_fast_is_relative(unsigned op) {
+  return op == TRAX_OP_BEQ || op == TRAX_OP_BNE || op == TRAX_OP_BLT || op == TRAX_OP_BGE || op == TRAX_OP_BLTU ||
+         op == TRAX_OP_BGEU || op == TRAX_OP_JAL;
 }
 
 /* --- burst.c --- */

@@ -14,6 +14,13 @@ static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned ica
 /* The TP's next instruction becomes its head, executed already if it may be; returns its pc. */
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp);
 
+/* The next steps of those that issue and do nothing else: they become the heads. */
+static inline __attribute__((always_inline)) void trax_fast_issue_quickly(struct trax_fast_tm *ftm, const bool wide,
+                                                                          uint64_t quick) {
+  trax_fast_move_on(&ftm->heads, wide, quick);
+  ftm->tm->holding &= ~quick;
+}
+
 /* Makes a step the only one, executed at issue. */
 static inline void trax_fast_defer(struct trax_fast_tm *ftm, unsigned number, uint16_t asks, uint32_t index,
                                    uint32_t address) {

@@ -25,77 +25,105 @@ enum {
   TRAX_ASKS_FETCH = 63 << TRAX_ASKS_FETCH_SHIFT
 };
 
+/* With AVX-512, what a TP's next steps ask for waits in a lane of 64 bits, the head's in the lowest ones, and goes down
+   when the head is issued, for all TPs at once. Of each 32 TPs, four rows of eight lanes: TP 4 * lane + row. */
+enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
+
 struct trax_fast_heads {
   _Alignas(64) uint8_t at[64]; /* the head's number in its burst */
-  uint16_t asks[64];           /* of the heads, once a cycle has begun */
-  uint32_t begin[64];          /* of the TP's steps in `steps`; of TPs that do not exist, TP 0's */
+  uint16_t asks[64];           /* of the heads */
   uint8_t last[64];            /* the last number of its burst */
+  uint32_t begin[64];          /* of the TP's steps in `steps`; of TPs that do not exist, TP 0's */
+  _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
+  uint32_t row_begin[TRAX_FAST_ROWS][8]; /* as begin */
+  uint32_t moves;                        /* of all TPs; `next` is filled in every fourth */
   const uint16_t *steps; /* of all TPs, what each step asks for; of a deferred head, once its operands are usable */
 };
 
-/* The TP's step `at` becomes its head. */
-static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
-  heads->at[tp] = (uint8_t)at;
-  heads->asks[tp] = heads->steps[heads->begin[tp] + at];
+static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned tp, uint32_t begin) {
+  heads->begin[tp] = begin;
+  heads->row_begin[tp / 32 * 4 + tp % 4][tp % 32 / 4] = begin;
 }
 
-/* With AVX-512 and few TPs, it is cheaper to look up what all heads ask for when a cycle begins than to do so where
-   they change. */
+/* The TP's step `at` becomes its head. */
+static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
+  const uint16_t *const step = heads->steps + heads->begin[tp] + at;
+  heads->at[tp] = (uint8_t)at;
+  heads->asks[tp] = *step;
 #ifdef __AVX512BW__
-enum { TRAX_FAST_LOOKED_UP = 32 }; /* TPs */
-#else
-enum { TRAX_FAST_LOOKED_UP = 0 };
+  memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
+#endif
+}
+
+#ifdef __AVX512BW__
+/* From the rows of 32 TPs, what their heads ask for: the lowest 16 bits of each lane. */
+static inline __m512i trax_fast_join_rows(const __m512i *row) {
+  __m512i asks = row[0];
+#pragma GCC unroll 3
+  for (unsigned i = 1; i < 4; i++) /* what is below stays */
+    asks = _mm512_ternarylogic_epi64(asks, _mm512_slli_epi64(row[i], 16 * i),
+                                     _mm512_set1_epi64(((long long)1 << 16 * i) - 1), 0xE4);
+  return asks;
+}
+
+/* Fills the lanes of all TPs from their heads on. */
+static __attribute__((noinline, unused)) void trax_fast_fill_rows(struct trax_fast_heads *heads, bool wide) {
+  for (unsigned half = 0; half < 1u + wide; half++) {
+    __m512i *const next = (__m512i *)heads->next[4 * half];
+    const __m256i *const begin = (const __m256i *)heads->row_begin[4 * half];
+    __m256i at = _mm256_load_si256((const __m256i *)heads->at + half);
+    for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8))
+      next[i] = _mm512_i32gather_epi64(_mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)), begin[i]),
+                                       heads->steps, sizeof *heads->steps);
+    _mm512_store_si512(heads->asks + 32 * half, trax_fast_join_rows(next));
+  }
+}
 #endif
 
-/* Each TP of `who` goes on to its next step. */
-static inline void trax_fast_move_on(struct trax_fast_heads *heads, unsigned tps, uint64_t who) {
+/* Each TP of `who` goes on to its next step. `wide`: there may be more than 32. */
+static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_fast_heads *heads, const bool wide,
+                                                                    uint64_t who) {
 #ifdef __AVX512BW__
-  if (tps <= TRAX_FAST_LOOKED_UP) {
-    const __m512i at = _mm512_load_si512(heads->at);
-    _mm512_store_si512(heads->at, _mm512_mask_add_epi8(at, who, at, _mm512_set1_epi8(1)));
+  const __m512i at = _mm512_load_si512(heads->at);
+  _mm512_store_si512(heads->at, _mm512_mask_add_epi8(at, who, at, _mm512_set1_epi8(1)));
+  if (++heads->moves % TRAX_FAST_NEXT == 0) {
+    trax_fast_fill_rows(heads, wide);
     return;
   }
-#endif
-  (void)tps;
+#pragma GCC unroll 2
+  for (unsigned half = 0; half < 1u + wide; half++) {
+    __m512i *const next = (__m512i *)heads->next[4 * half];
+    __m512i row[4];
+#pragma GCC unroll 4
+    for (unsigned i = 0; i < 4; i++) {
+      const __mmask8 moves = (__mmask8)_pext_u64(who, (uint64_t)0x11111111 << (32 * half + i));
+      next[i] = row[i] = _mm512_mask_srli_epi64(next[i], moves, next[i], 16);
+    }
+    _mm512_store_si512(heads->asks + 32 * half, trax_fast_join_rows(row));
+  }
+#else
+  (void)wide;
   for (; who; who &= who - 1) {
     const unsigned tp = (unsigned)__builtin_ctzll(who);
     trax_fast_set_head(heads, tp, heads->at[tp] + 1u);
   }
-}
-
-/* Begins a cycle: what the heads ask for is in heads->asks. */
-static inline void trax_fast_look_up_asks(struct trax_fast_heads *heads, unsigned tps) {
-#ifdef __AVX512BW__
-  if (tps > TRAX_FAST_LOOKED_UP)
-    return;
-  __m256i half[2];
-#pragma GCC unroll 2
-  for (unsigned i = 0; i < 2; i++) {
-    const __m512i at = _mm512_cvtepu8_epi32(_mm_load_si128((const __m128i *)heads->at + i));
-    const __m512i place = _mm512_add_epi32(at, _mm512_load_si512(heads->begin + 16 * i));
-    half[i] = _mm512_cvtepi32_epi16(_mm512_i32gather_epi32(place, heads->steps, 2));
-  }
-  _mm512_store_si512(heads->asks, _mm512_inserti64x4(_mm512_castsi256_si512(half[0]), half[1], 1));
-#else
-  (void)heads, (void)tps;
 #endif
 }
 
 /* Into plane[k], bit `first` + k of heads->asks, for all k < `count`: constants, and all bits in the same byte. */
-static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads, unsigned tps,
-                                                                      const unsigned first, const unsigned count,
-                                                                      uint64_t *plane) {
+static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads,
+                                                                      const bool wide, const unsigned first,
+                                                                      const unsigned count, uint64_t *plane) {
 #ifdef __AVX512BW__
-  for (unsigned i = 0; i == 0 || i < tps; i += 32) {
-    const __m512i asks = _mm512_load_si512(heads->asks + i);
+  const __m512i low = _mm512_load_si512(heads->asks), high = _mm512_load_si512(heads->asks + 32);
 #pragma GCC unroll 8
-    for (unsigned k = 0; k < count; k++) {
-      const uint64_t mask = _mm512_test_epi16_mask(asks, _mm512_set1_epi16((short)(1 << (first + k))));
-      plane[k] = i ? plane[k] | mask << 32 : mask;
-    }
+  for (unsigned k = 0; k < count; k++) {
+    const __m512i bit = _mm512_set1_epi16((short)(1 << (first + k)));
+    const __mmask32 of_low = _mm512_test_epi16_mask(low, bit);
+    plane[k] = wide ? _mm512_kunpackd(_mm512_test_epi16_mask(high, bit), of_low) : of_low;
   }
 #elif defined(__AVX2__)
-  for (unsigned i = 0; i == 0 || i < tps; i += 32) {
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
     __m256i half[2] = {*(const __m256i *)(heads->asks + i), *(const __m256i *)(heads->asks + i + 16)};
 #pragma GCC unroll 2
     for (unsigned j = 0; j < 2; j++)
@@ -108,7 +136,7 @@ static inline __attribute__((always_inline)) void trax_fast_transpose(const stru
     }
   }
 #elif defined(__SSE2__)
-  for (unsigned i = 0; i < tps; i += 16) {
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 16) {
     __m128i half[2] = {*(const __m128i *)(heads->asks + i), *(const __m128i *)(heads->asks + i + 8)};
     for (unsigned j = 0; j < 2; j++)
       half[j] = first < 8 ? _mm_and_si128(half[j], _mm_set1_epi16(0xFF)) : _mm_srli_epi16(half[j], 8);
@@ -122,7 +150,7 @@ static inline __attribute__((always_inline)) void trax_fast_transpose(const stru
 #else
   for (unsigned k = 0; k < count; k++)
     plane[k] = 0;
-  for (unsigned i = 0; i < tps; i++)
+  for (unsigned i = 0; i < 32u + 32 * wide; i++)
     for (unsigned k = 0; k < count; k++)
       plane[k] |= (uint64_t)(heads->asks[i] >> (first + k) & 1) << i;
 #endif

@@ -75,10 +75,11 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
     trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + bubble, TRAX_CAUSE_BRANCH);
 }
 
-/* The next steps of those that do nothing else: they become the heads. */
-static inline void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
-  trax_fast_move_on(&ftm->heads, ftm->tm->tps, quick);
-  ftm->tm->holding &= ~quick;
+static void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
+  if (ftm->wide)
+    trax_fast_issue_quickly(ftm, true, quick);
+  else
+    trax_fast_issue_quickly(ftm, false, quick);
 }
 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t) {

@@ -40,7 +40,11 @@ typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(4 * TRAX_FAST_PAIR
 typedef uint32_t trax_fast_pairs __attribute__((vector_size(4 * TRAX_FAST_PAIRS), may_alias));
 
 struct trax_fast_banks16 {
-  _Alignas(64) uint16_t turn[2][16][2]; /* [pair][bank][cache of the pair]: those behind the latest winner */
+  /* [pair][bank][cache of the pair], or [bank][cache]: those behind the latest winner */
+  union {
+    _Alignas(64) uint16_t turn[2][16][2];
+    uint16_t of_four[16][4];
+  };
 };
 
 static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
@@ -90,6 +94,45 @@ static inline uint32_t trax_fast_lose_pair(struct trax_fast_banks16 *banks, unsi
     lost |= asking ^ (trax_fast_pairs)winners;
   }
   return trax_fast_any_pair(&lost);
+}
+
+#ifdef __AVX512BW__
+/* The same for four caches, whose turns are in banks->of_four. */
+static inline uint64_t trax_fast_lose_four(struct trax_fast_banks16 *banks, uint64_t askers, const uint64_t *plane) {
+  typedef uint16_t turns __attribute__((vector_size(64), may_alias));
+  __m512i asking = _mm512_set1_epi64((long long)askers);
+#pragma GCC unroll 3
+  for (unsigned k = 0; k < 3; k++) { /* lane i: banks i and i + 8 */
+    static const _Alignas(64) uint64_t zero[3][8] = {{~0ull, 0, ~0ull, 0, ~0ull, 0, ~0ull, 0},
+                                                     {~0ull, ~0ull, 0, 0, ~0ull, ~0ull, 0, 0},
+                                                     {~0ull, ~0ull, ~0ull, ~0ull}};
+    asking = _mm512_ternarylogic_epi64(asking, _mm512_set1_epi64((long long)plane[k]), _mm512_load_si512(zero[k]),
+                                       0x60); /* asking & (plane ^ zero) */
+  }
+  const __m512i upper = _mm512_set1_epi64((long long)plane[3]);
+  const __m512i half[2] = {_mm512_andnot_si512(upper, asking), _mm512_and_si512(upper, asking)};
+  __m512i lost = _mm512_setzero_si512();
+#pragma GCC unroll 2
+  for (unsigned i = 0; i < 2; i++) {
+    turns winners;
+    TRAX_FAST_ARBITRATE(turns, (turns *)banks->of_four[8 * i], (turns)half[i], &winners);
+    lost = _mm512_ternarylogic_epi64(lost, half[i], (__m512i)winners, 0xF6); /* lost | (half ^ winners) */
+  }
+  const __m256i four = _mm256_or_si256(_mm512_castsi512_si256(lost), _mm512_extracti64x4_epi64(lost, 1));
+  const __m128i two = _mm_or_si128(_mm256_castsi256_si128(four), _mm256_extracti128_si256(four, 1));
+  return (uint64_t)_mm_cvtsi128_si64(_mm_or_si128(two, _mm_unpackhi_epi64(two, two)));
+}
+#endif
+
+/* Where the turn of a cache's bank is, of TPs of which there may be more than 32. */
+static inline uint16_t *trax_fast_fetch_turn(struct trax_fast_banks16 *banks, const bool wide, unsigned icache,
+                                             unsigned bank) {
+#ifdef __AVX512BW__
+  if (wide)
+    return &banks->of_four[bank][icache];
+#endif
+  (void)wide;
+  return &banks->turn[icache / 2][bank][icache % 2];
 }
 
 /* The TPs that were refused something in a cycle, by what it was. */
@@ -155,7 +198,8 @@ static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *u
 }
 
 /* The winner of each group, in the manner of trax_fast_first_after for all groups at once. */
-static inline trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units, trax_fast_pair askers) {
+static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units,
+                                                                                  trax_fast_pair askers) {
   if (!units->even)
     return (trax_fast_pair){trax_fast_grant_unevenly(units, 0, askers[0]),
                             trax_fast_grant_unevenly(units, 1, askers[1])};

@@ -15,15 +15,15 @@ static uint64_t behind_of(trax_arbiter pointer) {
   return pointer ? ~(uint64_t)0 << pointer : 0;
 }
 
-static uint64_t get_fetch_turn(const struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
+static uint64_t get_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
   if (ftm->simple_fetch)
-    return (uint64_t)ftm->behind16.turn[icache / 2][bank][icache % 2] << 16 * icache;
+    return (uint64_t)*trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) << 16 * icache;
   return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
 }
 
 static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
   if (ftm->simple_fetch)
-    ftm->behind16.turn[icache / 2][bank][icache % 2] = (uint16_t)(behind >> 16 * icache);
+    *trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) = (uint16_t)(behind >> 16 * icache);
   else
     ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
 }
