@@ -31,7 +31,7 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
                                      .interrupt = interrupt,
                                      .smooth = options->frame.smooth,
                                      .compute_normals = options->compute_normals};
-  trax_node_layout_choose(options->nodes ? options->nodes : "auto", &build);
+  trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
   struct trax_mesh mesh = {0};
   struct trax_import_report report;
   trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);

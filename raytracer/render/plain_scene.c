@@ -5,6 +5,7 @@
 #include "host/host.h"
 #include "host/image.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +14,12 @@ struct walk {
   const struct trax_scene *scene;
   uint32_t used;
 };
+
+/* The greatest float that is not above it: planes of quantised boxes need not be floats. */
+static float not_above(double value) {
+  const float rounded = (float)value;
+  return rounded > value ? nextafterf(rounded, -INFINITY) : rounded;
+}
 
 /* Recursion is as deep as the tree: TRAX_SCENE_MAX_DEPTH. */
 static void place(struct walk *walk, uint32_t number, trax_scene_ref reference) {
@@ -24,15 +31,19 @@ static void place(struct walk *walk, uint32_t number, trax_scene_ref reference) 
     node->first = (offset - triangles) / (uint32_t)sizeof(struct trax_triangle);
     return;
   }
-  const struct trax_bvh_node *source = (const struct trax_bvh_node *)((const char *)walk->scene->bytes + offset);
+  const struct trax_scene_section *section = &walk->scene->header->sections[TRAX_SCENE_NODES];
+  struct trax_node_children source;
+  trax_node_read(&source, walk->scene, (offset - section->offset) / section->record_size);
   const uint32_t first = walk->used;
   walk->used += 2;
   node->count = -1;
   node->first = first;
   for (uint32_t child = 0; child < 2; child++) {
-    memcpy(walk->nodes[first + child].min, source->box[child].min, sizeof source->box[child].min);
-    memcpy(walk->nodes[first + child].max, source->box[child].max, sizeof source->box[child].max);
-    place(walk, first + child, source->child[child]);
+    for (int axis = 0; axis < 3; axis++) {
+      walk->nodes[first + child].min[axis] = not_above(source.min[child][axis]);
+      walk->nodes[first + child].max[axis] = -not_above(-source.max[child][axis]);
+    }
+    place(walk, first + child, source.child[child]);
   }
 }
 

@@ -37,6 +37,8 @@ for option in --smooth --no-shadows '--samples 4'; do
   "$bin/trax-render" "$source/box.obj" --program "$era" --size 8x8 --config 1x32 $option -q -o wrong.png 2>error && fail "$option: no error"
   grep -q "paper's workload only" error || fail "$option: $(cat error)"
 done
+# Boxes on a grid are a little larger, and hide nothing.
+picture "$source/box.obj" --view "$source/box.view" --size 64x36 --nodes quantised
 # A scene of one triangle has a leaf for its root.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
 picture one.obj --size 32x32
