@@ -90,6 +90,9 @@ refuse 'of its own, and nothing else' -o x --stats s.json
 refuse 'nowhere/near/x' -o nowhere/near/x
 refuse '/dev/null' -o /dev/null
 refuse 'no.such' -o out --set no.such=1
+sed 's/^light.*/lights = ( { type = "directional"; direction = [0.0, -1.0, -0.3]; } );/' "$source/box.view" >lights.view
+refuse 'this picture needs lights' -o out --view lights.view
+refuse 'this picture needs paths' -o out --paths 3
 
 [ $failures -eq 0 ] && echo "as expected"
 exit $((failures > 0))
