@@ -58,8 +58,3 @@ for (const title of document.querySelectorAll("figure svg title")) {
   mark.addEventListener("focus", event => tell(mark, event));
   for (const leaving of ["pointerleave", "blur"]) mark.addEventListener(leaving, () => { tip.hidden = true; });
 }
-
-// What is printed is whole.
-let opened = [];
-addEventListener("beforeprint", () => { opened = [...document.querySelectorAll("section.sweep details:not([open])")]; for (const one of opened) one.open = true; });
-addEventListener("afterprint", () => { for (const one of opened) one.open = false; });
