@@ -2,6 +2,7 @@
 
 A folder of results has
   inputs/HASH/    what programs read: program.elf, scene.trax, ..., as trax-render --prepare writes it; HASH is of these bytes
+  inputs/bytes/   the same files by the hash of their bytes, as hard links
   jobs/KEY.json   a run to be made; KEY is the hash of this
   runs/KEY.json   its result, which is the same in every byte whenever and wherever the job is run
   runs/KEY.host.json   what the run took on the host, which is not
@@ -58,8 +59,10 @@ def prepare_inputs(out, tools, scene, view, size, program):
         }
         place = out / "inputs" / hash_value(description)
         if not place.exists():
-            place.parent.mkdir(parents=True, exist_ok=True)
+            (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
             os.chmod(scratch, 0o755)
+            for _, file, content in description["buffers"]:
+                share(pathlib.Path(scratch, file), place.parent / "bytes" / content)
             try:
                 os.rename(scratch, place)
             except OSError:
@@ -68,6 +71,19 @@ def prepare_inputs(out, tools, scene, view, size, program):
         return description
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def share(path, content):
+    """Pictures of several sizes have the same scene: it takes its place once, if the file system has hard links."""
+    try:
+        if content.exists():
+            beside = path.with_name(path.name + ".link")
+            os.link(content, beside)
+            os.replace(beside, path)
+        else:
+            os.link(path, content)
+    except OSError:
+        pass
 
 
 # --- jobs
