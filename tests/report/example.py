@@ -28,6 +28,7 @@ def run(program, scene, chip, changes=None, mode="exact", experiments=("table2",
     key = f"{program}-{scene}-{chip}-{mode}-{len(changes)}{''.join(str(v) for v in changes.values())}"
     record = {
         "key": key, "experiments": list(experiments), "scene": scene, "view": scene, "size": [1280, 720], "program": program, "config": chip, "set": changes,
+        "machine": {**({"fpu.compare_units": True} if program == "era" else {}), **changes},
         "mode": mode, "status": "done", "command": f"trax-render {scene}.ply --config {chip} -o picture.png", "json": f"runs/{key}.json", "csv": None,
         "picture": f"pictures/{scene}.png", "host_seconds": host,
         "stats": {
@@ -59,10 +60,11 @@ def complete():
     runs += [run("ours", scene, "4x32", mode="sampled", host=3.0, value=mrps("ours", scene, "4x32") * (1.01 if scene != "dragon" else 1.05)) for scene in SCENES]
     runs += [run("ours", scene, "4x32", {"fpu.tps_per_cluster": n}, experiments=("fpu-sharing",), value=mrps("ours", scene, "4x32") / (1 + n / 32))
              for scene in ("conference", "dragon") for n in (1, 2, 4, 8, 16)]
+    runs.append(run("era", "conference", "4x32", {"fpu.compare_units": False}, experiments=("compare-units",)))
     sweeps = [{"name": "table2", "title": "Table 2", "x": "threads", "y": "mrps"},
               {"name": "fpu-sharing", "title": "TPs that share an FPU", "x": "fpu.tps_per_cluster", "y": "mrps", "claim": "Eight are sufficient.", "file": "sweeps/fpu.json"},
               {"name": "fpu-density", "title": "The same for each mm²", "x": "fpu.tps_per_cluster", "y": "mrps", "y_per": "area_mm2"}]
-    for record in runs[-5:]:
+    for record in runs[-6:-1]:
         record["experiments"].append("fpu-density")
     rows = [[10_000 * (n + 1), 0.4 / (1 + n) + 0.05, 0.3 + 0.002 * n] for n in range(100)]
     series = [{"name": "staggering", "title": "Instruction-bank conflicts over time", "run": "era-conference-4x32-exact-0",
@@ -96,6 +98,7 @@ def hostile():
     stats = runs[1]["stats"]
     stats.update(mrps=float("nan"), gflops=float("inf"), cycles=10 ** 400, seconds=-float("inf"), rays="many", flops=True, memory=[])
     stats["configuration"] = {HOSTILE: HOSTILE, "list": [1, HOSTILE]}
+    runs[1]["machine"] = {HOSTILE: HOSTILE}
     runs[1]["host_seconds"] = float("nan")
     made = document(runs, [{"name": HOSTILE, "title": HOSTILE, "x": HOSTILE, "y": HOSTILE, "claim": HOSTILE}],
                     [{"name": HOSTILE, "title": HOSTILE, "run": HOSTILE, "columns": ["cycle", HOSTILE], "rows": [[1, float("nan")], [2, 0.5], [3, None], [4, 0.25], "x"]}])

@@ -123,6 +123,7 @@ class ReportTest(unittest.TestCase):
                     self.assertAlmostEqual(float(shown[1]), value, delta=0.006 * value)
                     self.assertEqual(int(shown[2].replace("−", "-")), round(100 * (value / wanted - 1)))
                 self.assertAlmostEqual(float(row[11][1]), sum(ours) / 4)
+        self.assertEqual(self.text.count("chips are the paper&#x27;s, with fpu.compare_units = true."), 2)  # era's, in the summary and with its table
 
     def test_tables_1_and_3(self):
         page = self.make(example.complete())

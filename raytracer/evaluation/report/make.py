@@ -45,6 +45,9 @@ def summary(results, paper, judged):
         if deviations:
             middle = median(deviations)
             text.append(f"in the middle of {len(deviations)} cells of Table 2 it has {100 * abs(middle):.0f} % {'more' if middle >= 0 else 'fewer'} rays per second than the paper. ")
+        own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
+        if own:
+            text.append(f"Its chips are the paper's, with {own}. ")
         text.append(f"Agrees with the paper in {len(said)}, differs in {len(not_said)} of {len(judged)} claims; "
                     f"not known: {len(judged) - len(said) - len(not_said)}.")
         items.append(el("p", *text))

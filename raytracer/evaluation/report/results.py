@@ -66,7 +66,7 @@ class Run:
         self.program, self.config, self.mode = text("program"), text("config"), text("mode", "exact")
         self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
         self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
-        self.set, self.stats, self.values = table("set"), table("stats"), table("values")
+        self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table("machine")
         self.host_seconds = number(record.get("host_seconds"))
         size = record.get("size")
         self.size = tuple(size) if isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size) else None
@@ -172,6 +172,16 @@ class Results:
         """Those that have runs, the era's first."""
         present = {run.program for run in self.runs}
         return [name for name in PROGRAMS if name in present] + sorted(present - set(PROGRAMS) - {""})
+
+    def machine(self, program):
+        """What all machines of a program have besides their chip and what was set for single runs: (key, value)."""
+        seen = {}  # by key, the values of the runs that do not set it
+        runs = [run for run in self.runs if run.program == program and run.done]
+        for run in runs:
+            for key in {key for other in runs for key in other.machine} - set(run.set):
+                value = run.machine.get(key)
+                seen.setdefault(key, set()).add(str(value).lower() if isinstance(value, bool) else None if value is None else str(value))
+        return sorted((key, *values) for key, values in seen.items() if len(values) == 1 and None not in values)
 
     def scenes(self):
         present = {run.scene for run in self.runs}

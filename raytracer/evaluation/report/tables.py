@@ -85,7 +85,8 @@ def table2(results, paper, program):
         row += [paper_cell(paper.table2[chip].get("average_mrps")), compared(average, paper.table2[chip].get("average_mrps"))]
         rows.append(row)
     times = [run.host_seconds for chip in paper.chips for scene in SCENES.values() if (run := results.cell(program, scene, chip)) and run.host_seconds]
-    note = "Million rays per second. The fairy scene is not to be had; the generated forest stands in for it."
+    own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
+    note = (f"The chips are the paper's, with {own}. " if own else "") + "Million rays per second. The fairy scene is not to be had; the generated forest stands in for it."
     if times:
         note += f" The cells took {seconds(sum(times))} of the host together."
     return table(f"table2-{program}", f"Table 2, program “{program}”: million rays per second", head, rows, note=note)
