@@ -55,9 +55,14 @@ class Parser(argparse.ArgumentParser):
         raise Problem(f"{message} (trax-eval --help lists the options)")
 
 
+def experiments(data):
+    """The sweep files that come with trax, the paper's tables first."""
+    return sorted((data / "sweeps").glob("*.json"), key=lambda path: (not path.stem.startswith("table"), path.stem))
+
+
 def help_text(data):
     lines = []
-    for path in sorted((data / "sweeps").glob("*.json")):
+    for path in experiments(data):
         sweep = read_sweep(path)
         lines.append(f"  {sweep.name:21} {sweep.title} ({len(sweep.points)} runs)")
     return HELP % ("Experiments:\n" + "\n".join(lines) + "\n")
@@ -93,7 +98,7 @@ def parse(arguments):
 
 def choose(options, data):
     """The sweep files and the folder of scenes that the words name."""
-    known = {path.stem: path for path in sorted((data / "sweeps").glob("*.json"))}
+    known = {path.stem: path for path in experiments(data)}
     files, folder = list(known.values()) if options.all else [], None
     for word in options.words:
         if word in known and not options.all:
