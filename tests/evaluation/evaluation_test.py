@@ -105,6 +105,16 @@ def test_sweep(evaluation, scratch):
     run = evaluation.run(SMALL, "dry", "--dry-run", "--size", "41x24")
     check(f"{RUNS} of {RUNS} runs are missing" in run.stdout, f"--dry-run: {run.stdout}")
 
+    # Estimates have an interval; what needs every cycle stays exact. Pixels in lockstep: one thread wastes nothing.
+    run = evaluation.run(dict(SMALL, series=0, set={}, size="64x36"), "sampled", "--mode", "sampled")
+    check(run.returncode == 0, f"--mode sampled: {run.stderr}")
+    for one in evaluation.results("sampled")["runs"]:
+        check(one["mode"] == "sampled" and one["values"]["mrps_low"] < one["stats"]["mrps"] < one["values"]["mrps_high"], "an interval")
+    run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "sampled")
+    for one in evaluation.results("lockstep")["runs"]:
+        check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")
+        check(1 / 32 <= one["values"]["simd_utilisation.32"] <= one["values"]["simd_bound.32"] < 1, "warps of 32")
+
     # Damage is noticed, and a run that fails says why.
     victim = scratch / "undisturbed/jobs" / f"{runs[0]['key']}.json"
     job = json.loads(victim.read_text())
@@ -139,6 +149,7 @@ REFUSED = [
     ('{"name": "x", "size": "0x10"}', "size: expected"),
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "sampled"'),
     ('{"name": "x", "series": -1}', "series: expected"),
+    ('{"name": "x", "mode": "sampled", "series": 100}', 'mode: series and lockstep need "exact"'),
     ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),
     ('{"name": "../x"}', "name: expected letters"),
     ('{"chips": "4x32"}', "name: expected letters"),

@@ -161,6 +161,10 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     lockstep = value.get("lockstep", False)
     if type(lockstep) is not bool:
         reader.fail("lockstep", f"expected true or false, is {canonical(lockstep)}")
+    if series or lockstep:  # every cycle is needed
+        if "mode" in value and chosen_mode != "exact" and not mode:
+            reader.fail("mode", 'series and lockstep need "exact"')
+        chosen_mode = "exact"
     scenes = reader.scenes()
     chips = reader.strings("chips", "4x32", None)
     chips = CHIPS if chips == ["paper"] else chips
