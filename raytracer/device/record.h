@@ -11,7 +11,7 @@
 #include "triangle.h"
 
 extern struct trax_buffer record;
-_Thread_local struct trax_pixel_record record_channels; /* of the thread's last pixel_of */
+static _Thread_local struct trax_pixel_record record_channels; /* of the thread's last pixel_of */
 
 static inline uint32_t record_index(const struct trax_render_params *run, struct pixel pixel) {
   return pixel_y(pixel) * run->width + pixel_x(pixel);

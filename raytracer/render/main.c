@@ -2,6 +2,7 @@
 #include "bench_accuracy.h"
 #include "core/machine.h"
 #include "emulated.h"
+#include "hits.h"
 #include "host/util.h"
 #include "inputs.h"
 #include "options.h"
@@ -48,7 +49,58 @@ static trax_status run_on_host(struct trax_picture *picture, bool reference, uns
   return status;
 }
 
-/* *agrees: both comparisons came out well. */
+/* What the rays hit, by the native twin or by Embree. */
+static trax_status find_hits(struct trax_hits *hits, bool embree, unsigned threads, const struct trax_frame *frame,
+                             struct progress *progress, trax_error *error) {
+  struct step step = {progress, embree ? "Embree's hits" : "hits"};
+  struct trax_render_run run = {
+      .progress = show_step, .progress_context = &step, .interrupt = (const volatile int *)&interrupted};
+  trax_status status =
+      embree ? trax_hits_embree(hits, frame, &run, error) : trax_hits_native(hits, frame, threads, &run, error);
+  progress_clear(progress);
+  return status;
+}
+
+static trax_status compare_hits(const struct trax_frame *frame, struct progress *progress, bool *agrees,
+                                trax_error *error) {
+  struct trax_hits device = {0}, embree = {0};
+  struct trax_hits_difference difference;
+  trax_status status = find_hits(&device, false, 0, frame, progress, error);
+  if (status == TRAX_OK)
+    status = find_hits(&embree, true, 0, frame, progress, error);
+  if (status == TRAX_OK) {
+    trax_hits_compare(&difference, &device, &embree, frame);
+    printf("hits        %llu of %llu pixels hit the triangle that Embree hits, %llu another within the error bound, "
+           "%llu beyond it",
+           (unsigned long long)difference.same, (unsigned long long)difference.pixels,
+           (unsigned long long)difference.tied, (unsigned long long)difference.unexplained);
+    if (difference.unexplained)
+      printf(": (%u, %u)", difference.x, difference.y);
+    putchar('\n');
+    *agrees = *agrees && difference.unexplained == 0;
+  }
+  trax_hits_release(&device);
+  trax_hits_release(&embree);
+  return status;
+}
+
+static trax_status write_hits(const struct options *options, const struct trax_frame *frame, struct progress *progress,
+                              trax_error *error) {
+  struct trax_hits hits = {0};
+  struct trax_picture picture = {0};
+  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE, options->threads, frame, progress, error);
+  if (status == TRAX_OK)
+    status = trax_hits_picture(&picture, &hits, frame, error);
+  if (status == TRAX_OK)
+    status = trax_picture_write(&picture, options->id_picture, error);
+  if (status == TRAX_OK && !options->quiet)
+    printf("triangles   %s\n", options->id_picture);
+  trax_picture_release(&picture);
+  trax_hits_release(&hits);
+  return status;
+}
+
+/* *agrees: all comparisons came out well. */
 static trax_status compare(const struct trax_picture *picture, const struct trax_frame *frame,
                            struct progress *progress, bool *agrees, trax_error *error) {
   struct trax_picture other = {0};
@@ -84,12 +136,17 @@ static trax_status compare(const struct trax_picture *picture, const struct trax
     printf("twin        %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
            (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
   *agrees = *agrees && difference.unequal == 0;
-  return TRAX_OK;
+  /* The error bound is the watertight test's. */
+  return frame->method.triangle == TRAX_TRIANGLE_WATERTIGHT ? compare_hits(frame, progress, agrees, error) : TRAX_OK;
 }
 
 static trax_status check_outputs(const struct options *options, trax_error *error) {
-  const char *const paths[] = {options->frames > 1 || options->bench_accuracy ? NULL : options->output, options->stats,
-                               options->cost_picture, options->cost_values, options->write_view};
+  const char *const paths[] = {options->frames > 1 || options->bench_accuracy ? NULL : options->output,
+                               options->stats,
+                               options->cost_picture,
+                               options->cost_values,
+                               options->write_view,
+                               options->id_picture};
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < sizeof paths / sizeof *paths && status == TRAX_OK; i++)
     if (paths[i])
@@ -130,6 +187,8 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)
     print_outputs(options, output);
+  if (status == TRAX_OK && options->id_picture)
+    status = write_hits(options, &frame, progress, error);
   if (status == TRAX_OK && options->compare) {
     bool same = true;
     status = compare(&picture, &frame, progress, &same, error);

@@ -26,6 +26,8 @@ static const char usage[] =
     "                          scene, and raises it by E degrees\n"
     "      --frames N          a turntable: N pictures of a whole turn, PICTURE-0001.png and so on\n"
     "      --write-view FILE   writes the view as a file\n"
+    "      --id-picture FILE.png  which triangle each pixel shows: its number in the meshes, from 1, as\n"
+    "                          R + 256 G + 65536 B; found natively, with --engine embree by Embree\n"
     "      --samples N         rays from the eye through every pixel, 1 to 4096 (default 1)\n"
     "      --material [NAME=]KIND  of the meshes: lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or\n"
     "                          emit:R,G,B, for the material NAME or for all (repeatable)\n"
@@ -88,6 +90,7 @@ enum {
   OPT_ORBIT,
   OPT_FRAMES,
   OPT_WRITE_VIEW,
+  OPT_ID_PICTURE,
   OPT_SAMPLES,
   OPT_MATERIAL,
   OPT_DIFFUSE,
@@ -136,6 +139,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"orbit", required_argument, NULL, OPT_ORBIT},
                                              {"frames", required_argument, NULL, OPT_FRAMES},
                                              {"write-view", required_argument, NULL, OPT_WRITE_VIEW},
+                                             {"id-picture", required_argument, NULL, OPT_ID_PICTURE},
                                              {"samples", required_argument, NULL, OPT_SAMPLES},
                                              {"material", required_argument, NULL, OPT_MATERIAL},
                                              {"diffuse", required_argument, NULL, OPT_DIFFUSE},
@@ -316,14 +320,17 @@ static trax_status take_camera_option(struct options *options, int which, const 
     if (!parse_number(&value, 9999, &options->frames) || *value != '\0' || options->frames == 0)
       return trax_fail(error, "--frames: expected a number from 1 to 9999");
     return TRAX_OK;
-  default: /* OPT_WRITE_VIEW */
+  case OPT_WRITE_VIEW:
     options->write_view = value;
+    return TRAX_OK;
+  default: /* OPT_ID_PICTURE */
+    options->id_picture = value;
     return TRAX_OK;
   }
 }
 
 static trax_status take_option(struct options *options, int which, const char *value, trax_error *error) {
-  if (which >= OPT_EYE && which <= OPT_WRITE_VIEW)
+  if (which >= OPT_EYE && which <= OPT_ID_PICTURE)
     return take_camera_option(options, which, value, error);
   switch (which) {
   case 'o':
@@ -525,8 +532,9 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --report are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
-  if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
-                              options->report || options->compare || trax_explain_wanted(&options->explain)))
+  if (options->frames > 1 &&
+      (options->stats || options->keep || options->cost_picture || options->cost_values || options->report ||
+       options->compare || options->id_picture || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->frame.seed && !options->frame.paths)
     return trax_fail(error, "--seed is for --paths: nothing else is random");

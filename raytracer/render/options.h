@@ -32,6 +32,7 @@ struct options {
   struct camera_options camera;
   unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */
+  const char *id_picture; /* the same */
   const char *stats, *keep, *program;
   const char *cache; /* of specialised programs; NULL: the user's */
   const char *cost;  /* what --cost-picture and --cost-values show */

@@ -122,6 +122,15 @@ static void reference_pixel(struct reference *reference, uint32_t x, uint32_t y,
   const bool path = params->features & TRAX_PATH_FEATURES;
   struct trax_exact_sample seen;
   struct double3 sum = {0, 0, 0};
+  if (reference->hits) {
+    const struct vector camera = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
+    struct exact_hit hit;
+    const bool found =
+        reference_hit(reference, from(params->eye), (struct double3){camera.x, camera.y, camera.z}, &hit);
+    reference->hits->triangles[index] = found ? hit.triangle : TRAX_NO_TRIANGLE;
+    ++*rays;
+    return;
+  }
   for (uint32_t sample = 0; sample < params->samples; sample++) {
     const struct double3 light = path ? reference_path(reference, pixel_at(x, y), sample, &seen, rays)
                                       : trace_sample(reference, pixel_at(x, y), sample_place(sample), &seen, rays);
@@ -239,6 +248,20 @@ trax_status trax_render_reference(struct trax_picture *picture, const struct tra
   status = run_reference(&reference, error);
   if (status != TRAX_OK)
     trax_picture_release(picture);
+  return status;
+}
+
+trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
+                             trax_error *error) {
+  const struct trax_render_params *params = frame->params;
+  *hits = (struct trax_hits){.width = params->width, .height = params->height};
+  hits->triangles = malloc((size_t)params->width * params->height * sizeof *hits->triangles);
+  struct reference reference = {.frame = frame, .hits = hits, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  const trax_status status =
+      hits->triangles ? run_reference(&reference, error)
+                      : trax_fail(error, "out of memory for what %u x %u pixels hit", params->width, params->height);
+  if (status != TRAX_OK)
+    trax_hits_release(hits);
   return status;
 }
 

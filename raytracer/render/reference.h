@@ -3,6 +3,7 @@
 #define TRAX_RENDER_REFERENCE_H
 
 #include "exact.h"
+#include "hits.h"
 #include "render.h"
 
 #include "../device/camera.h"
@@ -12,8 +13,9 @@
 struct reference {
   RTCScene scene;
   const struct trax_frame *frame;
-  struct trax_picture *picture; /* to fill, or else the next one */
+  struct trax_picture *picture; /* to fill, or else one of the next two */
   struct trax_exact *exact;     /* whose hits are found in binary64 */
+  struct trax_hits *hits;       /* of one ray a pixel, and nothing is shaded */
   struct trax_render_run *run;
   pthread_mutex_t lock; /* of what follows */
   uint32_t next_row, finished_rows;

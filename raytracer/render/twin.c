@@ -1,6 +1,7 @@
 /* The native twin: the device program's main, compiled for the host under another name for each triangle test, run by
    host threads. */
 #include "core/machine.h"
+#include "hits.h"
 #include "render.h"
 
 #include <pthread.h>
@@ -12,10 +13,11 @@
 #include <unistd.h>
 
 /* The program's own (raytracer/device/main.c), the variables common to all. */
-extern struct trax_buffer scene, params, image, paths;
+extern struct trax_buffer scene, params, image, paths, record;
 extern unsigned next_slot;
 int trax_twin_watertight(void);
 int trax_twin_moller_trumbore(void);
+int trax_twin_recording(void);
 
 static int (*const mains[TRAX_TRIANGLE_METHODS])(void) = {trax_twin_watertight, trax_twin_moller_trumbore};
 
@@ -68,8 +70,8 @@ static bool wait_for_crew(struct crew *crew, uint32_t slot_count, const struct t
   return interrupted;
 }
 
-trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
-                             struct trax_render_run *run, trax_error *error) {
+static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), const struct trax_frame *frame,
+                            unsigned threads, struct trax_render_run *run, trax_error *error) {
   if (threads == 0) {
     long online = sysconf(_SC_NPROCESSORS_ONLN);
     threads = online > 0 ? (unsigned)online : 1;
@@ -89,10 +91,8 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   paths = (struct trax_buffer){path_bytes, threads * TRAX_PATH_BYTES};
   next_slot = 0;
 
-  struct crew crew = {.lock = PTHREAD_MUTEX_INITIALIZER,
-                      .changed = PTHREAD_COND_INITIALIZER,
-                      .main = mains[frame->method.triangle],
-                      .running = threads};
+  struct crew crew = {
+      .lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER, .main = twin, .running = threads};
   unsigned started = 0;
   int failure = 0;
   for (; started < threads; started++) {
@@ -116,5 +116,46 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   if (status == TRAX_OK)
     status = trax_picture_take(picture, frame, pixels, error);
   free(pixels);
+  return status;
+}
+
+trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
+                             struct trax_render_run *run, trax_error *error) {
+  return run_twin(picture, mains[frame->method.triangle], frame, threads, run, error);
+}
+
+trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
+                             struct trax_render_run *run, trax_error *error) {
+  const size_t pixels = (size_t)frame->params->width * frame->params->height;
+  const size_t record_bytes = pixels * (sizeof(struct trax_pixel_record) + sizeof(struct trax_sample_record));
+  const uint32_t triangles_at = frame->scene->header->sections[TRAX_SCENE_TRIANGLES].offset;
+  struct trax_frame plain = *frame;
+  struct trax_picture picture = {0};
+  *hits = (struct trax_hits){.width = frame->params->width, .height = frame->params->height};
+  hits->triangles = malloc(pixels * sizeof *hits->triangles);
+  plain.params = malloc(frame->params_size);
+  record = (struct trax_buffer){calloc(1, record_bytes), (unsigned)record_bytes};
+  trax_status status = TRAX_OK;
+  if (!hits->triangles || !plain.params || !record.data || record_bytes > UINT32_MAX)
+    status = trax_fail(error, "out of memory for what %zu pixels hit", pixels);
+  else {
+    /* One ray a pixel and no shading that matters. */
+    memcpy(plain.params, frame->params, frame->params_size);
+    plain.params->features = 0;
+    plain.params->samples = 1;
+    status = run_twin(&picture, trax_twin_recording, &plain, threads, run, error);
+  }
+  const struct trax_pixel_record *channels = record.data;
+  const struct trax_sample_record *samples = (const struct trax_sample_record *)(channels + pixels);
+  for (size_t i = 0; status == TRAX_OK && i < pixels; i++)
+    hits->triangles[i] = samples[i].triangle
+                             ? (samples[i].triangle - triangles_at) / (uint32_t)sizeof(struct trax_triangle)
+                             : TRAX_NO_TRIANGLE;
+  trax_picture_release(&picture);
+  free(plain.params);
+  free(record.data);
+  record = (struct trax_buffer){0};
+  if (status != TRAX_OK)
+    trax_hits_release(hits);
   return status;
 }

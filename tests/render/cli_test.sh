@@ -223,6 +223,14 @@ printf 'PF\n99999 99999\n-1.0\n' >vast.pfm
 refuse 'vast.pfm: a picture of 99999 x 99999' "$compare" vast.pfm pixels.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.exr $native
 
+# Which triangle a pixel shows: the same by the twin and by Embree in nearly all of a small picture.
+accept "$render" "$box" -o h.png $native --size 32x24 --id-picture ids.png --compare
+grep -q '^hits        7[0-9][0-9] of 768 pixels hit the triangle that Embree hits, [0-9]* another .* 0 beyond it$' "$out" ||
+  fail "no line about hits: $(cat "$out")"
+accept "$render" "$box" -o h.png --engine embree --view "$source/box.view" --size 32x24 --id-picture ids-embree.png
+accept "$compare" ids.png ids-embree.png --at-least 98
+"$compare" -q ids.png a.png && fail "triangles look like the picture"
+
 # --- comparison
 refuse 'two pictures' "$compare" a.png
 refuse 'missing.png' "$compare" a.png missing.png

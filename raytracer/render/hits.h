@@ -1,0 +1,40 @@
+/* Which triangle the ray through the middle of each pixel hits: by the device program and by Embree. */
+#ifndef TRAX_RENDER_HITS_H
+#define TRAX_RENDER_HITS_H
+
+#include "render.h"
+
+struct trax_hits {
+  uint32_t width, height;
+  uint32_t *triangles; /* numbers in the scene file, TRAX_NO_TRIANGLE: none; row by row from the top left */
+};
+
+/* By the device program compiled for the host, which tells what it hits (trax/record.h); twin.c. Holes are not looked
+   at. */
+trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
+                             struct trax_render_run *run, trax_error *error);
+/* By Embree 3 in robust mode; reference.c. */
+trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
+                             trax_error *error);
+void trax_hits_release(struct trax_hits *hits);
+
+struct trax_hits_difference {
+  uint64_t pixels, same;
+  uint64_t tied;        /* another triangle, or none, and rounding explains either answer */
+  uint64_t unexplained; /* the other pixels */
+  uint32_t x, y;        /* the first of those */
+};
+
+/* Rounding explains two answers if either may be found by a watertight test that sees every coordinate of a vertex
+   across the ray off by 14 units of 2^-24 of its distance, as frame.c adds them up: the ray passes through the triangle
+   or within that error of an edge, and no triangle of the other answer must be found nearer. Triangles with the same
+   number in the mesh are the same. */
+void trax_hits_compare(struct trax_hits_difference *difference, const struct trax_hits *a, const struct trax_hits *b,
+                       const struct trax_frame *frame);
+
+/* A picture of numbers: R + 256 G + 65536 B is the triangle's number among those that were imported, plus 1; 0: none.
+ */
+trax_status trax_hits_picture(struct trax_picture *picture, const struct trax_hits *hits,
+                              const struct trax_frame *frame, trax_error *error);
+
+#endif

@@ -1,0 +1,140 @@
+/* What rays hit: the device program natively against Embree, on scenes where many pixels have two right answers; and
+   that a wrong answer is told from those. */
+#include "hits.h"
+#include "meshes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void make_frame(struct trax_frame *frame, struct trax_scene *scene, const struct trax_view *view) {
+  const struct trax_frame_options options = {
+      .width = 97, .height = 61, .samples = 1, .shadows = true, .ambient = TRAX_DEFAULT_AMBIENT};
+  trax_error error;
+  memset(frame, 0, sizeof *frame);
+  if (trax_frame_init(frame, scene, view, &options, &error) != TRAX_OK)
+    fail_msg("%s", error.message);
+}
+
+static void find(struct trax_hits *hits, const struct trax_frame *frame, bool embree) {
+  struct trax_render_run run = {0};
+  trax_error error;
+  if ((embree ? trax_hits_embree(hits, frame, &run, &error) : trax_hits_native(hits, frame, 2, &run, &error)) !=
+      TRAX_OK)
+    fail_msg("%s", error.message);
+  assert_int_equal(run.rays, 97 * 61);
+}
+
+/* least: pixels that hit the same triangle, for certain. */
+static void check_agreement(struct trax_mesh *mesh, struct trax_view view, uint64_t least) {
+  struct trax_scene scene = {0};
+  struct trax_frame frame;
+  struct trax_hits device, embree;
+  struct trax_hits_difference difference;
+  build(&scene, mesh, NULL);
+  normalise(&scene, &view);
+  make_frame(&frame, &scene, &view);
+  find(&device, &frame, false);
+  find(&embree, &frame, true);
+  trax_hits_compare(&difference, &device, &embree, &frame);
+  assert_int_equal(difference.same + difference.tied + difference.unexplained, 97 * 61);
+  if (difference.unexplained)
+    fail_msg("%llu pixels beyond the error bound, the first at (%u, %u)", (unsigned long long)difference.unexplained,
+             difference.x, difference.y);
+  assert_true(difference.same >= least);
+  trax_hits_release(&device);
+  trax_hits_release(&embree);
+  trax_frame_release(&frame);
+  trax_scene_release(&scene);
+  trax_mesh_release(mesh);
+}
+
+static void test_agreement(void **state) {
+  (void)state;
+  const struct trax_view front = view_from(0.1f, 0.2f, 3, 0, 0, -1, 45, 2, 2, 2);
+  struct trax_mesh mesh = {0};
+  mesh_soup(&mesh, 500, 7);
+  check_agreement(&mesh, front, 97 * 61 - 20);
+  mesh_sphere(&mesh, 1, 6, 0);
+  check_agreement(&mesh, front, 97 * 61 - 60);
+  /* Far from the origin, where coordinates are coarse. */
+  mesh_sphere(&mesh, 1, 5, 0);
+  mesh_transform(&mesh, 1, 3e4f, -2e4f, 1e4f);
+  check_agreement(&mesh, view_from(3e4f, -2e4f, 1e4f + 3, 0, 0, -1, 45, 3e4f, 0, 2e4f), 97 * 61 / 2);
+  /* Rays along edges and through vertices: a pixel's middle looks along the axis. */
+  mesh_box(&mesh, (float[]){-1, -1, -1}, (float[]){0, 0, 0}, 0);
+  mesh_box(&mesh, (float[]){0, 0, -1}, (float[]){1, 1, 0}, 0);
+  check_agreement(&mesh, view_from(0, 0, 3, 0, 0, -1, 45, 2, 2, 2), 97 * 61 - 200);
+}
+
+/* Everything twice, at one place: whichever is found is right. */
+static void test_ties(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  mesh_soup(&mesh, 100, 3);
+  const uint32_t count = mesh.triangle_count;
+  for (uint32_t i = 0; i < count; i++) {
+    const uint32_t *v = mesh.triangles[i].vertices;
+    mesh_triangle(&mesh, v[1], v[2], v[0], 0);
+  }
+  check_agreement(&mesh, view_from(0.1f, 0.2f, 3, 0, 0, -1, 45, 2, 2, 2), 0);
+}
+
+/* Another answer than those: what is behind, beside, or nothing. */
+static void test_wrong_hits(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  struct trax_scene scene = {0};
+  struct trax_view view = view_from(0.013f, 0.027f, 5, 0, 0, -1, 20, 2, 2, 2);
+  struct trax_frame frame;
+  struct trax_hits right, wrong;
+  struct trax_hits_difference difference;
+  mesh_sphere(&mesh, 1, 3, 0);
+  const uint32_t shell = mesh.triangle_count;
+  mesh_box(&mesh, (float[]){-2, -2, -3}, (float[]){2, 2, -2.5f}, 0);
+  build(&scene, &mesh, NULL);
+  normalise(&scene, &view);
+  make_frame(&frame, &scene, &view);
+  find(&right, &frame, false);
+  const size_t middle = 30 * 97 + 48;
+  assert_true(scene.source_ids[right.triangles[middle]] < shell);
+  uint32_t behind = 0;
+  while (scene.source_ids[behind] < shell)
+    behind++;
+  const uint32_t answers[] = {TRAX_NO_TRIANGLE, behind, right.triangles[middle - 20]};
+  for (size_t i = 0; i < sizeof answers / sizeof *answers; i++) {
+    find(&wrong, &frame, false);
+    trax_hits_compare(&difference, &wrong, &right, &frame);
+    assert_true(difference.same == 97 * 61 && difference.unexplained == 0);
+    assert_true(answers[i] != right.triangles[middle]);
+    wrong.triangles[middle] = answers[i];
+    for (int turn = 0; turn < 2; turn++) {
+      trax_hits_compare(&difference, turn ? &right : &wrong, turn ? &wrong : &right, &frame);
+      assert_int_equal(difference.unexplained, 1);
+      assert_int_equal(difference.tied, 0);
+      assert_true(difference.x == 48 && difference.y == 30);
+    }
+    trax_hits_release(&wrong);
+  }
+  struct trax_picture picture;
+  trax_error error;
+  assert_int_equal(trax_hits_picture(&picture, &right, &frame, &error), TRAX_OK);
+  assert_int_equal(picture.pixels[middle], 0xFF000000u | (scene.source_ids[right.triangles[middle]] + 1));
+  trax_picture_release(&picture);
+  trax_hits_release(&right);
+  trax_frame_release(&frame);
+  trax_scene_release(&scene);
+  trax_mesh_release(&mesh);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_agreement),
+      cmocka_unit_test(test_ties),
+      cmocka_unit_test(test_wrong_hits),
+  };
+  return cmocka_run_group_tests_name("hits", tests, NULL, NULL);
+}
