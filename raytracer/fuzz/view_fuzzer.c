@@ -34,19 +34,9 @@ trax_status __wrap_trax_write_file(const char *path, const void *bytes, size_t s
   return TRAX_OK;
 }
 
-static bool contains(const uint8_t *bytes, size_t size, const char *word) {
-  const size_t length = strlen(word);
-  for (size_t i = 0; i + length <= size; i++)
-    if (!memcmp(bytes + i, word, length))
-      return true;
-  return false;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   struct trax_view view, again;
   trax_error error = {.message = ""};
-  if (contains(bytes, size, "@include")) /* would read this computer's files */
-    return 0;
   put(bytes, size);
   if (trax_view_read(&view, "v.view", &error) != TRAX_OK) {
     if (strncmp(error.message, "v.view:", 7) != 0) {

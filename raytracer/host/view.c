@@ -45,9 +45,8 @@ struct reader {
 
 static trax_status fail_at(const struct reader *reader, const config_setting_t *setting, const char *key,
                            const char *reason) {
-  const char *file = setting ? config_setting_source_file(setting) : NULL;
-  return scene_fail(reader->error, "%s:%u: %s: %s", file ? file : reader->path,
-                    setting ? config_setting_source_line(setting) : 1, key, reason);
+  return scene_fail(reader->error, "%s:%u: %s: %s", reader->path, setting ? config_setting_source_line(setting) : 1,
+                    key, reason);
 }
 
 /* A key of the file, or of one of its lights: what = "" or "lights[2]." */
@@ -286,6 +285,16 @@ static trax_status read_lights(const struct group *file, struct trax_view *view)
   return TRAX_OK;
 }
 
+/* The line of an @include, from 1; 0: there is none. What it names may be any file of this computer, or a device that
+   never ends, so a view is one file. */
+static unsigned find_include(const char *text) {
+  unsigned line = 1;
+  for (const char *at = text; at; at = strchr(at, '\n'), at = at ? at + 1 : NULL, line++)
+    if (!strncmp(at + strspn(at, " \t"), "@include", 8))
+      return line;
+  return 0;
+}
+
 trax_status trax_view_read(struct trax_view *view, const char *path, trax_error *error) {
   struct scene_bytes file; /* libconfig aborts on what cannot be read as a file, as on a directory */
   trax_status result = scene_load_file(&file, path, error);
@@ -297,13 +306,16 @@ trax_status trax_view_read(struct trax_view *view, const char *path, trax_error 
     return scene_fail(error, "%s:1: not text", path);
   }
   text[file.size] = 0;
+  const unsigned include = find_include(text);
+  if (include) {
+    free(text);
+    return scene_fail(error, "%s:%u: @include: a view is one file", path, include);
+  }
   config_t config;
   config_init(&config);
   struct trax_view read = {0};
   if (!config_read_string(&config, text)) {
-    const char *included = config_error_file(&config);
-    result = scene_fail(error, "%s:%d: %s", included ? included : path, config_error_line(&config),
-                        config_error_text(&config));
+    result = scene_fail(error, "%s:%d: %s", path, config_error_line(&config), config_error_text(&config));
   } else {
     static const char *const keys[] = {"eye", "direction", "look_at", "up", "fov", "light", "lights", NULL};
     const struct reader reader = {path, error};

@@ -68,6 +68,10 @@ static void test_success(void **state) {
   assert_string_equal(outcome.err, "");
   assert_int_equal(exit_status(&outcome), 0);
   assert_contains(outcome.out, "scene.triangles                   2");
+  assert_contains(outcome.out, "import.seconds");
+  assert_contains(outcome.out, "build.seconds");
+  assert_contains(outcome.out, "memory.import");
+  assert_contains(outcome.out, "memory.build");
   char text[8192];
   int descriptor = open(json, O_RDONLY);
   assert_true(descriptor >= 0);

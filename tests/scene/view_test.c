@@ -118,7 +118,8 @@ static void test_errors(void **state) {
       {"eye = [0, 0, 0];\neye = [0, 0, 0];", "bad.view:2: "},
       {"eye = [0, 0, 0", "bad.view:1: syntax error"},
       {"\n\n?", "bad.view:3: syntax error"},
-      {"@include \"/nowhere.view\"\n", "bad.view:1: "},
+      {"@include \"/nowhere.view\"\n", "bad.view:1: @include: a view is one file"},
+      {"eye = [0, 0, 0];\n \t@include \"/dev/zero\"\n", "bad.view:2: @include: a view is one file"},
   };
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     struct trax_view view;
