@@ -177,13 +177,13 @@ enum { WORKS = sizeof works / sizeof *works };
 
 static const struct {
   const char *name, *title, *colour;
-} groups[] = {{"default", "default", "black"},
-              {"triangle", "other triangle test", "#0072b2"},
+} groups[] = {{"triangle", "other triangle test", "#0072b2"},
               {"math", "-ffast-math", "#d55e00"},
               {"nodes", "other nodes", "#e69f00"},
               {"vertices", "vertices of 16 bits", "#56b4e9"},
               {"unit", "special unit of so many bits", "#009e73"},
-              {"samples", "more samples", "#cc79a7"}};
+              {"samples", "more samples", "#cc79a7"},
+              {"default", "default", "black"}}; /* above the others */
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 /* A logarithmic axis has no 0. */
@@ -201,9 +201,9 @@ static bool is_plotted(const struct trax_accuracy_row *row, bool total) {
   return total || row->variant.samples == 1;
 }
 
-/* A line for each row: works, error, and the bits of a unit unless those of the line before lie on the same spot. */
+/* A line for each row: works, error, and the bits of a unit unless others are named on nearly the same spot. */
 static void write_block(const struct trax_accuracy_report *report, const char *group, bool total, FILE *out) {
-  double labelled = 0;
+  uint64_t labelled = 0; /* a bit for each factor of 2^(1/2) of the error */
   fprintf(out, "$%s_%s << EOD\n", total ? "total" : "numerical", group);
   for (size_t i = 0; i < report->count; i++) {
     const struct trax_accuracy_row *row = &report->rows[i];
@@ -213,8 +213,9 @@ static void write_block(const struct trax_accuracy_report *report, const char *g
       fprintf(out, "%.9g ", work_of(row, work));
     const double error = error_of(row, total);
     fprintf(out, "%.9g", error);
-    if (row->variant.bits && fabs(log(error / labelled)) > 0.3) {
-      labelled = error;
+    const uint64_t spot = UINT64_C(1) << ((int)floor(2 * log2(error / LEAST_ERROR)) & 63); /* 9 decades of errors */
+    if (row->variant.bits && !(labelled & spot)) {
+      labelled |= spot;
       fprintf(out, " %u\n", row->variant.bits);
     } else {
       fputs(" \"\"\n", out);
