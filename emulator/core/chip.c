@@ -1,6 +1,7 @@
 #include "core/chip.h"
 
 #include "core/poll.h"
+#include "core/slots.h"
 #include "fast/engine.h"
 #include "fast/functional.h"
 #include "fast/sampled.h"
@@ -31,6 +32,8 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
     return TRAX_ERROR;
   if (options->engine == TRAX_ENGINE_SAMPLED)
     return (chip->sampled = trax_sampled_create(chip, options, error)) ? TRAX_OK : TRAX_ERROR;
+  if (options->slots && !(chip->slots = trax_slots_create(chip, options->slots, error)))
+    return TRAX_ERROR;
   return trax_windows_create(chip, options->host_threads, error);
 }
 
@@ -40,6 +43,7 @@ void trax_chip_destroy(struct trax_chip *chip) {
     chip->engine->destroy(chip->fast);
   trax_functional_destroy(chip->functional);
   trax_sampled_destroy(chip->sampled);
+  trax_slots_destroy(chip->slots);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);

@@ -2,6 +2,7 @@
 #include "core/machine.h"
 
 #include "core/chip.h"
+#include "core/slots.h"
 #include "fast/sampled.h"
 #include "reference/run.h"
 
@@ -216,6 +217,8 @@ static trax_status run_chip(struct trax_machine *machine, const trax_run_options
     trax_chip_settle(&chip, machine->stats.cycles);
     if (chip.sampled)
       trax_sampled_finish(chip.sampled, machine->stats.cycles);
+    if (chip.slots && status == TRAX_OK)
+      status = trax_slots_finish(chip.slots, machine->stats.cycles, error);
   }
   trax_chip_destroy(&chip);
   machine->chip = NULL;
@@ -231,6 +234,8 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
   machine->has_run = true;
   if (!options)
     options = &no_options;
+  if (options->slots && options->engine != TRAX_ENGINE_FAST)
+    return trax_fail(error, "slots are sampled by the fast engine only");
 
   struct timespec begin, end;
   clock_gettime(CLOCK_MONOTONIC, &begin);
@@ -241,7 +246,8 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
   machine->stats.host_seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
   if (machine->status == TRAX_ERROR)
     return TRAX_ERROR;
-  if (collect(machine, options->engine != TRAX_ENGINE_FUNCTIONAL && options->engine != TRAX_ENGINE_SAMPLED, error))
+  const bool exact = options->engine != TRAX_ENGINE_FUNCTIONAL && options->engine != TRAX_ENGINE_SAMPLED;
+  if (collect(machine, exact && !options->slots, error))
     return machine->status = TRAX_ERROR;
   return report_outcome(machine, options, error);
 }

@@ -312,7 +312,8 @@ static void print_sampling(const struct trax_sampling_stats *sampling, FILE *out
     fprintf(out, "the run takes %.0f to %.0f cycles with 95 %% confidence\n", sampling->low, sampling->high);
   else
     fprintf(out, "too few windows to say how far off the estimate is\n");
-  fprintf(out, "         all figures are estimates but those of instructions, operations, rays and items\n");
+  fprintf(out, "         all figures are estimates but those of %s\n",
+          sampling->of_slots ? "rays and items" : "instructions, operations, rays and items");
 }
 
 void trax_stats_print(const trax_machine *machine, FILE *out) {

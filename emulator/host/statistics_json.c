@@ -17,9 +17,10 @@
   X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line, message " \
              "of an abort")                                                                                            \
   X("sampled",                                                                                                         \
-    "only of a sampled run: cycles_low and cycles_high, between which cycles lie with 95 % confidence (null: too "     \
-    "few windows); windows, detailed_cycles, detailed_instructions: what was simulated; period, window, "              \
-    "warm_up, hold, seed; exact: the figures that are no estimates")                                                   \
+    "only of a sampled run: cycles_low and cycles_high, mrps_low and mrps_high, between which these lie with 95 % "    \
+    "confidence (null: too few windows); windows, detailed_cycles, detailed_instructions: what was simulated; exact: " \
+    "the figures that are no estimates; period, window, warm_up, hold, seed, or, where slots are sampled, slots, "     \
+    "detailed_slots, predicted_cycles, fraction, error, unit, warm_up, seed")                                          \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
   X("tms", "for each TM: tm, the figures that are counted in every TM, utilisations and hit rates of its own, and "    \
            "tps: for each TP "                                                                                         \
@@ -114,14 +115,44 @@ static void put_fault(struct document *document, const trax_machine *machine) {
   }
 }
 
-static void put_sampling(struct document *document, const struct trax_sampling_stats *sampling) {
+static json_t *mrps_at(const trax_machine *machine, double cycles) {
+  return json_real((double)machine->stats.total.rays * machine->config.chip.clock_mhz / cycles);
+}
+
+static void put_slots(struct document *document, json_t *object, const trax_machine *machine) {
+  const struct trax_sampling_stats *sampling = &machine->stats.sampling;
+  const trax_slot_sampling *asked = &sampling->asked_slots;
+  put(document, object, "slots", json_integer(asked->slots));
+  put(document, object, "detailed_slots", json_integer((json_int_t)sampling->detailed_slots));
+  put(document, object, "predicted_cycles", sampling->predicted > 0 ? json_real(sampling->predicted) : json_null());
+  put(document, object, "fraction", asked->error > 0 ? json_null() : json_real(asked->fraction));
+  put(document, object, "error", asked->error > 0 ? json_real(asked->error) : json_null());
+  put(document, object, "unit", json_integer(asked->unit));
+  put(document, object, "warm_up", json_integer(asked->warm_up));
+  put(document, object, "seed", json_integer((json_int_t)asked->seed));
+  json_t *exact = json_array();
+  put(document, object, "exact", exact);
+  if (asked->rays)
+    json_array_append_new(exact, json_string("rays"));
+  if (asked->items)
+    json_array_append_new(exact, json_string("items"));
+}
+
+static void put_sampling(struct document *document, const trax_machine *machine) {
+  const struct trax_sampling_stats *sampling = &machine->stats.sampling;
   json_t *object = json_object();
   put(document, document->root, "sampled", object);
   put(document, object, "cycles_low", sampling->has_interval ? json_real(sampling->low) : json_null());
   put(document, object, "cycles_high", sampling->has_interval ? json_real(sampling->high) : json_null());
+  put(document, object, "mrps_low", sampling->has_interval ? mrps_at(machine, sampling->high) : json_null());
+  put(document, object, "mrps_high", sampling->has_interval ? mrps_at(machine, sampling->low) : json_null());
   put(document, object, "windows", json_integer((json_int_t)sampling->windows));
   put(document, object, "detailed_cycles", json_integer((json_int_t)sampling->detailed_cycles));
   put(document, object, "detailed_instructions", json_integer((json_int_t)sampling->detailed_instructions));
+  if (sampling->of_slots) {
+    put_slots(document, object, machine);
+    return;
+  }
   put(document, object, "period", json_integer((json_int_t)sampling->asked.period));
   put(document, object, "window", json_integer((json_int_t)sampling->asked.window));
   put(document, object, "warm_up", json_integer((json_int_t)sampling->asked.warm_up));
@@ -219,7 +250,7 @@ trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_er
     put_fault(&document, machine);
   trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, &document);
   if (machine->stats.sampling.is_sampled)
-    put_sampling(&document, &machine->stats.sampling);
+    put_sampling(&document, machine);
   put_identity(&document, machine);
   put_tms(&document, machine);
   put_channels(&document, machine);

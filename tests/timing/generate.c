@@ -431,3 +431,38 @@ struct trax_config any_config(uint32_t tms, uint32_t tps) {
     beyond_the_paper(&config);
   return config;
 }
+
+size_t item_program(uint32_t *words) {
+  size_t n = 0;
+  words[n++] = U(RDSR, 1, TRAX_SR_THREAD);
+  words[n++] = U(LUI, 2, 1);
+  words[n++] = I(ADDI, 11, 0, ITEMS);
+  words[n++] = U(LUI, 12, ITEM_COUNTER >> 16);
+  const size_t next = n;
+  words[n++] = I(AINC, 10, 12, 0);
+  const size_t leave = n;
+  words[n++] = 0;
+  words[n++] = I(SLLI, 1, 10, 6);
+  words[n++] = I(ANDI, 20, 10, 31);
+  words[n++] = I(ADDI, 20, 20, 10);
+  const size_t loop = n;
+  words[n++] = I(ANDI, 4, 1, 0x5FFC);
+  words[n++] = R(ADD, 4, 4, 2);
+  words[n++] = I(LW, 5, 4, 0);
+  words[n++] = R(FMUL, 6, 5, 5);
+  words[n++] = R(FADD, 7, 6, 5);
+  words[n++] = R(ADD, 1, 1, 5);
+  words[n++] = I(ANDI, 9, 5, 3);
+  words[n++] = B(BNE, 9, 0, 16);
+  words[n++] = R(FMUL, 6, 6, 7);
+  words[n++] = R(FADD, 7, 6, 7);
+  words[n++] = R(ADD, 8, 8, 7);
+  words[n++] = I(ADDI, 20, 20, -1);
+  words[n] = B(BNE, 20, 0, ((int32_t)loop - (int32_t)n) * 4);
+  n++;
+  words[n++] = T(3, TRAX_TRAP_ITEMS);
+  words[n] = B(BEQ, 0, 0, ((int32_t)next - (int32_t)n) * 4);
+  words[leave] = B(BGE, 10, 11, ((int32_t)++n - (int32_t)leave) * 4);
+  words[n++] = HALT;
+  return n;
+}

@@ -30,6 +30,12 @@ void any_words(uint32_t *words, size_t count);
    At most BODY + 64 instructions. */
 size_t any_isa_program(uint32_t *words);
 
+enum { ITEMS = 6000, ITEM_COUNTER = 0x40000 }; /* where nothing is loaded: it begins with 0 */
+
+/* Threads take ITEMS items by an atomic increment, each of them a loop with misses, conflicts and branches by what was
+   loaded, and of another length. At most BODY + 64 instructions. */
+size_t item_program(uint32_t *words);
+
 /* Not every key. */
 struct trax_config any_config(uint32_t tms, uint32_t tps);
 /* Any value of every key, but 1 MiB of memory, and latencies of at most 300 cycles. */

@@ -94,6 +94,23 @@ typedef struct trax_sampling {
   uint64_t seed;    /* of where the first window lies */
 } trax_sampling;
 
+/* Slot-sampled simulation (docs/emulator.md): for a program whose threads take numbered pieces of work, slots, by the
+   atomic increment of one word, until the number is `slots` or more. 0 is the default. */
+typedef struct trax_slot_sampling {
+  uint32_t counter; /* address of the word */
+  uint32_t slots;   /* how many there are */
+  double fraction;  /* of the slots that is simulated, above 0 to 1; 1: the exact run */
+  double error;     /* instead: half of the 95 % interval wanted, relative to the estimate */
+  uint32_t unit;    /* slots of a range that is measured */
+  uint32_t warm_up; /* slots before it that are simulated but not measured */
+  uint64_t seed;    /* of the choice of ranges */
+  /* What is known or guessed of the slots' costs: [slots / block rounded up + 1], sums of all before each block and of
+     all, in any unit. NULL: all are alike. A bad guess makes intervals wide, not wrong. */
+  const double *costs;
+  uint32_t block;       /* slots of a block; the unit is a multiple of it */
+  uint64_t rays, items; /* what the whole program will report; 0: not known, to be estimated */
+} trax_slot_sampling;
+
 typedef struct trax_run_options {
   FILE *output;                                                 /* guest output; NULL discards it */
   uint64_t max_cycles;                                          /* 0: no limit */
@@ -104,6 +121,7 @@ typedef struct trax_run_options {
   trax_engine engine;
   unsigned host_threads; /* of the fast engine, whose results they do not change; 0: one for each processor */
   trax_sampling sampling;
+  const trax_slot_sampling *slots; /* of the fast engine; NULL: everything is simulated */
 } trax_run_options;
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);

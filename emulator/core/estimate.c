@@ -1,0 +1,50 @@
+#include "core/estimate.h"
+
+#include "fast/sampled.h"
+
+#include <math.h>
+
+uint32_t trax_estimate_unit(const double *sizes, uint32_t units, double place) {
+  uint32_t low = 0, high = units - 1;
+  while (low < high) { /* the first whose end is behind it */
+    const uint32_t middle = low + (high - low) / 2;
+    if (sizes[middle + 1] > place)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
+static double mean_of(const double *values, size_t count) {
+  double sum = 0;
+  for (size_t i = 0; i < count; i++)
+    sum += values[i];
+  return count ? sum / (double)count : 0;
+}
+
+/* The standard deviation of one draw. */
+static double spread_of(const double *values, size_t count, double mean) {
+  double squares = 0;
+  for (size_t i = 0; i < count; i++)
+    squares += (values[i] - mean) * (values[i] - mean);
+  return count > 1 ? sqrt(squares / (double)(count - 1)) : 0;
+}
+
+struct trax_estimate trax_estimate_total(const double *ratios, size_t count, double total_size) {
+  const double mean = mean_of(ratios, count);
+  struct trax_estimate estimate = {.total = mean * total_size, .has_interval = count > 1};
+  if (count > 1) {
+    estimate.deviation = total_size * spread_of(ratios, count, mean) / sqrt((double)count);
+    estimate.half = trax_student_95(count - 1) * estimate.deviation;
+  }
+  return estimate;
+}
+
+size_t trax_estimate_draws(const double *ratios, size_t count, double relative) {
+  const double mean = mean_of(ratios, count);
+  if (count < 2 || !(mean > 0) || !(relative > 0))
+    return count;
+  const double needed = pow(trax_student_95(count - 1) * spread_of(ratios, count, mean) / (mean * relative), 2);
+  return needed > (double)count ? (size_t)ceil(fmin(needed, 1e9)) : count;
+}

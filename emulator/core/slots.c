@@ -1,0 +1,447 @@
+/* How slots are sampled. The run is begun as ever and its end, the last slots and what follows them, is simulated too;
+   of what lies between, ranges of `unit` slots are drawn with probabilities in proportion to what they are expected to
+   cost, one from each of as many parts of equal cost as there are draws. In the exact run, the time from when a range's
+   first slot is handed out until its last one is sums up, over all ranges, to the run's. So each range's time is
+   measured, in a machine brought near the state that it would be in: between ranges the counter is set to some slots
+   before the next one, and threads take these as soon as they are done with what they have. */
+#include "core/slots.h"
+
+#include "core/estimate.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+  LEAST_DRAWS = 12,
+  PILOT_DRAWS = 24, /* after which it is known how many an interval takes */
+  LEAST_UNIT = 256,
+  UNIT_ROUNDS = 2, /* slots of each thread, unless it is asked for otherwise */
+  WARM_UP_ROUNDS = 4,
+  LEAST_STEP = 32, /* cycles from one look at the counter to the next */
+  MOST_STEP = 2000
+};
+
+#define LEAST_COST 0.02 /* of a unit, relative to the mean: what was thought to cost nothing may cost something */
+#define ENOUGH 0.8      /* of the slots: then all of them might as well be simulated */
+#define BIAS 0.005      /* of what is estimated: what a warm-up leaves of another place's caches (docs/sampling.md) */
+
+enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
+
+/* All that is counted, as in fast/sampled.c: the TMs' statistics, the TPs' charges, and beyond the TMs. */
+enum {
+  TM_WORDS = sizeof(struct trax_tm_stats) / sizeof(uint64_t),
+  MEMORY_WORDS = sizeof(struct trax_memory_stats) / sizeof(uint64_t)
+};
+
+struct trax_slots {
+  struct trax_chip *chip;
+  struct trax_watch watch;
+  trax_slot_sampling asked;
+  uint64_t random;
+
+  uint32_t first, last, units; /* slots: the first unit's, and the first behind the last one */
+  double *sizes;               /* [units + 1]: what the units before each are expected to cost */
+  uint32_t *draws;             /* [draw_count]: units, in the order of simulation */
+  double *ratios;              /* [done]: cycles measured for what was expected, of a draw each */
+  size_t draw_count, done;
+  bool extended; /* draws were added after a pilot */
+
+  enum phase phase;
+  uint32_t target;  /* the counter's value that ends the phase */
+  double begun;     /* when the phase's first slot was handed out */
+  uint64_t counted; /* when `before` was read */
+  uint32_t seen;    /* the counter, when it was looked at last, in cycle */
+  uint64_t seen_at;
+  double exact_cycles;           /* of beginning and end */
+  double unit_cycles, unit_cost; /* measured, and expected, of all units so far */
+  uint64_t slots_left_out;
+
+  size_t tp_words, memory_words, words; /* where the TPs' and the memory's counts begin, and how many there are */
+  uint64_t *counts;                     /* the next four */
+  uint64_t *before, *now, *exact, *measured;
+  uint64_t exact_counted, measured_counted; /* cycles that these are about */
+};
+
+/* --- counts --- */
+
+static void read_counts(const struct trax_slots *slots, uint64_t *words) {
+  const struct trax_machine *machine = slots->chip->machine;
+  memcpy(words, machine->tm_stats, slots->tp_words * sizeof *words);
+  memcpy(words + slots->tp_words, machine->tp_stats, (slots->memory_words - slots->tp_words) * sizeof *words);
+  memcpy(words + slots->memory_words, &machine->stats.memory, sizeof machine->stats.memory);
+}
+
+static void begin_counts(struct trax_slots *slots, uint64_t t) {
+  trax_chip_settle(slots->chip, t);
+  read_counts(slots, slots->before);
+  slots->counted = t;
+}
+
+static void add_counts(struct trax_slots *slots, uint64_t *sum, uint64_t *cycles, uint64_t t) {
+  trax_chip_settle(slots->chip, t);
+  read_counts(slots, slots->now);
+  for (size_t i = 0; i < slots->words; i++)
+    sum[i] += slots->now[i] - slots->before[i];
+  *cycles += t - slots->counted;
+}
+
+/* --- draws --- */
+
+static uint64_t scrambled(uint64_t seed) { /* splitmix64 */
+  seed = (seed ^ seed >> 30) * 0xBF58476D1CE4E5B9u;
+  seed = (seed ^ seed >> 27) * 0x94D049BB133111EBu;
+  return seed ^ seed >> 31;
+}
+
+/* From 0 to below 1. */
+static double any(struct trax_slots *slots) {
+  return (double)(scrambled(slots->random += 0x9E3779B97F4A7C15u) >> 11) * 0x1p-53;
+}
+
+static double size_of(const struct trax_slots *slots, uint32_t unit) {
+  return slots->sizes[unit + 1] - slots->sizes[unit];
+}
+
+/* `count` more, one from each part of equal cost. */
+static bool draw(struct trax_slots *slots, size_t count) {
+  const size_t all = slots->draw_count + count;
+  uint32_t *draws = realloc(slots->draws, (all ? all : 1) * sizeof *draws);
+  if (draws)
+    slots->draws = draws;
+  double *ratios = realloc(slots->ratios, (all ? all : 1) * sizeof *ratios);
+  if (ratios)
+    slots->ratios = ratios;
+  if (!draws || !ratios)
+    return false;
+  for (size_t i = 0; i < count; i++)
+    draws[slots->draw_count++] = trax_estimate_unit(
+        slots->sizes, slots->units, slots->sizes[slots->units] * ((double)i + any(slots)) / (double)count);
+  return true;
+}
+
+/* --- the plan --- */
+
+static double cost_before(const struct trax_slots *slots, uint32_t slot) {
+  const trax_slot_sampling *asked = &slots->asked;
+  if (!asked->costs)
+    return slot;
+  const uint32_t block = slot / asked->block, left = slot % asked->block;
+  const double cost = asked->costs[block];
+  return left ? cost + (asked->costs[block + 1] - cost) * left / asked->block : cost;
+}
+
+static uint32_t rounded_up(uint64_t value, uint32_t multiple) {
+  return (uint32_t)((value + multiple - 1) / multiple * multiple);
+}
+
+/* How many draws simulate that share of the work, warm-ups included. */
+static double draws_for(const struct trax_slots *slots, double fraction) {
+  double squares = 0;
+  for (uint32_t i = 0; i < slots->units; i++)
+    squares += pow(size_of(slots, i), 2);
+  const double drawn = squares / slots->sizes[slots->units]; /* the expected size of a draw */
+  const double with_warm_up = drawn * (1 + (double)slots->asked.warm_up / slots->asked.unit);
+  return fraction * slots->sizes[slots->units] / with_warm_up;
+}
+
+/* Units, their sizes, and draws; slots->units stays 0 if all is to be simulated. */
+static trax_status plan(struct trax_slots *slots, uint32_t threads, trax_error *error) {
+  trax_slot_sampling *asked = &slots->asked;
+  asked->block = asked->block ? asked->block : 1;
+  const uint64_t unit = UNIT_ROUNDS * (uint64_t)threads;
+  asked->unit = rounded_up(asked->unit ? asked->unit : unit > LEAST_UNIT ? unit : LEAST_UNIT, asked->block);
+  asked->warm_up = rounded_up(asked->warm_up ? asked->warm_up : WARM_UP_ROUNDS * (uint64_t)threads, asked->block);
+  asked->seed = asked->seed ? asked->seed : 1;
+  slots->random = scrambled(asked->seed << 32 | slots->chip->tms << 16 | threads); /* chips choose differently */
+  slots->first = rounded_up(asked->warm_up > unit ? asked->warm_up : unit, asked->block);
+  const uint64_t ends = (uint64_t)slots->first + asked->warm_up + threads;
+  if (asked->fraction >= 1 || ends >= asked->slots)
+    return TRAX_OK;
+  const uint32_t units = (uint32_t)((asked->slots - ends) / asked->unit);
+  slots->last = slots->first + units * asked->unit;
+  slots->sizes = calloc((size_t)units + 1, sizeof *slots->sizes);
+  if (!slots->sizes)
+    return trax_fail(error, "out of memory for %u ranges of slots", units);
+  const double mean = units ? (cost_before(slots, slots->last) - cost_before(slots, slots->first)) / units : 0;
+  for (uint32_t i = 0; i < units; i++) {
+    const uint32_t slot = slots->first + i * asked->unit;
+    const double cost = cost_before(slots, slot + asked->unit) - cost_before(slots, slot);
+    slots->sizes[i + 1] = slots->sizes[i] + cost + LEAST_COST * (mean > 0 ? mean : 1);
+  }
+  slots->units = units;
+  double count = units ? asked->error > 0 ? PILOT_DRAWS : draws_for(slots, asked->fraction) : 0;
+  count = count < LEAST_DRAWS ? LEAST_DRAWS : count;
+  if (ends + count * ((double)asked->unit + asked->warm_up) > ENOUGH * asked->slots)
+    slots->units = 0;
+  else if (!draw(slots, (size_t)count))
+    return trax_fail(error, "out of memory for %.0f ranges of slots", count);
+  return TRAX_OK;
+}
+
+/* --- phases --- */
+
+static void set_counter(struct trax_slots *slots, uint32_t value, uint64_t t) {
+  struct trax_chip *chip = slots->chip;
+  trax_chip_gather(chip);
+  memcpy(chip->machine->space.bytes + slots->asked.counter, &value, sizeof value);
+  trax_chip_scatter(chip, t);
+}
+
+static uint32_t read_counter(const struct trax_slots *slots) {
+  uint32_t value;
+  memcpy(&value, slots->chip->machine->space.bytes + slots->asked.counter, sizeof value);
+  return value;
+}
+
+/* After a pilot: as many draws as the interval takes, or as make sense. */
+static bool extend(struct trax_slots *slots) {
+  const trax_slot_sampling *asked = &slots->asked;
+  slots->extended = true;
+  const size_t needed = trax_estimate_draws(slots->ratios, slots->done, asked->error);
+  const double most = ENOUGH * asked->slots / ((double)asked->unit + asked->warm_up);
+  const size_t all = (double)needed > most ? (size_t)most : needed;
+  return all <= slots->draw_count || draw(slots, all - slots->draw_count);
+}
+
+/* At time `at`, in cycle t, the counter, which is n now, was slots->target. */
+static bool go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
+  if (slots->done == slots->draw_count && slots->asked.error > 0 && !slots->extended && !extend(slots))
+    return false;
+  const bool more = slots->done < slots->draw_count;
+  const uint32_t start = more ? slots->first + slots->draws[slots->done] * slots->asked.unit : slots->last;
+  if (start == slots->target) { /* the next one is the next slot's */
+    slots->phase = more ? UNIT : END;
+    slots->begun = at;
+    slots->target = more ? start + slots->asked.unit : UINT32_MAX;
+    begin_counts(slots, t);
+    return true;
+  }
+  slots->phase = more ? WARM_UP : LEAD;
+  slots->target = start;
+  if (n > start || start - n > slots->asked.warm_up) {
+    const uint32_t value = start - slots->asked.warm_up;
+    slots->slots_left_out += (uint64_t)value - n; /* going back counts what is simulated twice */
+    set_counter(slots, value, t);
+    slots->seen = value;
+    slots->seen_at = t;
+  }
+  return true;
+}
+
+static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
+  const double cycles = at - slots->begun, size = size_of(slots, slots->draws[slots->done]);
+  add_counts(slots, slots->measured, &slots->measured_counted, t);
+  slots->unit_cycles += cycles;
+  slots->unit_cost += size;
+  slots->ratios[slots->done++] = cycles / size;
+  while (slots->done < slots->draw_count && slots->draws[slots->done] == slots->draws[slots->done - 1])
+    slots->ratios[slots->done++] = cycles / size; /* drawn again */
+}
+
+/* When to look next: somewhat before the counter is expected to reach the target. */
+static uint64_t next_look(const struct trax_slots *slots, uint64_t t) {
+  if (slots->phase == END)
+    return TRAX_NEVER;
+  const double left = slots->target - slots->seen, known = slots->unit_cycles;
+  double cycles = slots->seen ? left * (double)t / slots->seen : 0, most = MOST_STEP;
+  if (known > 0) {
+    cycles = (cost_before(slots, slots->target) - cost_before(slots, slots->seen)) * known / slots->unit_cost;
+    most = known / (double)slots->done / 8;
+  }
+  const double one = cycles / left;
+  cycles = fmin(cycles / 2, most);
+  return t + (uint64_t)fmax(cycles, fmax(one, LEAST_STEP));
+}
+
+/* The phase ends: at time `at`, before cycle t, when the counter is n. False: out of memory. */
+static bool end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
+  switch (slots->phase) {
+  case BEGINNING:
+    slots->exact_cycles = at;
+    add_counts(slots, slots->exact, &slots->exact_counted, t);
+    return go_on(slots, at, t, n);
+  case UNIT:
+    end_unit(slots, at, t);
+    return go_on(slots, at, t, n);
+  case WARM_UP:
+  case LEAD:
+    slots->phase = slots->phase == LEAD ? END : UNIT;
+    slots->begun = at;
+    slots->target = slots->phase == END ? UINT32_MAX : slots->target + slots->asked.unit;
+    begin_counts(slots, t);
+    break;
+  case END:
+    break;
+  }
+  return true;
+}
+
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+  struct trax_slots *slots = watch->context;
+  const uint64_t t = watch->next;
+  uint32_t n = read_counter(slots);
+  (void)chip;
+  while (n >= slots->target) { /* it was passed between the last look and this one, at an even pace */
+    const double share = (double)(slots->target - slots->seen) / (n - slots->seen);
+    const double at = (double)slots->seen_at + share * (double)(t - slots->seen_at);
+    if (!end_phase(slots, at, t, n))
+      return TRAX_INTERRUPTED; /* out of memory */
+    if (slots->seen_at == t)   /* the counter was set */
+      n = slots->seen;
+  }
+  slots->seen = n;
+  slots->seen_at = t;
+  watch->next = next_look(slots, t);
+  return TRAX_OK;
+}
+
+/* --- the run --- */
+
+static trax_status check(const trax_slot_sampling *asked, const struct trax_machine *machine, trax_error *error) {
+  if (asked->counter % 4 || (uint64_t)asked->counter + 4 > machine->space.size)
+    return trax_fail(error, "the counter of slots at 0x%08x is not a word of global memory", asked->counter);
+  if (!asked->slots)
+    return trax_fail(error, "there are no slots to sample");
+  if (!(asked->error > 0) && !(asked->fraction > 0 && asked->fraction <= 1))
+    return trax_fail(error, "the fraction of slots to simulate is %g; allowed is above 0 to 1", asked->fraction);
+  if (asked->error < 0 || asked->error >= 1 || isnan(asked->error))
+    return trax_fail(error, "the error wanted is %g; allowed is 0 to below 1", asked->error);
+  if (asked->costs && !asked->block)
+    return trax_fail(error, "costs of slots need the number of slots in a block");
+  for (uint32_t i = 0; asked->costs && i * (uint64_t)asked->block < asked->slots; i++)
+    if (!(asked->costs[i + 1] >= asked->costs[i]) || !isfinite(asked->costs[i + 1]))
+      return trax_fail(error, "the cost of the slots from %u on is not a number of 0 or more", i * asked->block);
+  return TRAX_OK;
+}
+
+struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sampling *sampling, trax_error *error) {
+  const uint32_t threads = trax_chip_running(chip);
+  if (check(sampling, chip->machine, error))
+    return NULL;
+  struct trax_slots *slots = calloc(1, sizeof *slots);
+  if (!slots) {
+    trax_fail(error, "out of memory");
+    return NULL;
+  }
+  slots->chip = chip;
+  slots->asked = *sampling;
+  slots->tp_words = chip->tms * (size_t)TM_WORDS;
+  slots->memory_words = slots->tp_words + (size_t)threads * TRAX_CAUSE_COUNT;
+  slots->words = slots->memory_words + MEMORY_WORDS;
+  slots->counts = calloc(4 * slots->words, sizeof *slots->counts);
+  if (!slots->counts || plan(slots, threads, error)) {
+    if (!slots->counts)
+      trax_fail(error, "out of memory");
+    trax_slots_destroy(slots);
+    return NULL;
+  }
+  slots->before = slots->counts;
+  slots->now = slots->before + slots->words;
+  slots->exact = slots->now + slots->words;
+  slots->measured = slots->exact + slots->words;
+  slots->target = slots->first;
+  slots->watch = (struct trax_watch){
+      .next = slots->units ? LEAST_STEP : TRAX_NEVER, .look = look, .context = slots, .others = chip->machine->watches};
+  chip->machine->watches = &slots->watch;
+  return slots;
+}
+
+void trax_slots_destroy(struct trax_slots *slots) {
+  if (!slots)
+    return;
+  struct trax_watch **watch = &slots->chip->machine->watches;
+  while (*watch && *watch != &slots->watch)
+    watch = &(*watch)->others;
+  if (*watch)
+    *watch = slots->watch.others;
+  free(slots->sizes);
+  free(slots->draws);
+  free(slots->ratios);
+  free(slots->counts);
+  free(slots);
+}
+
+/* A TP's charges as whole numbers whose sum is `cycles`. */
+static void round_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles) {
+  unsigned largest = 0;
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+    stats->cycles[cause] = (uint64_t)llround(charges[cause]);
+    sum += stats->cycles[cause];
+    largest = charges[cause] > charges[largest] ? cause : largest;
+  }
+  stats->cycles[largest] += cycles - sum;
+}
+
+/* The counts of the whole run: those of beginning and end, and of the units as many times as these stand for. */
+static void estimate_counts(struct trax_slots *slots, double cycles) {
+  struct trax_machine *machine = slots->chip->machine;
+  const double factor = (cycles - (double)slots->exact_counted) / (double)slots->measured_counted;
+  double charges[TRAX_CAUSE_COUNT];
+#define ESTIMATE(i) ((double)slots->exact[i] + factor * (double)slots->measured[i])
+  for (uint32_t i = 0; i < slots->chip->tms; i++) {
+    const uint64_t queue_peak = machine->tm_stats[i].queue_peak;
+    for (size_t j = 0; j < TM_WORDS; j++)
+      ((uint64_t *)&machine->tm_stats[i])[j] = (uint64_t)llround(ESTIMATE(i * (size_t)TM_WORDS + j));
+    machine->tm_stats[i].queue_peak = queue_peak;
+  }
+  for (size_t i = 0; i < MEMORY_WORDS; i++)
+    ((uint64_t *)&machine->stats.memory)[i] = (uint64_t)llround(ESTIMATE(slots->memory_words + i));
+  for (uint64_t thread = 0; thread < machine->stats.threads; thread++) {
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+      charges[cause] = ESTIMATE(slots->tp_words + thread * TRAX_CAUSE_COUNT + cause);
+    round_charges(&machine->tp_stats[thread], charges, machine->stats.cycles);
+  }
+#undef ESTIMATE
+}
+
+/* Makes the sum over the TMs what it is known to be, the shares of the TMs staying about what they are. */
+static void set_total(struct trax_slots *slots, size_t offset, uint64_t total) {
+  uint64_t sum = 0, given = 0;
+  for (uint32_t i = 0; i < slots->chip->tms; i++)
+    sum += ((const uint64_t *)&slots->chip->machine->tm_stats[i])[offset];
+  for (uint32_t i = 0; i < slots->chip->tms && total; i++) {
+    uint64_t *value = &((uint64_t *)&slots->chip->machine->tm_stats[i])[offset];
+    *value = i + 1 == slots->chip->tms ? total - given
+                                       : (uint64_t)((double)*value / (double)(sum ? sum : 1) * (double)total);
+    given += *value;
+  }
+}
+
+trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *error) {
+  struct trax_machine *machine = slots->chip->machine;
+  struct trax_sampling_stats *stats = &machine->stats.sampling;
+  *stats = (struct trax_sampling_stats){.is_sampled = true,
+                                        .has_interval = true,
+                                        .of_slots = true,
+                                        .predicted = slots->asked.costs ? cost_before(slots, slots->asked.slots) : 0,
+                                        .asked_slots = slots->asked,
+                                        .low = (double)t,
+                                        .high = (double)t,
+                                        .detailed_cycles = t,
+                                        .detailed_slots = slots->asked.slots};
+  for (uint32_t i = 0; i < slots->chip->tms; i++)
+    for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+      stats->detailed_instructions += machine->tm_stats[i].instructions[op];
+  if (!slots->units)
+    return TRAX_OK;
+  if (slots->phase != END)
+    return trax_fail(error,
+                     "the program ended before its counter at 0x%08x reached slot %u of %u: the slots are not "
+                     "taken by increments of this word",
+                     slots->asked.counter, slots->target, slots->asked.slots);
+  add_counts(slots, slots->exact, &slots->exact_counted, t);
+  slots->exact_cycles += (double)t - slots->begun;
+  const struct trax_estimate middle = trax_estimate_total(slots->ratios, slots->done, slots->sizes[slots->units]);
+  const double cycles = slots->exact_cycles + middle.total;
+  machine->stats.cycles = (uint64_t)llround(cycles);
+  stats->windows = slots->done;
+  const double half = middle.half + BIAS * middle.total;
+  stats->low = fmax(cycles - half, slots->exact_cycles);
+  stats->high = cycles + half;
+  stats->detailed_slots -= slots->slots_left_out;
+  estimate_counts(slots, (double)machine->stats.cycles);
+  set_total(slots, offsetof(struct trax_tm_stats, rays) / sizeof(uint64_t), slots->asked.rays);
+  set_total(slots, offsetof(struct trax_tm_stats, items) / sizeof(uint64_t), slots->asked.items);
+  return TRAX_OK;
+}

@@ -1,0 +1,262 @@
+/* Slot-sampled simulation: the estimator against numbers worked by hand and against populations whose total is known,
+   and runs against exact ones. */
+#include "compare.h"
+#include "generate.h"
+
+#include "core/estimate.h"
+
+#include <math.h>
+#include <string.h>
+
+static void assert_near(double value, double expected) {
+  assert_true(fabs(value - expected) <= 1e-3 * fabs(expected));
+}
+
+/* Student's t with 2 degrees of freedom is 4.303. */
+static void by_hand(void **state) {
+  (void)state;
+  const double ratios[] = {1, 2, 3};
+  const struct trax_estimate three = trax_estimate_total(ratios, 3, 10);
+  assert_near(three.total, 20);
+  assert_near(three.deviation, 10 / sqrt(3.0));
+  assert_near(three.half, 43.03 / sqrt(3.0));
+  assert_true(three.has_interval);
+  assert_false(trax_estimate_total(ratios, 1, 10).has_interval);
+  assert_near(trax_estimate_total(ratios, 1, 10).total, 10);
+  assert_int_equal(trax_estimate_draws(ratios, 3, 0.1), 463); /* (4.303 * 1 / (2 * 0.1))^2 */
+  assert_int_equal(trax_estimate_draws(ratios, 3, 10), 3);
+  const double same[] = {2, 2, 2, 2};
+  assert_true(trax_estimate_total(same, 4, 1).half == 0);
+  assert_int_equal(trax_estimate_draws(same, 4, 0.01), 4);
+
+  const double sizes[] = {0, 1, 1, 4, 6}; /* the second unit has no size */
+  const double places[] = {0, 0.99, 1, 3.99, 4, 5.99, 6};
+  const uint32_t units[] = {0, 0, 2, 2, 3, 3, 3};
+  for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+    assert_int_equal(trax_estimate_unit(sizes, 4, places[i]), units[i]);
+}
+
+static double uniform(void) {
+  return any(0, 999999) * 1e-6;
+}
+
+/* Of a population whose costs are guessed to within 20 %, neighbours alike and a few units large: the interval of a
+   sample holds the total about as often as it says, and the estimate has no bias. */
+static void coverage(void **state) {
+  (void)state;
+  enum { UNITS = 2000, DRAWS = 30, SAMPLES = 4000 };
+  static double sizes[UNITS + 1], truth[UNITS];
+  random_state = 0x9E3779B97F4A7C15u;
+  double total = 0, drift = 0;
+  for (uint32_t i = 0; i < UNITS; i++) {
+    const double size = any(0, 30) ? 1 + uniform() : 10 + 10 * uniform();
+    drift = 0.9 * drift + 0.1 * (uniform() - 0.5);
+    sizes[i + 1] = sizes[i] + size;
+    truth[i] = 7 * size * (1 + drift + 0.4 * (uniform() - 0.5));
+    total += truth[i];
+  }
+  unsigned hits = 0;
+  double bias = 0;
+  for (unsigned sample = 0; sample < SAMPLES; sample++) {
+    double ratios[DRAWS];
+    for (unsigned i = 0; i < DRAWS; i++) {
+      const uint32_t unit = trax_estimate_unit(sizes, UNITS, sizes[UNITS] * (i + uniform()) / DRAWS);
+      ratios[i] = truth[unit] / (sizes[unit + 1] - sizes[unit]);
+    }
+    const struct trax_estimate estimate = trax_estimate_total(ratios, DRAWS, sizes[UNITS]);
+    hits += fabs(estimate.total - total) <= estimate.half;
+    bias += estimate.total / total - 1;
+  }
+  assert_in_range(hits, 0.94 * SAMPLES, 0.98 * SAMPLES);
+  assert_true(fabs(bias / SAMPLES) < 0.002);
+}
+
+/* --- runs --- */
+
+static struct trax_config plain_config(void) {
+  struct trax_config config = TRAX_CONFIG_DEFAULT;
+  config.chip.tms = 2;
+  config.chip.tps_per_tm = 32;
+  config.memory.size_mib = 1;
+  return config;
+}
+
+/* The program of items, the later ones longer. */
+static size_t growing_items(uint32_t *words) {
+  const size_t count = item_program(words);
+  for (size_t i = 0; i < count; i++)
+    if (words[i] == I(ANDI, 20, 10, 31))
+      words[i] = I(SRLI, 20, 10, 5);
+  return count;
+}
+static double turns(uint32_t item) {
+  return 10 + (item >> 5);
+}
+
+static struct run sample(const trax_slot_sampling *slots, unsigned host_threads) {
+  uint32_t program[BODY + 64];
+  const size_t count = growing_items(program);
+  const struct trax_config config = plain_config();
+  return run_with(&config, program, count, &(trax_run_options){.slots = slots, .host_threads = host_threads});
+}
+
+static struct run exact_run(void) {
+  uint32_t program[BODY + 64];
+  const size_t count = growing_items(program);
+  const struct trax_config config = plain_config();
+  return run_alone(&config, program, count, TRAX_ENGINE_FAST, 0, 1);
+}
+
+/* Guesses of what items cost, some per cent off. */
+enum { BLOCK = 8 };
+static double costs[ITEMS / BLOCK + 1];
+
+static int guess(void **state) {
+  (void)state;
+  random_state = 0xD1B54A32D192ED03u;
+  for (uint32_t item = 0; item < ITEMS; item++) {
+    if (item % BLOCK == 0)
+      costs[item / BLOCK + 1] = costs[item / BLOCK];
+    costs[item / BLOCK + 1] += turns(item) * (0.9 + 0.2 * uniform());
+  }
+  return 0;
+}
+
+static const trax_slot_sampling some = {.counter = ITEM_COUNTER,
+                                        .slots = ITEMS,
+                                        .fraction = 0.3,
+                                        .unit = 64,
+                                        .warm_up = 128,
+                                        .costs = costs,
+                                        .block = BLOCK,
+                                        .items = ITEMS};
+
+/* All of it: the exact run, to the cycle and in every count. */
+static void everything(void **state) {
+  (void)state;
+  trax_slot_sampling all = some;
+  all.fraction = 1;
+  struct run exact = exact_run(), sampled = sample(&all, 1);
+  expect_same(&exact, &sampled);
+  const struct trax_sampling_stats *stats = &sampled.bench.machine->stats.sampling;
+  assert_true(stats->is_sampled && stats->of_slots && stats->has_interval);
+  assert_true(stats->low == (double)exact.bench.machine->stats.cycles && stats->low == stats->high);
+  assert_int_equal(stats->detailed_slots, ITEMS);
+  end(&sampled);
+  all = some;
+  all.warm_up = 2000; /* too long to leave anything out */
+  sampled = sample(&all, 2);
+  expect_same(&exact, &sampled);
+  end(&sampled);
+  end(&exact);
+}
+
+static void some_of_it(void **state) {
+  (void)state;
+  struct run exact = exact_run();
+  const struct trax_stats *truth = &exact.bench.machine->stats;
+  double widths[2];
+  for (int guessed = 0; guessed < 2; guessed++) {
+    unsigned hits = 0;
+    double sum = 0, width = 0;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+      trax_slot_sampling asked = some;
+      asked.costs = guessed ? costs : NULL;
+      asked.seed = seed;
+      struct run sampled = sample(&asked, 1);
+      const struct trax_stats *stats = &sampled.bench.machine->stats;
+      const struct trax_sampling_stats *sampling = &stats->sampling;
+      assert_int_equal(sampled.bench.status, TRAX_OK);
+      assert_true(sampling->windows >= 12 && sampling->detailed_cycles < 3 * truth->cycles / 4);
+      assert_int_equal(stats->total.items, ITEMS);
+      const double error = (double)stats->cycles / (double)truth->cycles - 1;
+      sum += error;
+      width += (sampling->high - sampling->low) / (double)truth->cycles;
+      hits += sampling->low <= (double)truth->cycles && (double)truth->cycles <= sampling->high;
+      if (guessed) { /* what is counted goes with the cycles */
+        assert_true(fabs((double)stats->total.dcache_misses / (double)truth->total.dcache_misses - 1) < 0.15);
+        assert_true(fabs((double)stats->instructions / (double)truth->instructions - 1) < 0.1);
+      }
+      end(&sampled);
+    }
+    assert_true(fabs(sum / 20) < (guessed ? 0.01 : 0.1));
+    widths[guessed] = width / 20;
+  }
+  assert_true(widths[1] < 0.2 && widths[0] > 2 * widths[1]); /* a guess is worth it */
+  end(&exact);
+}
+
+/* The choice and the result depend on the seed alone. */
+static void repeatable(void **state) {
+  (void)state;
+  struct run one = sample(&some, 1), two = sample(&some, 2);
+  expect_same(&one, &two);
+  trax_slot_sampling other = some;
+  other.seed = 2;
+  struct run three = sample(&other, 1);
+  assert_int_not_equal(one.bench.machine->stats.cycles, three.bench.machine->stats.cycles);
+  end(&three);
+  end(&two);
+  end(&one);
+}
+
+/* As many draws as an interval takes. */
+static void as_asked(void **state) {
+  (void)state;
+  uint64_t windows = 0;
+  const double errors[] = {0.2, 0.06};
+  for (unsigned i = 0; i < 2; i++) {
+    trax_slot_sampling asked = some;
+    asked.error = errors[i];
+    asked.warm_up = 16;
+    asked.unit = 32;
+    struct run sampled = sample(&asked, 1);
+    const struct trax_stats *stats = &sampled.bench.machine->stats;
+    assert_int_equal(sampled.bench.status, TRAX_OK);
+    assert_true(stats->sampling.high - (double)stats->cycles < 1.3 * errors[i] * (double)stats->cycles);
+    assert_true(stats->sampling.windows >= windows);
+    windows = stats->sampling.windows;
+    end(&sampled);
+  }
+}
+
+static void refusals(void **state) {
+  (void)state;
+  static double wrong[ITEMS / BLOCK + 1];
+  for (size_t i = 0; i <= ITEMS / BLOCK; i++)
+    wrong[i] = (double)i;
+  wrong[ITEMS / BLOCK / 2] = 1e9; /* the next one costs less than nothing */
+  trax_slot_sampling cases[8];
+  for (size_t i = 0; i < 8; i++)
+    cases[i] = some;
+  cases[0].counter = ITEM_COUNTER + 2;
+  cases[1].counter = 0x7FFFFFFC;
+  cases[2].slots = 0;
+  cases[3].fraction = 0;
+  cases[4].fraction = 1.5;
+  cases[5].error = 1;
+  cases[6].block = 0;
+  cases[7].costs = wrong;
+  const char *const words[] = {"is not a word",   "is not a word",     "no slots",        "is 0; allowed",
+                               "is 1.5; allowed", "error wanted is 1", "need the number", "not a number of 0 or more"};
+  for (size_t i = 0; i < 8; i++) {
+    struct run sampled = sample(&cases[i], 1);
+    assert_non_null(strstr(sampled.bench.error.message, words[i]));
+    end(&sampled);
+  }
+  trax_slot_sampling elsewhere = some;
+  elsewhere.counter = ITEM_COUNTER + 4; /* which nobody increments */
+  struct run sampled = sample(&elsewhere, 1);
+  assert_int_equal(sampled.bench.status, TRAX_ERROR);
+  assert_non_null(strstr(sampled.bench.error.message, "not taken by increments"));
+  end(&sampled);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(by_hand),    cmocka_unit_test(coverage),   cmocka_unit_test(everything),
+      cmocka_unit_test(some_of_it), cmocka_unit_test(repeatable), cmocka_unit_test(as_asked),
+      cmocka_unit_test(refusals),
+  };
+  return cmocka_run_group_tests(tests, guess, NULL);
+}
