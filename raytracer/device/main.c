@@ -117,6 +117,7 @@ static RENDER_ALL void render_all(const struct trax_render_params *run) {
       continue;
     uint32_t word = render_pixel(run, pixel);
     HIDE_ORIGIN(pixel.packed);
+    ACCESS_SLOT(slot);
     LOAD_AGAIN(run);
     RECORD_PIXEL(run, pixel);
     trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
@@ -135,6 +136,7 @@ static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
     if (!slot_pixel(run, slot, &pixel))
       continue;
     render_path_pixel(run, path, pixel);
+    ACCESS_SLOT(slot);
     trax_count_items(1);
   }
   END_THREAD();

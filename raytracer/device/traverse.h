@@ -5,6 +5,7 @@
 #ifndef TRAX_DEVICE_TRAVERSE_H
 #define TRAX_DEVICE_TRAVERSE_H
 
+#include "access.h"
 #include "ray.h"
 #include "run.h"
 #include "trax/scene_format.h"
@@ -102,6 +103,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
   for (;;) {
     while (__builtin_expect_with_probability(TRAX_SCENE_REF_COUNT(reference) == 0, 1, 0.95)) {
       const char *node = scene_at(scene, reference);
+      ACCESS_NODE(node);
       if (!(layout == TRAX_NODES_BINARY ? visit_node(false, node, ray, limit, &reference, &top)
                                         : visit_node(true, node, ray, limit, &reference, &top)))
         goto back;
@@ -111,6 +113,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
     const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
     do {
       HIDE_ORIGIN(triangle); /* else three pointers would be stepped instead of one */
+      ACCESS_TRIANGLE(triangle);
       if (hit_triangle(&ray->triangle, triangle, any, hit) && any)
         return true;
       triangle += sizeof(struct trax_triangle);

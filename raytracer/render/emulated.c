@@ -4,12 +4,15 @@
 #include "host/host.h"
 #include "host/util.h"
 #include "report.h"
+#include "sampled.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define DEFAULT_FRACTION 0.05 /* of the work, with --sampled */
 
 bool installation(char root[TRAX_PATH_SIZE]) {
   char self[TRAX_PATH_SIZE - 4];
@@ -183,6 +186,13 @@ static double statistic(const trax_machine *machine, const char *name) {
 
 static void print_machine(const trax_machine *machine) {
   printf("cycles      %.0f (%.3f ms)\n", statistic(machine, "cycles"), 1e3 * statistic(machine, "seconds"));
+  const struct trax_sampling_stats *sampling = &machine->stats.sampling;
+  if (sampling->is_sampled) {
+    printf("sampled     %.0f to %.0f cycles with 95 %% confidence, %.1f %% of the slots in %llu ranges simulated\n",
+           sampling->low, sampling->high, 100.0 * (double)sampling->detailed_slots / sampling->asked_slots.slots,
+           (unsigned long long)sampling->windows);
+    printf("predicted   %.0f cycles, before any was simulated\n", sampling->predicted);
+  }
   printf("rays        %.0f, %.2f million per second\n", statistic(machine, "rays"), statistic(machine, "mrps"));
 }
 
@@ -211,11 +221,26 @@ static trax_status write_costs(const struct trax_costs *costs, const struct opti
   return status;
 }
 
+static void show_twin(void *context, uint64_t done, uint64_t total) {
+  progress_show(context, "predicting", (double)done / (double)total, NULL);
+}
+
+/* The picture by the twin, which also tells what parts are worth simulating. */
+static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct trax_picture *picture,
+                                  const struct options *options, const struct trax_frame *frame, trax_machine *machine,
+                                  struct progress *progress, const volatile int *interrupt, trax_error *error) {
+  struct trax_render_run twin = {.progress = show_twin, .progress_context = progress, .interrupt = interrupt};
+  sampling->slots = options->sampling;
+  if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
+    sampling->slots.fraction = DEFAULT_FRACTION;
+  return trax_picture_sampling_init(sampling, picture, frame, machine, &twin, error);
+}
+
 /* One picture by one program. figures may be NULL. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_program *program,
-                               struct progress *progress, const volatile int *interrupt, struct program_figures *figures,
-                               trax_error *error) {
+                               struct progress *progress, const volatile int *interrupt,
+                               struct program_figures *figures, trax_error *error) {
   trax_config *config = trax_config_create();
   trax_status status = config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
   trax_machine *machine = status == TRAX_OK ? trax_machine_create(config, error) : NULL;
@@ -239,8 +264,16 @@ static trax_status run_program(struct trax_picture *picture, const struct option
       status = trax_costs_init(&costs, frame->params->width, frame->params->height,
                                options->cost ? options->cost : "cycles", error);
     }
+    struct trax_picture_sampling sampling = {0};
+    if (status == TRAX_OK && options->sampled) {
+      status = begin_sampling(&sampling, picture, options, frame, machine, progress, interrupt, error);
+      run.run.slots = &sampling.slots;
+      run.run.total_items = 0; /* most are left out */
+    }
     if (status == TRAX_OK)
       status = trax_simulated_run(picture, frame, machine, &run, error);
+    machine->stats.sampling.asked_slots.costs = NULL;
+    trax_picture_sampling_release(&sampling);
     progress_clear(progress);
     if (status == TRAX_FAULT)
       trax_machine_print_fault(machine, stderr);

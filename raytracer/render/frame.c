@@ -162,13 +162,14 @@ static uint32_t log2_ceiling(uint32_t value) {
   return result;
 }
 
-/* Tiles of 8 x 8 pixels, or narrower where the picture is. With s = ceil(log2(across)) and m = floor(2^(31+s) / across)
+/* Of 2^log2_side x 2^log2_side pixels, or narrower where the picture is. With s = ceil(log2(across)) and m =
+   floor(2^(31+s) / across)
    + 1, (2 * tile * m) >> (32 + s) is exactly tile / across while 2 * tile < 2^30: the excess of m over the quotient
    adds less than 1 / across. */
-static void set_tiles(struct trax_render_params *params) {
+void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side) {
   uint32_t width = log2_ceiling(params->width), height = log2_ceiling(params->height);
-  params->tile_log2_width = width < 3 ? width : 3;
-  params->tile_log2_height = height < 3 ? height : 3;
+  params->tile_log2_width = width < log2_side ? width : log2_side;
+  params->tile_log2_height = height < log2_side ? height : log2_side;
   uint32_t across = (params->width + (1u << params->tile_log2_width) - 1) >> params->tile_log2_width;
   uint32_t down = (params->height + (1u << params->tile_log2_height) - 1) >> params->tile_log2_height;
   params->tiles_across = across;
@@ -254,7 +255,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   }
   set_camera(params, view);
   set_ambient(params, view, options->paths ? 0 : options->ambient);
-  set_tiles(params);
+  trax_frame_set_tiles(params, 3);
   if (lighting) {
     trax_lighting_fill(params, scene, view, options);
     return TRAX_OK;

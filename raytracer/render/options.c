@@ -58,6 +58,11 @@ static const char usage[] =
     "slowly;\n"
     "                          native: the same program compiled for this computer; embree: the reference picture\n"
     "      --threads N         host threads of engines fast and native (default: all processors)\n"
+    "      --sampled           simulates only some parts of the picture and estimates the rest, with an interval; the\n"
+    "                          picture itself is the native twin's\n"
+    "      --sample-fraction X the share of the work that is simulated, above 0 to 1 (default 0.05; 1: all of it)\n"
+    "      --sample-error X    instead: as much as it takes for an interval of plus and minus X per cent\n"
+    "      --sample-seed N     another choice of parts (default 1)\n"
     "      --compare           renders the reference and the native twin too and prints the differences;\n"
     "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
     "                          99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
@@ -115,6 +120,10 @@ enum {
   OPT_COST,
   OPT_ENGINE,
   OPT_THREADS,
+  OPT_SAMPLED,
+  OPT_SAMPLE_FRACTION,
+  OPT_SAMPLE_ERROR,
+  OPT_SAMPLE_SEED,
   OPT_COMPARE,
   OPT_PROGRAM,
   OPT_NO_SPECIALISE,
@@ -164,6 +173,10 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"cost", required_argument, NULL, OPT_COST},
                                              {"engine", required_argument, NULL, OPT_ENGINE},
                                              {"threads", required_argument, NULL, OPT_THREADS},
+                                             {"sampled", no_argument, NULL, OPT_SAMPLED},
+                                             {"sample-fraction", required_argument, NULL, OPT_SAMPLE_FRACTION},
+                                             {"sample-error", required_argument, NULL, OPT_SAMPLE_ERROR},
+                                             {"sample-seed", required_argument, NULL, OPT_SAMPLE_SEED},
                                              {"compare", no_argument, NULL, OPT_COMPARE},
                                              {"program", required_argument, NULL, OPT_PROGRAM},
                                              {"no-specialise", no_argument, NULL, OPT_NO_SPECIALISE},
@@ -215,6 +228,13 @@ static bool parse_fraction(const char *text, float *value) {
   char *end;
   *value = strtof(text, &end);
   return end != text && *end == '\0' && *value >= 0 && *value <= 1;
+}
+
+/* Above 0 and to `most`. */
+static bool parse_share(const char *text, double most, double *value) {
+  char *end;
+  *value = strtod(text, &end);
+  return end != text && *end == '\0' && *value > 0 && *value <= most;
 }
 
 static bool parse_engine(const char *text, enum engine *engine) {
@@ -330,6 +350,7 @@ static trax_status take_camera_option(struct options *options, int which, const 
 }
 
 static trax_status take_option(struct options *options, int which, const char *value, trax_error *error) {
+  unsigned number;
   if (which >= OPT_EYE && which <= OPT_ID_PICTURE)
     return take_camera_option(options, which, value, error);
   switch (which) {
@@ -453,6 +474,23 @@ static trax_status take_option(struct options *options, int which, const char *v
     if (!parse_number(&value, 4096, &options->threads) || *value != '\0' || options->threads == 0)
       return trax_fail(error, "--threads: expected a number from 1 to 4096");
     return TRAX_OK;
+  case OPT_SAMPLED:
+    options->sampled = true;
+    return TRAX_OK;
+  case OPT_SAMPLE_FRACTION:
+    if (!parse_share(value, 1, &options->sampling.fraction))
+      return trax_fail(error, "--sample-fraction %s: expected a number above 0 to 1", value);
+    return TRAX_OK;
+  case OPT_SAMPLE_ERROR:
+    if (!parse_share(value, 50, &options->sampling.error))
+      return trax_fail(error, "--sample-error %s: expected per cent, above 0 to 50", value);
+    options->sampling.error /= 100;
+    return TRAX_OK;
+  case OPT_SAMPLE_SEED:
+    if (!parse_number(&value, UINT32_MAX, &number) || *value != '\0' || number == 0)
+      return trax_fail(error, "--sample-seed: expected a number from 1 to %u", UINT32_MAX);
+    options->sampling.seed = number;
+    return TRAX_OK;
   case OPT_COMPARE:
     options->compare = true;
     return TRAX_OK;
@@ -503,6 +541,19 @@ static trax_status check(const struct options *options, trax_error *error) {
         options->keep || options->prepare || options->frames > 1 || trax_explain_wanted(&options->explain))
       return trax_fail(error, "--bench-accuracy makes tables and diagrams of its own, and nothing else");
   }
+  const trax_slot_sampling *sampling = &options->sampling;
+  if (!options->sampled && (sampling->fraction > 0 || sampling->error > 0 || sampling->seed))
+    return trax_fail(error, "--sample-fraction, --sample-error and --sample-seed are for --sampled");
+  if (sampling->fraction > 0 && sampling->error > 0)
+    return trax_fail(error, "--sample-fraction and --sample-error: one follows from the other");
+  if (options->sampled && options->engine != ENGINE_FAST)
+    return trax_fail(error, "--sampled needs engine fast");
+  if (options->sampled &&
+      (options->compare || options->report || options->bench_accuracy || options->prepare || options->frames > 1 ||
+       options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+    return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
+  if (options->sampled && options->frame.method.fast_math)
+    return trax_fail(error, "--sampled: with --fast-math the native twin's picture would be another one");
   if (options->engine > ENGINE_REFERENCE) {
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");

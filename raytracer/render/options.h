@@ -46,8 +46,10 @@ struct options {
   const char *nodes;    /* of the tree; NULL: auto */
   struct trax_frame_options frame;
   enum engine engine;
-  unsigned threads;    /* of the fast engine and the native twin; 0: as many as the host has */
-  bool bench_accuracy; /* output is a folder */
+  unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
+  bool bench_accuracy;         /* output is a folder */
+  bool sampled;                /* most of the picture is not simulated */
+  trax_slot_sampling sampling; /* fraction or error, and seed */
   bool compare, quiet, report, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */
 };

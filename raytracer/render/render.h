@@ -5,6 +5,7 @@
 #ifndef TRAX_RENDER_H
 #define TRAX_RENDER_H
 
+#include "trax/access.h"
 #include "trax/emulator.h"
 #include "trax/record.h"
 #include "trax/render_params.h"
@@ -61,6 +62,8 @@ void trax_scale_view(struct trax_view *view, int exponent);
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error);
+/* The order in which slots are pixels: by square tiles, which trax_frame_init makes of 8 x 8 pixels; 0: row by row. */
+void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side);
 void trax_frame_release(struct trax_frame *frame);
 /* Of the device program's buffer `image`. */
 uint32_t trax_frame_image_bytes(const struct trax_frame *frame);
@@ -164,8 +167,9 @@ double trax_difference_percent(const struct trax_difference *difference); /* of 
 struct trax_render_run {
   void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
   void *progress_context;
-  const volatile int *interrupt; /* polled; may be NULL */
-  uint64_t rays;                 /* out: rays traced */
+  const volatile int *interrupt;    /* polled; may be NULL */
+  uint64_t rays;                    /* out: rays traced; 0 with accesses, which know of them slot by slot */
+  struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
 };
 
 /* twin.c: the device program on `threads` host threads (0: as many as the host has), with the frame's triangle test and
@@ -244,7 +248,7 @@ uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *f
 /* Loads the program and binds what it reads. */
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
                                 const struct trax_program *program, trax_error *error);
-/* Runs what was loaded. */
+/* Runs what was loaded. With run.slots there is no picture: most of it is left out. */
 trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
                                const struct trax_simulated_options *options, trax_error *error);
 

@@ -94,6 +94,8 @@ trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_f
   const int exit_status = trax_machine_exit_status(machine);
   if (exit_status != 0)
     return trax_fail(error, "the program ended with status %d", exit_status);
+  if (options->run.slots)
+    return TRAX_OK;
   const uint8_t *bytes;
   uint32_t size;
   status = trax_machine_read_buffer(machine, "image", &bytes, &size, error);

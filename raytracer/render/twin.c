@@ -18,8 +18,13 @@ extern unsigned next_slot;
 int trax_twin_watertight(void);
 int trax_twin_moller_trumbore(void);
 int trax_twin_recording(void);
+int trax_twin_watertight_accesses(void); /* these tell the log what they read (device/access.h) */
+int trax_twin_moller_trumbore_accesses(void);
+struct trax_access_log *trax_access_log;
 
-static int (*const mains[TRAX_TRIANGLE_METHODS])(void) = {trax_twin_watertight, trax_twin_moller_trumbore};
+static int (*const mains[TRAX_TRIANGLE_METHODS][2])(void) = {
+    {trax_twin_watertight, trax_twin_watertight_accesses},
+    {trax_twin_moller_trumbore, trax_twin_moller_trumbore_accesses}};
 
 struct worker {
   pthread_t thread;
@@ -90,6 +95,9 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
   image = (struct trax_buffer){pixels, image_bytes};
   paths = (struct trax_buffer){path_bytes, threads * TRAX_PATH_BYTES};
   next_slot = 0;
+  trax_access_log = run->accesses;
+  if (run->accesses)
+    threads = 1;
 
   struct crew crew = {
       .lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER, .main = twin, .running = threads};
@@ -121,7 +129,8 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
 
 trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error) {
-  return run_twin(picture, mains[frame->method.triangle], frame, threads, run, error);
+  int (*const twin)(void) = mains[frame->method.triangle][run->accesses != NULL];
+  return run_twin(picture, twin, frame, threads, run, error);
 }
 
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,

@@ -1,0 +1,307 @@
+/* The model: each TP takes slot by slot and in each its accesses one by one; all other instructions are an access's
+   duration, which grows with the number of TPs of the TM that compete for units and banks. A line that is not in the
+   data cache comes after those that were asked for before, as fast as the memory's bandwidth allows. That is what
+   decides how cycles differ from one part of a picture to another; arbitration, banks, instruction fetches and single
+   units are left out. */
+#include "prediction.h"
+
+#include "core/machine.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Cycles of a node's visit by a TP, alone in its TM and with all TPs at work; the rest relative to a node's. Fitted
+   once to the device program on the paper's chips; what matters is the relation to a miss. */
+#define NODE_ALONE 45.0
+#define NODE_CROWDED 137.0
+#define TRIANGLE_NODES 1.5
+#define RAY_NODES 2
+
+enum {
+  CHUNK = 1 << 20, /* steps that are collected before the model goes on */
+  SLOT_BYTES = 12, /* of a slot's atomic increment and pixel */
+  TRIANGLE_BYTES = sizeof(struct trax_triangle),
+  PAUSE = 2 /* a step that is no access, but takes as long */
+};
+
+struct trace {
+  size_t begin, end; /* in steps */
+  uint32_t slot;
+};
+
+/* A TM. */
+struct tm {
+  double clock;
+  double *wake;             /* [tps]: when the TP takes its next step; DBL_MAX: never */
+  const trax_access **next; /* [tps] */
+  const trax_access **end;  /* [tps] */
+  uint32_t *line;           /* [sets * ways]: + 1; of a set the latest used or the latest loaded first */
+  double *ready;            /* [sets * ways]: when it arrived */
+};
+
+struct model {
+  struct trax_access_log log; /* first: it is what the twin knows */
+  trax_access *steps;         /* [capacity] */
+  size_t capacity, begin;     /* of the present slot */
+  struct trace *traces;       /* [trace_capacity]: slots that wait to be taken */
+  size_t trace_count, trace_capacity, taken;
+  bool failed;
+  uint64_t rays;
+
+  const struct trax_config *config;
+  uint32_t tms, tps, set_mask, noted; /* noted: blocks that are */
+  unsigned line_shift;
+  uint32_t address;
+  double bus_free, cycles_per_byte;
+  struct tm *tm; /* [tms] */
+  struct trax_prediction *prediction;
+};
+
+/* --- the model --- */
+
+/* When a transfer that is asked for now is there. */
+static double transfer(struct model *model, double now, uint32_t bytes) {
+  model->bus_free = (model->bus_free > now ? model->bus_free : now) + bytes * model->cycles_per_byte;
+  return model->bus_free + model->config->memory.latency_cycles;
+}
+
+/* When what is at an address can be used. */
+static double load(struct model *model, struct tm *tm, uint32_t address, double now) {
+  const uint32_t ways = model->config->dcache.ways, number = address >> model->line_shift;
+  uint32_t *lines = tm->line + (size_t)(number & model->set_mask) * ways;
+  double *ready = tm->ready + (size_t)(number & model->set_mask) * ways;
+  uint32_t way = 0;
+  while (way < ways && lines[way] != number + 1)
+    way++;
+  const bool hit = way < ways;
+  const double time = hit ? ready[way] : transfer(model, now, model->config->dcache.line_bytes);
+  if (hit && !model->config->dcache.lru)
+    return time;
+  for (way = hit ? way : ways - 1; way > 0; way--) {
+    lines[way] = lines[way - 1];
+    ready[way] = ready[way - 1];
+  }
+  lines[0] = number + 1;
+  ready[0] = time;
+  return time;
+}
+
+static void note_blocks(struct model *model, uint32_t slot, double now) {
+  double *cycles = model->prediction->cycles;
+  for (; model->noted * TRAX_PREDICTION_BLOCK <= slot; model->noted++)
+    cycles[model->noted] = model->noted && cycles[model->noted - 1] > now ? cycles[model->noted - 1] : now;
+}
+
+/* The TP's next step, which lasts `node` cycles if it is a node's; returns when the one after it begins. */
+static double step(struct model *model, struct tm *tm, uint32_t tp, double now, double node) {
+  if (tm->next[tp] == tm->end[tp]) {
+    if (model->taken == model->trace_count)
+      return DBL_MAX;
+    const struct trace *trace = &model->traces[model->taken++];
+    note_blocks(model, trace->slot, now);
+    tm->next[tp] = model->steps + trace->begin;
+    tm->end[tp] = model->steps + trace->end;
+    return transfer(model, now, SLOT_BYTES);
+  }
+  const trax_access access = *tm->next[tp]++;
+  const uint32_t address = model->address + (access & ~7u);
+  double duration = node, loaded = 0;
+  if (access & TRAX_ACCESS_TRIANGLE) {
+    duration *= TRIANGLE_NODES;
+    loaded = load(model, tm, address, now);
+    if ((address ^ (address + TRIANGLE_BYTES - 1)) >> model->line_shift) {
+      const double second = load(model, tm, address + TRIANGLE_BYTES - 1, now);
+      loaded = second > loaded ? second : loaded;
+    }
+  } else if (!(access & PAUSE)) {
+    loaded = load(model, tm, address, now);
+  }
+  return (loaded > now ? loaded : now) + duration;
+}
+
+/* All TPs of a TM whose time it is take a step. */
+static void go_round(struct model *model, struct tm *tm) {
+  const double now = tm->clock;
+  uint32_t active = 0;
+  for (uint32_t tp = 0; tp < model->tps; tp++)
+    active += tm->wake[tp] <= now;
+  const double node = NODE_ALONE + (NODE_CROWDED - NODE_ALONE) * active / model->tps;
+  double next = DBL_MAX;
+  for (uint32_t tp = 0; tp < model->tps; tp++) {
+    if (tm->wake[tp] <= now)
+      tm->wake[tp] = step(model, tm, tp, now, node);
+    next = tm->wake[tp] < next ? tm->wake[tp] : next;
+  }
+  const double least = now + NODE_ALONE; /* those who are ready at about the same time go together */
+  tm->clock = next < least ? least : next;
+}
+
+/* Goes on while there are slots for all who may want one; with `last`, to the end. */
+static void advance(struct model *model, bool last) {
+  while (last || model->trace_count - model->taken > model->tps) {
+    struct tm *tm = &model->tm[0];
+    for (uint32_t i = 1; i < model->tms; i++)
+      if (model->tm[i].clock < tm->clock)
+        tm = &model->tm[i];
+    if (tm->clock == DBL_MAX)
+      return;
+    go_round(model, tm);
+  }
+}
+
+/* --- the log --- */
+
+/* Those steps that will be read again move to a new place, with room behind them. */
+static void compact(struct model *model) {
+  size_t left = (size_t)(model->log.end - model->steps);
+  const size_t unread = model->taken < model->trace_count ? model->traces[model->taken].begin : model->begin;
+  left -= unread;
+  for (uint32_t i = 0; i < model->tms; i++)
+    for (uint32_t tp = 0; tp < model->tps; tp++)
+      left += (size_t)(model->tm[i].end[tp] - model->tm[i].next[tp]);
+  while (left > model->capacity / 2)
+    model->capacity *= 2;
+  trax_access *steps = malloc(model->capacity * sizeof *steps), *to = steps;
+  if (!steps) { /* whatever comes is for nothing */
+    model->failed = true;
+    model->begin = model->trace_count = model->taken = 0;
+    model->capacity = (size_t)(model->log.limit - model->steps);
+    model->log.end = model->steps;
+    return;
+  }
+  for (uint32_t i = 0; i < model->tms; i++)
+    for (uint32_t tp = 0; tp < model->tps; tp++) {
+      const size_t count = (size_t)(model->tm[i].end[tp] - model->tm[i].next[tp]);
+      if (count)
+        memcpy(to, model->tm[i].next[tp], count * sizeof *to);
+      model->tm[i].next[tp] = to;
+      model->tm[i].end[tp] = to += count;
+    }
+  const size_t place = (size_t)(to - steps), count = (size_t)(model->log.end - model->steps) - unread;
+  memcpy(to, model->steps + unread, count * sizeof *to);
+  size_t traces = 0;
+  for (size_t i = model->taken; i < model->trace_count; i++) {
+    const struct trace *trace = &model->traces[i];
+    model->traces[traces++] = (struct trace){trace->begin - unread + place, trace->end - unread + place, trace->slot};
+  }
+  model->trace_count = traces;
+  model->taken = 0;
+  model->begin = model->begin - unread + place;
+  free(model->steps);
+  model->steps = steps;
+  model->log.end = to + count;
+  model->log.limit = steps + model->capacity;
+}
+
+static void make_room(struct trax_access_log *log) {
+  struct model *model = (struct model *)log;
+  advance(model, false);
+  compact(model);
+}
+
+static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) {
+  struct model *model = (struct model *)log;
+  model->rays += rays;
+  for (uint32_t i = 0; i < rays * RAY_NODES; i++) {
+    if (log->end == log->limit)
+      make_room(log);
+    *log->end++ = PAUSE;
+  }
+  if (model->trace_count == model->trace_capacity) {
+    const size_t capacity = model->trace_capacity ? 2 * model->trace_capacity : 4096;
+    struct trace *traces = realloc(model->traces, capacity * sizeof *traces);
+    if (!traces) {
+      model->failed = true;
+      return;
+    }
+    model->traces = traces;
+    model->trace_capacity = capacity;
+  }
+  const size_t end = (size_t)(log->end - model->steps);
+  model->traces[model->trace_count++] = (struct trace){model->begin, end, slot};
+  model->begin = end;
+}
+
+/* --- the whole --- */
+
+static bool make_tm(struct tm *tm, const struct model *model) {
+  const size_t lines = (size_t)(model->set_mask + 1) * model->config->dcache.ways;
+  tm->wake = calloc(model->tps, sizeof *tm->wake);
+  tm->next = calloc(model->tps, sizeof *tm->next);
+  tm->end = calloc(model->tps, sizeof *tm->end);
+  tm->line = calloc(lines, sizeof *tm->line);
+  tm->ready = calloc(lines, sizeof *tm->ready);
+  for (uint32_t tp = 0; tm->next && tm->end && tp < model->tps; tp++)
+    tm->next[tp] = tm->end[tp] = model->steps;
+  return tm->wake && tm->next && tm->end && tm->line && tm->ready;
+}
+
+static trax_status begin_model(struct model *model, struct trax_prediction *prediction, const struct trax_frame *frame,
+                               const struct trax_config *config, uint32_t scene_address, trax_error *error) {
+  const uint32_t slots = frame->params->slot_count;
+  *prediction = (struct trax_prediction){.blocks = (slots + TRAX_PREDICTION_BLOCK - 1) / TRAX_PREDICTION_BLOCK};
+  *model = (struct model){.log = {.full = make_room, .slot = end_slot},
+                          .capacity = CHUNK,
+                          .config = config,
+                          .tms = config->chip.tms,
+                          .tps = config->chip.tps_per_tm,
+                          .set_mask = config->dcache.bytes / config->dcache.line_bytes / config->dcache.ways - 1,
+                          .line_shift = (unsigned)__builtin_ctz(config->dcache.line_bytes),
+                          .address = scene_address,
+                          .cycles_per_byte = config->chip.clock_mhz / (1000 * config->memory.bandwidth_gbps),
+                          .prediction = prediction};
+  prediction->cycles = calloc(prediction->blocks + 1, sizeof *prediction->cycles);
+  model->steps = malloc(model->capacity * sizeof *model->steps);
+  model->tm = calloc(model->tms, sizeof *model->tm);
+  bool made = prediction->cycles && model->steps && model->tm;
+  for (uint32_t i = 0; i < model->tms && made; i++)
+    made = make_tm(&model->tm[i], model);
+  model->log.end = model->steps;
+  model->log.limit = model->steps + model->capacity;
+  return made ? TRAX_OK : trax_fail(error, "out of memory for the prediction");
+}
+
+static void end_model(struct model *model) {
+  for (uint32_t i = 0; model->tm && i < model->tms; i++) {
+    struct tm *tm = &model->tm[i];
+    free(tm->wake);
+    free(tm->next);
+    free(tm->end);
+    free(tm->line);
+    free(tm->ready);
+  }
+  free(model->tm);
+  free(model->traces);
+  free(model->steps);
+}
+
+trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture *picture,
+                         const struct trax_frame *frame, const struct trax_config *config, uint32_t scene_address,
+                         struct trax_render_run *run, trax_error *error) {
+  struct model model;
+  struct trax_render_run logged = *run;
+  trax_status status = begin_model(&model, prediction, frame, config, scene_address, error);
+  logged.accesses = &model.log;
+  if (status == TRAX_OK)
+    status = trax_render_twin(picture, frame, 1, &logged, error);
+  if (status == TRAX_OK && model.failed) {
+    trax_picture_release(picture);
+    status = trax_fail(error, "out of memory for the prediction");
+  }
+  if (status == TRAX_OK) {
+    advance(&model, false);
+    advance(&model, true);
+    note_blocks(&model, prediction->blocks * TRAX_PREDICTION_BLOCK, model.bus_free);
+    run->rays = model.rays;
+  } else {
+    trax_prediction_release(prediction);
+  }
+  end_model(&model);
+  return status;
+}
+
+void trax_prediction_release(struct trax_prediction *prediction) {
+  free(prediction->cycles);
+  *prediction = (struct trax_prediction){0};
+}

@@ -1,0 +1,25 @@
+/* What ranges of a picture's slots will cost the chip, roughly and soon: the twin's accesses to the scene, passed
+   through a coarse model of the chip. Sampled simulation (core/slots.h) takes it as a guess: what it says of the slots
+   that are simulated is compared with the truth, and what it says of the others is corrected by as much. */
+#ifndef TRAX_RENDER_PREDICTION_H
+#define TRAX_RENDER_PREDICTION_H
+
+#include "core/config.h"
+#include "render.h"
+
+#include <stdint.h>
+
+#define TRAX_PREDICTION_BLOCK 32u /* slots */
+
+struct trax_prediction {
+  uint32_t blocks;
+  double *cycles; /* [blocks + 1]: when the first slot of a block is handed out, and at the end */
+};
+
+/* scene_address: where the device has the scene. The picture is the twin's, run->rays the rays traced. */
+trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture *picture,
+                         const struct trax_frame *frame, const struct trax_config *config, uint32_t scene_address,
+                         struct trax_render_run *run, trax_error *error);
+void trax_prediction_release(struct trax_prediction *prediction);
+
+#endif

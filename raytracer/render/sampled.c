@@ -1,0 +1,59 @@
+#include "sampled.h"
+
+#include "core/machine.h"
+#include "host/host.h"
+#include "host/image.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The twin's accesses in the order of the program's slots. */
+static trax_status predict(struct trax_picture_sampling *sampling, struct trax_picture *picture,
+                           const struct trax_frame *frame, trax_machine *machine, bool by_rows,
+                           struct trax_render_run *run, trax_error *error) {
+  const uint8_t *scene = machine->space.bytes;
+  uint32_t scene_bytes;
+  /* A program that has the scene as plain arrays has it somewhere else, and about as large. */
+  if (trax_image_symbol(trax_host_of(machine)->image, "scene") &&
+      trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error) != TRAX_OK)
+    return TRAX_ERROR;
+  struct trax_frame ordered = *frame;
+  struct trax_render_params *params = malloc(frame->params_size);
+  if (!params)
+    return trax_fail(error, "out of memory for the prediction");
+  memcpy(params, frame->params, frame->params_size);
+  if (by_rows)
+    trax_frame_set_tiles(params, 0);
+  ordered.params = params;
+  const trax_status status = trax_predict(&sampling->prediction, picture, &ordered, &machine->config,
+                                          (uint32_t)(scene - machine->space.bytes), run, error);
+  sampling->slots.slots = params->slot_count;
+  free(params);
+  return status;
+}
+
+trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, struct trax_picture *picture,
+                                       const struct trax_frame *frame, trax_machine *machine,
+                                       struct trax_render_run *run, trax_error *error) {
+  const struct trax_image *image = trax_host_of(machine)->image;
+  const struct trax_symbol *by_tiles = trax_image_symbol(image, "next_slot");
+  const struct trax_symbol *counter = by_tiles ? by_tiles : trax_image_symbol(image, "next_pixel");
+  if (!counter)
+    return trax_fail(error,
+                     "%s: the program has neither next_slot nor next_pixel, which count the pixels handed out: "
+                     "it cannot be sampled",
+                     trax_image_path(image));
+  const trax_status status = predict(sampling, picture, frame, machine, !by_tiles, run, error);
+  if (status != TRAX_OK)
+    return status;
+  sampling->slots.counter = counter->address;
+  sampling->slots.costs = sampling->prediction.cycles;
+  sampling->slots.block = TRAX_PREDICTION_BLOCK;
+  sampling->slots.rays = by_tiles ? run->rays : 0; /* another program may trace others */
+  sampling->slots.items = (uint64_t)frame->params->width * frame->params->height;
+  return TRAX_OK;
+}
+
+void trax_picture_sampling_release(struct trax_picture_sampling *sampling) {
+  trax_prediction_release(&sampling->prediction);
+}

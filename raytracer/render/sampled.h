@@ -1,0 +1,20 @@
+/* Sampled simulation of a picture: what is simulated of its slots (core/slots.h), chosen by a prediction of their
+ * costs. */
+#ifndef TRAX_RENDER_SAMPLED_H
+#define TRAX_RENDER_SAMPLED_H
+
+#include "prediction.h"
+
+struct trax_picture_sampling {
+  trax_slot_sampling slots; /* fraction or error, and seed, are the caller's */
+  struct trax_prediction prediction;
+};
+
+/* Fills in the rest, for a machine that the program is loaded into; the picture is the native twin's. Errors: the
+   program hands out its pixels neither as the device program does, by `next_slot`, nor row by row, by `next_pixel`. */
+trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, struct trax_picture *picture,
+                                       const struct trax_frame *frame, trax_machine *machine,
+                                       struct trax_render_run *run, trax_error *error);
+void trax_picture_sampling_release(struct trax_picture_sampling *sampling);
+
+#endif
