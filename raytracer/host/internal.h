@@ -139,6 +139,14 @@ void scene_mend_normals(struct trax_mesh *mesh, struct trax_import_report *repor
 trax_status scene_complete_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
                                    uint32_t count, double crease_cosine, trax_error *error);
 
+/* --- camera.c --- */
+
+float scene_dot(const float a[3], const float b[3]);
+/* False if the length is zero, or not finite. */
+bool scene_normalise(float v[3]);
+/* Makes up perpendicular to the direction; false if they are parallel, both being of unit length. */
+bool scene_make_perpendicular(float up[3], const float direction[3]);
+
 /* --- polygon.c --- */
 
 /* Memory that is used again from one polygon to the next; zeroed at first. */

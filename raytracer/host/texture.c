@@ -68,20 +68,49 @@ static uint32_t source_of(const struct axis *axis, int64_t tap) {
 /* R, G and B times alpha, alpha, and R, G and B alone for what is all transparent. */
 enum { CHANNELS = 7 };
 
-static void add_row(float *sums, const struct scene_image *image, uint32_t y, const struct axis *across, float weight) {
+/* What the texels of a row take from those of the image. */
+struct shares {
+  uint32_t *firsts; /* of each texel, and behind the last one, into the following */
+  struct share {
+    uint32_t source;
+    float weight;
+  } *shares;
+};
+
+static bool list_shares(struct shares *shares, const struct axis *axis) {
+  double middle, radius;
+  int64_t first;
+  size_t count = 0;
+  for (uint32_t at = 0; at < axis->to; at++)
+    count += taps(axis, at, &middle, &radius, &first);
+  shares->firsts = malloc(((size_t)axis->to + 1) * sizeof *shares->firsts);
+  shares->shares = malloc(count * sizeof *shares->shares);
+  if (!shares->firsts || !shares->shares)
+    return false;
+  uint32_t made = 0;
+  for (uint32_t at = 0; at < axis->to; at++) {
+    const uint32_t number = taps(axis, at, &middle, &radius, &first);
+    shares->firsts[at] = made;
+    for (uint32_t i = 0; i < number; i++) {
+      const float weight = weight_of(middle, radius, first + i);
+      if (weight > 0)
+        shares->shares[made++] = (struct share){source_of(axis, first + i), weight};
+    }
+  }
+  shares->firsts[axis->to] = made;
+  return true;
+}
+
+static void add_row(float *sums, const struct scene_image *image, uint32_t y, const struct shares *across,
+                    uint32_t width, float weight) {
   const float *linear = linear_table();
   const unsigned char *row = image->rgba + (size_t)y * image->width * 4;
-  for (uint32_t x = 0; x < across->to; x++) {
-    double middle, radius;
-    int64_t first;
-    uint32_t count = taps(across, x, &middle, &radius, &first);
+  for (uint32_t x = 0; x < width; x++) {
     float total = 0, sum[CHANNELS] = {0};
-    for (uint32_t i = 0; i < count; i++) {
-      float share = weight_of(middle, radius, first + i);
-      if (share == 0)
-        continue;
-      const unsigned char *texel = row + 4 * (size_t)source_of(across, first + i);
-      float alpha = (float)texel[3] / 255;
+    for (uint32_t i = across->firsts[x]; i < across->firsts[x + 1]; i++) {
+      const float share = across->shares[i].weight;
+      const unsigned char *texel = row + 4 * (size_t)across->shares[i].source;
+      const float alpha = (float)texel[3] / 255;
       total += share;
       sum[3] += share * alpha;
       for (int channel = 0; channel < 3; channel++) {
@@ -105,10 +134,10 @@ static uint32_t texel_of(const float *sums, float total) {
 /* The image's first row is its uppermost; the texture's is at v = 0, the lowest. */
 static bool resample(uint32_t *texels, uint32_t width, uint32_t height, const struct scene_image *image, bool clamp) {
   const struct axis across = {image->width, width, clamp}, down = {image->height, height, clamp};
+  struct shares shares = {0};
   float *sums = malloc(CHANNELS * (size_t)width * sizeof *sums);
-  if (!sums)
-    return false;
-  for (uint32_t y = 0; y < height; y++) {
+  const bool good = sums && list_shares(&shares, &across);
+  for (uint32_t y = 0; good && y < height; y++) {
     double middle, radius;
     int64_t first;
     uint32_t count = taps(&down, y, &middle, &radius, &first);
@@ -119,13 +148,15 @@ static bool resample(uint32_t *texels, uint32_t width, uint32_t height, const st
       if (weight == 0)
         continue;
       total += weight;
-      add_row(sums, image, source_of(&down, first + i), &across, weight);
+      add_row(sums, image, source_of(&down, first + i), &shares, width, weight);
     }
     for (uint32_t x = 0; x < width; x++)
       texels[(size_t)(height - 1 - y) * width + x] = texel_of(sums + CHANNELS * (size_t)x, total);
   }
   free(sums);
-  return true;
+  free(shares.firsts);
+  free(shares.shares);
+  return good;
 }
 
 /* The power of two that is nearest: 4/3 of the side or more is rounded up. */
