@@ -43,7 +43,7 @@ def prepare_inputs(out, tools, scene, view, size, program):
         command += ["--program", tools.era_program()] if program == "era" else []
         run = subprocess.run(command, capture_output=True, text=True)
         if run.returncode != 0:
-            raise Problem(f"{scene}: {run.stderr.strip() or 'trax-render failed'}")
+            raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
         words = shlex.split(pathlib.Path(scratch, "run.sh").read_text().splitlines()[-1])
         buffers = [words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--bind"]
         allocations = dict(words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--alloc")

@@ -140,7 +140,8 @@ class Planner:
     def inputs(self, sweep, point):
         scene = sweep.scenes[point.scene]
         self.note(f"{point.scene}, {point.size}, {point.program}")
-        path = self.once(("scene", tuple(scene["meshes"])), lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene))
+        path = self.once(("scene", tuple(scene["meshes"]), point.program),
+                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, point.program))
         return self.once((path, scene["view"], point.size, point.program),
                          lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program))
 

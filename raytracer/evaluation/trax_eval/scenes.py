@@ -32,18 +32,23 @@ def neighbours(mesh):
     return [(entry.name, entry.stat().st_size, entry.stat().st_mtime_ns) for entry in sorted(os.scandir(folder), key=lambda one: one.name) if entry.is_file()]
 
 
-def scene_file(out, tools, directory, name, scene):
+# What trax-scene is told for a program; the era program's boxes are those of the triangles, not of a grid.
+IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary"]}
+
+
+def scene_file(out, tools, directory, name, scene, program):
     """The scene file of a scene; imported once for the same meshes and the same importer. NAME.trax in the directory comes first."""
     built = directory / f"{name}.trax"
     if built.is_file():
         return built.resolve()
     meshes = [find_mesh(directory, mesh) for mesh in scene["meshes"]]
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
-    key = hash_value([tools.hash("trax-scene"), meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
+    options = IMPORT_OPTIONS[program]
+    key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        run = subprocess.run([tools.path("trax-scene"), "--quiet", *meshes, "-o", path], capture_output=True, text=True)
+        run = subprocess.run([tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", path], capture_output=True, text=True)
         if run.returncode != 0:
-            raise Problem(f"{name}: {run.stderr.strip() or 'trax-scene failed'}")
+            raise Problem(f"{name}: {run.stderr.strip() or f'trax-scene ended with status {run.returncode}'}")
     return path
