@@ -61,10 +61,12 @@ def complete():
     runs += [run("ours", scene, "4x32", {"fpu.tps_per_cluster": n}, experiments=("fpu-sharing",), value=mrps("ours", scene, "4x32") / (1 + n / 32))
              for scene in ("conference", "dragon") for n in (1, 2, 4, 8, 16)]
     runs.append(run("era", "conference", "4x32", {"fpu.compare_units": False}, experiments=("compare-units",)))
-    sweeps = [{"name": "table2", "title": "Table 2", "x": "threads", "y": "mrps"},
+    runs.append(run("ours", "dragon", "4x32", experiments=("lockstep",)))
+    runs[-1].update(key="lockstep", size=[160, 90], values={"simd_utilisation.8": 0.8, "simd_utilisation.32": 0.4, "simd_bound.8": 0.9})
+    sweeps = [{"name": "lockstep", "x": "threads", "y": "values.simd_utilisation.32"}, {"name": "table2", "title": "Table 2", "x": "threads", "y": "mrps"},
               {"name": "fpu-sharing", "title": "TPs that share an FPU", "x": "fpu.tps_per_cluster", "y": "mrps", "claim": "Eight are sufficient.", "file": "sweeps/fpu.json"},
               {"name": "fpu-density", "title": "The same for each mm²", "x": "fpu.tps_per_cluster", "y": "mrps", "y_per": "area_mm2"}]
-    for record in runs[-6:-1]:
+    for record in runs[-7:-2]:
         record["experiments"].append("fpu-density")
     rows = [[10_000 * (n + 1), 0.4 / (1 + n) + 0.05, 0.3 + 0.002 * n] for n in range(100)]
     series = [{"name": "staggering", "title": "Instruction-bank conflicts over time", "run": "era-conference-4x32-exact-0",

@@ -169,13 +169,14 @@ class ReportTest(unittest.TestCase):
                 self.assertAlmostEqual(100 * (right - left) / whole, share, delta=0.6)
             for (_, right, _), (left, _, _) in zip(parts, parts[1:]):
                 self.assertAlmostEqual(left, right, delta=0.2)
-        sweep = page.figures["sweep-1"]
+        sweep = page.figures["sweep-2"]
         self.assertEqual(len(sweep), 10)
         self.assertEqual(len(page.figures["series-0"]), 200)
-        for identity in ("memory-era", "memory-ours", "error-time", "sweep-2"):
+        self.assertEqual([title.split(": ")[1] for _, title in page.figures["lockstep"]], ["80 % of 8 lanes", "40 % of 32 lanes"])
+        for identity in ("memory-era", "memory-ours", "error-time", "sweep-3"):
             self.assertTrue(page.figures[identity], identity)
         self.assertEqual(len(page.figures["memory-ours"]), 60)
-        self.assertEqual(len(page.figures["error-time"]), 124)
+        self.assertEqual(len(page.figures["error-time"]), 125)
 
     def test_claims(self):
         verdicts = {row[0][0]: [cell[1] for cell in row[2:4]] for row in self.make(example.complete()).tables["claims"]["rows"]}

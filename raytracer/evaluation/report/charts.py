@@ -7,6 +7,7 @@ from .results import SCENES, number, ratio
 # Styles of page.css. Of programs, each with a mark of its own.
 PAPER = (0, "circle")
 OF_PROGRAM = {"era": (1, "square"), "ours": (2, "dot")}
+_STYLES = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
 OTHERS = [(3, "triangle"), (4, "diamond"), (5, "dot"), (6, "square")]
 
 # Causes of docs/emulator.md, together where the same hardware is behind them.
@@ -71,7 +72,7 @@ def _memory(results, paper, program):
         for chip in paper.chips:
             used = results.figure("memory.utilisation", program, scene, chip)
             points.append((paper.threads(chip), None if used is None else 100 * used, f"{scene}, {chip}: {100 * used:.0f} % of 8 GB/s" if used is not None else ""))
-        style, mark = [(1, "square"), (2, "dot"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")][index % 6]
+        style, mark = _STYLES[index % len(_STYLES)]
         series.append(Series(scene, style, points, mark, line=False))
     return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "per cent", series, x_ticks=_threads_axis(paper))
 
@@ -127,9 +128,9 @@ def _sweep(results, sweep, identity):
         group.append((x, y, f"{run.name()}: {y:.4g}" if y is not None else ""))
     series = []
     for index, ((program, scene, chip, others), points) in enumerate(sorted(groups.items())):
-        style, mark = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")][index % 6]
+        style, mark = _STYLES[index % len(_STYLES)]
         label = ", ".join(part for part in (scene, chip, program, others) if part)
-        series.append(Series(label, style, sorted(points, key=lambda point: (point[0] is None, point[0] or 0)), mark, dashed=index >= 6))
+        series.append(Series(label, style, sorted(points, key=lambda point: (point[0] is None, point[0] or 0)), mark, dashed=index >= len(_STYLES)))
     values = sorted({point[0] for one in series for point in one.known()})
     doubling = len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
     ticks = [(value, f"{value:g}") for value in values] if len(values) <= 9 else None
@@ -154,6 +155,22 @@ def _over_time(record, identity):
     return Lines(identity, title or "series", "cycle", "per cent of thread-cycles", series, x_format="%.0s%c")
 
 
+def _lockstep(results):
+    """The values simd_utilisation.WIDTH, a line for each run that has them."""
+    series = []
+    for run in results.runs:
+        widths = sorted(int(name.split(".")[1]) for name in run.values if name.startswith("simd_utilisation.") and name.split(".")[1].isdecimal())
+        points = []
+        for width in widths:
+            share = run.get(f"values.simd_utilisation.{width}")
+            points.append((width, None if share is None else 100 * share, f"{run.name()}: {100 * share:.0f} % of {width} lanes" if share is not None else ""))
+        if points:
+            style, mark = _STYLES[len(series) % len(_STYLES)]
+            series.append(Series(f"{run.scene}, {run.program}", style, points, mark, dashed=len(series) >= len(_STYLES)))
+    ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
+    return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "per cent of lanes", series, log_x=True, base=2, x_ticks=ticks)
+
+
 def all_figures(results, paper):
     figures = [_scaling(results, paper, scene) for scene in _paper_scenes(results)]
     figures += [_memory(results, paper, program) for program in results.programs()]
@@ -161,6 +178,8 @@ def all_figures(results, paper):
         figures += [_stalls(results, paper, program, scene) for scene in _paper_scenes(results)]
     figures.append(_error_time(results, paper))
     figures += [_sweep(results, sweep, f"sweep-{index}") for index, sweep in enumerate(results.sweeps) if is_plotted(results, sweep)]
+    if any(name.startswith("simd_utilisation.") for run in results.runs for name in run.values):
+        figures.append(_lockstep(results))
     figures += [_over_time(record, f"series-{index}") for index, record in enumerate(results.series)]
     return figures
 

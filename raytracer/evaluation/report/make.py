@@ -30,7 +30,7 @@ def summary(results, paper, judged):
     if sizes:
         sentences.append("Pictures of " + ", ".join(f"{width}x{height}" for width, height in sizes) + " pixels; the paper's are 1280x720.")
         if sizes[-1] < (1280, 720):
-            sentences.append("The smaller a picture, the larger the part of its time in which caches fill and threads run out of pixels, above all on large chips: "
+            sentences.append("In a smaller picture neighbouring rays share less, so each moves more bytes, and large chips are sooner out of bandwidth: "
                              "of small pictures the verdicts say little.")
     times = [run.host_seconds for run in done if run.host_seconds]
     if times:
@@ -114,7 +114,7 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
         if sweep.get("name") in ("table1", "table2", "table3"):
             continue  # they are above
         parts = [el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")),
-                 el("p", str(sweep["claim"])) if sweep.get("claim") else None, drawn.get(f"sweep-{index}"),
+                 el("p", str(sweep["claim"])) if sweep.get("claim") else None, drawn.get("lockstep" if sweep.get("name") == "lockstep" else f"sweep-{index}"),
                  el("details", el("summary", "Every run of it"), tables.sweep_table(results, sweep, f"table-sweep-{index}"))]
         shown.append(el("section", *(part for part in parts if part is not None), class_="sweep"))
     if shown:
