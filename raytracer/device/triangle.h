@@ -36,9 +36,25 @@ static inline float load_float(const char *address) {
 
 /* The ray is in the triangle: does it hit it before *hit? scaled is the distance times the determinant: the division
    waits until the hit is all but certain. edge1 and edge2 are the weights times the determinant. Of equal distances the
-   triangle that comes first in the file wins, whatever the order of traversal: so the first comparison, whose product
-   and reciprocal are within 3 units of 2^-24, must let pass what may turn out to be equal. */
+   one wins that comes_first: so the first comparison, whose product and reciprocal are within 3 units of 2^-24, must
+   let pass what may turn out to be equal. */
 #define UNITS_OF_DOUBT 4
+
+/* An order of triangles that knows nothing of the tree: by the bits of their vertices, and only of those at one place
+   by where they stand in the file. So neither the shape of the tree nor the order in which it is traversed shows in a
+   picture, nor how often a triangle stands in it. Asked where two hits are equally far away: rarely. */
+static inline bool comes_first(const char *triangle, const char *other) {
+  const uint32_t *words = (const uint32_t *)(const void *)triangle, *others = (const uint32_t *)(const void *)other;
+  KEEP_ROLLED
+  for (int i = 0; i < 9; i++) {
+    uint32_t word = words[i], other_word = others[i];
+    HIDE_ORIGIN(word); /* or it would be a vectorised comparison */
+    if (word != other_word)
+      return word < other_word;
+  }
+  return triangle < other;
+}
+
 static inline __attribute__((always_inline)) bool
 accept_hit(const char *triangle, bool any, float scaled, float determinant, float edge1, float edge2, struct hit *hit) {
   int32_t size_bits = magnitude(determinant);
@@ -49,7 +65,8 @@ accept_hit(const char *triangle, bool any, float scaled, float determinant, floa
   if (!any) {
     float reciprocal = 1.0f / determinant;
     int32_t distance_bits = float_bits(scaled * reciprocal);
-    if (distance_bits > hit->distance_bits || (distance_bits == hit->distance_bits && triangle > hit->triangle))
+    if (distance_bits > hit->distance_bits ||
+        (distance_bits == hit->distance_bits && (!hit->triangle || !comes_first(triangle, hit->triangle))))
       return false;
     hit->distance_bits = distance_bits;
     hit->triangle = triangle;

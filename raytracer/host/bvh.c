@@ -29,6 +29,7 @@ struct built_node {
 
 struct build_context {
   const struct trax_build_options *options;
+  const struct trax_mesh *mesh;
   bool failed; /* the builder made something we cannot represent */
 };
 
@@ -79,6 +80,31 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
   return leaf;
 }
 
+/* The builder asks for the bounds of both sides of a triangle, or of a part of one. */
+static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned int axis, float position,
+                            struct RTCBounds *left, struct RTCBounds *right, void *context) {
+  const struct trax_mesh *mesh = ((struct build_context *)context)->mesh;
+  const uint32_t *vertices = mesh->triangles[primitive->primID].vertices;
+  const float *const corners[3] = {mesh->vertices[vertices[0]], mesh->vertices[vertices[1]],
+                                   mesh->vertices[vertices[2]]};
+  struct scene_box low = box_of(primitive), high = low;
+  low.max[axis] = high.min[axis] = position;
+  low = scene_clip_triangle(corners, &low);
+  high = scene_clip_triangle(corners, &high);
+  *left = (struct RTCBounds){.lower_x = low.min[0],
+                             .lower_y = low.min[1],
+                             .lower_z = low.min[2],
+                             .upper_x = low.max[0],
+                             .upper_y = low.max[1],
+                             .upper_z = low.max[2]};
+  *right = (struct RTCBounds){.lower_x = high.min[0],
+                              .lower_y = high.min[1],
+                              .lower_z = high.min[2],
+                              .upper_x = high.max[0],
+                              .upper_y = high.max[1],
+                              .upper_z = high.max[2]};
+}
+
 static bool on_progress(void *pointer, double fraction) {
   const struct trax_build_options *options = ((struct build_context *)pointer)->options;
   if (options->progress)
@@ -86,19 +112,25 @@ static bool on_progress(void *pointer, double fraction) {
   return !(options->interrupt && *options->interrupt);
 }
 
-static void fill_primitives(struct RTCBuildPrimitive *primitives, const struct trax_mesh *mesh) {
+/* All triangles, or of those at one place the first only; returns how many. */
+static uint32_t fill_primitives(struct RTCBuildPrimitive *primitives, const struct trax_mesh *mesh,
+                                const struct scene_duplicates *duplicates) {
+  uint32_t count = 0;
   for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    if (duplicates && duplicates->first[i] != i)
+      continue;
     struct scene_box box = scene_empty_box();
     for (int corner = 0; corner < 3; corner++)
       scene_box_add_point(&box, mesh->vertices[mesh->triangles[i].vertices[corner]]);
-    primitives[i] = (struct RTCBuildPrimitive){.lower_x = box.min[0],
-                                               .lower_y = box.min[1],
-                                               .lower_z = box.min[2],
-                                               .upper_x = box.max[0],
-                                               .upper_y = box.max[1],
-                                               .upper_z = box.max[2],
-                                               .primID = i};
+    primitives[count++] = (struct RTCBuildPrimitive){.lower_x = box.min[0],
+                                                     .lower_y = box.min[1],
+                                                     .lower_z = box.min[2],
+                                                     .upper_x = box.max[0],
+                                                     .upper_y = box.max[1],
+                                                     .upper_z = box.max[2],
+                                                     .primID = i};
   }
+  return count;
 }
 
 static struct scene_box bounds_of(const struct RTCBuildPrimitive *primitives, uint32_t count) {
@@ -115,25 +147,10 @@ static struct scene_box bounds_of(const struct RTCBuildPrimitive *primitives, ui
 struct numbering {
   struct scene_tree *tree;
   const struct RTCBuildPrimitive *primitives; /* by triangle */
+  const struct scene_duplicates *duplicates;  /* NULL: all triangles are in the tree already */
   unsigned max_depth, max_leaf;
-  uint32_t *triangles; /* of a subtree to be rebuilt: room for all */
+  uint32_t *triangles; /* of a subtree to be rebuilt, or of a leaf: room for all */
 };
-
-/* False if the builder left something out. Recursion is bounded by BUILDER_DEPTH. */
-static bool measure_built(struct built_node *node) {
-  node->below = node->triangle_count;
-  node->height = 0;
-  if (node->triangle_count)
-    return true;
-  for (int i = 0; i < 2; i++) {
-    struct built_node *child = node->child[i];
-    if (!child || !measure_built(child))
-      return false;
-    node->below += child->below;
-    node->height = child->height + 1 > node->height ? child->height + 1 : node->height;
-  }
-  return true;
-}
 
 /* The least height of a tree over so many triangles. */
 static unsigned least_height(uint32_t triangles, unsigned max_leaf) {
@@ -141,6 +158,38 @@ static unsigned least_height(uint32_t triangles, unsigned max_leaf) {
   while ((uint64_t)max_leaf << height < triangles)
     height++;
   return height;
+}
+
+/* A leaf's triangles, and behind each the others at its place. */
+static uint32_t *add_leaf(uint32_t *end, const struct numbering *numbering, const struct built_node *leaf) {
+  for (uint32_t i = 0; i < leaf->triangle_count; i++) {
+    *end++ = leaf->triangles[i];
+    for (uint32_t other = leaf->triangles[i];
+         numbering->duplicates && (other = numbering->duplicates->after[other]) != SCENE_NO_DUPLICATE;)
+      *end++ = other;
+  }
+  return end;
+}
+
+/* False if the builder left something out. Recursion is bounded by BUILDER_DEPTH. */
+static bool measure_built(const struct numbering *numbering, struct built_node *node) {
+  node->below = node->triangle_count;
+  node->height = 0;
+  if (node->triangle_count) {
+    for (uint32_t i = 0; i < node->triangle_count && numbering->duplicates; i++)
+      for (uint32_t other = node->triangles[i]; (other = numbering->duplicates->after[other]) != SCENE_NO_DUPLICATE;)
+        node->below++;
+    node->height = least_height(node->below, numbering->max_leaf);
+    return true;
+  }
+  for (int i = 0; i < 2; i++) {
+    struct built_node *child = node->child[i];
+    if (!child || !measure_built(numbering, child))
+      return false;
+    node->below += child->below;
+    node->height = child->height + 1 > node->height ? child->height + 1 : node->height;
+  }
+  return true;
 }
 
 static struct scene_tree_node *add_node(struct scene_tree *tree, unsigned depth, const uint32_t *triangles,
@@ -160,12 +209,27 @@ static struct scene_tree_node *add_node(struct scene_tree *tree, unsigned depth,
   return node;
 }
 
-static uint32_t *collect(uint32_t *end, const struct built_node *built) {
-  for (uint32_t i = 0; i < built->triangle_count; i++)
-    *end++ = built->triangles[i];
-  for (int i = 0; i < 2 && built->triangle_count == 0; i++)
-    end = collect(end, built->child[i]);
+static uint32_t *collect(uint32_t *end, const struct numbering *numbering, const struct built_node *built) {
+  if (built->triangle_count)
+    return add_leaf(end, numbering, built);
+  for (int i = 0; i < 2; i++)
+    end = collect(end, numbering, built->child[i]);
   return end;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+  const uint32_t *left = a, *right = b;
+  return *left < *right ? -1 : *left > *right;
+}
+
+/* Each triangle once. */
+static uint32_t unite(uint32_t *triangles, uint32_t count) {
+  uint32_t kept = 0;
+  qsort(triangles, count, sizeof *triangles, compare_numbers);
+  for (uint32_t i = 0; i < count; i++)
+    if (kept == 0 || triangles[i] != triangles[kept - 1])
+      triangles[kept++] = triangles[i];
+  return kept;
 }
 
 struct sort_key {
@@ -178,11 +242,6 @@ static int compare_keys(const void *a, const void *b) {
   if (left->place != right->place)
     return left->place < right->place ? -1 : 1;
   return left->triangle < right->triangle ? -1 : left->triangle > right->triangle;
-}
-
-static int compare_numbers(const void *a, const void *b) {
-  const uint32_t *left = a, *right = b;
-  return *left < *right ? -1 : *left > *right;
 }
 
 static double middle(const struct RTCBuildPrimitive *primitive, int axis) {
@@ -235,14 +294,18 @@ static bool add_balanced(struct numbering *numbering, uint32_t *triangles, uint3
    their triangles: as far down as possible. */
 static bool number_nodes(struct numbering *numbering, const struct built_node *built, unsigned depth) {
   if (built->triangle_count) {
-    add_node(numbering->tree, depth, built->triangles, built->triangle_count)->box = built->box;
+    const uint32_t count = (uint32_t)(add_leaf(numbering->triangles, numbering, built) - numbering->triangles);
+    if (count > numbering->max_leaf)
+      return add_balanced(numbering, numbering->triangles, count, depth);
+    add_node(numbering->tree, depth, numbering->triangles, count)->box = built->box;
     return true;
   }
   if (depth + built->height > numbering->max_depth)
     for (int i = 0; i < 2; i++)
       if (depth + 1 + least_height(built->child[i]->below, numbering->max_leaf) > numbering->max_depth) {
-        uint32_t *end = collect(numbering->triangles, built);
-        return add_balanced(numbering, numbering->triangles, (uint32_t)(end - numbering->triangles), depth);
+        uint32_t *end = collect(numbering->triangles, numbering, built);
+        return add_balanced(numbering, numbering->triangles,
+                            unite(numbering->triangles, (uint32_t)(end - numbering->triangles)), depth);
       }
   struct scene_tree_node *node = add_node(numbering->tree, depth, NULL, 0);
   for (int i = 0; i < 2; i++) {
@@ -254,19 +317,17 @@ static bool number_nodes(struct numbering *numbering, const struct built_node *b
 }
 
 static trax_status make_tree(struct scene_tree *tree, struct built_node *root, const struct trax_mesh *mesh,
-                             struct RTCBuildPrimitive *primitives, unsigned max_depth, unsigned max_leaf,
-                             trax_error *error) {
-  if (!measure_built(root) || least_height(mesh->triangle_count, max_leaf) > max_depth)
+                             struct RTCBuildPrimitive *primitives, const struct scene_duplicates *duplicates,
+                             unsigned max_depth, unsigned max_leaf, trax_error *error) {
+  struct numbering numbering = {tree, primitives, duplicates, max_depth, max_leaf, NULL};
+  if (!measure_built(&numbering, root) || least_height(mesh->triangle_count, max_leaf) > max_depth)
     return scene_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf",
                       max_depth, max_leaf);
-  struct numbering numbering = {tree, primitives, max_depth, max_leaf, NULL};
-  bool good = true;
-  if (root->height > max_depth) {
-    fill_primitives(primitives, mesh); /* the builder sorts and splits its own */
-    numbering.triangles = malloc(mesh->triangle_count * sizeof *numbering.triangles);
-    good = numbering.triangles != NULL;
-  }
-  good = good && number_nodes(&numbering, root, 0);
+  fill_primitives(primitives, mesh, NULL); /* the builder sorts and splits its own */
+  numbering.triangles = malloc(root->below * sizeof *numbering.triangles);
+  /* A binary tree over n triangles has at most 2n - 1 nodes. */
+  tree->nodes = malloc(2 * (size_t)root->below * sizeof *tree->nodes);
+  bool good = numbering.triangles && tree->nodes && number_nodes(&numbering, root, 0);
   free(numbering.triangles);
   return good ? TRAX_OK : scene_out_of_memory(error, "BVH");
 }
@@ -283,6 +344,29 @@ static trax_status check_options(const struct trax_build_options *options, trax_
     return scene_fail(error, "costs are positive numbers");
   if (!(options->crease_degrees >= 0 && options->crease_degrees <= 180))
     return scene_fail(error, "the crease is an angle up to 180 degrees, not %g", (double)options->crease_degrees);
+  if (!(options->splits == 0 || (options->splits >= 1 && options->splits <= TRAX_SCENE_MAX_SPLITS)))
+    return scene_fail(error, "splits make room for 1 to %g times the triangles, not %g", (double)TRAX_SCENE_MAX_SPLITS,
+                      (double)options->splits);
+  return TRAX_OK;
+}
+
+bool trax_splits_choose(const char *text, struct trax_build_options *build) {
+  char *end = NULL;
+  const float factor = text ? strtof(text, &end) : TRAX_DEFAULT_SPLITS;
+  if (text && (end == text || *end || !(factor >= 1 && factor <= TRAX_SCENE_MAX_SPLITS)))
+    return false;
+  build->splits = factor;
+  return true;
+}
+
+/* A triangle that is split stands in the file several times, and would be several lamps. */
+static trax_status check_emitters(const struct trax_mesh *mesh, trax_error *error) {
+  for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    const struct trax_mesh_material *material = &mesh->materials[mesh->triangles[i].material];
+    for (int channel = 0; channel < 3; channel++)
+      if (material->surface.emission[channel] > 0)
+        return scene_fail(error, "no splits where triangles emit light (material '%s')", material->name);
+  }
   return TRAX_OK;
 }
 
@@ -292,22 +376,29 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   trax_status result = check_options(options, error);
   if (result != TRAX_OK || mesh->triangle_count == 0)
     return result;
+  const bool splits = options->splits > 1;
+  struct scene_duplicates duplicates = {0};
+  if (splits)
+    result = check_emitters(mesh, error);
+  if (splits && result == TRAX_OK)
+    result = scene_find_duplicates(&duplicates, mesh, error);
+  if (result != TRAX_OK)
+    return result;
   unsigned max_depth = options->max_depth ? options->max_depth : default_max_depth;
-  struct build_context context = {.options = options};
+  struct build_context context = {.options = options, .mesh = mesh};
 
-  size_t bytes = mesh->triangle_count * sizeof(struct RTCBuildPrimitive);
-  struct RTCBuildPrimitive *primitives = aligned_alloc(_Alignof(struct RTCBuildPrimitive), bytes);
-  /* A binary tree over n triangles has at most 2n - 1 nodes. */
-  tree->nodes = malloc(2 * (size_t)mesh->triangle_count * sizeof *tree->nodes);
+  const size_t capacity = splits ? (size_t)(options->splits * (double)mesh->triangle_count) : mesh->triangle_count;
+  struct RTCBuildPrimitive *primitives =
+      aligned_alloc(_Alignof(struct RTCBuildPrimitive), capacity * sizeof(struct RTCBuildPrimitive));
   RTCDevice device = rtcNewDevice(device_options);
   RTCBVH bvh = device ? rtcNewBVH(device) : NULL;
-  if (!primitives || !tree->nodes)
+  if (!primitives)
     result = scene_out_of_memory(error, "BVH");
   else if (!bvh)
     result = scene_fail(error, "BVH: Embree cannot be started (error %d)", (int)rtcGetDeviceError(NULL));
   else {
-    fill_primitives(primitives, mesh);
-    tree->bounds = bounds_of(primitives, mesh->triangle_count);
+    const uint32_t count = fill_primitives(primitives, mesh, splits ? &duplicates : NULL);
+    tree->bounds = bounds_of(primitives, count);
     struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
     arguments.maxBranchingFactor = 2;
@@ -318,7 +409,9 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
         options->intersection_cost > 0 ? options->intersection_cost : default_intersection_cost;
     arguments.bvh = bvh;
     arguments.primitives = primitives;
-    arguments.primitiveCount = arguments.primitiveArrayCapacity = mesh->triangle_count;
+    arguments.primitiveCount = count;
+    arguments.primitiveArrayCapacity = capacity;
+    arguments.splitPrimitive = splits ? split_primitive : NULL;
     arguments.createNode = create_node;
     arguments.setNodeChildren = set_children;
     arguments.setNodeBounds = ignore_bounds;
@@ -334,9 +427,11 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     else if (!root || context.failed)
       result = scene_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
     else
-      result = make_tree(tree, root, mesh, primitives, max_depth, arguments.maxLeafSize, error);
+      result =
+          make_tree(tree, root, mesh, primitives, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize, error);
   }
   free(primitives);
+  scene_duplicates_release(&duplicates);
   if (bvh)
     rtcReleaseBVH(bvh);
   if (device)

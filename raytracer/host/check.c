@@ -15,6 +15,10 @@ struct checker {
   unsigned char *node_seen; /* one byte for each node */
   uint32_t nodes_left, next_triangle;
   uint32_t max_depth, max_leaf; /* found */
+  struct scene_box bounds;      /* of all triangles */
+  struct scene_range *ranges;   /* of each node */
+  uint32_t *in_part;            /* of each triangle: where the box is that it is not within, or 0 */
+  bool any_in_part;
 };
 
 /* --- header and sections --- */
@@ -212,8 +216,8 @@ static trax_status check_leaf(struct checker *checker, trax_scene_ref ref, struc
   uint32_t first = (offset - checker->triangles_offset) / (uint32_t)sizeof(struct trax_triangle);
   if (count > view->triangle_count - first)
     return scene_fail(checker->error, "%s: reference %08x is to triangles behind the last", checker->name, ref);
-  /* Leaf order is depth first, so each triangle is in exactly one leaf if every leaf begins where the one before ended.
-   */
+  /* Leaf order is depth first: each of the file's triangles is in one leaf if every leaf begins where the one before
+     ended. */
   if (first != checker->next_triangle)
     return scene_fail(checker->error, "%s: reference %08x is to triangle %u where %u is next", checker->name, ref,
                       first, checker->next_triangle);
@@ -235,11 +239,51 @@ static bool same_box(const struct scene_box *a, const struct scene_box *b) {
   return true;
 }
 
-/* The subtree below ref, with depth inner nodes above it; adds its triangles to box. The recursion ends because a node
-   is entered once and depth is limited. */
+static bool box_within(const struct scene_box *inner, const struct scene_box *outer) {
+  for (int axis = 0; axis < 3; axis++)
+    if (!(inner->min[axis] >= outer->min[axis] && inner->max[axis] <= outer->max[axis]))
+      return false;
+  return true;
+}
+
+static struct scene_box as_stored(const struct checker *checker, const struct scene_box *box) {
+  return trax_node_formats[checker->view.header->node_layout].quantised ? scene_box_in_cells(&checker->view.grid, box)
+                                                                        : *box;
+}
+
+/* A leaf's box that is smaller than its triangles: each that is not within it must stand elsewhere, too. `place` says
+   where the box is. */
+static void note_parts(struct checker *checker, trax_scene_ref ref, const struct scene_box *stored, uint32_t place) {
+  const uint32_t first =
+      (TRAX_SCENE_REF_OFFSET(ref) - checker->triangles_offset) / (uint32_t)sizeof(struct trax_triangle);
+  for (uint32_t i = first; i < first + TRAX_SCENE_REF_COUNT(ref); i++) {
+    struct scene_box box = scene_empty_box();
+    scene_box_add_point(&box, checker->view.triangles[i].v0);
+    scene_box_add_point(&box, checker->view.triangles[i].v1);
+    scene_box_add_point(&box, checker->view.triangles[i].v2);
+    box = as_stored(checker, &box);
+    if (!box_within(&box, stored)) {
+      checker->in_part[i] = place + 1;
+      checker->any_in_part = true;
+    }
+  }
+}
+
+static trax_status wrong_box(const struct checker *checker, uint32_t place) {
+  return scene_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name,
+                    place / TRAX_MAX_WIDTH, place % TRAX_MAX_WIDTH);
+}
+
+/* The subtree below ref, with depth inner nodes above it; *box becomes the one that must be stored for it: of a leaf,
+   at most. The recursion ends because a node is entered once and depth is limited. */
 static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
-  if (TRAX_SCENE_REF_COUNT(ref))
-    return check_leaf(checker, ref, box);
+  if (TRAX_SCENE_REF_COUNT(ref)) {
+    struct scene_box exact = scene_empty_box();
+    trax_status result = check_leaf(checker, ref, &exact);
+    scene_box_add_box(&checker->bounds, &exact);
+    *box = as_stored(checker, &exact);
+    return result;
+  }
   const struct trax_node_format *format = &trax_node_formats[checker->view.header->node_layout];
   if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
       (ref - checker->nodes_offset) % format->bytes != 0)
@@ -263,17 +307,37 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
   struct scene_box boxes[TRAX_MAX_WIDTH];
   trax_scene_ref children[TRAX_MAX_WIDTH];
   scene_node_boxes(boxes, children, &checker->view, number);
-  for (int i = 0; i < 2; i++) {
-    struct scene_box child = scene_empty_box();
-    trax_status result = check_subtree(checker, children[i], depth, &child);
+  *box = scene_empty_box();
+  checker->ranges[number].first = checker->next_triangle;
+  for (uint32_t i = 0; i < format->width; i++) {
+    struct scene_box expected = scene_empty_box();
+    trax_status result = check_subtree(checker, children[i], depth, &expected);
     if (result != TRAX_OK)
       return result;
-    const struct scene_box expected = format->quantised ? scene_box_in_cells(&checker->view.grid, &child) : child;
-    if (!same_box(&boxes[i], &expected))
-      return scene_fail(checker->error, "%s: node %u: box %d is not that of its triangles", checker->name, number, i);
-    scene_box_add_box(box, &child);
+    const bool is_leaf = TRAX_SCENE_REF_COUNT(children[i]) != 0;
+    if (!same_box(&boxes[i], &expected)) {
+      if (!is_leaf || !box_within(&boxes[i], &expected))
+        return wrong_box(checker, number * TRAX_MAX_WIDTH + i);
+      note_parts(checker, children[i], &boxes[i], number * TRAX_MAX_WIDTH + i);
+    }
+    scene_box_add_box(box, &boxes[i]);
   }
+  checker->ranges[number].end = checker->next_triangle;
   return TRAX_OK;
+}
+
+/* With room for what is noted of each node and triangle. */
+static trax_status check_whole_tree(struct checker *checker, const struct trax_scene_header *header) {
+  struct scene_box root;
+  trax_status result = check_subtree(checker, header->root, 0, &root);
+  if (result != TRAX_OK || !checker->any_in_part)
+    return result;
+  const struct scene_parts parts = {&checker->view, checker->ranges, checker->in_part};
+  uint32_t bad;
+  result = scene_check_parts(&parts, &bad, checker->error);
+  if (result == TRAX_OK && bad != UINT32_MAX)
+    result = wrong_box(checker, checker->in_part[bad] - 1);
+  return result;
 }
 
 static trax_status check_tree(struct checker *checker, const struct trax_scene_header *header) {
@@ -284,13 +348,19 @@ static trax_status check_tree(struct checker *checker, const struct trax_scene_h
     bounds = (struct scene_box){0};
   } else {
     checker->nodes_left = checker->view.node_count;
+    checker->bounds = bounds;
     checker->node_seen = calloc(checker->view.node_count + (size_t)1, 1);
-    if (!checker->node_seen)
-      return scene_out_of_memory(checker->error, checker->name);
-    trax_status result = check_subtree(checker, header->root, 0, &bounds);
+    checker->ranges = calloc(checker->view.node_count + (size_t)1, sizeof *checker->ranges);
+    checker->in_part = calloc(header->triangle_count, sizeof *checker->in_part);
+    trax_status result = checker->node_seen && checker->ranges && checker->in_part
+                             ? check_whole_tree(checker, header)
+                             : scene_out_of_memory(checker->error, checker->name);
     free(checker->node_seen);
+    free(checker->ranges);
+    free(checker->in_part);
     if (result != TRAX_OK)
       return result;
+    bounds = checker->bounds;
     if (checker->nodes_left != 0)
       return scene_fail(checker->error, "%s: %u nodes are not in the tree", checker->name, checker->nodes_left);
     if (checker->next_triangle != header->triangle_count)

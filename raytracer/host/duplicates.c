@@ -43,44 +43,63 @@ static bool same_place(const struct trax_mesh *mesh, uint32_t a, uint32_t b) {
   return !memcmp(left, right, sizeof left);
 }
 
-trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error) {
-  enum { none = UINT32_MAX };
+trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh,
+                                  trax_error *error) {
   const uint32_t count = mesh->triangle_count;
   struct place *places = malloc((count + (size_t)1) * sizeof *places);
-  /* Of each triangle the first one at its place, of that one the next to be put into the tree, of each the one after
-     it. */
-  uint32_t *first = malloc((count + (size_t)1) * sizeof *first), *next = malloc((count + (size_t)1) * sizeof *next),
-           *after = malloc((count + (size_t)1) * sizeof *after);
-  if (!places || !first || !next || !after) {
-    free(places), free(first), free(next), free(after);
+  uint32_t *first = malloc((count + (size_t)1) * sizeof *first), *after = malloc((count + (size_t)1) * sizeof *after);
+  *duplicates = (struct scene_duplicates){first, after, false};
+  if (!places || !first || !after) {
+    free(places);
+    scene_duplicates_release(duplicates);
     return scene_out_of_memory(error, "BVH");
   }
   for (uint32_t i = 0; i < count; i++)
     places[i] = (struct place){hash_of(mesh, i), i};
   qsort(places, count, sizeof *places, compare_places);
-  bool any = false;
   for (uint32_t begin = 0, end; begin < count; begin = end) {
     for (end = begin + 1; end < count && places[end].hash == places[begin].hash;)
       end++;
     for (uint32_t i = begin; i < end; i++) {
       uint32_t triangle = places[i].triangle;
-      first[triangle] = next[triangle] = triangle, after[triangle] = none;
+      first[triangle] = triangle, after[triangle] = SCENE_NO_DUPLICATE;
       for (uint32_t before = i; before-- > begin;) /* nearly always the one before, or none at all */
         if (same_place(mesh, triangle, places[before].triangle)) {
           first[triangle] = first[places[before].triangle];
           after[places[before].triangle] = triangle;
-          any = true;
+          duplicates->any = true;
           break;
         }
     }
   }
   free(places);
-  for (uint32_t i = 0; any && i < tree->node_count; i++)
-    for (uint32_t t = 0; t < tree->nodes[i].triangle_count; t++) {
-      uint32_t *slot = &tree->nodes[i].triangles[t], place = first[*slot];
-      *slot = next[place];
-      next[place] = after[*slot];
-    }
-  free(first), free(next), free(after);
   return TRAX_OK;
+}
+
+void scene_duplicates_release(struct scene_duplicates *duplicates) {
+  free(duplicates->first);
+  free(duplicates->after);
+  *duplicates = (struct scene_duplicates){0};
+}
+
+trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error) {
+  struct scene_duplicates duplicates;
+  trax_status result = scene_find_duplicates(&duplicates, mesh, error);
+  if (result != TRAX_OK)
+    return result;
+  /* Of each place the next triangle to be put into the tree, where its first one is. */
+  uint32_t *next = malloc((mesh->triangle_count + (size_t)1) * sizeof *next);
+  if (!next)
+    result = scene_out_of_memory(error, "BVH");
+  for (uint32_t i = 0; next && i < mesh->triangle_count; i++)
+    next[i] = i;
+  for (uint32_t i = 0; next && duplicates.any && i < tree->node_count; i++)
+    for (uint32_t t = 0; t < tree->nodes[i].triangle_count; t++) {
+      uint32_t *slot = &tree->nodes[i].triangles[t], place = duplicates.first[*slot];
+      *slot = next[place];
+      next[place] = duplicates.after[*slot];
+    }
+  free(next);
+  scene_duplicates_release(&duplicates);
+  return result;
 }

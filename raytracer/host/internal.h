@@ -213,6 +213,25 @@ bool scene_grid_suits(const struct scene_tree *tree);
 void scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,
                       uint32_t number);
 
+/* --- parts.c --- */
+
+/* The bounds of that part of a triangle which is in the box, rounded outwards but not beyond the box. */
+struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box);
+
+struct scene_range {
+  uint32_t first, end;
+};
+
+struct scene_parts {
+  const struct trax_scene *scene;
+  const struct scene_range *ranges; /* of each node: the triangles below it */
+  const uint32_t *in_part;          /* of each triangle: not 0 if it is not within the box of its leaf */
+};
+
+/* Are the triangles that stand in several leaves within the boxes of all of these together? *bad becomes the number of
+   the first that is not, or UINT32_MAX. What stands in more than 1024 is refused. */
+trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, trax_error *error);
+
 /* --- bvh.c --- */
 
 /* A tree as the builder makes it; links are indices into nodes. */
@@ -237,6 +256,17 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
 void scene_tree_release(struct scene_tree *tree);
 
 /* --- duplicates.c --- */
+
+#define SCENE_NO_DUPLICATE UINT32_MAX
+
+/* Of each triangle: the first one with the same vertices, perhaps itself, and the next one, or SCENE_NO_DUPLICATE. */
+struct scene_duplicates {
+  uint32_t *first, *after;
+  bool any;
+};
+
+trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh, trax_error *error);
+void scene_duplicates_release(struct scene_duplicates *duplicates);
 
 /* Has triangles whose vertices are the same stand in the tree, depth first, in the order of their numbers. */
 trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error);

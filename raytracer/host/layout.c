@@ -24,6 +24,7 @@ struct layout {
   bool file_normals;                     /* those of the mesh, where it has some */
   uint32_t nodes_offset, triangles_offset;
   uint32_t next_triangle;
+  uint32_t *numbers; /* in the mesh, of the file's triangles; NULL: nothing needs them */
 };
 
 /* --- materials: the file has those in use, each once, and their textures --- */
@@ -161,6 +162,8 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
     if (layout->uvs && layout->mesh->uvs)
       memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
              sizeof layout->uvs->corner);
+    if (layout->numbers)
+      layout->numbers[layout->next_triangle] = node->triangles[i];
     if (layout->source_ids)
       layout->source_ids[layout->next_triangle] = source->source_id;
     layout->next_triangle++;
@@ -235,6 +238,31 @@ static void copy_textures(unsigned char *bytes, const struct trax_scene_section 
   }
 }
 
+/* Around a corner each face counts once, however many leaves it stands in. */
+static trax_status make_normals(const struct layout *layout, double cosine, trax_error *error) {
+  trax_status (*const make)(struct trax_triangle_normals *, const struct trax_triangle *, uint32_t, double,
+                            trax_error *) = layout->file_normals ? scene_complete_normals : scene_smooth_normals;
+  if (!layout->numbers)
+    return make(layout->normals, layout->triangles, layout->next_triangle, cosine, error);
+  const uint32_t count = layout->mesh->triangle_count;
+  struct trax_triangle_normals *normals = calloc(count, sizeof *normals);
+  struct trax_triangle *triangles = calloc(count, sizeof *triangles);
+  trax_status result = TRAX_OK;
+  if (!normals || !triangles)
+    result = scene_out_of_memory(error, "normals");
+  for (uint32_t i = 0; i < layout->next_triangle && result == TRAX_OK; i++) {
+    normals[layout->numbers[i]] = layout->normals[i];
+    triangles[layout->numbers[i]] = layout->triangles[i];
+  }
+  if (result == TRAX_OK)
+    result = make(normals, triangles, count, cosine, error);
+  for (uint32_t i = 0; i < layout->next_triangle && result == TRAX_OK; i++)
+    layout->normals[i] = normals[layout->numbers[i]];
+  free(normals);
+  free(triangles);
+  return result;
+}
+
 static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mesh, const struct scene_tree *tree,
                            const struct palette *palette, const uint32_t *positions,
                            const struct trax_build_options *options, trax_error *error) {
@@ -243,15 +271,15 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                      .node_layout = options->nodes,
                                      .max_depth = tree->max_depth,
                                      .max_leaf = tree->max_leaf,
-                                     .triangle_count = mesh->triangle_count};
+                                     .triangle_count = tree->ref_count};
   uint64_t end = sizeof header;
   struct trax_scene_section *sections = header.sections;
   plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, trax_node_formats[options->nodes].bytes);
-  plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, mesh->triangle_count, sizeof(struct trax_triangle));
+  plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, tree->ref_count, sizeof(struct trax_triangle));
   if (options->smooth)
-    plan_section(&sections[TRAX_SCENE_NORMALS], &end, mesh->triangle_count, sizeof(struct trax_triangle_normals));
+    plan_section(&sections[TRAX_SCENE_NORMALS], &end, tree->ref_count, sizeof(struct trax_triangle_normals));
   if (palette->texture_count)
-    plan_section(&sections[TRAX_SCENE_UVS], &end, mesh->triangle_count, sizeof(struct trax_triangle_uvs));
+    plan_section(&sections[TRAX_SCENE_UVS], &end, tree->ref_count, sizeof(struct trax_triangle_uvs));
   plan_section(&sections[TRAX_SCENE_MATERIALS], &end, palette->count, sizeof(struct trax_material));
   plan_section(&sections[TRAX_SCENE_TEXTURES], &end, palette->texture_count, sizeof(struct trax_texture));
   if (palette->texel_count > UINT32_MAX / sizeof(uint32_t))
@@ -259,10 +287,10 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                       (double)palette->texel_count * sizeof(uint32_t) * 1e-9);
   plan_section(&sections[TRAX_SCENE_TEXELS], &end, (uint32_t)palette->texel_count, sizeof(uint32_t));
   /* Last: nothing on the device reads it. */
-  plan_section(&sections[TRAX_SCENE_SOURCE_IDS], &end, options->without_source_ids ? 0 : mesh->triangle_count,
+  plan_section(&sections[TRAX_SCENE_SOURCE_IDS], &end, options->without_source_ids ? 0 : tree->ref_count,
                sizeof(uint32_t));
   if (end > UINT32_MAX)
-    return scene_fail(error, "%u triangles make a scene of %.1f GB; 32-bit offsets end at 4.29", mesh->triangle_count,
+    return scene_fail(error, "%u triangles make a scene of %.1f GB; 32-bit offsets end at 4.29", tree->ref_count,
                       (double)end * 1e-9);
   unsigned char *bytes = aligned_alloc(TRAX_SCENE_ALIGNMENT, end);
   if (!bytes)
@@ -284,6 +312,11 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                           .file_normals = mesh->normals && !options->compute_normals,
                           .nodes_offset = sections[TRAX_SCENE_NODES].offset,
                           .triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset};
+  if (layout.normals && tree->ref_count != mesh->triangle_count &&
+      !(layout.numbers = malloc(tree->ref_count * sizeof *layout.numbers))) {
+    free(bytes);
+    return scene_out_of_memory(error, "normals");
+  }
   if (palette->count)
     memcpy(bytes + sections[TRAX_SCENE_MATERIALS].offset, palette->materials,
            palette->count * sizeof *palette->materials);
@@ -297,8 +330,9 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
   }
   if (layout.normals) {
     const double degrees = options->crease_degrees > 0 ? options->crease_degrees : TRAX_DEFAULT_CREASE;
-    if ((layout.file_normals ? scene_complete_normals : scene_smooth_normals)(
-            layout.normals, layout.triangles, mesh->triangle_count, crease_cosine(degrees), error) != TRAX_OK) {
+    const trax_status result = make_normals(&layout, crease_cosine(degrees), error);
+    free(layout.numbers);
+    if (result != TRAX_OK) {
       free(bytes);
       return TRAX_ERROR;
     }
@@ -319,7 +353,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                .texels = section_bytes(bytes, &sections[TRAX_SCENE_TEXELS]),
                                .source_ids = layout.source_ids,
                                .node_count = tree->inner_count,
-                               .triangle_count = mesh->triangle_count,
+                               .triangle_count = tree->ref_count,
                                .material_count = palette->count,
                                .texture_count = palette->texture_count,
                                .texel_count = (uint32_t)palette->texel_count,
@@ -345,7 +379,8 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   options = &chosen;
   struct palette palette = {0};
   struct scene_order order = {0};
-  result = scene_order_duplicates(&tree, mesh, error);
+  if (options->splits <= 1) /* else they are in order, in every leaf */
+    result = scene_order_duplicates(&tree, mesh, error);
   if (result == TRAX_OK)
     result = scene_order_nodes(&order, &tree, options->nodes,
                                options->cache_lines ? options->cache_lines : default_cache_lines, error);

@@ -35,6 +35,8 @@ static const char usage[] =
     "axis;\n"
     "                               auto (default): quantised, if the grid is fine enough for nine leaves in ten\n"
     "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"
+    "      --splits[=FACTOR]        splits large triangles, which then stand in several leaves: room for FACTOR times\n"
+    "                               as many, 1 to 8 (default 1.5)\n"
     "      --depth N                at most N nodes from the root to a leaf, 1 to %u\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
@@ -282,6 +284,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     keep,
     empty,
     nodes,
+    splits,
     leaf,
     depth,
     traversal,
@@ -304,6 +307,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"keep-degenerate", no_argument, NULL, keep},
                                           {"allow-empty", no_argument, NULL, empty},
                                           {"nodes", required_argument, NULL, nodes},
+                                          {"splits", optional_argument, NULL, splits},
                                           {"leaf", required_argument, NULL, leaf},
                                           {"depth", required_argument, NULL, depth},
                                           {"traversal-cost", required_argument, NULL, traversal},
@@ -358,6 +362,11 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       good = trax_node_layout_choose(optarg, &arguments->build);
       if (!good)
         complain("--nodes: '%s' is none of auto, binary and quantised", optarg);
+      break;
+    case splits:
+      good = trax_splits_choose(optarg, &arguments->build);
+      if (!good)
+        complain("--splits: '%s' is not a number from 1 to %g", optarg, (double)TRAX_SCENE_MAX_SPLITS);
       break;
     case leaf:
       good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_LEAF, &arguments->build.max_leaf);

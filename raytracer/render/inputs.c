@@ -30,6 +30,7 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
                                      .progress_context = progress,
                                      .interrupt = interrupt,
                                      .smooth = options->frame.smooth,
+                                     .splits = options->splits,
                                      .compute_normals = options->compute_normals};
   trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
   struct trax_mesh mesh = {0};
@@ -57,10 +58,10 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
         return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
                          options->meshes[i]);
       if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
-          options->compute_normals || options->nodes)
+          options->compute_normals || options->nodes || options->splits > 0)
         return trax_fail(error,
                          "%s: a scene file is as trax-scene made it: --material, --diffuse, --no-textures, "
-                         "--texture-size, --nodes and --normals smooth are for meshes",
+                         "--texture-size, --nodes, --splits and --normals smooth are for meshes",
                          options->meshes[0]);
       trax_status status = trax_scene_read(scene, options->meshes[0], error);
       if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)

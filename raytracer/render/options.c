@@ -36,6 +36,7 @@ static const char usage[] =
     "      --texture-size N    at most N texels a side, a power of two up to 4096\n"
     "      --nodes KIND        of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto;\n"
     "                          for another --program binary)\n"
+    "      --splits[=FACTOR]   splits large triangles, as trax-scene does (default 1.5, if given)\n"
     "      --normals WHICH     file: --smooth by the meshes' own normals, computed where there are none (default);\n"
     "                          smooth: by computed ones; flat: no --smooth\n"
     "      --paths DEPTH       path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples\n"
@@ -102,6 +103,7 @@ enum {
   OPT_NO_TEXTURES,
   OPT_TEXTURE_SIZE,
   OPT_NODES,
+  OPT_SPLITS,
   OPT_NORMALS,
   OPT_PATHS,
   OPT_SEED,
@@ -153,6 +155,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"material", required_argument, NULL, OPT_MATERIAL},
                                              {"diffuse", required_argument, NULL, OPT_DIFFUSE},
                                              {"no-textures", no_argument, NULL, OPT_NO_TEXTURES},
+                                             {"splits", optional_argument, NULL, OPT_SPLITS},
                                              {"nodes", required_argument, NULL, OPT_NODES},
                                              {"texture-size", required_argument, NULL, OPT_TEXTURE_SIZE},
                                              {"normals", required_argument, NULL, OPT_NORMALS},
@@ -379,6 +382,13 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_NO_TEXTURES:
     options->import.no_textures = true;
     return TRAX_OK;
+  case OPT_SPLITS: {
+    struct trax_build_options build;
+    if (!trax_splits_choose(value, &build))
+      return trax_fail(error, "--splits=%s: expected a number from 1 to %g", value, (double)TRAX_SCENE_MAX_SPLITS);
+    options->splits = build.splits;
+    return TRAX_OK;
+  }
   case OPT_NODES: {
     struct trax_build_options build;
     if (!trax_node_layout_choose(value, &build))

@@ -142,12 +142,14 @@ accept "$bin/trax-scene" "$box" -o box.trax
 accept "$render" box.trax -o b.png $native --size 32x24
 refuse 'box.trax: --smooth: the scene has no normals' "$render" box.trax -o x.png $native --smooth
 accept "$compare" a.png b.png
-refuse '--nodes and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
+refuse '--nodes, --splits and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
 
 # The picture does not depend on how the tree is stored; the file does.
+refuse '--splits=0.5: expected a number from 1 to 8' "$render" "$box" -o x.png --splits=0.5
 for nodes in binary quantised auto; do
   accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
-  for input in "$nodes.trax" "$box --nodes $nodes"; do
+  accept "$bin/trax-scene" "$box" -o "split-$nodes.trax" --nodes "$nodes" --splits=4
+  for input in "$nodes.trax" "$box --nodes $nodes" "split-$nodes.trax" "$box --nodes $nodes --splits"; do
     accept "$render" $input -o b.png $native --size 32x24
     accept "$compare" a.png b.png
   done

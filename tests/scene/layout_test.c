@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <string.h>
 
 static void build_layout(struct trax_scene *scene, const struct trax_mesh *mesh, enum trax_node_layout layout) {
   trax_error error;
@@ -131,6 +132,146 @@ static void test_changed_nodes(void **state) {
   }
 }
 
+/* --- split triangles --- */
+
+struct point {
+  double at[3];
+  const struct trax_triangle *triangle;
+};
+
+/* Is the point in the boxes of all nodes above a leaf with its triangle? */
+static bool finds(const struct trax_scene *scene, trax_scene_ref ref, const struct point *point) {
+  if (TRAX_SCENE_REF_COUNT(ref)) {
+    const struct trax_triangle *first =
+        (const struct trax_triangle *)((const unsigned char *)scene->bytes + TRAX_SCENE_REF_OFFSET(ref));
+    for (uint32_t i = 0; i < TRAX_SCENE_REF_COUNT(ref); i++)
+      if (memcmp(&first[i], point->triangle, sizeof first[i]) == 0)
+        return true;
+    return false;
+  }
+  const struct trax_node_children node = read_node(scene, ref);
+  for (uint32_t i = 0; i < node.count; i++) {
+    bool inside = true;
+    for (int axis = 0; axis < 3; axis++)
+      inside &= point->at[axis] >= node.min[i][axis] - 1e-9 && point->at[axis] <= node.max[i][axis] + 1e-9;
+    if (inside && finds(scene, node.child[i], point))
+      return true;
+  }
+  return false;
+}
+
+/* Every point of every triangle: corners, points of edges, and within. */
+static void check_points(const struct trax_scene *scene, const struct trax_triangle *triangles, uint32_t count,
+                         unsigned points, uint32_t *seed) {
+  for (uint32_t t = 0; t < count; t++)
+    for (unsigned i = 0; i < points; i++) {
+      double u = i == 0 ? 0 : i == 1 ? 1 : random_unit(seed), v = i == 2 ? 1 - u : (1 - u) * random_unit(seed);
+      struct point point = {.triangle = &triangles[t]};
+      for (int axis = 0; axis < 3; axis++)
+        point.at[axis] = triangles[t].v0[axis] + u * ((double)triangles[t].v1[axis] - triangles[t].v0[axis]) +
+                         v * ((double)triangles[t].v2[axis] - triangles[t].v0[axis]);
+      if (!finds(scene, scene->header->root, &point))
+        fail_msg("%s nodes: no leaf of triangle %u is around %g, %g, %g",
+                 trax_node_formats[scene->header->node_layout].name, t, point.at[0], point.at[1], point.at[2]);
+    }
+}
+
+/* Long ones askew across many small ones, some of them at one place. */
+static void split_mesh(struct trax_mesh *mesh, uint32_t doubled) {
+  mesh_soup(mesh, 400, 0.1f, 11);
+  for (uint32_t t = 0; t < 24; t++) {
+    const uint32_t *v = mesh->triangles[t].vertices;
+    for (int axis = 0; axis < 3; axis++) {
+      mesh->vertices[v[0]][axis] = t >> axis & 1 ? -1.0f : 1.0f;
+      mesh->vertices[v[1]][axis] = -mesh->vertices[v[0]][axis] + 0.01f * (float)t;
+      mesh->vertices[v[2]][axis] = mesh->vertices[v[1]][axis] + (axis == (int)t % 3 ? 0.2f : 0);
+    }
+  }
+  for (uint32_t t = 0; t < doubled; t++)
+    memcpy(mesh->triangles[100 + t].vertices, mesh->triangles[t / 2].vertices, sizeof mesh->triangles->vertices);
+}
+
+static void test_splits(void **state) {
+  (void)state;
+  uint32_t seed = 3;
+  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS; layout++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene whole, scene;
+    trax_error error;
+    split_mesh(&mesh, 12);
+    build_layout(&whole, &mesh, layout);
+    const struct trax_build_options options = {.nodes = layout, .splits = 3, .smooth = true};
+    if (trax_scene_build(&scene, &mesh, &options, &error) != TRAX_OK ||
+        trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error) != TRAX_OK)
+      fail_msg("%s", error.message);
+    assert_true(scene.triangle_count > mesh.triangle_count + 20);
+    assert_true(scene.header->max_leaf <= 4);
+    check_points(&scene, whole.triangles, whole.triangle_count, 200, &seed);
+    /* A triangle has its normals wherever it stands. */
+    for (uint32_t i = 0; i < scene.triangle_count; i++)
+      for (uint32_t k = 0; k < i; k++)
+        if (scene.source_ids[i] == scene.source_ids[k]) {
+          assert_memory_equal(&scene.triangles[i], &scene.triangles[k], sizeof *scene.triangles);
+          assert_memory_equal(&scene.normals[i], &scene.normals[k], sizeof *scene.normals);
+        }
+    /* What is accepted after a change still has every point. */
+    const struct trax_scene_section *section = &scene.header->sections[TRAX_SCENE_NODES];
+    uint16_t *halves = (uint16_t *)(void *)((unsigned char *)scene.bytes + section->offset);
+    unsigned accepted = 0, refused = 0;
+    for (uint32_t i = 0; i < section->size / 2; i += layout == TRAX_NODES_BINARY ? 7 : 3)
+      for (int step = -1; step <= 1; step += 2) {
+        const uint16_t old = halves[i];
+        halves[i] = (uint16_t)(old + step);
+        seal(scene.bytes, scene.size);
+        if (trax_scene_check(NULL, scene.bytes, scene.size, "scene", NULL) == TRAX_OK) {
+          check_points(&scene, whole.triangles, 24, 40, &seed);
+          accepted++;
+        } else {
+          refused++;
+        }
+        halves[i] = old;
+      }
+    assert_true(accepted < refused);
+    trax_scene_release(&whole);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+}
+
+/* Without a part of a triangle a scene is refused. */
+static void test_missing_part(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  struct trax_scene scene;
+  trax_error error = {{0}};
+  split_mesh(&mesh, 0);
+  const struct trax_build_options options = {.splits = 3, .without_source_ids = true};
+  assert_int_equal(trax_scene_build(&scene, &mesh, &options, &error), TRAX_OK);
+  struct trax_triangle *triangles = (struct trax_triangle *)scene.triangles;
+  unsigned refused = 0, parts = 0;
+  for (uint32_t i = 0; i < scene.triangle_count; i++) {
+    unsigned copies = 0;
+    for (uint32_t k = 0; k < scene.triangle_count; k++)
+      copies += memcmp(&triangles[i], &triangles[k], sizeof *triangles) == 0;
+    if (copies < 2)
+      continue;
+    const struct trax_triangle old = triangles[i];
+    triangles[i].v1[1] = 0.5f * (old.v0[1] + old.v1[1]); /* another triangle of the same bounds, or less */
+    seal(scene.bytes, scene.size);
+    refused += trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error) != TRAX_OK;
+    triangles[i] = old;
+    parts++;
+  }
+  assert_true(parts > 50);
+  assert_true(refused * 10 > parts * 9);
+  assert_contains(error.message, "is not that of its triangles");
+  trax_scene_release(&scene);
+  mesh.materials[0].surface.emission[1] = 1;
+  assert_int_equal(trax_scene_build(&scene, &mesh, &options, &error), TRAX_ERROR);
+  assert_contains(error.message, "no splits where triangles emit light");
+  trax_mesh_release(&mesh);
+}
+
 /* Quantised where the grid is fine enough. */
 static void test_choice(void **state) {
   (void)state;
@@ -158,9 +299,8 @@ static void test_choice(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_boxes),
-      cmocka_unit_test(test_changed_nodes),
-      cmocka_unit_test(test_choice),
+      cmocka_unit_test(test_boxes),        cmocka_unit_test(test_changed_nodes), cmocka_unit_test(test_splits),
+      cmocka_unit_test(test_missing_part), cmocka_unit_test(test_choice),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -182,6 +182,8 @@ struct trax_build_options {
   unsigned max_leaf;       /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
   unsigned max_depth;      /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
   unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
+  float splits;            /* room for so many times the triangles, to split large ones: they then stand in several
+                              leaves; 0 or 1: none */
   float traversal_cost;    /* of a node, relative to intersection_cost; 0: default */
   float intersection_cost; /* of a triangle; 0: default */
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
@@ -197,6 +199,11 @@ struct trax_build_options {
 /* From a layout's name, or auto. False: there is no such layout. */
 bool trax_node_layout_choose(const char *name, struct trax_build_options *build);
 
+/* From a number, or NULL for the default. False: it is none, or out of range. */
+bool trax_splits_choose(const char *text, struct trax_build_options *build);
+
+#define TRAX_DEFAULT_SPLITS 1.5f
+#define TRAX_SCENE_MAX_SPLITS 8.0f
 #define TRAX_DEFAULT_CREASE 60 /* degrees */
 
 /* Builds the BVH (surface-area heuristic) and lays the file out. The same mesh and options give the same bytes on every
@@ -209,8 +216,8 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
 trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error);
 trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);
 
-/* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every triangle is
-   in exactly one leaf and every box is exact. A scene that was accepted cannot lead a traversal astray. */
+/* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every box is exact
+   and every triangle within its leaf's, or those of several leaves together. A scene that was accepted cannot lead a traversal astray. */
 trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
 
 /* The same checks on bytes in memory, which the caller keeps; name stands in the messages. On success *scene, if

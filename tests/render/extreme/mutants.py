@@ -21,7 +21,7 @@ MUTANTS = [
     ("zero-outside", "triangle.h", " && a_bits << 1 != 0 && b_bits << 1 != 0", "", "axis-plus-zero"),
     ("any-determinant", "triangle.h", "LEAST_DETERMINANT_BITS 0x00800000", "LEAST_DETERMINANT_BITS 1", "vanishing"),
     ("no-doubt", "triangle.h", "UNITS_OF_DOUBT 4", "UNITS_OF_DOUBT 0", "duplicates-turned"),
-    ("last-of-equals", "triangle.h", " || (distance_bits == hit->distance_bits && triangle > hit->triangle)", "", "duplicates"),
+    ("last-of-equals", "triangle.h", "!comes_first(triangle, hit->triangle)", "false", "duplicates"),
     ("shear", "triangle.h", "ray->shear_u * bw", "ray->shear_u * aw", "soup"),
     ("direction-of-zero", "ray.h", "* 0x1p-30f", "* 0", "axis-plus-zero"),
     ("far-planes", "ray.h", "far_origin_x = ox - margin_x", "far_origin_x = ox + margin_x", "closed-globe"),

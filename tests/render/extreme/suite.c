@@ -34,15 +34,15 @@ static const struct method {
 
 struct row {
   struct exact_tally tally;
-  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, layout_differs;
+  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, variant_differs;
   uint64_t cycles, emulated;
 };
 
 struct prepared {
   struct setup setup;
   struct trax_scene scene;
-  struct trax_scene by_layout[TRAX_NODE_LAYOUTS]; /* the same with other nodes, where that can be made */
-  struct trax_frame frame;                        /* of cases with pictures */
+  struct trax_scene variants[2 * TRAX_NODE_LAYOUTS]; /* the same with other nodes, and split, where that can be made */
+  struct trax_frame frame;                           /* of cases with pictures */
   struct query_params params;
   struct query_ray *rays; /* in the scaled scene */
   struct exact_scene exact;
@@ -85,18 +85,21 @@ static void turn_children(const struct trax_scene *scene) {
   }
 }
 
-/* The same meshes with other layouts of nodes, scaled alike. A tree that was made by hand has one layout. */
-static void make_layouts(struct prepared *prepared, const struct trax_view *view, const char *name) {
+/* The same meshes with other layouts of nodes, and with triangles split, scaled alike. A tree that was made by hand has
+   no other. */
+static void make_variants(struct prepared *prepared, const struct trax_view *view, const char *name) {
   trax_error error;
-  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS && prepared->setup.mesh.triangle_count; layout++) {
+  for (unsigned i = 1; i < 2 * TRAX_NODE_LAYOUTS; i++) {
     struct trax_build_options build = prepared->setup.build;
     struct trax_view unscaled = *view;
-    build.nodes = layout;
-    if (layout == TRAX_NODES_BINARY || prepared->setup.turned)
+    if (prepared->setup.mesh.triangle_count == 0 || prepared->setup.turned)
       continue;
-    if (trax_scene_build(&prepared->by_layout[layout], &prepared->setup.mesh, &build, &error) != TRAX_OK)
+    build.nodes = i / 2;
+    build.splits = i % 2 ? 3 : 0;
+    if (trax_scene_build(&prepared->variants[i], &prepared->setup.mesh, &build, &error) != TRAX_OK ||
+        trax_scene_check(NULL, prepared->variants[i].bytes, prepared->variants[i].size, name, &error) != TRAX_OK)
       die(name, &error);
-    normalise(&prepared->by_layout[layout], &unscaled);
+    normalise(&prepared->variants[i], &unscaled);
   }
 }
 
@@ -130,7 +133,7 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
     view.eye[axis] = fabsf(low[axis]) > fabsf(high[axis]) ? low[axis] : high[axis];
     view.light[axis] = setup->light[axis];
   }
-  make_layouts(prepared, &view, extreme->name);
+  make_variants(prepared, &view, extreme->name);
   int exponent = normalise(&prepared->scene, &view);
   prepared->exact = (struct exact_scene){prepared->triangles, prepared->scene.triangle_count, exponent, {0, 0, 0}};
   memcpy(prepared->exact.light, setup->light, sizeof setup->light);
@@ -174,8 +177,8 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
 static void release(struct prepared *prepared) {
   trax_frame_release(&prepared->frame);
   trax_scene_release(&prepared->scene);
-  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS; layout++)
-    trax_scene_release(&prepared->by_layout[layout]);
+  for (unsigned i = 0; i < 2 * TRAX_NODE_LAYOUTS; i++)
+    trax_scene_release(&prepared->variants[i]);
   free(prepared->rays);
   free(prepared->triangles);
   setup_release(&prepared->setup);
@@ -284,11 +287,17 @@ static void count_all(struct row *row, const struct prepared *prepared, const st
   }
 }
 
+/* Which triangle of the mesh it is; -1: none. */
+static int64_t source_of(const struct trax_scene *scene, uint32_t offset) {
+  const int64_t number = triangle_number(scene, offset);
+  return number < 0 ? number : scene->source_ids[number];
+}
+
 /* Other nodes, the same answers but for where in the file the triangle stands. */
-static void compare_layouts(struct row *row, const struct prepared *prepared, const char *directory, bool first,
-                            const struct query_answer *answers) {
-  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS; layout++) {
-    const struct trax_scene *scene = &prepared->by_layout[layout];
+static void compare_variants(struct row *row, const struct prepared *prepared, const char *directory, bool first,
+                             const struct query_answer *answers) {
+  for (unsigned v = 0; v < 2 * TRAX_NODE_LAYOUTS; v++) {
+    const struct trax_scene *scene = &prepared->variants[v];
     if (!scene->bytes)
       continue;
     struct query_answer *others = trace(prepared, scene, &methods[0]);
@@ -296,10 +305,9 @@ static void compare_layouts(struct row *row, const struct prepared *prepared, co
     if (first)
       emulate(row, &cycles, prepared, scene, &methods[0], directory, others);
     for (uint32_t i = 0; i < prepared->params.count; i++) {
-      const int64_t number = triangle_number(scene, others[i].triangle);
-      row->layout_differs += number != triangle_number(&prepared->scene, answers[i].triangle);
+      row->variant_differs += source_of(scene, others[i].triangle) != source_of(&prepared->scene, answers[i].triangle);
       others[i].triangle = answers[i].triangle;
-      row->layout_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
+      row->variant_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
     }
     free(others);
   }
@@ -362,7 +370,7 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
       if (done == 0)
         emulate(&rows[m], &rows[m].cycles, &prepared, &prepared.scene, &methods[m], directory, answers[m]);
     }
-    compare_layouts(&rows[0], &prepared, directory, done == 0, answers[0]);
+    compare_variants(&rows[0], &prepared, directory, done == 0, answers[0]);
     if (done == 0)
       judge(rows, &prepared, answers);
     if (done == 0 && prepared.setup.width > 0) {
@@ -436,7 +444,7 @@ static unsigned check_row(const struct extreme_case *extreme, const struct row *
   unsigned failures = complain(name, "the emulated machine answers otherwise", row->twin_differs);
   if (!is_default)
     return failures;
-  failures += complain(name, "nodes of another layout answer otherwise", row->layout_differs);
+  failures += complain(name, "other nodes of the same triangles answer otherwise", row->variant_differs);
   failures += complain(name, "wrong beyond what rounding explains", row->tally.unexplained);
   if (!(extreme->flags & CASE_BELOW_ROUNDING)) {
     failures += complain(name, "left a closed surface", row->escapes);

@@ -1,0 +1,229 @@
+/* Triangles that a tree has in several leaves, each time with a box around a part of it. */
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- convex polygons in binary64 --- */
+
+enum { MOST_CORNERS = 64 };
+
+struct polygon {
+  unsigned count;
+  double corner[MOST_CORNERS][3];
+};
+
+/* What of it is on the side of an axis-parallel plane where sign * coordinate >= sign * plane. Corners beyond
+   MOST_CORNERS are left out, for want of room. */
+static void clip(struct polygon *out, const struct polygon *in, int axis, double sign, double plane) {
+  out->count = 0;
+  for (unsigned i = 0; i < in->count && out->count + 2 <= MOST_CORNERS; i++) {
+    const double *a = in->corner[i], *b = in->corner[i + 1 < in->count ? i + 1 : 0];
+    const double da = sign * (a[axis] - plane), db = sign * (b[axis] - plane);
+    if (da >= 0)
+      memcpy(out->corner[out->count++], a, sizeof out->corner[0]);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
+      double *cut = out->corner[out->count++];
+      for (int other = 0; other < 3; other++)
+        cut[other] = a[other] + da / (da - db) * (b[other] - a[other]);
+      cut[axis] = plane;
+    }
+  }
+}
+
+/* --- for the builder --- */
+
+struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box) {
+  struct polygon polygons[2];
+  unsigned now = 0;
+  polygons[0].count = 3;
+  for (int corner = 0; corner < 3; corner++)
+    for (int axis = 0; axis < 3; axis++)
+      polygons[0].corner[corner][axis] = corners[corner][axis];
+  for (int axis = 0; axis < 3; axis++) {
+    clip(&polygons[!now], &polygons[now], axis, 1, box->min[axis]);
+    clip(&polygons[now], &polygons[!now], axis, -1, box->max[axis]);
+  }
+  if (polygons[now].count == 0) /* less than rounding is in it */
+    return *box;
+  struct scene_box result;
+  for (int axis = 0; axis < 3; axis++) {
+    double least = INFINITY, most = -INFINITY;
+    for (unsigned i = 0; i < polygons[now].count; i++) {
+      least = fmin(least, polygons[now].corner[i][axis]);
+      most = fmax(most, polygons[now].corner[i][axis]);
+    }
+    result.min[axis] = fmaxf(nextafterf((float)least, -INFINITY), box->min[axis]);
+    result.max[axis] = fminf(nextafterf((float)most, INFINITY), box->max[axis]);
+  }
+  return result;
+}
+
+/* --- for the checker: is a triangle within the boxes of its leaves? --- */
+
+enum { MOST_COPIES = 1024, MOST_STEPS = 2048 };
+
+struct cover {
+  const struct scene_parts *parts;
+  const uint32_t *copies; /* the triangle's numbers in the file, ascending */
+  uint32_t count;
+  double slack[3]; /* by which boxes may be short: more than the rounding of all of this, less than that of any ray */
+  unsigned steps;  /* of recursion */
+};
+
+/* Subtrees that are still to be tried. */
+struct subtree {
+  trax_scene_ref ref;
+  uint32_t first, end; /* its triangles */
+  struct scene_box box;
+  const struct subtree *next;
+};
+
+/* The triangles of what a reference leads to. */
+static void set_range(struct subtree *subtree, const struct scene_parts *parts) {
+  const struct trax_scene_section *sections = parts->scene->header->sections;
+  const uint32_t count = TRAX_SCENE_REF_COUNT(subtree->ref);
+  if (count) {
+    subtree->first = (TRAX_SCENE_REF_OFFSET(subtree->ref) - sections[TRAX_SCENE_TRIANGLES].offset) /
+                     (uint32_t)sizeof(struct trax_triangle);
+    subtree->end = subtree->first + count;
+    return;
+  }
+  const uint32_t node = (subtree->ref - sections[TRAX_SCENE_NODES].offset) / sections[TRAX_SCENE_NODES].record_size;
+  subtree->first = parts->ranges[node].first;
+  subtree->end = parts->ranges[node].end;
+}
+
+static void list_children(struct subtree below[TRAX_MAX_WIDTH], const struct scene_parts *parts,
+                          const struct subtree *parent) {
+  const struct trax_scene_section *section = &parts->scene->header->sections[TRAX_SCENE_NODES];
+  struct scene_box boxes[TRAX_MAX_WIDTH];
+  trax_scene_ref children[TRAX_MAX_WIDTH];
+  const uint32_t width = trax_node_formats[parts->scene->header->node_layout].width;
+  scene_node_boxes(boxes, children, parts->scene, (parent->ref - section->offset) / section->record_size);
+  for (uint32_t i = width; i-- > 0;) {
+    below[i] =
+        (struct subtree){.ref = children[i], .box = boxes[i], .next = i + 1 < width ? &below[i + 1] : parent->next};
+    set_range(&below[i], parts);
+  }
+}
+
+static bool has_copy(const struct cover *cover, uint32_t first, uint32_t end) {
+  uint32_t low = 0, high = cover->count;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (cover->copies[middle] < first)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < cover->count && cover->copies[low] < end;
+}
+
+/* What is outside of the first subtree's box is left to those behind it, what is inside to those below it first. The
+   recursion is bounded by the depth of the tree for each box that is left. */
+static bool is_covered(struct cover *cover, const struct polygon *polygon, const struct subtree *list) {
+  if (polygon->count == 0)
+    return true;
+  while (list && !has_copy(cover, list->first, list->end))
+    list = list->next;
+  if (!list || cover->steps == MOST_STEPS)
+    return false;
+  struct polygon *pieces = malloc(3 * sizeof *pieces); /* too large for the recursion's frames */
+  if (!pieces)
+    return false;
+  struct polygon *inside = &pieces[0], *next = &pieces[1], *outside = &pieces[2];
+  *inside = *polygon;
+  bool covered = true;
+  cover->steps++;
+  for (int side = 0; side < 6 && covered && inside->count; side++) {
+    const int axis = side >> 1;
+    const double sign = side & 1 ? -1 : 1;
+    const double plane = (double)(side & 1 ? list->box.max : list->box.min)[axis] - sign * cover->slack[axis];
+    bool cut = false;
+    for (unsigned i = 0; i < inside->count; i++)
+      cut |= sign * (inside->corner[i][axis] - plane) < 0;
+    if (!cut)
+      continue;
+    covered = inside->count + 2 <= MOST_CORNERS;
+    clip(outside, inside, axis, -sign, plane);
+    clip(next, inside, axis, sign, plane);
+    covered = covered && is_covered(cover, outside, list->next);
+    struct polygon *swap = inside;
+    inside = next, next = swap;
+  }
+  if (covered && inside->count && !TRAX_SCENE_REF_COUNT(list->ref)) {
+    struct subtree below[TRAX_MAX_WIDTH];
+    list_children(below, cover->parts, list);
+    covered = is_covered(cover, inside, below);
+  }
+  free(pieces);
+  cover->steps--;
+  return covered;
+}
+
+static bool check_triangle(struct cover *cover, const struct trax_triangle *triangle) {
+  const struct trax_scene *scene = cover->parts->scene;
+  const bool quantised = trax_node_formats[scene->header->node_layout].quantised;
+  const float *const corners[3] = {triangle->v0, triangle->v1, triangle->v2};
+  struct polygon polygon = {.count = 3};
+  struct subtree root = {.ref = scene->header->root};
+  set_range(&root, cover->parts);
+  for (int axis = 0; axis < 3; axis++) {
+    const double origin = quantised ? scene->grid.origin[axis] : 0, cell = quantised ? scene->grid.cell[axis] : 1;
+    const double low = scene->header->bounds_min[axis], high = scene->header->bounds_max[axis];
+    for (int corner = 0; corner < 3; corner++)
+      polygon.corner[corner][axis] = (corners[corner][axis] - origin) / cell;
+    cover->slack[axis] = quantised ? 0x1p-20 : 0x1p-40 * fmax(fabs(low), fabs(high));
+    root.box.min[axis] = -INFINITY, root.box.max[axis] = INFINITY;
+  }
+  return is_covered(cover, &polygon, &root);
+}
+
+struct copy {
+  const struct trax_triangle *triangle;
+};
+
+/* By vertices, then as they stand in the file. */
+static int compare_copies(const void *a, const void *b) {
+  const struct copy *left = a, *right = b;
+  const int order = memcmp(left->triangle, right->triangle, 9 * sizeof(float));
+  return order ? order : left->triangle < right->triangle ? -1 : left->triangle > right->triangle;
+}
+
+trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, trax_error *error) {
+  const struct trax_scene *scene = parts->scene;
+  struct copy *copies = malloc(scene->triangle_count * sizeof *copies);
+  uint32_t *numbers = malloc(MOST_COPIES * sizeof *numbers);
+  *bad = UINT32_MAX;
+  if (!copies || !numbers) {
+    free(copies), free(numbers);
+    return scene_out_of_memory(error, "BVH");
+  }
+  for (uint32_t i = 0; i < scene->triangle_count; i++)
+    copies[i].triangle = &scene->triangles[i];
+  qsort(copies, scene->triangle_count, sizeof *copies, compare_copies);
+  for (uint32_t begin = 0, end; begin < scene->triangle_count && *bad == UINT32_MAX; begin = end) {
+    uint32_t in_part = UINT32_MAX;
+    bool whole = false;
+    for (end = begin;
+         end < scene->triangle_count && memcmp(copies[end].triangle, copies[begin].triangle, 9 * sizeof(float)) == 0;
+         end++) {
+      const uint32_t number = (uint32_t)(copies[end].triangle - scene->triangles);
+      if (end - begin < MOST_COPIES)
+        numbers[end - begin] = number;
+      if (parts->in_part[number])
+        in_part = number;
+      else
+        whole = true;
+    }
+    if (whole || in_part == UINT32_MAX)
+      continue;
+    struct cover cover = {.parts = parts, .copies = numbers, .count = end - begin};
+    if (cover.count == 1 || cover.count > MOST_COPIES || !check_triangle(&cover, copies[begin].triangle))
+      *bad = in_part;
+  }
+  free(copies), free(numbers);
+  return TRAX_OK;
+}
