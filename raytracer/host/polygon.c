@@ -46,10 +46,14 @@ static bool is_ear(const struct point *points, const uint32_t *ring, uint32_t co
   struct point a = points[ring[before]], b = points[ring[at]], c = points[ring[after]];
   if (!(turn(a, b, c) > 0))
     return false;
+  const double left = fmin(a.x, fmin(b.x, c.x)), right = fmax(a.x, fmax(b.x, c.x));
+  const double low = fmin(a.y, fmin(b.y, c.y)), high = fmax(a.y, fmax(b.y, c.y));
   for (uint32_t i = 0; i < count; i++) {
     if (i == before || i == at || i == after)
       continue;
     struct point p = points[ring[i]];
+    if (p.x < left || p.x > right || p.y < low || p.y > high)
+      continue;
     if ((p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y))
       continue;
     if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0)

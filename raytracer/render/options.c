@@ -536,8 +536,9 @@ static trax_status wrong_option(char **argv, int which, trax_error *error) {
 static trax_status check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
-  if (options->prepare && (options->output || options->stats || options->compare || options->report ||
-                           options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+  if (options->prepare &&
+      (options->output || options->stats || options->compare || options->report || options->id_picture ||
+       options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (!options->output && !options->prepare)
     return trax_fail(error, "no picture given: -o PICTURE.png");
@@ -548,7 +549,8 @@ static trax_status check(const struct options *options, trax_error *error) {
         options->frame.method.fast_math)
       return trax_fail(error, "--bench-accuracy varies --samples, --triangle and --fast-math itself");
     if (options->stats || options->cost_picture || options->cost_values || options->compare || options->report ||
-        options->keep || options->prepare || options->frames > 1 || trax_explain_wanted(&options->explain))
+        options->keep || options->prepare || options->frames > 1 || options->id_picture ||
+        trax_explain_wanted(&options->explain))
       return trax_fail(error, "--bench-accuracy makes tables and diagrams of its own, and nothing else");
   }
   const trax_slot_sampling *sampling = &options->sampling;

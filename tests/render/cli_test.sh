@@ -90,7 +90,7 @@ refuse '--report compares with the general' "$render" "$box" -o x.png --triangle
 refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
 refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
 refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
-for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png'; do
+for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
 done
 refuse 'need the emulator' "$render" "$box" --prepare prepared --engine native
@@ -105,6 +105,8 @@ refuse '--fov 180' "$render" "$box" -o x.png --fov 180
 refuse '--orbit 1,2,3' "$render" "$box" -o x.png --orbit 1,2,3
 refuse '--frames: expected' "$render" "$box" -o x.png --frames 0
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
+refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --id-picture i.png
+refuse 'and nothing else' "$render" "$box" -o x.png --bench-accuracy --id-picture i.png
 refuse 'the meshes have no cameras' "$render" "$box" -o x.png --view file:main
 refuse 'is the eye itself' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,3
 refuse 'in which the eye looks' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,5 --up 0,0,1
@@ -182,6 +184,24 @@ cp "$source/box.mtl" .
 accept "$render" small.obj -o small.png --engine native --size 32x24 --frames 2
 accept "$render" small.obj -o c.png --engine native --size 32x24 --orbit 180
 accept "$compare" c.png small-0002.png
+
+# A camera of a glTF file, by its name or the first; what stands in its place is the same view.
+cat >camera.gltf <<'END'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+ "nodes":[{"mesh":0},{"name":"front","camera":0,"translation":[0.25,0,4]}],
+ "cameras":[{"type":"perspective","perspective":{"yfov":0.7853981633974483,"znear":0.1}}],
+ "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]}
+END
+accept "$render" camera.gltf -o b.png --engine native --size 32x24 --view file:front --light 1,2,3
+accept "$render" camera.gltf -o c.png --engine native --size 32x24 --view file: --light 1,2,3
+accept "$compare" b.png c.png
+accept "$render" camera.gltf -o c.png --engine native --size 32x24 --eye 0.25,0,4 --look-at 0.25,0,0 --up 0,1,0 --fov 45 \
+  --light 1,2,3
+accept "$compare" b.png c.png --within 2 --at-least 98
+refuse "no camera has this name; the first of 1 is 'front'" "$render" camera.gltf -o x.png --view file:back
 
 # Samples, light without shadows: each its own picture, near the reference's.
 for options in '--samples 5' '--no-shadows' '--samples 2 --no-shadows --smooth'; do
