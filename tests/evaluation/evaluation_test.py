@@ -110,6 +110,20 @@ def test_sweep(evaluation, scratch):
     check(run.returncode == 0, f"--mode sampled: {run.stderr}")
     for one in evaluation.results("sampled")["runs"]:
         check(one["mode"] == "sampled" and one["values"]["mrps_low"] < one["stats"]["mrps"] < one["values"]["mrps_high"], "an interval")
+    # Quick runs stand beside the exact ones of the same sweep, with rays that were counted and no picture of the machine's.
+    for mode in (["--mode", "exact"], ["--quick"]):
+        run = evaluation.run(dict(SMALL, series=0, set={}, size="256x144"), "quick", *mode)
+        check(run.returncode == 0, f"{mode}: {run.stderr}")
+    found = {}
+    for one in evaluation.results("quick")["runs"]:
+        found.setdefault((one["program"], one["scene"], one["config"]), {})[one["mode"]] = one
+    for pair in found.values():
+        exact, quick = pair["exact"], pair["quick"]
+        check(quick["picture"] is None and quick["experiments"] == exact["experiments"], "a quick run")
+        check(quick["stats"]["items"] == exact["stats"]["items"] and abs(quick["stats"]["mrps"] / exact["stats"]["mrps"] - 1) < 0.15, "a quick run's figures")
+        check(quick["values"]["mrps_low"] <= quick["stats"]["mrps"] <= quick["values"]["mrps_high"], "a quick run's interval")
+        check(quick["stats"]["sampled"]["detailed_slots"] < 256 * 144 and "--sampled" in quick["command"], "a quick run is sampled")
+    check(found and evaluation.run(dict(SMALL, series=0, set={}, size="256x144"), "quick", "--quick", "--dry-run").stdout.startswith("0 of"), "quick runs are kept")
     run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "sampled")
     for one in evaluation.results("lockstep")["runs"]:
         check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")
@@ -147,7 +161,7 @@ REFUSED = [
     ('{"name": "x", "set": {"icache.banks": 4, "icache.banks": 8}}', '"icache.banks" is there twice'),
     ('{"name": "x", "set": {"memory.bandwidth_gbps": NaN}}', "NaN is no number"),
     ('{"name": "x", "size": "0x10"}', "size: expected"),
-    ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "sampled"'),
+    ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "sampled", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
     ('{"name": "x", "mode": "sampled", "series": 100}', 'mode: series and lockstep need "exact"'),
     ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),

@@ -34,11 +34,15 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in 
 # --- inputs
 
 
-def prepare_inputs(out, tools, scene, view, size, program):
+QUICK_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of: quick runs choose by it what to simulate
+
+
+def prepare_inputs(out, tools, scene, view, size, program, quick=False):
     """The files that a program reads for a picture; returns their description, which is part of the job."""
     scratch = new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
+        command += ["--write-view", f"{scratch}/picture.view"] if quick else []
         command += ["--view", view] if view else []
         command += ["--program", tools.era_program()] if program == "era" else []
         run = subprocess.run(command, capture_output=True, text=True)
@@ -57,6 +61,9 @@ def prepare_inputs(out, tools, scene, view, size, program):
             "width": width,
             "height": height,
         }
+        if quick:
+            shutil.copyfile(scene, pathlib.Path(scratch, "whole.trax"))
+            description["quick"] = [program, *([file, hash_file(pathlib.Path(scratch, file))] for file in QUICK_FILES)]
         place = out / "inputs" / hash_value(description)
         if not place.exists():
             (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
@@ -89,13 +96,21 @@ def share(path, content):
 # --- jobs
 
 
+ENGINES = {"exact": "fast", "sampled": "sampled", "quick": "quick"}
+
+
+def simulator(engine):
+    """The program that makes a run."""
+    return "trax-render" if engine == "quick" else "trax-sim"
+
+
 def make_job(tools, inputs, point):
     return {
         "format": FORMAT,
-        "emulator": tools.hash("trax-sim"),
+        "emulator": tools.hash(simulator(ENGINES[point.mode])),
         "inputs": inputs,
         "configuration": tools.configuration(point.chip, point.machine()),
-        "engine": "sampled" if point.mode == "sampled" else "fast",
+        "engine": ENGINES[point.mode],
         "series": point.series,
         "lockstep": point.lockstep,
     }
@@ -172,8 +187,18 @@ def png(width, height, pixels):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
 
 
+def quick_command(tools, inputs, job, scratch, threads):
+    """trax-render on what the job's inputs were made of: some parts of the picture."""
+    size = f"{job['inputs']['width']}x{job['inputs']['height']}"
+    command = [tools.path("trax-render"), str(inputs / "whole.trax"), "--view", str(inputs / "picture.view"), "--size", size, "--config",
+               f"{scratch}/machine.cfg", "--sampled", "--threads", str(threads), "--quiet", "--stats", f"{scratch}/stats.json", "-o", f"{scratch}/image.png"]
+    return command + (["--program", str(inputs / "program.elf")] if job["inputs"]["quick"][0] == "era" else [])
+
+
 def command_of(tools, inputs, job, scratch, threads):
     """trax-sim on the job's inputs; what it writes is in scratch."""
+    if job["engine"] == "quick":
+        return quick_command(tools, inputs, job, scratch, threads)
     command = [tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats", f"{scratch}/stats.json"]
     for symbol, file, _ in job["inputs"]["buffers"]:
         command += ["--bind", f"{symbol}={inputs / file}"]
@@ -188,7 +213,8 @@ def command_of(tools, inputs, job, scratch, threads):
 
 
 def check_inputs(job, inputs):
-    for file, expected in [("program.elf", job["inputs"]["program"]), *((file, expected) for _, file, expected in job["inputs"]["buffers"])]:
+    files = [("program.elf", job["inputs"]["program"]), *((file, expected) for _, file, expected in job["inputs"]["buffers"])]
+    for file, expected in [*files, *job["inputs"].get("quick", [None])[1:]]:
         if hash_file(inputs / file) != expected:
             raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
 
@@ -200,8 +226,9 @@ def run_job(out, tools, key, threads=1, on_start=None):
     job = read_json(out / "jobs" / f"{key}.json")
     if hash_value(job) != key:
         raise Problem(f"{out}/jobs/{key}.json is damaged: its name is not its hash")
-    if job["emulator"] != hash_file(tools.path("trax-sim")):  # hashed anew: it may have been built since the command began
-        raise Problem(f"job {key} is for another trax-sim than {tools.path('trax-sim')}")
+    emulator = simulator(job["engine"])
+    if job["emulator"] != hash_file(tools.path(emulator)):  # hashed anew: it may have been built since the command began
+        raise Problem(f"job {key} is for another {emulator} than {tools.path(emulator)}")
     inputs = out / "inputs" / hash_value(job["inputs"])
     check_inputs(job, inputs)
     scratch = new_scratch(out)
@@ -218,7 +245,7 @@ def run_job(out, tools, key, threads=1, on_start=None):
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             text = pathlib.Path(scratch, "errors").read_text(errors="replace").strip()
-            raise Problem(text.removeprefix("trax-sim: error: ") or f"trax-sim ended with status {process.returncode}")
+            raise Problem(text.removeprefix(f"{emulator}: error: ") or f"{emulator} ended with status {process.returncode}")
         statistics = json.loads(pathlib.Path(scratch, "stats.json").read_text())
         host = {"host_seconds": round(time.monotonic() - begin, 3), "simulator_seconds": statistics.get("host_seconds"), "threads": threads,
                 "processor_seconds": round(usage.ru_utime + usage.ru_stime, 3), "name": socket.gethostname(), "processor": processor()}
@@ -228,11 +255,13 @@ def run_job(out, tools, key, threads=1, on_start=None):
 
 
 def keep_results(out, key, job, scratch, statistics, host):
-    pixels = pathlib.Path(scratch, "image.raw").read_bytes()
-    picture = hash_bytes(pixels)
-    path = out / "pictures" / f"{picture}.png"
-    if not path.exists():
-        write_file(path, png(job["inputs"]["width"], job["inputs"]["height"], pixels))
+    picture = None
+    if job["engine"] != "quick":  # a quick one is the native twin's, and of nothing that was simulated
+        pixels = pathlib.Path(scratch, "image.raw").read_bytes()
+        picture = hash_bytes(pixels)
+        path = out / "pictures" / f"{picture}.png"
+        if not path.exists():
+            write_file(path, png(job["inputs"]["width"], job["inputs"]["height"], pixels))
     if job["series"]:
         write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
     result = {"key": key, "job": job, "picture": picture, "statistics": statistics}

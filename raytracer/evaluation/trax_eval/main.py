@@ -13,7 +13,7 @@ from .jobs import clean_scratch, is_done, make_job, prepare_inputs, write_job
 from .paper import Paper
 from .results import collect, write_plan
 from .scenes import scene_file
-from .sweep import PROGRAMS, parse_size, read_sweep
+from .sweep import MODES, PROGRAMS, parse_size, read_sweep
 from .tables import print_tables
 from .tools import Tools
 from .util import Problem
@@ -39,7 +39,9 @@ variable TRAX_SCENES, or else ./scenes).
       --jobs N          runs at the same time on this host (default: its processors)
       --hosts LIST      --runner parallel: hosts as for its --sshlogin; they see the folders at the same place
       --slurm-options T --runner slurm: more options for sbatch
-      --mode WHICH      exact or sampled, instead of what the sweep says
+      --mode WHICH      exact, sampled or quick, instead of what the sweep says
+      --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
+                        with intervals (trax-render --sampled)
       --dry-run         prints the runs that are missing, and ends
       --all             every experiment, and the report
   -q, --quiet           neither progress nor tables
@@ -74,7 +76,8 @@ def parse(arguments):
     parser.add_argument("-o", "--output", default="out/eval", type=pathlib.Path)
     parser.add_argument("--program", default=",".join(PROGRAMS))
     parser.add_argument("--size")
-    parser.add_argument("--mode", choices=("exact", "sampled"))
+    parser.add_argument("--mode", choices=MODES)
+    parser.add_argument("--quick", dest="mode", action="store_const", const="quick")
     parser.add_argument("--runner", default="local", choices=tuple(runners.RUNNERS))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--hosts")
@@ -142,8 +145,9 @@ class Planner:
         self.note(f"{point.scene}, {point.size}, {point.program}")
         path = self.once(("scene", tuple(scene["meshes"]), point.program),
                          lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, point.program))
-        return self.once((path, scene["view"], point.size, point.program),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program))
+        quick = point.mode == "quick"
+        return self.once((path, scene["view"], point.size, point.program, quick),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, quick))
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""

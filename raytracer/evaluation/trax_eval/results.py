@@ -34,7 +34,9 @@ def write_plan(out, sweep, keys, tools):
         points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, "config": point.chip,
                        "set": effective(point, tools), "machine": dict(point.machine()), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
                        "error": reason})
-    write_json(out / "sweeps" / f"{sweep.name}.json", {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
+    modes = {point.mode for point in sweep.points}  # exact runs stay in the results beside estimates of the same sweep
+    file = f"{sweep.name}.json" if modes <= {"exact"} else f"{sweep.name}.{'.'.join(sorted(modes))}.json"
+    write_json(out / "sweeps" / file, {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
                                                        "claim": sweep.claim, "file": sweep.file, "points": points})
 
 
@@ -45,6 +47,7 @@ def repeat_command(point, tools):
     for key, value in point["machine"].items():
         words += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
     words += ["--program", tools.era_program()] if point["program"] == "era" else []
+    words += ["--sampled"] if point["mode"] == "quick" else []
     return shlex.join([*words, "--stats", "stats.json", "-o", "picture.png"])
 
 
@@ -77,7 +80,7 @@ def run_of(out, tools, areas, point):
         statistics = result["statistics"]
         series = out / "runs" / f"{point['key']}.csv"
         run |= {"status": "done", "json": f"runs/{point['key']}.json", "csv": f"runs/{series.name}" if series.exists() else None,
-                "picture": f"pictures/{result['picture']}.png", "host_seconds": host.get("host_seconds"), "host": host or None,
+                "picture": f"pictures/{result['picture']}.png" if result["picture"] else None, "host_seconds": host.get("host_seconds"), "host": host or None,
                 "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(result, areas)}
     elif error:
         run |= {"status": "failed", "error": error}
@@ -89,7 +92,8 @@ def collect(out, tools, areas, command, seconds):
     runs, sweeps, series = {}, [], []
     for path in sorted((out / "sweeps").glob("[!.]*.json")):
         plan = read_json(path)
-        sweeps.append({name: value for name, value in plan.items() if name != "points"})
+        if not any(sweep["name"] == plan["name"] for sweep in sweeps):
+            sweeps.append({name: value for name, value in plan.items() if name != "points"})
         for number, point in enumerate(plan["points"]):
             label = point["key"] or f"{plan['name']}-{number}"
             if label not in runs:
