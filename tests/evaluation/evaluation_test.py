@@ -196,6 +196,17 @@ def test_refusals(evaluation, scratch):
     check(sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"], "the other scene was not run")
 
 
+def test_experiments(evaluation, scratch):
+    """The sweeps that come with trax ask for machines that there are; without its meshes a scene is left out."""
+    empty = scratch / "no-scenes"
+    empty.mkdir()
+    run = subprocess.run([evaluation.program, "--all", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"], capture_output=True, text=True)
+    check(run.returncode == 0 and "error" not in run.stderr, f"--all --dry-run: {run.stderr}")
+    check(run.stdout.count("forest") > 100 and "conference" not in run.stdout, "the generated forest needs no mesh, the others do")
+    known = subprocess.run([evaluation.program, "--help"], capture_output=True, text=True).stdout
+    check(all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "lockstep")), "--help lists the experiments")
+
+
 # --- killed
 
 
@@ -281,13 +292,13 @@ def test_slurm(evaluation, scratch):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=("sweep", "refusals", "kill", "interrupt", "parallel", "slurm"))
+    parser.add_argument("--only", choices=("sweep", "refusals", "experiments", "kill", "interrupt", "parallel", "slurm"))
     parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch = pathlib.Path(temporary).resolve()
         evaluation = Evaluation(options.bin.resolve(), scratch)
-        wanted = [options.only] if options.only else ["sweep", "refusals", "kill", "interrupt", "parallel"]
+        wanted = [options.only] if options.only else ["sweep", "refusals", "experiments", "kill", "interrupt", "parallel"]
         if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "slurm"}:
             evaluation.run(SMALL, "undisturbed", "--jobs", "2")
         for name in wanted:
