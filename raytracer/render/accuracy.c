@@ -26,7 +26,21 @@ static void add_unit(struct trax_variant *variants, size_t *count, unsigned bits
            latency == TRAX_LATENCY_DIGITS ? "digits" : "newton");
 }
 
-trax_status trax_variants(struct trax_variant **variants, size_t *count, enum trax_node_layout own, trax_error *error) {
+/* The scene otherwise: what is not varied is as it was. */
+static struct trax_variant *add_tree(struct trax_variant *variants, size_t *count, const char *group,
+                                     const struct trax_rebuild_options *own) {
+  struct trax_variant *variant = add(variants, count, group);
+  variant->rebuilt = true;
+  variant->tree = *own;
+  return variant;
+}
+
+trax_status trax_variants(struct trax_variant **variants, size_t *count, const struct trax_scene *scene,
+                          trax_error *error) {
+  struct trax_rebuild_options own = {.nodes = scene->header->node_layout};
+  *variants = NULL;
+  if (trax_scene_is_split(&own.split, scene, error) != TRAX_OK)
+    return TRAX_ERROR;
   *count = 0;
   struct trax_variant *all = *variants = calloc(MOST_VARIANTS, sizeof **variants);
   if (!all)
@@ -43,17 +57,17 @@ trax_status trax_variants(struct trax_variant **variants, size_t *count, enum tr
                fast_math ? ", fast-math" : "");
     }
   for (enum trax_node_layout nodes = 0; nodes < TRAX_NODE_LAYOUTS; nodes++) {
-    if (nodes == own)
+    if (nodes == own.nodes)
       continue;
-    struct trax_variant *variant = add(all, count, "nodes");
-    variant->rebuilt = true;
-    variant->nodes = nodes;
+    struct trax_variant *variant = add_tree(all, count, "tree", &own);
+    variant->tree.nodes = nodes;
     snprintf(variant->name, sizeof variant->name, "%s nodes", trax_node_formats[nodes].name);
   }
-  struct trax_variant *coarse = add(all, count, "vertices");
-  coarse->rebuilt = true;
-  coarse->nodes = own;
-  coarse->vertex_bits = 16;
+  struct trax_variant *split = add_tree(all, count, "tree", &own);
+  split->tree.split = !own.split;
+  strcpy(split->name, own.split ? "whole triangles" : "split triangles");
+  struct trax_variant *coarse = add_tree(all, count, "vertices", &own);
+  coarse->tree.vertex_bits = 16;
   strcpy(coarse->name, "vertices of 16 bits");
   for (unsigned bits = MOST_BITS; bits >= LEAST_BITS; bits--) {
     add_unit(all, count, bits, TRAX_LATENCY_DIGITS);
@@ -67,7 +81,7 @@ trax_status trax_variants(struct trax_variant **variants, size_t *count, enum tr
   }
   for (size_t i = 0; i < *count; i++)
     if (!all[i].rebuilt)
-      all[i].nodes = own;
+      all[i].tree = own;
   return TRAX_OK;
 }
 

@@ -14,31 +14,40 @@
 
 /* --- what is measured --- */
 
+/* rebuilt.c: a scene of the same triangles, built again: the same bytes, but for the source ids, if nodes are the same
+   and vertices and triangles whole as they are. The source ids are the triangles' numbers in `scene`, of which one that
+   stands in several leaves counts once. */
+struct trax_rebuild_options {
+  enum trax_node_layout nodes;
+  bool split;           /* large triangles, with the default's room */
+  unsigned vertex_bits; /* vertices are the nearest ones on a grid of 2^vertex_bits planes along each axis, the scene's
+                           bounds being the outermost, as if they were stored in so many bits; 0: as they are */
+};
+
+trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_scene *scene,
+                               const struct trax_rebuild_options *how, const volatile int *interrupt,
+                               trax_error *error);
+/* Does a triangle stand in several leaves? */
+trax_status trax_scene_is_split(bool *split, const struct trax_scene *scene, trax_error *error);
+
 enum trax_latency { TRAX_LATENCY_AS_CONFIGURED, TRAX_LATENCY_DIGITS, TRAX_LATENCY_NEWTON };
 
 /* A row of the table. */
 struct trax_variant {
-  const char *group; /* what it varies: "default", "triangle", "math", "nodes", "vertices", "unit", "samples" */
+  const char *group; /* what it varies: "default", "triangle", "math", "tree", "vertices", "unit", "samples" */
   char name[64];
   struct trax_method method;
   uint32_t samples;
-  bool rebuilt;                /* the scene is one of trax_scene_rebuild */
-  enum trax_node_layout nodes; /* of the scene */
-  unsigned vertex_bits;        /* 0: as they are */
-  unsigned bits;               /* of the special unit; 0: as configured */
+  bool rebuilt;                     /* the scene is one of trax_scene_rebuild */
+  struct trax_rebuild_options tree; /* which is like this in any case */
+  unsigned bits;                    /* of the special unit; 0: as configured */
   enum trax_latency latency;
 };
 
-/* The default first, whose scene has the nodes `own`. *variants is from malloc. */
-trax_status trax_variants(struct trax_variant **variants, size_t *count, enum trax_node_layout own, trax_error *error);
+/* The default first, of the scene as it is. *variants is from malloc. */
+trax_status trax_variants(struct trax_variant **variants, size_t *count, const struct trax_scene *scene,
+                          trax_error *error);
 unsigned trax_variant_latency(const struct trax_variant *variant); /* cycles; 0: as configured */
-
-/* rebuilt.c: a scene of the same triangles, built again: the same bytes, but for the source ids, if nodes are the same
-   and vertices as they are. With vertex_bits its vertices are the nearest ones on a grid of 2^vertex_bits planes along
-   each axis, the scene's bounds being the outermost, as if they were stored in so many bits; 0: as they are. The source
-   ids are the triangles' numbers in `scene`. */
-trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_scene *scene, enum trax_node_layout nodes,
-                               unsigned vertex_bits, const volatile int *interrupt, trax_error *error);
 
 /* FIGURE(NAME, key, unit, meaning) */
 #define TRAX_ACCURACY_FIGURES(FIGURE)                                                                                  \

@@ -148,10 +148,11 @@ trax_status trax_accuracy_write_json(const struct trax_accuracy_report *report, 
   for (size_t i = 0; i < report->count; i++) {
     const struct trax_accuracy_row *row = &report->rows[i];
     json_array_append_new(
-        rows, json_pack("{s:s, s:s, s:s, s:b, s:s, s:i, s:i, s:i, s:i, s:b, s:b, s:o}", "method", row->variant.name,
-                        "group", row->variant.group, "triangle", trax_triangle_names[row->variant.method.triangle],
-                        "fast_math", row->variant.method.fast_math, "nodes", trax_node_formats[row->variant.nodes].name,
-                        "vertex_bits", (int)row->variant.vertex_bits, "samples", (int)row->variant.samples, "bits",
+        rows, json_pack("{s:s, s:s, s:s, s:b, s:s, s:b, s:i, s:i, s:i, s:i, s:b, s:b, s:o}", "method",
+                        row->variant.name, "group", row->variant.group, "triangle",
+                        trax_triangle_names[row->variant.method.triangle], "fast_math", row->variant.method.fast_math,
+                        "nodes", trax_node_formats[row->variant.tree.nodes].name, "split", row->variant.tree.split,
+                        "vertex_bits", (int)row->variant.tree.vertex_bits, "samples", (int)row->variant.samples, "bits",
                         (int)row->variant.bits, "latency", (int)trax_variant_latency(&row->variant), "numerical_front",
                         row->numerical_front, "total_front", row->total_front, "figures", figures_json(row)));
   }
@@ -179,7 +180,7 @@ static const struct {
   const char *name, *title, *colour;
 } groups[] = {{"triangle", "other triangle test", "#0072b2"},
               {"math", "-ffast-math", "#d55e00"},
-              {"nodes", "other nodes", "#e69f00"},
+              {"tree", "other nodes, split triangles", "#e69f00"},
               {"vertices", "vertices of 16 bits", "#56b4e9"},
               {"unit", "special unit of so many bits", "#009e73"},
               {"samples", "more samples", "#cc79a7"},

@@ -40,8 +40,7 @@ struct bench {
 /* A scene of trax_scene_rebuild. */
 struct rebuilt {
   struct trax_scene scene;
-  enum trax_node_layout nodes;
-  unsigned vertex_bits;
+  struct trax_rebuild_options how;
   struct rebuilt *next;
 };
 
@@ -88,25 +87,28 @@ static trax_status plain_frame(struct trax_frame *frame, const struct bench *ben
   return frame_of(frame, bench, bench->scene, (struct trax_method){0}, samples, error);
 }
 
+static bool same_tree(const struct trax_rebuild_options *a, const struct trax_rebuild_options *b) {
+  return a->nodes == b->nodes && a->split == b->split && a->vertex_bits == b->vertex_bits;
+}
+
 static trax_status scene_of(const struct trax_scene **scene, struct bench *bench, const struct trax_variant *variant,
                             trax_error *error) {
   *scene = bench->scene;
   if (!variant->rebuilt)
     return TRAX_OK;
   struct rebuilt *rebuilt = bench->rebuilt;
-  while (rebuilt && (rebuilt->vertex_bits != variant->vertex_bits || rebuilt->nodes != variant->nodes))
+  while (rebuilt && !same_tree(&rebuilt->how, &variant->tree))
     rebuilt = rebuilt->next;
   if (!rebuilt) {
     rebuilt = calloc(1, sizeof *rebuilt);
-    const trax_status status = rebuilt ? trax_scene_rebuild(&rebuilt->scene, bench->scene, variant->nodes,
-                                                            variant->vertex_bits, bench->interrupt, error)
-                                       : trax_fail(error, "out of memory");
+    const trax_status status =
+        rebuilt ? trax_scene_rebuild(&rebuilt->scene, bench->scene, &variant->tree, bench->interrupt, error)
+                : trax_fail(error, "out of memory");
     if (status != TRAX_OK) {
       free(rebuilt);
       return status;
     }
-    rebuilt->nodes = variant->nodes;
-    rebuilt->vertex_bits = variant->vertex_bits;
+    rebuilt->how = variant->tree;
     rebuilt->next = bench->rebuilt;
     bench->rebuilt = rebuilt;
   }
@@ -401,7 +403,7 @@ trax_status bench_accuracy(const struct options *options, const struct trax_scen
   if (status == TRAX_OK)
     status = hash_self(&bench.own_hash, error);
   if (status == TRAX_OK)
-    status = trax_variants(&bench.variants, &bench.count, scene->header->node_layout, error);
+    status = trax_variants(&bench.variants, &bench.count, scene, error);
   if (status == TRAX_OK) {
     bench.rows = calloc(bench.count, sizeof *bench.rows);
     bench.done = calloc(bench.count, sizeof *bench.done);

@@ -1,5 +1,7 @@
 #include "exact.h"
 
+#include <string.h>
+
 /* Edges are triple products of the direction and two vertices as seen from the origin: two triangles that share an edge
    compute the same value for it with opposite signs, since a product's terms change places and nothing else. So no ray
    passes between them, as with the watertight test of the device. Vertices and the eye are floats, whose differences
@@ -50,6 +52,17 @@ static void bounds(const struct RTCBoundsFunctionArguments *arguments) {
   }
 }
 
+/* As device/triangle.h has it. */
+static bool comes_first(const struct trax_triangle *triangle, const struct trax_triangle *other) {
+  uint32_t words[9], other_words[9];
+  memcpy(words, triangle, sizeof words);
+  memcpy(other_words, other, sizeof other_words);
+  for (int i = 0; i < 9; i++)
+    if (words[i] != other_words[i])
+      return words[i] < other_words[i];
+  return triangle < other;
+}
+
 /* Of the float rays Embree's own is only to leave out what is too far: its end lies behind the hit. */
 static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct query *query = (struct query *)arguments->context;
@@ -58,7 +71,8 @@ static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   if (!arguments->valid[0] ||
       !exact_triangle(&source->triangles[hit.triangle], query->origin, query->direction, &hit) ||
       hit.distance > query->limit ||
-      (query->found && hit.distance == query->hit.distance && hit.triangle > query->hit.triangle))
+      (query->found && hit.distance == query->hit.distance &&
+       !comes_first(&source->triangles[hit.triangle], &source->triangles[query->hit.triangle])))
     return;
   query->found = true;
   query->hit = hit;

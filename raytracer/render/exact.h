@@ -19,8 +19,9 @@ struct exact_hit {
 /* Attaches the triangles of `source`, which must outlive the scene. False: out of memory. */
 bool exact_attach(RTCDevice device, RTCScene scene, const struct trax_scene *source);
 
-/* The nearest triangle at a distance above 0; of equal distances the one that comes first in the file, as on the
-   device. A triangle's edges and vertices belong to it; one whose plane holds the ray is not hit. */
+/* The nearest triangle at a distance above 0; of equal distances the one that comes first by the bits of its vertices,
+   and of those at one place the first in the file, as on the device. A triangle's edges and vertices belong to it; one
+   whose plane holds the ray is not hit. */
 bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 direction, struct exact_hit *hit);
 
 /* Is there any triangle at a distance above 0 and below `limit`? */

@@ -32,6 +32,11 @@ static uint32_t triangle_number(const struct trax_scene *scene, uint32_t place, 
   return scene == original ? number : scene->source_ids[number];
 }
 
+/* A triangle may stand in the file several times. */
+static bool same_triangle(const struct trax_scene *scene, uint32_t a, uint32_t b) {
+  return a == b || (scene->source_ids && scene->source_ids[a] == scene->source_ids[b]);
+}
+
 void trax_hit_errors(struct trax_hit_errors *errors, const struct trax_exact *exact,
                      const struct trax_sample_record *recorded, const struct trax_frame *frame,
                      const struct trax_scene *original) {
@@ -54,7 +59,7 @@ void trax_hit_errors(struct trax_hit_errors *errors, const struct trax_exact *ex
           wrong++, errors->missed++;
           continue;
         }
-        if (is != should) {
+        if (!same_triangle(original, is, should)) {
           const struct vector camera = camera_direction(params, pixel_at(x, y), sample_place(sample));
           const struct double3 direction = {camera.x, camera.y, camera.z};
           const double distance = plane_distance(&original->triangles[is], from(params->eye), direction);

@@ -135,7 +135,7 @@ static void test_other_methods(void **state) {
   struct trax_variant *variants;
   size_t count, measured = 0;
   trax_error error;
-  assert_int_equal(trax_variants(&variants, &count, TRAX_NODES_BINARY, &error), TRAX_OK);
+  assert_int_equal(trax_variants(&variants, &count, &common.scene, &error), TRAX_OK);
   assert_string_equal(variants[0].group, "default");
   for (size_t i = 1; i < count; i++) {
     for (size_t j = 0; j < i; j++)
@@ -164,11 +164,10 @@ static struct trax_accuracy_row measure_scene(const struct trax_scene *scene, co
   return row;
 }
 
-static struct trax_scene rebuild(enum trax_node_layout nodes, unsigned vertex_bits) {
+static struct trax_scene rebuild(struct trax_rebuild_options how) {
   struct trax_scene rebuilt;
   trax_error error;
-  assert_int_equal(trax_scene_rebuild(&rebuilt, &common.scene, nodes, vertex_bits, NULL, &error), TRAX_OK);
-  assert_int_equal(rebuilt.triangle_count, common.scene.triangle_count);
+  assert_int_equal(trax_scene_rebuild(&rebuilt, &common.scene, &how, NULL, &error), TRAX_OK);
   return rebuilt;
 }
 
@@ -189,9 +188,9 @@ static void test_coarse_vertices(void **state) {
   (void)state;
   double before = 1e-3;
   for (unsigned bits = 16; bits >= 8; bits -= 8) {
-    struct trax_scene scene = rebuild(TRAX_NODES_BINARY, bits);
+    struct trax_scene scene = rebuild((struct trax_rebuild_options){.vertex_bits = bits});
     check_grid(&scene, bits);
-    const struct trax_variant variant = {.samples = 1, .rebuilt = true, .vertex_bits = bits};
+    const struct trax_variant variant = {.samples = 1, .rebuilt = true, .tree = {.vertex_bits = bits}};
     const struct trax_accuracy_row row = measure_scene(&scene, &variant);
     assert_true(FIGURE(row, RMSE) > 2 * before);
     before = FIGURE(row, RMSE);
@@ -199,23 +198,42 @@ static void test_coarse_vertices(void **state) {
   }
 }
 
-/* Built anew a scene is the same, so what another layout costs is due to the layout; and it changes no hit. */
-static void test_other_nodes(void **state) {
+static void check_tree(const struct trax_scene *scene, struct trax_rebuild_options how) {
+  const struct trax_variant variant = {.samples = 1, .rebuilt = true, .tree = how};
+  const struct trax_accuracy_row row = measure_scene(scene, &variant);
+  assert_true(FIGURE(row, WRONG) == 0 && FIGURE(row, TIED) == 0 && FIGURE(row, SHADOW) == 0);
+  assert_true(FIGURE(row, RMSE) < 1e-3);
+  assert_true(how.split ? FIGURE(row, SCENE) > common.scene.size : FIGURE(row, SCENE) < common.scene.size);
+}
+
+/* Built anew a scene is the same, so what another tree costs is due to the tree; and it changes no hit. */
+static void test_other_trees(void **state) {
   (void)state;
   const struct trax_scene_section *sections = common.scene.header->sections;
-  for (enum trax_node_layout nodes = 0; nodes < TRAX_NODE_LAYOUTS; nodes++) {
-    struct trax_scene scene = rebuild(nodes, 0);
-    if (nodes == common.scene.header->node_layout) {
-      assert_memory_equal(scene.nodes, common.scene.nodes, sections[TRAX_SCENE_NODES].size);
-      assert_memory_equal(scene.triangles, common.scene.triangles, sections[TRAX_SCENE_TRIANGLES].size);
-    } else {
-      const struct trax_variant variant = {.samples = 1, .rebuilt = true, .nodes = nodes};
-      const struct trax_accuracy_row row = measure_scene(&scene, &variant);
-      assert_true(FIGURE(row, WRONG) == 0 && FIGURE(row, TIED) == 0 && FIGURE(row, SHADOW) == 0);
-      assert_true(FIGURE(row, RMSE) < 1e-3 && FIGURE(row, SCENE) < common.scene.size);
-    }
-    trax_scene_release(&scene);
-  }
+  struct trax_scene same = rebuild((struct trax_rebuild_options){0});
+  assert_memory_equal(same.nodes, common.scene.nodes, sections[TRAX_SCENE_NODES].size);
+  assert_memory_equal(same.triangles, common.scene.triangles, sections[TRAX_SCENE_TRIANGLES].size);
+  trax_scene_release(&same);
+
+  const struct trax_rebuild_options quantised = {.nodes = TRAX_NODES_QUANTISED}, split = {.split = true};
+  struct trax_scene scene = rebuild(quantised);
+  check_tree(&scene, quantised);
+  trax_scene_release(&scene);
+
+  scene = rebuild(split);
+  trax_error error;
+  bool is_split;
+  assert_int_equal(trax_scene_is_split(&is_split, &common.scene, &error), TRAX_OK);
+  assert_false(is_split);
+  assert_int_equal(trax_scene_is_split(&is_split, &scene, &error), TRAX_OK);
+  assert_true(is_split && scene.triangle_count > common.scene.triangle_count);
+  check_tree(&scene, split);
+  /* And back. */
+  struct trax_scene whole;
+  assert_int_equal(trax_scene_rebuild(&whole, &scene, &(struct trax_rebuild_options){0}, NULL, &error), TRAX_OK);
+  assert_int_equal(whole.triangle_count, common.scene.triangle_count);
+  trax_scene_release(&whole);
+  trax_scene_release(&scene);
 }
 
 static void test_keys(void **state) {
@@ -297,7 +315,7 @@ int main(int argc, char **argv) {
                                      cmocka_unit_test(test_fewer_bits),
                                      cmocka_unit_test(test_other_methods),
                                      cmocka_unit_test(test_coarse_vertices),
-                                     cmocka_unit_test(test_other_nodes),
+                                     cmocka_unit_test(test_other_trees),
                                      cmocka_unit_test(test_keys),
                                      cmocka_unit_test(test_fronts),
                                      cmocka_unit_test(test_rows_in_files)};
