@@ -64,6 +64,8 @@ static const char usage[] =
     "      --sample-fraction X the share of the work that is simulated, above 0 to 1 (default 0.05; 1: all of it)\n"
     "      --sample-error X    instead: as much as it takes for an interval of plus and minus X per cent\n"
     "      --sample-seed N     another choice of parts (default 1)\n"
+    "      --sample-unit N     pixels of a part (default 2 for each thread, at least 256)\n"
+    "      --sample-warm-up N  pixels before it that are simulated, but not measured (default 4 for each thread)\n"
     "      --compare           renders the reference and the native twin too and prints the differences;\n"
     "                          exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
     "                          99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
@@ -126,6 +128,8 @@ enum {
   OPT_SAMPLE_FRACTION,
   OPT_SAMPLE_ERROR,
   OPT_SAMPLE_SEED,
+  OPT_SAMPLE_UNIT,
+  OPT_SAMPLE_WARM_UP,
   OPT_COMPARE,
   OPT_PROGRAM,
   OPT_NO_SPECIALISE,
@@ -180,6 +184,8 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"sample-fraction", required_argument, NULL, OPT_SAMPLE_FRACTION},
                                              {"sample-error", required_argument, NULL, OPT_SAMPLE_ERROR},
                                              {"sample-seed", required_argument, NULL, OPT_SAMPLE_SEED},
+                                             {"sample-unit", required_argument, NULL, OPT_SAMPLE_UNIT},
+                                             {"sample-warm-up", required_argument, NULL, OPT_SAMPLE_WARM_UP},
                                              {"compare", no_argument, NULL, OPT_COMPARE},
                                              {"program", required_argument, NULL, OPT_PROGRAM},
                                              {"no-specialise", no_argument, NULL, OPT_NO_SPECIALISE},
@@ -497,10 +503,17 @@ static trax_status take_option(struct options *options, int which, const char *v
     options->sampling.error /= 100;
     return TRAX_OK;
   case OPT_SAMPLE_SEED:
-    if (!parse_number(&value, UINT32_MAX, &number) || *value != '\0' || number == 0)
-      return trax_fail(error, "--sample-seed: expected a number from 1 to %u", UINT32_MAX);
-    options->sampling.seed = number;
+  case OPT_SAMPLE_UNIT:
+  case OPT_SAMPLE_WARM_UP: {
+    const unsigned most = which == OPT_SAMPLE_SEED ? UINT32_MAX : 1u << 24;
+    if (!parse_number(&value, most, &number) || *value != '\0' || number == 0)
+      return trax_fail(error, "--sample-seed, --sample-unit, --sample-warm-up: expected a number from 1 to %u", most);
+    if (which == OPT_SAMPLE_SEED)
+      options->sampling.seed = number;
+    else
+      *(which == OPT_SAMPLE_UNIT ? &options->sampling.unit : &options->sampling.warm_up) = number;
     return TRAX_OK;
+  }
   case OPT_COMPARE:
     options->compare = true;
     return TRAX_OK;
@@ -554,8 +567,9 @@ static trax_status check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--bench-accuracy makes tables and diagrams of its own, and nothing else");
   }
   const trax_slot_sampling *sampling = &options->sampling;
-  if (!options->sampled && (sampling->fraction > 0 || sampling->error > 0 || sampling->seed))
-    return trax_fail(error, "--sample-fraction, --sample-error and --sample-seed are for --sampled");
+  if (!options->sampled &&
+      (sampling->fraction > 0 || sampling->error > 0 || sampling->seed || sampling->unit || sampling->warm_up))
+    return trax_fail(error, "--sample-fraction, --sample-error and the like are for --sampled");
   if (sampling->fraction > 0 && sampling->error > 0)
     return trax_fail(error, "--sample-fraction and --sample-error: one follows from the other");
   if (options->sampled && options->engine != ENGINE_FAST)

@@ -75,6 +75,8 @@ grep -v host_ one.json >one.txt
 grep -v host_ two.json >two.txt
 cmp -s one.txt two.txt || fail "--threads 2: other figures"
 grep -q '^sampled .* cycles with 95 % confidence, .* of the slots in [0-9]* ranges simulated$' .out || fail "$(cat .out)"
+render longer --size 320x180 --sampled --sample-unit 1000 --sample-warm-up 100 # whole blocks of 32
+[ "$(number longer.json unit) $(number longer.json warm_up)" = "1024 128" ] || fail "--sample-unit, --sample-warm-up"
 render rough --size 320x180 --config 1x32 --sampled --sample-error 10
 render fine --size 320x180 --config 1x32 --sampled --sample-error 3
 is "$(number fine.json windows) > $(number rough.json windows)" || fail "--sample-error: no more ranges"
@@ -110,8 +112,12 @@ done
 for value in 0 51 -1 x ''; do
   refuse '--sample-error .*: expected' --sampled --sample-error "$value"
 done
-refuse '--sample-seed: expected' --sampled --sample-seed 0
-refuse 'are for --sampled' --sample-seed 3
+for option in seed unit warm-up; do
+  refuse 'expected a number' --sampled --sample-$option 0
+  refuse 'expected a number' --sampled --sample-$option 2.5
+  refuse 'are for --sampled' --sample-$option 3
+done
+refuse 'expected a number' --sampled --sample-unit 99999999
 refuse 'one follows from the other' --sampled --sample-fraction 0.5 --sample-error 2
 refuse 'engine fast' --sampled --engine reference
 refuse 'engine fast' --sampled --engine native
