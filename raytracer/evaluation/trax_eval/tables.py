@@ -98,13 +98,20 @@ def print_sweep(index, sweep, results, out):
         value, unit = stat(run, sweep["y"]), stat(run, sweep["y_per"]) if sweep["y_per"] else 1
         return text(value / unit if value is not None and unit else None) + (interval(run) if sweep["y"] == "mrps" else "")
 
-    for run in sorted(runs, key=lambda run: (run["program"] != "ours", CHIPS.index(run["config"]) if run["config"] in CHIPS else 0, stat(run, f"configuration.{sweep['x']}") or 0)):
-        settings = ", ".join(f"{key} {json.dumps(value)}" for key, value in run["set"].items())
-        rows.setdefault((run["program"], run["config"], settings), {})[run["scene"]] = run
+    def place(run):
+        """What stands on the sweep's axis; for people, and for the order of rows."""
+        value = stat(run, f"configuration.{sweep['x']}") if sweep["x"] != "threads" else None
+        return run["set"].get(sweep["x"], run["machine"].get(sweep["x"])) if value is None else value
+
+    for run in sorted(runs, key=lambda run: (run["program"] != "ours", CHIPS.index(run["config"]) if run["config"] in CHIPS else 0, place(run) or 0)):
+        others = ", ".join(f"{key} {json.dumps(value)}" for key, value in run["set"].items() if key != sweep["x"])
+        rows.setdefault((run["program"], run["config"], json.dumps(place(run)), others), {})[run["scene"]] = run
     out.write(f"{sweep['title']}: {sweep['y']}{' / ' + sweep['y_per'] if sweep['y_per'] else ''}\n{sweep['claim']}\n\n")
-    print_rows(["program", "chip", "set", *scenes, "host s"],
-               [[program, chip, settings or "-", *(cell(some.get(scene)) for scene in scenes),
-                 text(sum(run.get("host_seconds") or 0 for run in some.values()))] for (program, chip, settings), some in rows.items()], out)
+    columns = [0, 1, *([2] if sweep["x"] != "threads" else []), *([3] if any(key[3] for key in rows) else [])]
+    names = ["program", "chip", sweep["x"], "beside"]
+    print_rows([*(names[column] for column in columns), *scenes, "host s"],
+               [[*(key[column] or "-" for column in columns), *(cell(some.get(scene)) for scene in scenes),
+                 text(sum(run.get("host_seconds") or 0 for run in some.values()))] for key, some in rows.items()], out)
 
 
 def print_table1(index, paper, out):
