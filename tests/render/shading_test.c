@@ -135,6 +135,39 @@ static void test_floats_are_the_picture(void **state) {
   }
 }
 
+/* The unit of length does not matter, not even in the last bit. */
+static void test_scale(void **state) {
+  (void)state;
+  const int exponents[] = {0, 40, -50};
+  struct trax_picture pictures[3];
+  for (int i = 0; i < 3; i++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene = {0};
+    const float scale = ldexpf(1, exponents[i]);
+    gallery_mesh(&mesh, GALLERY_ALL);
+    mesh_transform(&mesh, scale, 0, 0, 0);
+    build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
+    struct trax_view view = gallery_view(3);
+    for (int k = 0; k < 3; k++) {
+      view.eye[k] *= scale;
+      for (int light = 0; light < 3; light++)
+        view.lights[light].position[k] *= scale, view.lights[light].edges[0][k] *= scale,
+            view.lights[light].edges[1][k] *= scale;
+    }
+    view.lights[0].falloff *= scale;
+    assert_true((normalise(&scene, &view) != 0) == (i > 0));
+    struct trax_frame_options options = plain;
+    options.floats = true, options.paths = 4, options.samples = 2;
+    pictures[i] = shoot(&scene, &view, &options, false, 2);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+  for (int i = 1; i < 3; i++)
+    assert_memory_equal(pictures[0].radiance, pictures[i].radiance, count_of(&pictures[0]) * sizeof(float));
+  for (int i = 0; i < 3; i++)
+    trax_picture_release(&pictures[i]);
+}
+
 static void test_paths_of_any_number_of_threads(void **state) {
   (void)state;
   struct trax_scene scene = {0};
@@ -393,8 +426,8 @@ static void test_hostile_materials(void **state) {
     struct trax_mesh mesh = {0};
     struct trax_scene scene = {0};
     for (uint32_t i = 0; i < 16; i++) {
-      struct trax_material *material = &mesh.materials[mesh_material(&mesh, 0, 0, 0)].surface;
-      material = &mesh.materials[i].surface;
+      mesh_material(&mesh, 0, 0, 0);
+      struct trax_material *material = &mesh.materials[i].surface;
       material->kind = (uint32_t)(4 * random_unit(&seed));
       for (int k = 0; k < 3; k++) {
         material->diffuse[k] = extreme(&seed, 1), material->specular[k] = extreme(&seed, 1);
@@ -438,6 +471,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_combinations),
       cmocka_unit_test(test_floats_are_the_picture),
+      cmocka_unit_test(test_scale),
       cmocka_unit_test(test_paths_of_any_number_of_threads),
       cmocka_unit_test(test_lights_add_up),
       cmocka_unit_test(test_furnace_from_inside),

@@ -80,7 +80,6 @@ struct trax_palette_entry {
 
 #define TRAX_RENDER_MAX_DEPTH 64u /* surfaces on a path */
 #define TRAX_DIRECT_DEPTH 8u      /* mirrors and glass one behind the other, without TRAX_FEATURE_PATHS */
-#define TRAX_RENDER_MAX_LIGHTS 256u
 #define TRAX_MAX_RADIANCE 0x1p40f /* of a light or a path; more is as much */
 #define TRAX_LEAST_ROUGHNESS 0x1p-7f
 
