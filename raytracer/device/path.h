@@ -17,7 +17,6 @@
 #include "camera.h"
 #include "light.h"
 #include "material.h"
-#include "record.h"
 #include "run.h"
 #include "sampler.h"
 #include "shade.h"
@@ -265,9 +264,7 @@ static inline void store_radiance(const struct trax_render_params *run, struct p
     return;
   }
   float red = 255 * root_of_light(at_most(light.x, 1)), green = 255 * root_of_light(at_most(light.y, 1));
-  uint32_t word = pixel_of(red, green, 255 * root_of_light(at_most(light.z, 1)));
-  RECORD_PIXEL(run, pixel);
-  trax_store_nt(to + number, word);
+  trax_store_nt(to + number, pixel_of(red, green, 255 * root_of_light(at_most(light.z, 1))));
 }
 
 /* The ray that path has: what does it hit? A function of its own, as what follows, since no thread has room for the
@@ -290,8 +287,6 @@ enum next_ray { RAY_NONE, RAY_ON, RAY_SHADOW };
 /* What follows from it; path has the next ray. */
 static __attribute__((noinline)) enum next_ray after_ray(const struct trax_render_params *run, struct path *path,
                                                          bool shadow, bool found) {
-  if (!shadow && path->depth == 0 && path->holes == 0)
-    RECORD_HIT(run, (struct pixel){path->pixel}, path->sample, &path->hit);
   if (found && (!shadow || NEEDS(run, ALPHA))) {
     const struct hit hit = path->hit;
     const struct trax_device_material *material = hit_material(run, &hit);
