@@ -128,7 +128,11 @@ static RENDER_ALL void render_all(const struct trax_render_params *run) {
 
 /* Everything else. */
 static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
+#ifdef TRAX_PATHS_LOCAL
+  struct path local, *path = &local;
+#else
   struct path *path = path_of_thread();
+#endif
   uint32_t slot;
   while ((slot = trax_atomic_inc(&next_slot)) < run->slot_count) {
     struct pixel pixel;

@@ -27,6 +27,16 @@
 
 extern struct trax_buffer paths;
 
+/* With few features a path has little to remember: then it has its place in the registers and the stack of one function
+   (TRAX_PATHS_LOCAL; render/specialise.c tries that first), and the caches are the scene's. */
+#ifdef TRAX_PATHS_LOCAL
+#define PATH_STEP static inline __attribute__((always_inline))
+#define LOAD_PATH_AGAIN(path) ((void)0)
+#else
+#define PATH_STEP static __attribute__((noinline))
+#define LOAD_PATH_AGAIN(path) HIDE_ORIGIN(path)
+#endif
+
 struct path {
   struct vector sum;                         /* of the pixel's samples so far */
   struct vector light;                       /* of this sample so far */
@@ -68,7 +78,7 @@ static inline struct place path_point(const struct trax_render_params *run, cons
   return NEEDS(run, SAMPLES) && path->sample ? even_point(path->sample, dimension) : PIXEL_MIDDLE;
 }
 
-static __attribute__((noinline)) void begin_sample(struct path *path, const struct trax_render_params *run) {
+PATH_STEP void begin_sample(struct path *path, const struct trax_render_params *run) {
   struct place place = PIXEL_MIDDLE;
   path->light = (struct vector){0, 0, 0};
   path->weight = (struct vector){1, 1, 1};
@@ -269,7 +279,7 @@ static inline void store_radiance(const struct trax_render_params *run, struct p
 
 /* The ray that path has: what does it hit? A function of its own, as what follows, since no thread has room for the
    frames of both. */
-static __attribute__((noinline)) bool follow_ray(const struct trax_render_params *run, struct path *path, bool shadow) {
+PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *path, bool shadow) {
   struct ray ray;
   struct hit hit = {shadow ? path->distance_bits : FARTHEST_BITS, NULL, 0, 0};
   prepare_ray(&ray, path->origin.x, path->origin.y, path->origin.z, path->direction.x, path->direction.y,
@@ -277,7 +287,7 @@ static __attribute__((noinline)) bool follow_ray(const struct trax_render_params
   bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
                          shadow && !NEEDS(run, ALPHA), &hit);
   trax_count_rays(1);
-  HIDE_ORIGIN(path);
+  LOAD_PATH_AGAIN(path);
   path->hit = hit;
   return found;
 }
@@ -285,8 +295,7 @@ static __attribute__((noinline)) bool follow_ray(const struct trax_render_params
 enum next_ray { RAY_NONE, RAY_ON, RAY_SHADOW };
 
 /* What follows from it; path has the next ray. */
-static __attribute__((noinline)) enum next_ray after_ray(const struct trax_render_params *run, struct path *path,
-                                                         bool shadow, bool found) {
+PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct path *path, bool shadow, bool found) {
   if (found && (!shadow || NEEDS(run, ALPHA))) {
     const struct hit hit = path->hit;
     const struct trax_device_material *material = hit_material(run, &hit);
@@ -318,7 +327,7 @@ static __attribute__((noinline)) enum next_ray after_ray(const struct trax_rende
 }
 
 /* True: the pixel has another sample. */
-static __attribute__((noinline)) bool end_sample(const struct trax_render_params *run, struct path *path) {
+PATH_STEP bool end_sample(const struct trax_render_params *run, struct path *path) {
   path->sum = plus(path->sum, bounded_colour(path->light));
   if (NEEDS(run, SAMPLES) && ++path->sample < run->samples)
     return true;

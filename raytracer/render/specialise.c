@@ -255,9 +255,15 @@ static void first_line(char line[160], int descriptor, int status) {
     snprintf(line, 160, "exit status %d", WEXITSTATUS(status));
 }
 
+/* Where things are; the stack has room for some of these ways. */
+struct places {
+  bool params_in_memory; /* instead of constants, which may take registers */
+  bool paths_local;      /* what a path remembers in registers and on the stack, instead of in global memory */
+};
+
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
 static trax_status compile(const char *root, const char *constants, const char *output, const char *const *chosen,
-                           size_t chosen_count, bool params_in_memory, const volatile int *interrupt,
+                           size_t chosen_count, const struct places *places, const volatile int *interrupt,
                            trax_error *error) {
   char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
   if (!join(clang, root, "bin/clang", "") || !join(include, root, "lib/trax/raytracer", "") ||
@@ -269,8 +275,10 @@ static trax_status compile(const char *root, const char *constants, const char *
     *next++ = chosen[i];
   *next++ = "-I";
   *next++ = include;
-  if (params_in_memory)
+  if (places->params_in_memory)
     *next++ = "-DTRAX_PARAMS_IN_MEMORY";
+  if (places->paths_local)
+    *next++ = "-DTRAX_PATHS_LOCAL";
   *next++ = "-include";
   *next++ = constants;
   *next++ = source;
@@ -319,10 +327,9 @@ static trax_status compile(const char *root, const char *constants, const char *
   return result;
 }
 
-/* Into the cache, aside and renamed. If constants take so many registers that the stack overflows, the parameters stay
-   in memory. */
+/* Into the cache, aside and renamed: the first of the ways for which there is stack enough. */
 static trax_status build(const char *root, const char *constants, const char *program, const char *const *chosen,
-                         size_t chosen_count, const volatile int *interrupt, trax_error *error) {
+                         size_t chosen_count, bool paths, const volatile int *interrupt, trax_error *error) {
   char temporary[TRAX_PATH_SIZE];
   if (!join(temporary, program, "", "XXXXXX"))
     return trax_fail(error, "%s: the path is too long", program);
@@ -331,9 +338,10 @@ static trax_status build(const char *root, const char *constants, const char *pr
   if (descriptor < 0)
     return trax_fail(error, "%s: %s", temporary, strerror(errno));
   close(descriptor);
-  trax_status status = compile(root, constants, temporary, chosen, chosen_count, false, interrupt, error);
-  if (status == TRAX_ERROR)
-    status = compile(root, constants, temporary, chosen, chosen_count, true, interrupt, error);
+  static const struct places ways[] = {{false, true}, {true, true}, {false, false}, {true, false}};
+  trax_status status = TRAX_ERROR;
+  for (size_t i = paths ? 0 : 2; i < sizeof ways / sizeof *ways && status == TRAX_ERROR; i++)
+    status = compile(root, constants, temporary, chosen, chosen_count, &ways[i], interrupt, error);
   if (status == TRAX_OK && rename(temporary, program) != 0)
     status = trax_fail(error, "%s: %s", program, strerror(errno));
   if (status != TRAX_OK)
@@ -379,7 +387,8 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
     status = trax_write_file(header, constants, strlen(constants), &reason);
     if (status == TRAX_OK)
-      status = build(options->root, header, elf, chosen, chosen_count, options->interrupt, &reason);
+      status = build(options->root, header, elf, chosen, chosen_count, frame->params->features & TRAX_PATH_FEATURES,
+                     options->interrupt, &reason);
     if (status == TRAX_OK)
       prune(cache);
     else

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Breaks the shading in the device program, one line at a time, in a copy, and says whether the tests of shading notice.
+
+    mutants.py SCRATCH [--build build] [--only NAME]
+
+Needs a finished build, which is not changed. The reference stays as it is. Exit status 0 if every mutant is noticed.
+"""
+
+import argparse
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+INCLUDE = [f"-I{ROOT / folder}" for folder in ("raytracer/include", "raytracer/render", "emulator", "emulator/include", "isa/include",
+                                               "runtime/include", "tests/render")]
+COMPILE = ["cc", "-std=gnu17", "-O1", "-ffp-contract=off", "-fcommon", "-w", *INCLUDE]
+
+# Name, file of raytracer/device, text, what it becomes.
+MUTANTS = [
+    ("sampler-order", "sampler.h", "& 0xFFFFu", "& 0xFFFu & 0x7FFu | 1"),
+    ("sampler-pascal", "sampler.h", "x ^= x >> 2 & 0x3333u;", ""),
+    ("sampler-dimension", "sampler.h", "hash_word(key + dimension * 0x9E3779B9u)", "hash_word(key)"),
+    ("sampler-middle", "sampler.h", "^ first.x ^ 0x80000000u", "^ first.x"),
+    ("disk-octants", "material.h", "steep ? (struct place){across, along} : (struct place){along, across}", "(struct place){along, across}"),
+    ("fresnel-half", "material.h", "return 0.5f * (across * across + along * along);", "return across * across;"),
+    ("total-reflection", "material.h", "if (float_bits(square) <= 0)\n    return 1;", "if (float_bits(square) <= 0)\n    return 0;"),
+    ("mirror-length", "material.h", "times(2 * dot(normal, view), normal)", "times(1.999f * dot(normal, view), normal)"),
+    ("mirror-inwards", "material.h", "return float_bits(dot(at->flat, way)) > 0 ? way : reflected(at->view, at->flat);", "return way;"),
+    ("glass-ratio", "path.h", "surface->turned", "!surface->turned"),
+    ("glass-tint", "path.h", "    if (through)\n      path->next_weight", "    if (!through)\n      path->next_weight"),
+    ("glass-origin", "path.h", "through ? surface->behind : surface->point", "surface->point"),
+    ("schlick-power", "material.h", "return square * square * rest;", "return square * square;"),
+    ("facets-square", "material.h", "square_roughness / (shape * shape)", "square_roughness / shape"),
+    ("masking", "material.h", "0.5f / (cosine * smith_view + view * smith(cosine, square))", "0.25f / (cosine * view)"),
+    ("layer-density", "material.h", "*density = share * (d * 0.5f / (view + smith_view)) + (1 - share) * cosine;",
+     "*density = (d * 0.5f / (view + smith_view));"),
+    ("layer-energy", "material.h", "filtered(at->diffuse, below)", "at->diffuse"),
+    ("rectangle-sides", "light.h", "if (float_bits(cosine) <= 0)\n      return false;", ""),
+    ("rectangle-cosine", "light.h", "falloff *= cosine;", ""),
+    ("falloff", "light.h", "return inverse * inverse;", "return inverse;"),
+    ("emitter-search", "light.h", "cumulative <= pick", "cumulative > pick"),
+    ("emitter-point", "light.h", "float side = root(place.x);", "float side = place.x;"),
+    ("emitter-density", "light.h", "at_least(choices * cosine, 0x1p-40f)", "at_least(cosine, 0x1p-40f)"),
+    ("bound", "light.h", "at_most(at_least(value, 0), TRAX_MAX_RADIANCE)", "value"),
+    ("texture-half", "texture.h", "(float)(int32_t)(1u << log2_width) - 0.5f", "(float)(int32_t)(1u << log2_width)"),
+    ("texture-floor", "texture.h", "return whole - (value < (float)whole);", "return whole;"),
+    ("texture-clamp", "texture.h", "number < 0 ? 0 : number > last ? last : number", "number & last"),
+    ("texture-gamma", "texture.h", "{red * red, green * green, blue * blue}", "{255 * red, 255 * green, 255 * blue}"),
+    ("metal-texture", "path.h", "if (metal)", "if (0)"),
+    ("hole-distance", "path.h", "path->travelled += bits_float(hit->distance_bits);", ""),
+    ("hole-shadow", "path.h", "bits_float(path->distance_bits) - bits_float(hit->distance_bits)", "bits_float(path->distance_bits)"),
+    ("holes-solid", "path.h", "|| path->holes >= MOST_HOLES", "|| path->holes >= 1"),
+    ("balance", "path.h", "path->density / (path->density + other)", "1.0f"),
+    ("balance-shadow", "path.h", "cosine / (arrival.density + density)", "cosine / arrival.density"),
+    ("choices", "path.h", "float scale = cosine * choices;", "float scale = cosine;"),
+    ("depth", "path.h", "path->depth >= RUN_PATH(run)->max_depth", "path->depth > RUN_PATH(run)->max_depth"),
+    ("roulette", "path.h", "weight = times(1 / chance, weight);", ""),
+    ("background", "path.h", "add_to(&path->light, path->weight, load_vector(RUN_PATH(run)->background));",
+     "path->light = plus(path->light, load_vector(RUN_PATH(run)->background));"),
+    ("ambient", "path.h", "float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));", "float ambient = run->ambient;"),
+    ("smooth-side", "path.h", "scatters || float_bits(dot(normal, at->view)) > 0", "1"),
+    ("last-sample", "path.h", "++path->sample < run->samples", "++path->sample + 1 < run->samples"),
+]
+
+
+def link(test, objects, build, output):
+    """As ninja links the test, with the objects before the archives, so that they take the place of what is in these."""
+    commands = subprocess.run(["ninja", "-C", str(build), "-t", "commands", f"bin/{test}"], check=True, capture_output=True,
+                              text=True).stdout.splitlines()
+    words = shlex.split(commands[-1].split(" && ")[1])
+    if test == "render-light-test":
+        words = [word for word in words if not word.endswith("light_test.c.o")]
+    words[words.index("-o") + 1] = str(output)
+    at = next(i for i, word in enumerate(words) if word.endswith(".a"))
+    subprocess.run(words[:at] + objects + words[at:], check=True, cwd=build)
+
+
+def noticed(mutant, folder, build):
+    """What the tests that fail say first; empty if none does."""
+    _, file, text, other = mutant
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(ROOT / "raytracer/device", folder / "raytracer/device")
+    (folder / "tests/render").mkdir(parents=True)
+    shutil.copy(ROOT / "tests/render/light_test.c", folder / "tests/render")
+    source = folder / "raytracer/device" / file
+    if source.read_text().count(text) != 1:
+        sys.exit(f"mutants.py: error: {file}: not exactly once there: {text}")
+    source.write_text(source.read_text().replace(text, other))
+    said = []
+    for test, program, macros in (("render-light-test", "tests/render/light_test.c", []),
+                                  ("render-shading-test", "raytracer/device/main.c",
+                                   ["-Dmain=trax_twin_watertight", "-DTRAX_TRIANGLE=TRAX_WATERTIGHT"])):
+        compiled, output = folder / f"{test}.o", folder / test
+        subprocess.run([*COMPILE, *macros, "-c", folder / program, "-o", compiled], check=True)
+        link(test, [str(compiled)], build, output)
+        try:
+            run = subprocess.run([output], capture_output=True, text=True, timeout=120)
+            said += [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
+            if run.returncode < 0:
+                said.append(f"{test} ends by signal {-run.returncode}")
+        except subprocess.TimeoutExpired:
+            said.append(f"{test} does not end")
+    return said
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("scratch", type=pathlib.Path)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
+    parser.add_argument("--only", help="the mutant of this name")
+    options = parser.parse_args()
+    chosen = [mutant for mutant in MUTANTS if options.only in (None, mutant[0])]
+    if not chosen:
+        sys.exit(f"mutants.py: error: no mutant is called {options.only}")
+    missed = 0
+    for mutant in chosen:
+        said = noticed(mutant, (options.scratch / mutant[0]).resolve(), options.build.resolve())
+        missed += not said
+        print(f"{mutant[0]}: {', '.join(said) if said else 'NOT NOTICED'}", flush=True)
+    print(f"{len(chosen) - missed} of {len(chosen)} noticed")
+    sys.exit(missed > 0)
+
+
+if __name__ == "__main__":
+    main()
