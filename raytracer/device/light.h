@@ -13,9 +13,10 @@
 /* What reaches a point from a light, if nothing is in the way. */
 struct arrival {
   struct vector direction; /* towards the light, unit length */
-  int32_t distance_bits;   /* how far the shadow ray goes */
-  struct vector radiance;  /* what a white surface that faces the light sends back */
-  float density;           /* of an emitter: pi times that in solid angle with which the direction was taken; else 0 */
+  int32_t distance_bits;   /* how far the shadow ray goes: FARTHEST_BITS, or up to */
+  struct vector target;
+  struct vector radiance; /* what a white surface that faces the light sends back */
+  float density;          /* of an emitter: pi times that in solid angle with which the direction was taken; else 0 */
 };
 
 /* From 0 to what is as good as infinite; what is no number stays so, to be seen. */
@@ -38,6 +39,7 @@ static inline float aim_at(struct arrival *arrival, struct vector from, struct v
   float inverse = trax_rsqrt(square);
   arrival->direction = times(inverse, way);
   arrival->distance_bits = float_bits(square * inverse) - LIGHT_SLACK;
+  arrival->target = to;
   return inverse * inverse;
 }
 
@@ -48,7 +50,7 @@ static inline bool light_arrives(struct arrival *arrival, const struct trax_devi
   arrival->density = 0;
   arrival->radiance = load_vector(light->radiance);
   if (light->kind == TRAX_FROM_DIRECTION) {
-    arrival->direction = target;
+    arrival->direction = arrival->target = target;
     arrival->distance_bits = FARTHEST_BITS;
     return true;
   }

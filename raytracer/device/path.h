@@ -45,7 +45,7 @@ struct path {
   struct vector origin, direction;           /* of the ray under way */
   struct vector next_origin, next_direction; /* of the one after the shadow rays, */
   struct vector next_weight;                 /* and its weight */
-  struct vector point;                       /* where shadow rays start */
+  struct vector point, target;               /* where shadow rays start, and where they go */
   struct scatterer at;
   struct hit hit; /* of the ray */
   uint32_t layered;
@@ -242,6 +242,7 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
     if (NEEDS(run, SHADOWS)) {
       path->origin = path->point;
       path->direction = arrival.direction;
+      path->target = arrival.target;
       path->distance_bits = arrival.distance_bits;
       path->holes = 0, path->travelled = 0;
       return true;
@@ -252,12 +253,18 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
 }
 
 /* Has the ray hit a hole, and goes on behind it? */
-static inline bool pass_hole(const struct trax_render_params *run, struct path *path, const struct surface *surface,
-                             const struct trax_device_material *material, const struct hit *hit, float texel_alpha) {
+static inline bool pass_hole(const struct trax_render_params *run, struct path *path, bool shadow,
+                             const struct surface *surface, const struct trax_device_material *material,
+                             const struct hit *hit, float texel_alpha) {
   if (!NEEDS(run, ALPHA) || material->opacity * texel_alpha >= material->alpha_cutoff || path->holes >= MOST_HOLES)
     return false;
   path->origin = surface->behind;
-  path->distance_bits = float_bits(bits_float(path->distance_bits) - bits_float(hit->distance_bits));
+  if (shadow && path->distance_bits != FARTHEST_BITS) { /* towards the light anew: no error adds up before it */
+    struct arrival arrival = {.direction = path->direction, .distance_bits = 0};
+    aim_at(&arrival, path->origin, path->target);
+    path->direction = arrival.direction;
+    path->distance_bits = arrival.distance_bits;
+  }
   path->travelled += bits_float(hit->distance_bits);
   path->holes++;
   return true;
@@ -304,7 +311,7 @@ PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct p
     find_surface(&surface, &hit, path->origin);
     if (NEEDS(run, TEXTURES) && material->texture)
       texel = texture_of_hit(scene.data, material->texture, &hit);
-    if (pass_hole(run, path, &surface, material, &hit, texel.alpha))
+    if (pass_hole(run, path, shadow, &surface, material, &hit, texel.alpha))
       return shadow ? RAY_SHADOW : RAY_ON;
     if (!shadow)
       meet_surface(run, path, &surface, material, &hit, texel.colour);

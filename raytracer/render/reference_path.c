@@ -158,12 +158,12 @@ static bool is_hole(const struct surface *surface) {
 
 /* The nearest surface that is no hole. *distance: how far the ray went, over all of its pieces. */
 static bool find_surface(struct surface *surface, const struct sample *sample, struct double3 origin,
-                         struct double3 direction, double limit, double *distance) {
+                         struct double3 direction, double *distance) {
   struct exact_hit hit;
   *distance = 0;
   for (int holes = 0;; holes++) {
     ++*sample->rays;
-    if (!reference_hit(sample->reference, origin, direction, &hit) || *distance + hit.distance > limit)
+    if (!reference_hit(sample->reference, origin, direction, &hit))
       return false;
     describe(surface, sample, &hit, origin, direction);
     if (holes == MOST_HOLES || !is_hole(surface)) {
@@ -179,10 +179,18 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
                           double distance) {
   if (!reference_needs(sample->reference, TRAX_FEATURE_SHADOWS))
     return true;
-  if (reference_needs(sample->reference, TRAX_FEATURE_ALPHA)) {
+  const struct double3 target = plus_scaled(origin, isfinite(distance) ? distance : 0, direction);
+  for (int holes = 0; reference_needs(sample->reference, TRAX_FEATURE_ALPHA); holes++) {
     struct surface surface;
-    double far;
-    return !find_surface(&surface, sample, origin, direction, distance * (1 - 0x1p-18), &far);
+    struct exact_hit hit;
+    const double left = isfinite(distance) ? dot(minus(target, origin), direction) : INFINITY;
+    ++*sample->rays;
+    if (!reference_hit(sample->reference, origin, direction, &hit) || hit.distance > left * (1 - 0x1p-18))
+      return true;
+    describe(&surface, sample, &hit, origin, direction);
+    if (holes == MOST_HOLES || !is_hole(&surface))
+      return false;
+    origin = surface.behind;
   }
   ++*sample->rays;
   return !reference_blocked(sample->reference, origin, direction, distance);
@@ -355,7 +363,7 @@ struct double3 reference_path(const struct reference *reference, struct pixel pi
   for (;; sample.depth++) {
     struct surface surface;
     double distance;
-    if (!find_surface(&surface, &sample, origin, direction, INFINITY, &distance))
+    if (!find_surface(&surface, &sample, origin, direction, &distance))
       return plus_scaled(light, 1, times(weight, from(sample.path->background)));
     if (sample.depth == 0)
       seen->triangle = surface.hit.triangle, seen->distance = distance;

@@ -133,6 +133,7 @@ void gallery_mesh(struct trax_mesh *mesh, unsigned parts) {
     one->kind = other->kind = TRAX_MATERIAL_GGX;
     one->roughness = 0.25f, other->roughness = 0.1f;
     memset(one->diffuse, 0, sizeof one->diffuse);
+    one->texture = parts & GALLERY_TEXTURES ? 1 : 0; /* the same texel everywhere: the ball has no coordinates */
     memcpy(one->specular, (float[]){1.0f, 0.76f, 0.33f}, 12);
     memcpy(other->specular, (float[]){0.04f, 0.04f, 0.04f}, 12);
   }

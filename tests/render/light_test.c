@@ -175,6 +175,25 @@ static void test_mirrors_and_snell(void **state) {
   }
 }
 
+/* Smooth normals may lead into the surface; no mirror and no glass does. */
+static void test_bent_normals(void **state) {
+  (void)state;
+  uint32_t seed = 17;
+  unsigned bent = 0;
+  for (int i = 0; i < 20000; i++) {
+    struct scatterer at = random_scatterer(&seed);
+    at.normal = unit(plus(at.flat, times(0.8f, random_direction(&seed))));
+    if (dot(at.normal, at.view) < 0.001f || dot(at.flat, at.view) < 0.001f)
+      continue;
+    bent += dot(at.flat, reflected(at.view, at.normal)) <= 0;
+    assert_true(dot(at.flat, mirror_direction(&at)) > 0);
+    bool through;
+    const struct vector way = glass_direction(&at, i & 1 ? 1.5f : 1 / 1.5f, random_unit(&seed), &through);
+    assert_true(through ? dot(at.flat, way) < 0 : dot(at.flat, way) > 0);
+  }
+  assert_true(bent > 100);
+}
+
 /* The share of ways that are reflected is what Fresnel's equations say. */
 static void test_glass_splits(void **state) {
   (void)state;
@@ -190,6 +209,42 @@ static void test_glass_splits(void **state) {
       reflected_ways += !through;
     }
     assert_true(fabs(reflected_ways / (double)CHOICES - exact_fresnel(1, 1.5, cosine)) < 2e-4);
+  }
+}
+
+/* --- textures --- */
+
+/* Against the bilinear formula in binary64, within the texture and far outside. */
+static void test_texels(void **state) {
+  (void)state;
+  enum { LOG2_WIDTH = 2, LOG2_HEIGHT = 3, WIDTH = 1 << LOG2_WIDTH, HEIGHT = 1 << LOG2_HEIGHT };
+  struct {
+    struct trax_texture texture;
+    uint32_t texels[WIDTH * HEIGHT];
+  } file = {.texture = {sizeof file.texture, LOG2_WIDTH, LOG2_HEIGHT, 0}};
+  uint32_t seed = 3;
+  for (int i = 0; i < WIDTH * HEIGHT; i++)
+    file.texels[i] = hash_word((uint32_t)i);
+  for (int i = 0; i < 20000; i++) {
+    const bool clamp = i & 1;
+    file.texture.flags = clamp ? TRAX_TEXTURE_CLAMP : 0;
+    const float reach = i % 3 ? 2 : 40, u = reach * (2 * random_unit(&seed) - 1),
+                v = reach * (2 * random_unit(&seed) - 1);
+    const struct texel found = texture_at((const char *)&file, &file.texture, u, v);
+    const double x = wide(u) * WIDTH - 0.5, y = wide(v) * HEIGHT - 0.5;
+    double red = 0, alpha = 0;
+    for (int tap = 0; tap < 4; tap++) {
+      int column = (int)floor(x) + (tap & 1), row = (int)floor(y) + (tap >> 1);
+      const double weight = (1 - fabs(x - column)) * (1 - fabs(y - row));
+      if (clamp) {
+        column = column < 0 ? 0 : column >= WIDTH ? WIDTH - 1 : column;
+        row = row < 0 ? 0 : row >= HEIGHT ? HEIGHT - 1 : row;
+      }
+      const uint32_t word = file.texels[((row % HEIGHT + HEIGHT) % HEIGHT) * WIDTH + (column % WIDTH + WIDTH) % WIDTH];
+      red += weight * (word & 255) * (word & 255) / 65025.0;
+      alpha += weight * (word >> 24) / 255.0;
+    }
+    assert_true(fabs(wide(found.colour.x) - red) < 1e-4 && fabs(wide(found.alpha) - alpha) < 1e-4);
   }
 }
 
@@ -350,7 +405,9 @@ int main(void) {
       cmocka_unit_test(test_disk),
       cmocka_unit_test(test_fresnel),
       cmocka_unit_test(test_mirrors_and_snell),
+      cmocka_unit_test(test_bent_normals),
       cmocka_unit_test(test_glass_splits),
+      cmocka_unit_test(test_texels),
       cmocka_unit_test(test_layers_keep_energy),
       cmocka_unit_test(test_layers_are_reciprocal),
       cmocka_unit_test(test_scatter_is_unbiased),

@@ -51,7 +51,7 @@ MUTANTS = [
     ("texture-gamma", "texture.h", "{red * red, green * green, blue * blue}", "{255 * red, 255 * green, 255 * blue}"),
     ("metal-texture", "path.h", "if (metal)", "if (0)"),
     ("hole-distance", "path.h", "path->travelled += bits_float(hit->distance_bits);", ""),
-    ("hole-shadow", "path.h", "bits_float(path->distance_bits) - bits_float(hit->distance_bits)", "bits_float(path->distance_bits)"),
+    ("hole-shadow", "path.h", "    path->distance_bits = arrival.distance_bits;\n  }", "  }"),
     ("holes-solid", "path.h", "|| path->holes >= MOST_HOLES", "|| path->holes >= 1"),
     ("balance", "path.h", "path->density / (path->density + other)", "1.0f"),
     ("balance-shadow", "path.h", "cosine / (arrival.density + density)", "cosine / arrival.density"),

@@ -43,7 +43,8 @@ static size_t count_of(const struct trax_picture *picture) {
 static double mean_of(const struct trax_picture *picture) {
   double sum = 0;
   for (size_t i = 0; i < count_of(picture); i++) {
-    assert_true(isfinite(picture->radiance[i]) && picture->radiance[i] >= 0 && picture->radiance[i] <= TRAX_MAX_RADIANCE);
+    assert_true(isfinite(picture->radiance[i]) && picture->radiance[i] >= 0 &&
+                picture->radiance[i] <= TRAX_MAX_RADIANCE);
     sum += (double)picture->radiance[i];
   }
   return sum / (double)count_of(picture);
@@ -339,16 +340,22 @@ static void floor_mesh(struct trax_mesh *mesh, bool lamp) {
 }
 
 /* A rectangle of the view, without paths and with them; a lamp of the same place and radiance, found by shadow rays and
-   by chance: all shine alike on a floor. */
+   by chance, and by chance alone; and through holes: all shine alike on a floor. */
 static void test_rectangles_and_lamps(void **state) {
   (void)state;
-  double means[4];
-  for (int way = 0; way < 4; way++) {
+  double means[5];
+  for (int way = 0; way < 5; way++) {
     struct trax_mesh mesh = {0};
     struct trax_scene scene = {0};
     floor_mesh(&mesh, way >= 2);
     if (way == 3)
       mesh.materials[1].surface.alpha_cutoff = 0.5f; /* it has no holes, but shadow rays leave it out */
+    if (way == 4) {                                  /* sheets of holes between floor and lamp */
+      const uint32_t hole = mesh_material(&mesh, 0, 0, 0);
+      mesh.materials[hole].surface.alpha_cutoff = 0.5f, mesh.materials[hole].surface.opacity = 0;
+      for (int i = 0; i < 3; i++)
+        mesh_box(&mesh, (float[]){-2, 0.5f + 0.1f * (float)i, -2}, (float[]){2, 0.55f + 0.1f * (float)i, 2}, hole);
+    }
     build(&scene, &mesh, NULL);
     struct trax_view view = view_from(0, 0.9f, 2.9f, 0, -0.5f, -1, 40, 0, 0, 0);
     view.light_count = 1;
@@ -374,7 +381,7 @@ static void test_rectangles_and_lamps(void **state) {
     trax_mesh_release(&mesh);
   }
   assert_true(means[0] > 10);
-  for (int way = 1; way < 4; way++) {
+  for (int way = 1; way < 5; way++) {
     if (fabs(means[way] / means[0] - 1) > 0.005)
       print_error("way %d: %g instead of %g\n", way, means[way], means[0]);
     assert_true(fabs(means[way] / means[0] - 1) < 0.005);
