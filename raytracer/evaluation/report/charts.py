@@ -114,23 +114,28 @@ def sweep_value(run, sweep):
 
 
 def is_plotted(results, sweep):
-    """A sweep over one value has no plot."""
-    return len({run.setting(str(sweep.get("x") or "")) for run in sweep_runs(results, sweep)}) > 1 and not str(sweep.get("name")).startswith("table")
+    """A sweep over one value has no plot, and the tables have theirs."""
+    values = {run.setting(str(sweep.get("x") or "")) for run in sweep_runs(results, sweep) if sweep_value(run, sweep) is not None}
+    return len(values) > 1 and not str(sweep.get("name")).startswith("table")
 
 
 def _sweep(results, sweep, identity):
     key, unit = str(sweep.get("x") or ""), sweep.get("y") or "mrps"
     groups = {}
     for run in sweep_runs(results, sweep):
-        others = ", ".join(f"{name}={value}" for name, value in sorted(run.set.items()) if name != key)
-        group = groups.setdefault((run.program, run.scene, run.config if key != "threads" else "", others), [])
         x, y = run.setting(key), sweep_value(run, sweep)
-        group.append((x, y, f"{run.name()}: {y:.4g}" if y is not None else ""))
+        if x is None or y is None:
+            continue
+        others = ", ".join(f"{name}={value}" for name, value in sorted(run.set.items()) if name != key)
+        variant = ", ".join(part for part in (run.config if key != "threads" else "", others, run.mode if run.mode != "exact" else "") if part)
+        groups.setdefault((run.scene, run.program, variant), []).append((x, y, f"{run.name()}: {y:.4g}"))
+    # A colour for each scene, a mark for each chip; lines of the era program are dashed.
+    scenes, variants = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 2))
     series = []
-    for index, ((program, scene, chip, others), points) in enumerate(sorted(groups.items())):
-        style, mark = _STYLES[index % len(_STYLES)]
-        label = ", ".join(part for part in (scene, chip, program, others) if part)
-        series.append(Series(label, style, sorted(points, key=lambda point: (point[0] is None, point[0] or 0)), mark, dashed=index >= len(_STYLES)))
+    for (scene, program, variant), points in groups.items():
+        style, mark = _STYLES[scenes.index(scene) % len(_STYLES)][0], _STYLES[variants.index(variant) % len(_STYLES)][1]
+        label = ", ".join(part for part in (scene, variant, program) if part)
+        series.append(Series(label, style, sorted(points), mark, dashed=program == "era"))
     values = sorted({point[0] for one in series for point in one.known()})
     doubling = len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
     ticks = [(value, f"{value:g}") for value in values] if len(values) <= 9 else None
