@@ -158,10 +158,10 @@ def _binds(run, used):
 
 
 def sampled(results):
-    """Each sampled run beside the exact run of the same job, where there is one."""
+    """Each sampled or quick run beside the exact run of the same job, where there is one."""
     exact = {(run.program, run.scene, run.config, run.size, tuple(sorted(map(str, run.set.items())))): run for run in results.runs if run.done and run.mode == "exact"}
-    head = [("program", "t"), ("scene", "t"), ("chip", "t"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"), ("inside", "t"),
-            ("host, sampled", "n"), ("host, exact", "n")]
+    head = [("mode", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"), ("inside", "t"),
+            ("host, estimate", "n"), ("host, exact", "n")]
     rows, inside, known = [], 0, 0
     for run in results.runs:
         if not run.done or run.mode == "exact":
@@ -172,13 +172,14 @@ def sampled(results):
         known += holds is not None
         inside += bool(holds)
         error = deviation(run.get("mrps"), value)
-        rows.append([cell(run.program, run.program), cell(run.scene, run.scene), cell(run.config, run.get("threads")), number_cell(run.get("mrps")),
+        bandwidth = run.setting("memory.bandwidth_gbps")
+        rows.append([cell(run.mode, run.mode), cell(run.program, run.program), cell(run.scene, run.scene), cell(run.config, run.get("threads")), number_cell(bandwidth), number_cell(run.get("mrps")),
                      cell(Html(f"{figure(interval[0])} to {figure(interval[1])}") if interval else MISSING, class_="n"), number_cell(value),
                      number_cell(error, percent(error, signed=True, digits=1)), cell(MISSING if holds is None else ("yes" if holds else "no"), None if holds is None else str(holds)),
                      number_cell(run.host_seconds, seconds(run.host_seconds)), number_cell(true.host_seconds if true else None, seconds(true.host_seconds if true else None))])
     if not rows:
         return None
-    return table("sampled", "Sampled runs and their intervals", head, rows, note=f"The interval held the exact figure in {inside} of {known} cases where it is known.")
+    return table("sampled", "Estimates and their intervals", head, rows, note=f"The interval held the exact figure in {inside} of {known} cases where it is known.")
 
 
 def sweep_table(results, sweep, identity):
