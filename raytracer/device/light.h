@@ -89,8 +89,8 @@ static inline float emitter_density(float per_area, float square, float cosine, 
 }
 
 /* A point of one of the emitters: pick chooses which, place where on it. */
-static inline bool emitter_arrives(struct arrival *arrival, const struct trax_path_params *path, uint32_t pick,
-                                   struct vector point, struct place place) {
+static inline bool emitter_arrives(struct arrival *arrival, bool one_sided, const struct trax_path_params *path,
+                                   uint32_t pick, struct vector point, struct place place) {
   const struct trax_emitter *emitters = path_table(path->emitters);
   uint32_t low = 0, high = path->emitter_count; /* the last whose predecessors have no more than pick */
   while (high - low > 1) {
@@ -110,8 +110,9 @@ static inline bool emitter_arrives(struct arrival *arrival, const struct trax_pa
   float falloff = aim_at(arrival, point, target);
   if (float_bits(falloff) == 0)
     return false;
-  float cosine = bits_float(magnitude(dot(triangle_normal(v), arrival->direction)));
-  if (float_bits(cosine) < float_bits(0x1p-20f))
+  float facing = -dot(triangle_normal(v), arrival->direction), cosine = bits_float(magnitude(facing));
+  if (float_bits(cosine) < float_bits(0x1p-20f) ||
+      (one_sided && float_bits(facing) < 0 && material->kind != TRAX_MATERIAL_GLASS))
     return false;
   arrival->density = emitter_density(material->emitter_density, 1 / falloff, cosine, (float)(int32_t)path->choices);
   arrival->radiance = load_vector(material->emission);

@@ -223,7 +223,7 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
       number = (uint32_t)((uint64_t)pick.x * more->choices >> 32);
       choices = (float)(int32_t)more->choices;
       if (NEEDS(run, EMISSION) && number == more->light_count)
-        arrives = emitter_arrives(&arrival, more, pick.y, path->point, place);
+        arrives = emitter_arrives(&arrival, NEEDS(run, ONE_SIDED), more, pick.y, path->point, place);
       else
         arrives = light_arrives(&arrival, &lights[number], path->point, place);
     } else {
@@ -252,11 +252,17 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
   return false;
 }
 
+/* Are there triangles that a ray goes through? */
+#define HAS_HOLES(run) (NEEDS(run, ALPHA) || NEEDS(run, ONE_SIDED))
+
 /* Has the ray hit a hole, and goes on behind it? */
 static inline bool pass_hole(const struct trax_render_params *run, struct path *path, bool shadow,
                              const struct surface *surface, const struct trax_device_material *material,
                              const struct hit *hit, float texel_alpha) {
-  if (!NEEDS(run, ALPHA) || material->opacity * texel_alpha >= material->alpha_cutoff || path->holes >= MOST_HOLES)
+  bool hole = NEEDS(run, ALPHA) && material->opacity * texel_alpha < material->alpha_cutoff;
+  if (NEEDS(run, ONE_SIDED))
+    hole |= surface->turned && material->kind != TRAX_MATERIAL_GLASS;
+  if (!hole || path->holes >= MOST_HOLES)
     return false;
   path->origin = surface->behind;
   if (shadow && path->distance_bits != FARTHEST_BITS) { /* towards the light anew: no error adds up before it */
@@ -292,7 +298,7 @@ PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *pat
   prepare_ray(&ray, path->origin.x, path->origin.y, path->origin.z, path->direction.x, path->direction.y,
               path->direction.z, run->box_margin, RUN_GRID(run));
   bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
-                         shadow && !NEEDS(run, ALPHA), &hit);
+                         shadow && !HAS_HOLES(run), &hit);
   trax_count_rays(1);
   LOAD_PATH_AGAIN(path);
   path->hit = hit;
@@ -303,7 +309,7 @@ enum next_ray { RAY_NONE, RAY_ON, RAY_SHADOW };
 
 /* What follows from it; path has the next ray. */
 PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct path *path, bool shadow, bool found) {
-  if (found && (!shadow || NEEDS(run, ALPHA))) {
+  if (found && (!shadow || HAS_HOLES(run))) {
     const struct hit hit = path->hit;
     const struct trax_device_material *material = hit_material(run, &hit);
     struct surface surface;

@@ -42,6 +42,7 @@ static const char usage[] =
     "      --paths DEPTH       path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples\n"
     "      --seed N            of the paths' random numbers, 0 to 4294967295 (default 0)\n"
     "      --float             the program computes linear floats; the picture is made of them here\n"
+    "      --one-sided         triangles are seen from the side where they are counterclockwise, and glass from both\n"
     "      --smooth            shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
     "                          (of a scene file: by the normals in it, made by trax-scene --smooth)\n"
     "      --no-shadows        the light shines through everything\n"
@@ -110,6 +111,7 @@ enum {
   OPT_PATHS,
   OPT_SEED,
   OPT_FLOAT,
+  OPT_ONE_SIDED,
   OPT_SMOOTH,
   OPT_NO_SHADOWS,
   OPT_AMBIENT,
@@ -166,6 +168,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"paths", required_argument, NULL, OPT_PATHS},
                                              {"seed", required_argument, NULL, OPT_SEED},
                                              {"float", no_argument, NULL, OPT_FLOAT},
+                                             {"one-sided", no_argument, NULL, OPT_ONE_SIDED},
                                              {"smooth", no_argument, NULL, OPT_SMOOTH},
                                              {"no-shadows", no_argument, NULL, OPT_NO_SHADOWS},
                                              {"ambient", required_argument, NULL, OPT_AMBIENT},
@@ -420,6 +423,9 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_SEED:
     if (!parse_number(&value, UINT32_MAX, &options->frame.seed) || *value != '\0')
       return trax_fail(error, "--seed: expected a number from 0 to %u", UINT32_MAX);
+    return TRAX_OK;
+  case OPT_ONE_SIDED:
+    options->frame.one_sided = true;
     return TRAX_OK;
   case OPT_FLOAT:
     options->frame.floats = true;

@@ -151,8 +151,14 @@ static void describe(struct surface *surface, const struct sample *sample, const
     at->diffuse = times(at->diffuse, surface->texel.colour);
 }
 
-static bool is_hole(const struct surface *surface) {
+static bool vanishes_behind(const struct sample *sample, const struct trax_material *material) {
+  return reference_needs(sample->reference, TRAX_FEATURE_ONE_SIDED) && material->kind != TRAX_MATERIAL_GLASS;
+}
+
+static bool is_hole(const struct sample *sample, const struct surface *surface) {
   const struct trax_material *material = surface->material;
+  if (surface->turned && vanishes_behind(sample, material))
+    return true;
   return (double)material->opacity * surface->texel.alpha < (double)material->alpha_cutoff;
 }
 
@@ -166,7 +172,7 @@ static bool find_surface(struct surface *surface, const struct sample *sample, s
     if (!reference_hit(sample->reference, origin, direction, &hit))
       return false;
     describe(surface, sample, &hit, origin, direction);
-    if (holes == MOST_HOLES || !is_hole(surface)) {
+    if (holes == MOST_HOLES || !is_hole(sample, surface)) {
       *distance += hit.distance;
       return true;
     }
@@ -180,7 +186,9 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
   if (!reference_needs(sample->reference, TRAX_FEATURE_SHADOWS))
     return true;
   const struct double3 target = plus_scaled(origin, isfinite(distance) ? distance : 0, direction);
-  for (int holes = 0; reference_needs(sample->reference, TRAX_FEATURE_ALPHA); holes++) {
+  const bool passes = reference_needs(sample->reference, TRAX_FEATURE_ALPHA) ||
+                      reference_needs(sample->reference, TRAX_FEATURE_ONE_SIDED);
+  for (int holes = 0; passes; holes++) {
     struct surface surface;
     struct exact_hit hit;
     const double left = isfinite(distance) ? dot(minus(target, origin), direction) : INFINITY;
@@ -188,7 +196,7 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
     if (!reference_hit(sample->reference, origin, direction, &hit) || hit.distance > left * (1 - 0x1p-18))
       return true;
     describe(&surface, sample, &hit, origin, direction);
-    if (holes == MOST_HOLES || !is_hole(&surface))
+    if (holes == MOST_HOLES || !is_hole(sample, &surface))
       return false;
     origin = surface.behind;
   }
@@ -278,13 +286,14 @@ static struct double3 lit_by_emitter(const struct sample *sample, const struct s
   struct double3 direction;
   double density;
   const double distance = towards(surface->point, target, &direction);
-  if (!(distance > 0) || !(fabs(dot(winding_normal(triangle), direction)) >= 0x1p-20))
+  const double facing = -dot(winding_normal(triangle), direction);
+  const struct trax_material *material = &sample->reference->frame->scene->materials[triangle->material];
+  if (!(distance > 0) || !(fabs(facing) >= 0x1p-20) || (facing < 0 && vanishes_behind(sample, material)))
     return nothing;
   const struct double3 part = reference_evaluate(&surface->at, direction, &density);
   if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance * (1 - 0x1p-18)))
     return nothing;
   const double chosen = emitter_density(sample, triangle, distance, direction);
-  const struct trax_material *material = &sample->reference->frame->scene->materials[triangle->material];
   return scaled(1 / (chosen + density), times(part, from(material->emission)));
 }
 

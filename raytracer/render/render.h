@@ -42,6 +42,7 @@ struct trax_frame_options {
   bool shadows;           /* false: the light shines through everything */
   bool smooth;            /* shading by the scene's normals, if it has them */
   bool floats;            /* linear floats as well as pixels */
+  bool one_sided;         /* back faces, clockwise as a ray sees them, are not there; those of glass are */
   uint32_t paths;         /* path tracing over so many surfaces, up to TRAX_RENDER_MAX_DEPTH; 0: none */
   uint32_t seed;          /* of the paths */
   struct trax_method method;

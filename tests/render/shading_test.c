@@ -78,6 +78,7 @@ static void test_combinations(void **state) {
     options.samples = design(row, 7) ? 3 : 1;
     options.shadows = design(row, 8);
     options.floats = design(row, 9);
+    options.one_sided = row / 2 % 3 == 1;
     const struct trax_view view = gallery_view(design(row, 10) ? 3 : 0);
     struct trax_scene scene = {0};
     build_gallery(&scene, parts);
@@ -322,6 +323,28 @@ static void test_furnace_from_outside(void **state) {
     }
 }
 
+/* A closed body is from outside what it is without its back faces, and from inside nothing. */
+static void test_one_side(void **state) {
+  (void)state;
+  struct trax_scene scene = {0};
+  build_sphere(&scene, 1, &trax_default_material);
+  struct trax_view view = view_from(0, 0, 3, 0, 0, -1, 60, 2, 3, 4);
+  struct trax_frame_options options = plain;
+  struct trax_difference difference;
+  struct trax_picture both = shoot(&scene, &view, &options, false, 2);
+  options.one_sided = true;
+  struct trax_picture one = shoot(&scene, &view, &options, false, 2);
+  trax_picture_compare(&difference, &both, &one, 1);
+  assert_true(difference.beyond <= 5 && background_pixels(&one) < one.width * one.height - 500);
+  trax_picture_release(&both);
+  trax_picture_release(&one);
+  view.eye[2] = 0;
+  one = shoot(&scene, &view, &options, false, 2);
+  assert_int_equal(background_pixels(&one), one.width * one.height);
+  trax_picture_release(&one);
+  trax_scene_release(&scene);
+}
+
 /* --- two ways to the same light --- */
 
 static void floor_mesh(struct trax_mesh *mesh, bool lamp) {
@@ -483,6 +506,7 @@ int main(void) {
       cmocka_unit_test(test_lights_add_up),
       cmocka_unit_test(test_furnace_from_inside),
       cmocka_unit_test(test_furnace_from_outside),
+      cmocka_unit_test(test_one_side),
       cmocka_unit_test(test_rectangles_and_lamps),
       cmocka_unit_test(test_holes_are_nothing),
       cmocka_unit_test(test_hostile_materials),

@@ -27,9 +27,9 @@ enum trax_feature {
 /* With none of these a picture is the paper's workload: Lambert's law and one point light. */
 #define TRAX_FEATURE_BIT(NAME) (1u << TRAX_FEATURE_##NAME)
 #define TRAX_PATH_FEATURES                                                                                             \
-  (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(REFLECTION) |    \
-   TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) | TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) |    \
-   TRAX_FEATURE_BIT(FLOATS))
+  (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) |     \
+   TRAX_FEATURE_BIT(REFLECTION) | TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) |                            \
+   TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) | TRAX_FEATURE_BIT(FLOATS))
 
 /* The grid of quantised nodes (struct trax_scene_grid), for rays. */
 struct trax_ray_grid {
