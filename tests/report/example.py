@@ -70,7 +70,7 @@ def complete():
         record["experiments"].append("fpu-density")
     rows = [[10_000 * (n + 1), 0.4 / (1 + n) + 0.05, 0.3 + 0.002 * n] for n in range(100)]
     series = [{"name": "staggering", "title": "Instruction-bank conflicts over time", "run": "era-conference-4x32-exact-0",
-               "columns": ["cycle", "icache_bank_conflict", "issued"], "rows": rows}]
+               "columns": ["cycle", "fetch_refused", "issued"], "rows": rows}]
     return document(runs, sweeps, series)
 
 

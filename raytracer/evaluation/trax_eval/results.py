@@ -7,11 +7,11 @@ import shlex
 from .jobs import error_of, read_csv, result_of
 from .sweep import PROGRAMS
 from .util import read_json, write_json
-from .values import values_of
+from .values import ratio, values_of
 
 FORMAT, VERSION = "trax-eval-results", 1
 LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity")  # of the statistics: the run's own file has them
-SERIES_ROWS = 2000
+SERIES_ROWS, SERIES_BEGIN = 2000, 500
 SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict", "wait_memory", "halted")
 
 
@@ -52,21 +52,23 @@ def repeat_command(point, tools):
 
 
 def thin_series(path, threads):
-    """Columns and at most SERIES_ROWS rows of a time series: the end of each interval, and shares of its thread-cycles."""
+    """Columns and at most SERIES_ROWS rows of a time series: the end of each interval, shares of its thread-cycles, and of the instructions that
+    threads asked their cache for the share that a conflict refused. The beginning keeps every interval, what follows is joined."""
     names, rows = read_csv(path)
     place = {name: index for index, name in enumerate(names)}
     chosen = [name for name in SERIES_COLUMNS if name in place]
     result, group = [], []
     chip = [row for row in rows if row[place["tm"]] == "all"]
-    step = -(-len(chip) // SERIES_ROWS) or 1
+    step = -(-(len(chip) - SERIES_BEGIN) // (SERIES_ROWS - SERIES_BEGIN)) if len(chip) > SERIES_ROWS else 1
     for index, row in enumerate(chip):
         group.append(row)
-        if len(group) == step or index == len(chip) - 1:
+        if index < SERIES_BEGIN or len(group) == step or index == len(chip) - 1:
             cycles = sum(float(one[place["end"]]) - float(one[place["begin"]]) for one in group)
             shares = [sum(float(one[place[name]]) for one in group) / (cycles * threads) if cycles else None for name in chosen]
-            result.append([int(row[place["end"]]), *shares])
+            refused, issued = (sum(float(one[place[name]]) for one in group) for name in ("icache_bank_conflict", "issued"))
+            result.append([int(row[place["end"]]), ratio(refused, refused + issued), *shares])
             group = []
-    return ["cycle", *chosen], result
+    return ["cycle", "fetch_refused", *chosen], result
 
 
 def run_of(out, tools, areas, point):
