@@ -352,6 +352,10 @@ static trax_status check_options(const struct trax_build_options *options, trax_
 
 bool trax_splits_choose(const char *text, struct trax_build_options *build) {
   char *end = NULL;
+  build->choose_splits = text && strcmp(text, "auto") == 0;
+  build->splits = 0;
+  if (build->choose_splits)
+    return true;
   const float factor = text ? strtof(text, &end) : TRAX_DEFAULT_SPLITS;
   if (text && (end == text || *end || !(factor >= 1 && factor <= TRAX_SCENE_MAX_SPLITS)))
     return false;
@@ -359,14 +363,41 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build) {
   return true;
 }
 
+static bool emits(const struct trax_mesh *mesh, const struct trax_mesh_triangle *triangle) {
+  const float *emission = mesh->materials[triangle->material].surface.emission;
+  return emission[0] > 0 || emission[1] > 0 || emission[2] > 0;
+}
+
+/* How many triangles' boxes a random line through the scene enters that it would not enter if each had the size of its
+   triangle as seen along the axes: many, where triangles are large and askew. */
+#define BOXES_IN_VAIN 2
+
+static bool splits_suit(const struct trax_mesh *mesh) {
+  struct scene_box bounds = scene_empty_box();
+  double in_vain = 0;
+  for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    if (emits(mesh, &mesh->triangles[i]))
+      return false;
+    const uint32_t *vertices = mesh->triangles[i].vertices;
+    const float *a = mesh->vertices[vertices[0]], *b = mesh->vertices[vertices[1]], *c = mesh->vertices[vertices[2]];
+    struct scene_box box = scene_empty_box();
+    scene_box_add_point(&box, a), scene_box_add_point(&box, b), scene_box_add_point(&box, c);
+    scene_box_add_box(&bounds, &box);
+    in_vain += scene_half_area(box.min, box.max);
+    for (int axis = 0; axis < 3; axis++) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      in_vain -= fabs(((double)b[u] - a[u]) * ((double)c[v] - a[v]) - ((double)b[v] - a[v]) * ((double)c[u] - a[u]));
+    }
+  }
+  return in_vain > BOXES_IN_VAIN * scene_half_area(bounds.min, bounds.max);
+}
+
 /* A triangle that is split stands in the file several times, and would be several lamps. */
 static trax_status check_emitters(const struct trax_mesh *mesh, trax_error *error) {
-  for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-    const struct trax_mesh_material *material = &mesh->materials[mesh->triangles[i].material];
-    for (int channel = 0; channel < 3; channel++)
-      if (material->surface.emission[channel] > 0)
-        return scene_fail(error, "no splits where triangles emit light (material '%s')", material->name);
-  }
+  for (uint32_t i = 0; i < mesh->triangle_count; i++)
+    if (emits(mesh, &mesh->triangles[i]))
+      return scene_fail(error, "no splits where triangles emit light (material '%s')",
+                        mesh->materials[mesh->triangles[i].material].name);
   return TRAX_OK;
 }
 
@@ -376,7 +407,8 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   trax_status result = check_options(options, error);
   if (result != TRAX_OK || mesh->triangle_count == 0)
     return result;
-  const bool splits = options->splits > 1;
+  const float factor = options->choose_splits ? (splits_suit(mesh) ? TRAX_DEFAULT_SPLITS : 0) : options->splits;
+  const bool splits = factor > 1;
   struct scene_duplicates duplicates = {0};
   if (splits)
     result = check_emitters(mesh, error);
@@ -387,7 +419,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   unsigned max_depth = options->max_depth ? options->max_depth : default_max_depth;
   struct build_context context = {.options = options, .mesh = mesh};
 
-  const size_t capacity = splits ? (size_t)(options->splits * (double)mesh->triangle_count) : mesh->triangle_count;
+  const size_t capacity = splits ? (size_t)(factor * (double)mesh->triangle_count) : mesh->triangle_count;
   struct RTCBuildPrimitive *primitives =
       aligned_alloc(_Alignof(struct RTCBuildPrimitive), capacity * sizeof(struct RTCBuildPrimitive));
   RTCDevice device = rtcNewDevice(device_options);
@@ -399,6 +431,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   else {
     const uint32_t count = fill_primitives(primitives, mesh, splits ? &duplicates : NULL);
     tree->bounds = bounds_of(primitives, count);
+    tree->split = splits;
     struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
     arguments.maxBranchingFactor = 2;

@@ -249,6 +249,7 @@ struct scene_tree {
   uint32_t node_count, inner_count, max_depth, max_leaf;
   uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
   struct scene_box bounds; /* of all triangles */
+  bool split;              /* triangles at one place are in the order of their numbers in every leaf */
 };
 
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,

@@ -379,7 +379,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   options = &chosen;
   struct palette palette = {0};
   struct scene_order order = {0};
-  if (options->splits <= 1) /* else they are in order, in every leaf */
+  if (!tree.split)
     result = scene_order_duplicates(&tree, mesh, error);
   if (result == TRAX_OK)
     result = scene_order_nodes(&order, &tree, options->nodes,

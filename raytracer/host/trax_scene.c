@@ -36,7 +36,8 @@ static const char usage[] =
     "                               auto (default): quantised, if the grid is fine enough for nine leaves in ten\n"
     "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"
     "      --splits[=FACTOR]        splits large triangles, which then stand in several leaves: room for FACTOR times\n"
-    "                               as many, 1 to 8 (default 1.5)\n"
+    "                               as many, 1 (none) to 8, without FACTOR 1.5; =auto (default): so, if many are "
+    "askew\n"
     "      --depth N                at most N nodes from the root to a leaf, 1 to %u\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
@@ -366,7 +367,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     case splits:
       good = trax_splits_choose(optarg, &arguments->build);
       if (!good)
-        complain("--splits: '%s' is not a number from 1 to %g", optarg, (double)TRAX_SCENE_MAX_SPLITS);
+        complain("--splits: '%s' is neither auto nor a number from 1 to %g", optarg, (double)TRAX_SCENE_MAX_SPLITS);
       break;
     case leaf:
       good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_LEAF, &arguments->build.max_leaf);
@@ -501,7 +502,7 @@ static trax_status run(const struct arguments *arguments, struct progress *progr
 }
 
 int main(int argc, char **argv) {
-  static struct arguments arguments = {.build.choose_nodes = true};
+  static struct arguments arguments = {.build = {.choose_nodes = true, .choose_splits = true}};
   int status = parse_arguments(&arguments, argc, argv);
   if (status >= 0)
     return status;

@@ -30,8 +30,8 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
                                      .progress_context = progress,
                                      .interrupt = interrupt,
                                      .smooth = options->frame.smooth,
-                                     .splits = options->splits,
                                      .compute_normals = options->compute_normals};
+  trax_splits_choose(options->splits ? options->splits : options->program ? "1" : "auto", &build);
   trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
   struct trax_mesh mesh = {0};
   struct trax_import_report report;
@@ -58,7 +58,7 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
         return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
                          options->meshes[i]);
       if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
-          options->compute_normals || options->nodes || options->splits > 0)
+          options->compute_normals || options->nodes || options->splits)
         return trax_fail(error,
                          "%s: a scene file is as trax-scene made it: --material, --diffuse, --no-textures, "
                          "--texture-size, --nodes, --splits and --normals smooth are for meshes",

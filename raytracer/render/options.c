@@ -36,7 +36,8 @@ static const char usage[] =
     "      --texture-size N    at most N texels a side, a power of two up to 4096\n"
     "      --nodes KIND        of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto;\n"
     "                          for another --program binary)\n"
-    "      --splits[=FACTOR]   splits large triangles, as trax-scene does (default 1.5, if given)\n"
+    "      --splits[=FACTOR]   splits large triangles, as trax-scene does (default auto; for another\n"
+    "                          --program 1, which is none)\n"
     "      --normals WHICH     file: --smooth by the meshes' own normals, computed where there are none (default);\n"
     "                          smooth: by computed ones; flat: no --smooth\n"
     "      --paths DEPTH       path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples\n"
@@ -394,8 +395,9 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_SPLITS: {
     struct trax_build_options build;
     if (!trax_splits_choose(value, &build))
-      return trax_fail(error, "--splits=%s: expected a number from 1 to %g", value, (double)TRAX_SCENE_MAX_SPLITS);
-    options->splits = build.splits;
+      return trax_fail(error, "--splits=%s: expected auto or a number from 1 to %g", value,
+                       (double)TRAX_SCENE_MAX_SPLITS);
+    options->splits = value ? value : "1.5";
     return TRAX_OK;
   }
   case OPT_NODES: {

@@ -44,7 +44,7 @@ struct options {
   struct trax_material_override *overrides;
   bool compute_normals; /* --normals smooth */
   const char *nodes;    /* of the tree; NULL: auto */
-  float splits;         /* 0: none */
+  const char *splits;   /* NULL: auto */
   struct trax_frame_options frame;
   enum engine engine;
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */

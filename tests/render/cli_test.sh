@@ -147,7 +147,7 @@ accept "$compare" a.png b.png
 refuse '--nodes, --splits and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
 
 # The picture does not depend on how the tree is stored; the file does.
-refuse '--splits=0.5: expected a number from 1 to 8' "$render" "$box" -o x.png --splits=0.5
+refuse '--splits=0.5: expected auto or a number from 1 to 8' "$render" "$box" -o x.png --splits=0.5
 for nodes in binary quantised auto; do
   accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
   accept "$bin/trax-scene" "$box" -o "split-$nodes.trax" --nodes "$nodes" --splits=4

@@ -266,7 +266,16 @@ static void test_missing_part(void **state) {
   assert_true(refused * 10 > parts * 9);
   assert_contains(error.message, "is not that of its triangles");
   trax_scene_release(&scene);
+  /* By itself it splits these, and none that emit. */
+  struct trax_build_options choice = {0};
+  assert_true(trax_splits_choose("auto", &choice));
+  assert_int_equal(trax_scene_build(&scene, &mesh, &choice, &error), TRAX_OK);
+  assert_true(scene.triangle_count > mesh.triangle_count);
+  trax_scene_release(&scene);
   mesh.materials[0].surface.emission[1] = 1;
+  assert_int_equal(trax_scene_build(&scene, &mesh, &choice, &error), TRAX_OK);
+  assert_int_equal(scene.triangle_count, mesh.triangle_count);
+  trax_scene_release(&scene);
   assert_int_equal(trax_scene_build(&scene, &mesh, &options, &error), TRAX_ERROR);
   assert_contains(error.message, "no splits where triangles emit light");
   trax_mesh_release(&mesh);

@@ -123,7 +123,7 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--leaf", "2x"}, "--leaf: '2x'"},
       {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
       {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
-      {{good, "-o", scene, "--splits=9"}, "--splits: '9' is not a number from 1 to 8"},
+      {{good, "-o", scene, "--splits=9"}, "--splits: '9' is neither auto nor a number from 1 to 8"},
       {{good, "-o", scene, "--nodes", "octal"}, "--nodes: 'octal' is none of auto, binary and quantised"},
       {{good, "-o", scene, "--crease", "30"}, "--crease without --smooth or --normals"},
       {{good, "-o", scene, "--smooth", "--crease", "0"}, "--crease: '0' is not an angle"},

@@ -184,6 +184,7 @@ struct trax_build_options {
   unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
   float splits;            /* room for so many times the triangles, to split large ones: they then stand in several
                               leaves; 0 or 1: none */
+  bool choose_splits;      /* the default instead, if many triangles' boxes are much larger than they; never of lamps */
   float traversal_cost;    /* of a node, relative to intersection_cost; 0: default */
   float intersection_cost; /* of a triangle; 0: default */
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
@@ -199,7 +200,7 @@ struct trax_build_options {
 /* From a layout's name, or auto. False: there is no such layout. */
 bool trax_node_layout_choose(const char *name, struct trax_build_options *build);
 
-/* From a number, or NULL for the default. False: it is none, or out of range. */
+/* From a number, auto, or NULL for the default. False: it is none, or out of range. */
 bool trax_splits_choose(const char *text, struct trax_build_options *build);
 
 #define TRAX_DEFAULT_SPLITS 1.5f
@@ -217,7 +218,8 @@ trax_status trax_write_file(const char *path, const void *bytes, size_t size, tr
 trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);
 
 /* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every box is exact
-   and every triangle within its leaf's, or those of several leaves together. A scene that was accepted cannot lead a traversal astray. */
+   and every triangle within its leaf's, or those of several leaves together. A scene that was accepted cannot lead a
+   traversal astray. */
 trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
 
 /* The same checks on bytes in memory, which the caller keeps; name stands in the messages. On success *scene, if

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""How scenes are stored against how fast they are traversed: a table with a row for each way and scene.
+
+    raytracer/bench/traversal.py SCENES_DIRECTORY [--size 320x180] [--configs 4x32,8x64] [--only WAY,...] [--scene NAME]
+                                 [--bin build/bin]
+
+SCENES_DIRECTORY is lean.py's. Every way renders the same picture, which is checked. For each chip: million rays a second, bytes
+from and to memory a ray, instructions a ray.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from lean import SCENES, find
+
+# Name, options of trax-scene.
+WAYS = [
+    ("binary", ["--nodes", "binary", "--splits=1"]),
+    ("quantised", ["--nodes", "quantised", "--splits=1"]),
+    ("binary, splits", ["--nodes", "binary", "--splits"]),
+    ("quantised, splits", ["--nodes", "quantised", "--splits"]),
+    ("quantised, splits 3", ["--nodes", "quantised", "--splits=3"]),
+    ("leaves of 1", ["--nodes", "quantised", "--splits=1", "--leaf", "1"]),
+    ("leaves of 2", ["--nodes", "quantised", "--splits=1", "--leaf", "2"]),
+    ("leaves of 7", ["--nodes", "quantised", "--splits=1", "--leaf", "7"]),
+    ("node costs 1/2 triangle", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "0.5"]),
+    ("node costs 2 triangles", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "2"]),
+    ("depth first", ["--nodes", "quantised", "--splits=1", "--cache-lines", "1"]),
+    ("by itself", []),
+]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("scenes", type=pathlib.Path)
+    parser.add_argument("--size", default="320x180")
+    parser.add_argument("--configs", default="4x32,8x64")
+    parser.add_argument("--only", help="ways, separated by ';'")
+    parser.add_argument("--scene")
+    parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/bin")
+    options = parser.parse_args()
+    configs = options.configs.split(",")
+    ways = [way for way in WAYS if not options.only or way[0] in options.only.split(";")]
+    if not ways:
+        sys.exit(f"traversal.py: error: --only: the ways are {', '.join(name for name, _ in WAYS)}")
+
+    print(f"{options.size}")
+    print("| scene | stored | bytes | " + " | ".join(f"{config}: MRPS | bytes/ray | instructions/ray" for config in configs) + " |")
+    print("| --- | --- |" + " --- |" * (1 + 3 * len(configs)))
+    different = 0
+    with tempfile.TemporaryDirectory() as name:
+        scratch = pathlib.Path(name)
+        for scene, files in SCENES:
+            if options.scene and scene != options.scene:
+                continue
+            meshes = [find(options.scenes, file) for file in files]
+            first = None
+            for way, how in ways:
+                stored = scratch / "scene.trax"
+                subprocess.run([options.bin / "trax-scene", "--quiet", *meshes, "-o", stored, *how], check=True)
+                cells = []
+                for config in configs:
+                    subprocess.run([options.bin / "trax-render", stored, "--view", scene, "--config", config, "--size", options.size, "--quiet",
+                                    "--cache", scratch / "cache", "--stats", scratch / "stats.json", "-o", scratch / "picture.png"], check=True)
+                    run = json.loads((scratch / "stats.json").read_text())
+                    cells += [f"{run['mrps']:.2f}", f"{run['memory']['bytes'] / run['rays']:.0f}", f"{run['instructions'] / run['rays']:.0f}"]
+                    picture = (scratch / "picture.png").read_bytes()
+                    first = first or picture
+                    different += picture != first
+                print(f"| {scene} | {way} | {stored.stat().st_size:,} | {' | '.join(cells)} |", flush=True)
+    print(f"pictures {'different: ' + str(different) if different else 'identical in every bit'}")
+    return 1 if different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
