@@ -43,7 +43,7 @@ struct trax_slots {
   double *sizes;               /* [units + 1]: what the units before each are expected to cost */
   uint32_t *draws;             /* [draw_count]: units, in the order of simulation */
   double *ratios;              /* [done]: cycles measured for what was expected, of a draw each */
-  size_t draw_count, done;
+  size_t draw_count, done, most_draws;
   bool extended; /* draws were added after a pilot */
 
   enum phase phase;
@@ -102,21 +102,13 @@ static double size_of(const struct trax_slots *slots, uint32_t unit) {
   return slots->sizes[unit + 1] - slots->sizes[unit];
 }
 
-/* `count` more, one from each part of equal cost. */
-static bool draw(struct trax_slots *slots, size_t count) {
-  const size_t all = slots->draw_count + count;
-  uint32_t *draws = realloc(slots->draws, (all ? all : 1) * sizeof *draws);
-  if (draws)
-    slots->draws = draws;
-  double *ratios = realloc(slots->ratios, (all ? all : 1) * sizeof *ratios);
-  if (ratios)
-    slots->ratios = ratios;
-  if (!draws || !ratios)
-    return false;
+/* `count` more, one from each part of equal cost, as far as there is room. */
+static void draw(struct trax_slots *slots, size_t count) {
+  const size_t room = slots->most_draws - slots->draw_count;
+  count = count < room ? count : room;
   for (size_t i = 0; i < count; i++)
-    draws[slots->draw_count++] = trax_estimate_unit(
+    slots->draws[slots->draw_count++] = trax_estimate_unit(
         slots->sizes, slots->units, slots->sizes[slots->units] * ((double)i + any(slots)) / (double)count);
-  return true;
 }
 
 /* --- the plan --- */
@@ -142,6 +134,13 @@ static double draws_for(const struct trax_slots *slots, double fraction) {
   const double drawn = squares / slots->sizes[slots->units]; /* the expected size of a draw */
   const double with_warm_up = drawn * (1 + (double)slots->asked.warm_up / slots->asked.unit);
   return fraction * slots->sizes[slots->units] / with_warm_up;
+}
+
+static bool make_room(struct trax_slots *slots, size_t most) {
+  slots->most_draws = most;
+  slots->draws = calloc(most, sizeof *slots->draws);
+  slots->ratios = calloc(most, sizeof *slots->ratios);
+  return slots->draws && slots->ratios;
 }
 
 /* Units, their sizes, and draws; slots->units stays 0 if all is to be simulated. */
@@ -173,8 +172,10 @@ static trax_status plan(struct trax_slots *slots, uint32_t threads, trax_error *
   count = count < LEAST_DRAWS ? LEAST_DRAWS : count;
   if (ends + count * ((double)asked->unit + asked->warm_up) > ENOUGH * asked->slots)
     slots->units = 0;
-  else if (!draw(slots, (size_t)count))
-    return trax_fail(error, "out of memory for %.0f ranges of slots", count);
+  else if (!make_room(slots, (size_t)(ENOUGH * asked->slots / ((double)asked->unit + asked->warm_up))))
+    return trax_fail(error, "out of memory for ranges of slots");
+  if (slots->units)
+    draw(slots, (size_t)count);
   return TRAX_OK;
 }
 
@@ -194,19 +195,16 @@ static uint32_t read_counter(const struct trax_slots *slots) {
 }
 
 /* After a pilot: as many draws as the interval takes, or as make sense. */
-static bool extend(struct trax_slots *slots) {
-  const trax_slot_sampling *asked = &slots->asked;
+static void extend(struct trax_slots *slots) {
+  const size_t needed = trax_estimate_draws(slots->ratios, slots->done, slots->asked.error);
   slots->extended = true;
-  const size_t needed = trax_estimate_draws(slots->ratios, slots->done, asked->error);
-  const double most = ENOUGH * asked->slots / ((double)asked->unit + asked->warm_up);
-  const size_t all = (double)needed > most ? (size_t)most : needed;
-  return all <= slots->draw_count || draw(slots, all - slots->draw_count);
+  draw(slots, needed - slots->draw_count);
 }
 
 /* At time `at`, in cycle t, the counter, which is n now, was slots->target. */
-static bool go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
-  if (slots->done == slots->draw_count && slots->asked.error > 0 && !slots->extended && !extend(slots))
-    return false;
+static void go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
+  if (slots->done == slots->draw_count && slots->asked.error > 0 && !slots->extended)
+    extend(slots);
   const bool more = slots->done < slots->draw_count;
   const uint32_t start = more ? slots->first + slots->draws[slots->done] * slots->asked.unit : slots->last;
   if (start == slots->target) { /* the next one is the next slot's */
@@ -214,7 +212,7 @@ static bool go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
     slots->begun = at;
     slots->target = more ? start + slots->asked.unit : UINT32_MAX;
     begin_counts(slots, t);
-    return true;
+    return;
   }
   slots->phase = more ? WARM_UP : LEAD;
   slots->target = start;
@@ -225,7 +223,6 @@ static bool go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
     slots->seen = value;
     slots->seen_at = t;
   }
-  return true;
 }
 
 static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
@@ -253,16 +250,18 @@ static uint64_t next_look(const struct trax_slots *slots, uint64_t t) {
   return t + (uint64_t)fmax(cycles, fmax(one, LEAST_STEP));
 }
 
-/* The phase ends: at time `at`, before cycle t, when the counter is n. False: out of memory. */
-static bool end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
+/* The phase ends: at time `at`, before cycle t, when the counter is n. */
+static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
   switch (slots->phase) {
   case BEGINNING:
     slots->exact_cycles = at;
     add_counts(slots, slots->exact, &slots->exact_counted, t);
-    return go_on(slots, at, t, n);
+    go_on(slots, at, t, n);
+    break;
   case UNIT:
     end_unit(slots, at, t);
-    return go_on(slots, at, t, n);
+    go_on(slots, at, t, n);
+    break;
   case WARM_UP:
   case LEAD:
     slots->phase = slots->phase == LEAD ? END : UNIT;
@@ -273,7 +272,6 @@ static bool end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
   case END:
     break;
   }
-  return true;
 }
 
 static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
@@ -284,9 +282,8 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   while (n >= slots->target) { /* it was passed between the last look and this one, at an even pace */
     const double share = (double)(slots->target - slots->seen) / (n - slots->seen);
     const double at = (double)slots->seen_at + share * (double)(t - slots->seen_at);
-    if (!end_phase(slots, at, t, n))
-      return TRAX_INTERRUPTED; /* out of memory */
-    if (slots->seen_at == t)   /* the counter was set */
+    end_phase(slots, at, t, n);
+    if (slots->seen_at == t) /* the counter was set */
       n = slots->seen;
   }
   slots->seen = n;
