@@ -1,6 +1,6 @@
 /* Pictures with more than the paper's workload: several lights, mirrors, glass, rough layers, textures, holes, and
    paths over many surfaces. One loop over rays again, so that there is one copy of the traversal; what a path must
-   remember lies in global memory, since the local one has the traversal's stack.
+   remember lies in global memory, unless the local one has room for it beside the traversal's stack.
 
    Without TRAX_FEATURE_PATHS a ray from the eye is followed through mirrors and glass to the first surface that
    scatters, which every light is asked for and the ambient light added to. Glass reflects or lets through, whichever is
@@ -99,7 +99,7 @@ static inline const struct trax_device_material *hit_material(const struct trax_
   return NEEDS(run, MATERIALS) ? &materials[triangle_material(hit->triangle)] : materials;
 }
 
-/* Of what the background and, without paths, the ambient light send. */
+/* weight: what part of the light reaches the eye. */
 static inline void add_to(struct vector *sum, struct vector weight, struct vector light) {
   *sum = plus(*sum, filtered(weight, light));
 }
