@@ -61,7 +61,6 @@ MUTANTS = [
     ("background", "path.h", "add_to(&path->light, path->weight, load_vector(RUN_PATH(run)->background));",
      "path->light = plus(path->light, load_vector(RUN_PATH(run)->background));"),
     ("ambient", "path.h", "float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));", "float ambient = run->ambient;"),
-    ("smooth-side", "path.h", "scatters || float_bits(dot(normal, at->view)) > 0", "1"),
     ("last-sample", "path.h", "++path->sample < run->samples", "++path->sample + 1 < run->samples"),
 ]
 

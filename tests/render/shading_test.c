@@ -345,6 +345,37 @@ static void test_one_side(void **state) {
   trax_scene_release(&scene);
 }
 
+/* Boxes whose normals are smooth across their edges: at many points these are turned away from the eye. */
+static void test_bent_surfaces(void **state) {
+  (void)state;
+  for (uint32_t kind = TRAX_MATERIAL_LAMBERT; kind < TRAX_MATERIAL_KINDS; kind++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene = {0};
+    const uint32_t body = mesh_material(&mesh, 0.5f, 0.6f, 0.7f), floor = mesh_material(&mesh, 0.7f, 0.3f, 0.2f);
+    struct trax_material *material = &mesh.materials[body].surface;
+    material->kind = kind, material->ior = 1.4f, material->roughness = 0.3f;
+    memcpy(material->specular, (float[]){0.9f, 0.8f, 0.9f}, sizeof material->specular);
+    mesh_box(&mesh, (float[]){-1.6f, -0.5f, -0.5f}, (float[]){-0.2f, 0.5f, 0.5f}, body);
+    mesh_box(&mesh, (float[]){0.1f, -0.5f, -1.5f}, (float[]){0.9f, 0.5f, 0.8f}, body);
+    mesh_box(&mesh, (float[]){-3, -0.8f, -3}, (float[]){3, -0.6f, 3}, floor);
+    build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 180});
+    const struct trax_view view = view_from(0.2f, 1.6f, 3, 0, -0.5f, -1, 45, 2, 3, 1);
+    struct trax_frame_options options = plain;
+    options.smooth = true;
+    struct trax_picture twin = shoot(&scene, &view, &options, false, 2);
+    struct trax_picture reference = shoot(&scene, &view, &options, true, 0);
+    struct trax_difference difference;
+    trax_picture_compare(&difference, &twin, &reference, 2);
+    if (difference.beyond > 5)
+      print_error("kind %u: %llu pixels beyond 2/255\n", kind, (unsigned long long)difference.beyond);
+    assert_true(difference.beyond <= 5);
+    trax_picture_release(&twin);
+    trax_picture_release(&reference);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+}
+
 /* --- two ways to the same light --- */
 
 static void floor_mesh(struct trax_mesh *mesh, bool lamp) {
@@ -507,6 +538,7 @@ int main(void) {
       cmocka_unit_test(test_furnace_from_inside),
       cmocka_unit_test(test_furnace_from_outside),
       cmocka_unit_test(test_one_side),
+      cmocka_unit_test(test_bent_surfaces),
       cmocka_unit_test(test_rectangles_and_lamps),
       cmocka_unit_test(test_holes_are_nothing),
       cmocka_unit_test(test_hostile_materials),
