@@ -29,7 +29,7 @@ MUTANTS = [
     ("total-reflection", "material.h", "if (float_bits(square) <= 0)\n    return 1;", "if (float_bits(square) <= 0)\n    return 0;"),
     ("mirror-length", "material.h", "times(2 * dot(normal, view), normal)", "times(1.999f * dot(normal, view), normal)"),
     ("mirror-inwards", "material.h", "return float_bits(dot(at->flat, way)) > 0 ? way : reflected(at->view, at->flat);", "return way;"),
-    ("glass-ratio", "path.h", "surface->turned", "!surface->turned"),
+    ("glass-ratio", "path.h", "bool turned = surface->turned;", "bool turned = !surface->turned;"),
     ("glass-tint", "path.h", "    if (through)\n      path->next_weight", "    if (!through)\n      path->next_weight"),
     ("glass-origin", "path.h", "through ? surface->behind : surface->point", "surface->point"),
     ("schlick-power", "material.h", "return square * square * rest;", "return square * square;"),
