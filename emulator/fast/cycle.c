@@ -191,33 +191,46 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool w
 
 /* --- steps 3 and 4 --- */
 
+/* Grants four banks, of which `asking` has the askers; adds the winners, and those of them whose lines are there. */
+static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_fast_lanes *behind,
+                                           const trax_fast_lanes *asking, uint64_t *winners, uint64_t *there) {
+  const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
+  trax_fast_lanes winner;
+  TRAX_FAST_ARBITRATE(trax_fast_lanes, behind, *asking, &winner);
+  *winners |= trax_fast_any(&winner);
+#pragma GCC unroll 4
+  for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
+    const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
+    const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.at[number]]);
+    const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
+    *there |= winner[i] & -(uint64_t)is_there;
+  }
+}
+
 /* Those who win a bank of the data cache; `hits` receives those of them whose lines are there and who need no more. */
 static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool wide, uint64_t askers, uint64_t *bit,
                                           uint64_t *hits) {
-  const struct trax_cache_tags tags = ftm->tm->dcache.tags;
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
   /* Of the banks that are handled together, by the lowest two bits of their numbers. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
   uint64_t winners = 0, there = 0;
-  if (ftm->data_bank_bits > 3) {
+  if (__builtin_expect(ftm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
+    const trax_fast_lanes first = by_low_bits & (none + (askers & ~bit[2]));
+    grant_four_banks(ftm, &ftm->data_bank_behind[0], &first, &winners, &there);
+    if (ftm->data_banks > TRAX_FAST_LANES) {
+      const trax_fast_lanes second = by_low_bits & (none + (askers & bit[2]));
+      grant_four_banks(ftm, &ftm->data_bank_behind[1], &second, &winners, &there);
+    }
+  } else {
     trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 3, 1, bit + 3);
     trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 4, 2, bit + 4);
-  }
-  for (uint32_t first = 0; first < ftm->data_banks; first += TRAX_FAST_LANES) {
-    uint64_t asking = askers;
-    for (uint32_t k = 2; k < ftm->data_bank_bits; k++)
-      asking &= first >> k & 1 ? bit[k] : ~bit[k];
-    trax_fast_lanes winner;
-    TRAX_FAST_ARBITRATE(trax_fast_lanes, &ftm->data_bank_behind[first / TRAX_FAST_LANES], by_low_bits & (none + asking),
-                        &winner);
-    winners |= trax_fast_any(&winner);
-#pragma GCC unroll 4
-    for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
-      const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
-      const uint32_t line = trax_line_of(&tags, ftm->address_of[number][ftm->heads.at[number]]);
-      const bool is_there = tags.lines[(size_t)(line & tags.set_mask) * tags.ways] == (uint64_t)line + 1;
-      there |= winner[i] & -(uint64_t)is_there;
+    for (uint32_t first = 0; first < ftm->data_banks; first += TRAX_FAST_LANES) {
+      uint64_t asking = askers;
+      for (uint32_t k = 2; k < ftm->data_bank_bits; k++)
+        asking &= first >> k & 1 ? bit[k] : ~bit[k];
+      const trax_fast_lanes four = by_low_bits & (none + asking);
+      grant_four_banks(ftm, &ftm->data_bank_behind[first / TRAX_FAST_LANES], &four, &winners, &there);
     }
   }
   *hits = there & ~ftm->deferred;

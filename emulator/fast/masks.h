@@ -155,8 +155,15 @@ struct trax_fast_tally {
 void trax_fast_count_log(struct trax_fast_tally *tally);
 
 static inline void trax_fast_count(struct trax_fast_tally *tally, const struct trax_fast_lost *lost) {
-  tally->log[tally->logged] =
-      (trax_fast_losses){lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul, lost->special, lost->bank};
+  /* One by one: nobody looks at them soon, and a vector would have to be put together. */
+  typedef uint64_t word __attribute__((may_alias));
+  word *const log = (word *)&tally->log[tally->logged];
+  log[0] = lost->fetch;
+  log[1] = lost->fp_add;
+  log[2] = lost->fp_mul;
+  log[3] = lost->int_mul;
+  log[4] = lost->special;
+  log[5] = lost->bank;
   if (++tally->logged == TRAX_FAST_LOG)
     trax_fast_count_log(tally);
 }
