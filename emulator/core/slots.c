@@ -23,7 +23,7 @@ enum {
 
 #define LEAST_COST 0.02 /* of a unit, relative to the mean: what was thought to cost nothing may cost something */
 #define ENOUGH 0.8      /* of the slots: then all of them might as well be simulated */
-#define BIAS 0.01      /* of what is estimated: what a warm-up leaves of another place's caches (docs/sampling.md) */
+#define BIAS 0.01       /* of what is estimated: what a warm-up leaves of another place's caches (docs/sampling.md) */
 
 enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
 
