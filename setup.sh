@@ -16,7 +16,7 @@ say() { [ -n "$quiet" ] || echo "setup: $*"; }
 die() { echo "setup.sh: error: $*" >&2; exit 1; }
 
 packages=(
-  cmake ninja-build make gcc g++ pkg-config python3                       # to build
+  cmake ninja-build make gcc g++ pkg-config python3 git                   # to build; the tutorial applies a patch with git
   llvm-19 llvm-19-dev llvm-19-tools libclang-19-dev libclang-common-19-dev clang-19 libc++-19-dev
   libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev        # linker, emulator
   libassimp-dev libembree-dev libpng-dev libjpeg62-turbo-dev libopenexr-dev liblzma-dev zlib1g-dev  # ray tracer's host side
