@@ -207,7 +207,7 @@ struct scene_tree;
 struct scene_box scene_box_in_cells(const struct trax_scene_grid *grid, const struct scene_box *box);
 void scene_node_write(void *node, enum trax_node_layout layout, const struct trax_scene_grid *grid,
                       const struct scene_box boxes[], const trax_scene_ref children[]);
-/* Is the scene's grid fine enough for nearly all of the tree's boxes? */
+/* Do rays visit hardly more of the tree if its boxes are on the scene's grid, in each of its larger parts? */
 bool scene_grid_suits(const struct scene_tree *tree);
 /* The boxes of a node as the file has them: numbers of planes if they are quantised. */
 void scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,

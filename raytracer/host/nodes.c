@@ -48,25 +48,46 @@ struct scene_box scene_box_in_cells(const struct trax_scene_grid *grid, const st
   return result;
 }
 
-/* A box grows by a cell on each axis, on average. Where it doubles a box in size, counted in sums of edges, a ray that
-   comes near visits what it would have passed by. */
-#define MOST_GROWN_BOXES 0.1
+/* A view may show a small part of the scene, so every part counts that holds more than a sixteenth of the leaves: lines
+   that enter its box visit so many nodes and triangles, in multiples of its exact tree's, at most. Over the whole
+   scene the growth says nothing: what is small is hardly ever hit. */
+#define LEAST_PART 16
+#define MOST_GROWTH 2
+
+struct visits {
+  double exact, on_grid; /* by the surface-area heuristic, with exact boxes and with those on the grid */
+  uint32_t leaves;
+};
+
+/* False: a part's visits grow by more. Recursion is bounded by the tree's depth, at most TRAX_SCENE_MAX_DEPTH. */
+static bool count_visits(struct visits *visits, struct scene_box *box, const struct scene_tree *tree,
+                         const struct trax_scene_grid *grid, uint32_t least_leaves, uint32_t index) {
+  const struct scene_tree_node *node = &tree->nodes[index];
+  *visits = (struct visits){.leaves = node->triangle_count > 0};
+  *box = node->triangle_count ? node->box : scene_empty_box();
+  bool suits = true;
+  for (int i = 0; i < 2 && node->triangle_count == 0 && suits; i++) {
+    struct visits below;
+    struct scene_box part;
+    suits = count_visits(&below, &part, tree, grid, least_leaves, node->child[i]);
+    scene_box_add_box(box, &part);
+    visits->exact += below.exact, visits->on_grid += below.on_grid, visits->leaves += below.leaves;
+  }
+  const struct scene_box cells = scene_box_in_cells(grid, box);
+  const double x = ((double)cells.max[0] - cells.min[0]) * grid->cell[0];
+  const double y = ((double)cells.max[1] - cells.min[1]) * grid->cell[1];
+  const double z = ((double)cells.max[2] - cells.min[2]) * grid->cell[2];
+  const double tests = node->triangle_count ? node->triangle_count : 1;
+  visits->exact += tests * scene_half_area(box->min, box->max);
+  visits->on_grid += tests * (x * y + y * z + z * x);
+  return suits && (visits->leaves < least_leaves || visits->on_grid <= MOST_GROWTH * visits->exact);
+}
 
 bool scene_grid_suits(const struct scene_tree *tree) {
   const struct trax_scene_grid grid = trax_scene_grid_of(tree->bounds.min, tree->bounds.max);
-  const double growth = (double)grid.cell[0] + grid.cell[1] + grid.cell[2];
-  uint32_t leaves = 0, grown = 0;
-  for (uint32_t i = 0; i < tree->node_count; i++) {
-    const struct scene_tree_node *node = &tree->nodes[i];
-    if (node->triangle_count == 0)
-      continue;
-    double size = 0;
-    for (int axis = 0; axis < 3; axis++)
-      size += (double)node->box.max[axis] - node->box.min[axis];
-    leaves++;
-    grown += growth > size;
-  }
-  return grown <= MOST_GROWN_BOXES * leaves;
+  struct visits visits;
+  struct scene_box box;
+  return count_visits(&visits, &box, tree, &grid, (tree->node_count - tree->inner_count) / LEAST_PART + 1, 0);
 }
 
 void scene_node_write(void *node, enum trax_node_layout layout, const struct trax_scene_grid *grid,

@@ -33,7 +33,7 @@ static const char usage[] =
     "      --allow-empty            write a scene without triangles if the mesh has none\n"
     "      --nodes KIND             binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an "
     "axis;\n"
-    "                               auto (default): quantised, if the grid is fine enough for nine leaves in ten\n"
+    "                               auto (default): quantised, if the grid is fine enough for each large part of the tree\n"
     "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"
     "      --splits[=FACTOR]        splits large triangles, which then stand in several leaves: room for FACTOR times\n"
     "                               as many, 1 (none) to 8, without FACTOR 1.5; =auto (default): so, if many are "
