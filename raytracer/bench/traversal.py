@@ -17,20 +17,21 @@ import tempfile
 
 from lean import SCENES, find
 
-# Name, options of trax-scene.
+# Name, options of trax-scene, options of trax-render.
 WAYS = [
-    ("binary", ["--nodes", "binary", "--splits=1"]),
-    ("quantised", ["--nodes", "quantised", "--splits=1"]),
-    ("binary, splits", ["--nodes", "binary", "--splits"]),
-    ("quantised, splits", ["--nodes", "quantised", "--splits"]),
-    ("quantised, splits 3", ["--nodes", "quantised", "--splits=3"]),
-    ("leaves of 1", ["--nodes", "quantised", "--splits=1", "--leaf", "1"]),
-    ("leaves of 2", ["--nodes", "quantised", "--splits=1", "--leaf", "2"]),
-    ("leaves of 7", ["--nodes", "quantised", "--splits=1", "--leaf", "7"]),
-    ("node costs 1/2 triangle", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "0.5"]),
-    ("node costs 2 triangles", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "2"]),
-    ("depth first", ["--nodes", "quantised", "--splits=1", "--cache-lines", "1"]),
-    ("by itself", []),
+    ("binary", ["--nodes", "binary", "--splits=1"], []),
+    ("quantised", ["--nodes", "quantised", "--splits=1"], []),
+    ("binary, splits", ["--nodes", "binary", "--splits"], []),
+    ("quantised, splits", ["--nodes", "quantised", "--splits"], []),
+    ("quantised, splits 3", ["--nodes", "quantised", "--splits=3"], []),
+    ("leaves of 1", ["--nodes", "quantised", "--splits=1", "--leaf", "1"], []),
+    ("leaves of 2", ["--nodes", "quantised", "--splits=1", "--leaf", "2"], []),
+    ("leaves of 7", ["--nodes", "quantised", "--splits=1", "--leaf", "7"], []),
+    ("node costs 1/2 triangle", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "0.5"], []),
+    ("node costs 2 triangles", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "2"], []),
+    ("depth first", ["--nodes", "quantised", "--splits=1", "--cache-lines", "1"], []),
+    ("by itself", [], []),
+    ("by itself, a queue for each TM", [], ["--queues", "tms"]),
 ]
 
 
@@ -46,7 +47,7 @@ def main():
     configs = options.configs.split(",")
     ways = [way for way in WAYS if not options.only or way[0] in options.only.split(";")]
     if not ways:
-        sys.exit(f"traversal.py: error: --only: the ways are {', '.join(name for name, _ in WAYS)}")
+        sys.exit(f"traversal.py: error: --only: the ways are {', '.join(name for name, *_ in WAYS)}")
 
     print(f"{options.size}")
     print("| scene | stored | bytes | " + " | ".join(f"{config}: MRPS | bytes/ray | instructions/ray" for config in configs) + " |")
@@ -59,12 +60,12 @@ def main():
                 continue
             meshes = [find(options.scenes, file) for file in files]
             first = None
-            for way, how in ways:
+            for way, how, shown in ways:
                 stored = scratch / "scene.trax"
                 subprocess.run([options.bin / "trax-scene", "--quiet", *meshes, "-o", stored, *how], check=True)
                 cells = []
                 for config in configs:
-                    subprocess.run([options.bin / "trax-render", stored, "--view", scene, "--config", config, "--size", options.size, "--quiet",
+                    subprocess.run([options.bin / "trax-render", stored, "--view", scene, "--config", config, "--size", options.size, "--quiet", *shown,
                                     "--cache", scratch / "cache", "--stats", scratch / "stats.json", "-o", scratch / "picture.png"], check=True)
                     run = json.loads((scratch / "stats.json").read_text())
                     cells += [f"{run['mrps']:.2f}", f"{run['memory']['bytes'] / run['rays']:.0f}", f"{run['instructions'] / run['rays']:.0f}"]

@@ -10,13 +10,14 @@
 #include "record.h"
 #include "run.h"
 #include "shade.h"
+#include "slots.h"
 #include "traverse.h"
 #include "trax/render_params.h"
 
 #include <trax.h>
 
 struct trax_buffer scene;
-unsigned next_slot; /* shared by all threads: the atomic increment hands out the pixels */
+unsigned next_slot[TRAX_QUEUES]; /* shared by all threads: the atomic increment hands out each queue's pixels */
 struct trax_buffer image, params, paths;
 #ifdef TRAX_RECORD
 struct trax_buffer record;
@@ -109,8 +110,8 @@ next_sample:
 
 /* The paper's workload. */
 static RENDER_ALL void render_all(const struct trax_render_params *run) {
-  uint32_t slot;
-  while ((slot = trax_atomic_inc(&next_slot)) < run->slot_count) {
+  uint32_t slot, queue = first_queue();
+  while (take_slot(run, next_slot, &queue, &slot)) {
     struct pixel pixel;
     HIDE_ORIGIN(slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
     if (!slot_pixel(run, slot, &pixel))
@@ -133,8 +134,8 @@ static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
 #else
   struct path *path = path_of_thread();
 #endif
-  uint32_t slot;
-  while ((slot = trax_atomic_inc(&next_slot)) < run->slot_count) {
+  uint32_t slot, queue = first_queue();
+  while (take_slot(run, next_slot, &queue, &slot)) {
     struct pixel pixel;
     HIDE_ORIGIN(slot);
     if (!slot_pixel(run, slot, &pixel))

@@ -50,12 +50,14 @@ static trax_status general_program(struct trax_program *program, const struct op
 
 /* The specialised program, or, with a note, the general one. */
 static trax_status find_program(struct trax_program *program, const struct options *options,
-                                const struct trax_frame *frame, const volatile int *interrupt, trax_error *error) {
+                                const struct trax_frame *frame, unsigned queues, const volatile int *interrupt,
+                                trax_error *error) {
   trax_status status = general_program(program, options, error);
   if (status != TRAX_OK || options->program || options->no_specialise)
     return status;
   char root[TRAX_PATH_SIZE], note[256] = "";
-  struct trax_specialise_options specialise = {.root = root, .cache = options->cache, .interrupt = interrupt};
+  struct trax_specialise_options specialise = {
+      .root = root, .cache = options->cache, .queues = queues, .interrupt = interrupt};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
   status = trax_program_specialise(program, frame, &specialise, note, error);
@@ -325,11 +327,25 @@ static trax_status report(struct trax_picture *picture, const struct options *op
   return status;
 }
 
+static trax_status count_tms(unsigned *tms, const struct options *options, const struct trax_frame *frame,
+                             trax_error *error) {
+  trax_config *config = trax_config_create();
+  const trax_status status =
+      config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
+  if (status == TRAX_OK)
+    *tms = config->chip.tms;
+  trax_config_destroy(config);
+  return status;
+}
+
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
                     struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
   struct trax_program program;
   progress_show(progress, "compiling", -1, NULL);
-  trax_status status = find_program(&program, options, frame, interrupt, error);
+  unsigned queues = options->queues;
+  trax_status status = options->queue_per_tm ? count_tms(&queues, options, frame, error) : TRAX_OK;
+  if (status == TRAX_OK)
+    status = find_program(&program, options, frame, queues, interrupt, error);
   if (status != TRAX_OK)
     return status;
   if (!options->report)

@@ -28,7 +28,9 @@ struct options {
   size_t mesh_count;
   const char *output;
   const char *config;
-  const char *view; /* NULL: framed automatically */
+  unsigned queues;   /* of pixels; 0: 1 */
+  bool queue_per_tm; /* instead */
+  const char *view;  /* NULL: framed automatically */
   struct camera_options camera;
   unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */

@@ -90,6 +90,7 @@ void trax_scene_relocate(void *bytes, uint32_t address);
 /* --- specialise.c: the program for the TPs --- */
 
 #define TRAX_PATH_SIZE 4096
+#define TRAX_MAX_QUEUES 16
 
 struct trax_program {
   char path[TRAX_PATH_SIZE];
@@ -100,6 +101,7 @@ struct trax_specialise_options {
   const char *root;              /* where trax is installed: bin, lib/trax */
   const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
+  unsigned queues;               /* of pixels (device/slots.h), TRAX_MAX_QUEUES at most; 0: 1 */
   bool record;                   /* it tells what trax/record.h says, too; not for measuring time: its stack is in
                                     global memory */
 };

@@ -52,7 +52,7 @@ static bool join(char path[TRAX_PATH_SIZE], const char *folder, const char *name
 /* --- the constants --- */
 
 /* As words, so that every bit is kept and no field is forgotten. */
-static char *constants_text(const struct trax_frame *frame) {
+static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   /* What is behind the parameters, as far as it is always there. */
   const bool path = frame->params->features & TRAX_PATH_FEATURES;
   const size_t behind =
@@ -78,6 +78,8 @@ static char *constants_text(const struct trax_frame *frame) {
   fputs(" */\n", out);
   if (frame->method.triangle == TRAX_TRIANGLE_MOLLER_TRUMBORE)
     fputs("#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE\n", out);
+  if (queues > 1)
+    fprintf(out, "#define TRAX_QUEUES %u\n", queues < TRAX_MAX_QUEUES ? queues : TRAX_MAX_QUEUES);
   fprintf(out,
           "#define TRAX_STACK_ENTRIES %u\n"
           "#define TRAX_NODE_LAYOUT %u\n\n"
@@ -371,7 +373,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     snprintf(note, 256, "no place for compiled programs: neither XDG_CACHE_HOME nor HOME is set");
     return note_or_error(&frame->method, options->record, note, error);
   }
-  char *constants = constants_text(frame);
+  char *constants = constants_text(frame, options->queues);
   if (!constants)
     return trax_fail(error, "out of memory");
   trax_status status = make_key(key, options->root, constants, chosen, chosen_count, &reason);

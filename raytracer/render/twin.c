@@ -14,7 +14,7 @@
 
 /* The program's own (raytracer/device/main.c), the variables common to all. */
 extern struct trax_buffer scene, params, image, paths, record;
-extern unsigned next_slot;
+extern unsigned next_slot[1];
 int trax_twin_watertight(void);
 int trax_twin_moller_trumbore(void);
 int trax_twin_recording(void);
@@ -63,10 +63,10 @@ static bool wait_for_crew(struct crew *crew, uint32_t slot_count, const struct t
     until.tv_sec += until.tv_nsec / 1000000000;
     until.tv_nsec %= 1000000000;
     pthread_cond_timedwait(&crew->changed, &crew->lock, &until);
-    uint32_t begun = __atomic_load_n(&next_slot, __ATOMIC_RELAXED);
+    uint32_t begun = __atomic_load_n(next_slot, __ATOMIC_RELAXED);
     if (run->interrupt && *run->interrupt && !interrupted) {
       interrupted = true;
-      __atomic_store_n(&next_slot, slot_count, __ATOMIC_RELAXED); /* nothing left to hand out */
+      __atomic_store_n(next_slot, slot_count, __ATOMIC_RELAXED); /* nothing left to hand out */
     } else if (run->progress && !interrupted) {
       run->progress(run->progress_context, begun < slot_count ? begun : slot_count, slot_count);
     }
@@ -94,7 +94,7 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
   params = (struct trax_buffer){frame->params, frame->params_size};
   image = (struct trax_buffer){pixels, image_bytes};
   paths = (struct trax_buffer){path_bytes, threads * TRAX_PATH_BYTES};
-  next_slot = 0;
+  next_slot[0] = 0;
   trax_access_log = run->accesses;
   if (run->accesses)
     threads = 1;

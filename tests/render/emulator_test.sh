@@ -36,6 +36,20 @@ for chip in 1x32 2x64; do # the same picture on any chip
 done
 same "$source/box.obj" $view --size 64x36 --config 1x32 --set memory.latency_cycles=7 --set dcache.bytes=1024
 "$bin/trax-compare" -q x.png box.png || fail "timing changes the picture"
+# Queues of pixels, as many as TMs, fewer, and more: every pixel once.
+for queues in 1 3 16 tms; do
+  same "$source/box.obj" $view --size 203x101 --config 6x32 --queues $queues --stats queues$queues.json
+  cp x.png queues$queues.png
+  "$bin/trax-compare" -q x.png queues1.png || fail "--queues $queues renders another picture"
+  grep -q '"items": 20503' queues$queues.json || fail "--queues $queues: not every pixel counted"
+done
+bytes() { sed -n 's/^ *"data_read_bytes": \([0-9]*\),*$/\1/p' "$1" | head -n 1; }
+if [ -r $bunny ]; then
+  for queues in 1 tms; do
+    "$bin/trax-render" $bunny --view bunny --size 160x90 --config 8x32 --queues $queues -o x.png -q --stats bunny$queues.json || fail "bunny"
+  done
+  [ "$(bytes bunnytms.json)" -lt "$(bytes bunny1.json)" ] || fail "--queues tms: no fewer bytes: $(bytes bunnytms.json)"
+fi
 same "$source/box.obj" --size 1x1 # one pixel, 128 threads
 same "$source/box.obj" $view --size 1x61
 same "$source/box.obj" $view --size 61x1

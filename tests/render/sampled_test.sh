@@ -125,6 +125,7 @@ refuse 'nothing to compare' --sampled --compare
 refuse 'nothing to compare' --sampled --profile x.txt
 refuse 'nothing to compare' --sampled --cost-picture y.png
 refuse '--fast-math' --sampled --fast-math
+refuse '--queues' --sampled --queues tms
 
 [ $failures -eq 0 ] && echo "sampled runs as expected"
 exit $((failures > 0))

@@ -16,7 +16,7 @@ void kernel_setup(void) {
 }
 
 struct result kernel_run(void) {
-  next_slot = 0;
+  next_slot[0] = 0;
   ray_tracer_main();
   uint32_t checksum = 0, sum = 0;
   for (int i = 0; i < WIDTH * HEIGHT; i++) {

@@ -1,0 +1,44 @@
+/* Which slot a thread takes next (trax/render_params.h says what slots are). A specialised program may have TRAX_QUEUES
+   queues, in which every so many-th tile waits. A TM begins with its own, so that with as many queues as TMs a tile is
+   seen through one cache; who finds his queue empty goes on with the next one. */
+#ifndef TRAX_DEVICE_SLOTS_H
+#define TRAX_DEVICE_SLOTS_H
+
+#include "bits.h"
+#include "trax/render_params.h"
+
+#include <stdbool.h>
+#include <trax.h>
+
+#ifndef TRAX_QUEUES
+#define TRAX_QUEUES 1
+#endif
+
+/* On a chip of more TMs than there are queues several have one. */
+static inline uint32_t first_queue(void) {
+  if (TRAX_QUEUES == 1)
+    return 0;
+  uint32_t queue = trax_tm();
+  while (queue >= TRAX_QUEUES)
+    queue -= TRAX_QUEUES;
+  return queue;
+}
+
+/* False: there is none left. next: of each queue, how many were taken, and how often someone found it empty. */
+static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t *queue,
+                             uint32_t *slot) {
+  if (TRAX_QUEUES == 1)
+    return (*slot = trax_atomic_inc(next)) < run->slot_count;
+  const uint32_t tile_bits = run->tile_log2_width + run->tile_log2_height;
+  for (;;) {
+    const uint32_t number = trax_atomic_inc(&next[*queue]);
+    *slot = ((number >> tile_bits) * TRAX_QUEUES + *queue) << tile_bits | (number & ((1u << tile_bits) - 1));
+    if (*slot < run->slot_count)
+      return true;
+    *queue = *queue + 1 < TRAX_QUEUES ? *queue + 1 : 0;
+    if (*queue == first_queue())
+      return false;
+  }
+}
+
+#endif
