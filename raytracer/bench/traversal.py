@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """How scenes are stored against how fast they are traversed: a table with a row for each way and scene.
 
-    raytracer/bench/traversal.py SCENES_DIRECTORY [--size 320x180] [--configs 4x32,8x64] [--only WAY,...] [--scene NAME]
-                                 [--bin build/bin]
+    raytracer/bench/traversal.py SCENES_DIRECTORY [--size 320x180] [--configs 4x32,8x64] [--only WAY;...] [--scene NAME]
+                                 [--stacks 2,4,8,12,16,62] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. Every way renders the same picture, which is checked. For each chip: million rays a second, bytes
-from and to memory a ray, instructions a ray.
+from and to memory a ray, instructions a ray. With --stacks: how many entries the traversal's stack has, instead of how scenes are stored.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from lean import SCENES, find
+from lean import SCENES, figures, find
 
 # Name, options of trax-scene, options of trax-render.
 WAYS = [
@@ -35,6 +35,38 @@ WAYS = [
 ]
 
 
+def stacks(options, configs):
+    """A row for each scene, chip and number of entries; the last one is what the others are compared with. How many pictures differ."""
+    entries = options.stacks.split(",")
+    print(f"{options.size}")
+    print("| scene | chip | entries | bytes of stack | instructions run | cycles | bytes from and to memory | change of cycles |")
+    print("| --- |" + " --- |" * 7)
+    different = 0
+    with tempfile.TemporaryDirectory() as name:
+        scratch = pathlib.Path(name)
+        for scene, files in SCENES:
+            if options.scene and scene != options.scene:
+                continue
+            stored = scratch / "scene.trax"
+            subprocess.run([options.bin / "trax-scene", "--quiet", *[find(options.scenes, file) for file in files], "-o", stored], check=True)
+            for config in configs:
+                rows, pictures = [], set()
+                for count in entries:
+                    run = subprocess.run([options.bin / "trax-render", stored, "--view", scene, "--config", config, "--size", options.size,
+                                          "--quiet", "--report", "--stack", count, "--cache", scratch / "cache", "-o", scratch / "picture.png"],
+                                         stdout=subprocess.PIPE, text=True, check=False)
+                    if run.returncode not in (0, 1) or not run.stdout:
+                        sys.exit("traversal.py: error: trax-render failed")
+                    different += run.returncode
+                    pictures.add((scratch / "picture.png").read_bytes())
+                    rows.append((count, {row: pair[1] for row, pair in figures(run.stdout).items()}))
+                different += len(pictures) - 1
+                for count, found in rows:
+                    print(f"| {scene} | {config} | {count} | {found['bytes of stack']} | {found['instructions run']:,} | {found['cycles']:,} | "
+                          f"{found['bytes from and to memory']:,} | {100 * (found['cycles'] / rows[-1][1]['cycles'] - 1):+.1f} % |", flush=True)
+    return different
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("scenes", type=pathlib.Path)
@@ -42,12 +74,18 @@ def main():
     parser.add_argument("--configs", default="4x32,8x64")
     parser.add_argument("--only", help="ways, separated by ';'")
     parser.add_argument("--scene")
+    parser.add_argument("--stacks", help="numbers of entries, separated by ','")
     parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/bin")
     options = parser.parse_args()
     configs = options.configs.split(",")
     ways = [way for way in WAYS if not options.only or way[0] in options.only.split(";")]
     if not ways:
         sys.exit(f"traversal.py: error: --only: the ways are {', '.join(name for name, *_ in WAYS)}")
+
+    if options.stacks:
+        different = stacks(options, configs)
+        print(f"pictures {'different: ' + str(different) if different else 'identical in every bit'}")
+        return 1 if different else 0
 
     print(f"{options.size}")
     print("| scene | stored | bytes | " + " | ".join(f"{config}: MRPS | bytes/ray | instructions/ray" for config in configs) + " |")

@@ -2,7 +2,8 @@
    compiled behind a file of constants (render/specialise.c writes it) that has
 
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
-     TRAX_STACK_ENTRIES          as many as this scene takes
+     TRAX_TREE_DEPTH             that of this scene
+     TRAX_STACK_ENTRIES          as many, or fewer (stack.h)
      TRAX_NODE_LAYOUT            that of this scene
      trax_constants              the parameters, and what is behind them: the first colour of the palette, or struct
                                  trax_path_params; the compiler folds their loads into the instructions
@@ -39,8 +40,16 @@ extern struct trax_buffer scene, params, image;
 #endif
 #define RUN_GRID(run) (RUN_LAYOUT(run) == TRAX_NODES_BINARY ? NULL : &(run)->grid)
 
+/* The general program has a short stack; the host has room. */
+#ifndef TRAX_TREE_DEPTH
+#define TRAX_TREE_DEPTH TRAX_SCENE_MAX_DEPTH
+#endif
 #ifndef TRAX_STACK_ENTRIES
-#define TRAX_STACK_ENTRIES TRAX_SCENE_MAX_DEPTH
+#ifdef __trax__
+#define TRAX_STACK_ENTRIES TRAX_SHORT_STACK
+#else
+#define TRAX_STACK_ENTRIES TRAX_TREE_DEPTH
+#endif
 #endif
 
 #if defined TRAX_SPECIALISED_FEATURES && !defined TRAX_PARAMS_IN_MEMORY

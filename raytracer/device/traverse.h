@@ -8,6 +8,7 @@
 #include "access.h"
 #include "ray.h"
 #include "run.h"
+#include "stack.h"
 #include "trax/scene_format.h"
 
 #include <stdbool.h>
@@ -54,58 +55,81 @@ static inline __attribute__((always_inline)) int32_t plane_distance(bool on_grid
       goto MISSED;                                                                                                     \
   } while (0)
 
-/* The stack holds the farther child of every inner node above the current one: TRAX_SCENE_MAX_DEPTH bounds it, which
-   the host checks; TRAX_STACK_ENTRIES is that or what the scene takes. */
-struct stack_entry {
-  trax_scene_ref reference;
-  int32_t enter; /* where the ray enters its box */
-};
-
 /* Goes from a node to the nearer of the children that the ray enters; the other one is put on the stack. False: it
    enters none. */
 static inline __attribute__((always_inline)) bool visit_node(bool on_grid, const char *node, const struct ray *ray,
                                                              int32_t limit, trax_scene_ref *reference,
-                                                             struct stack_entry **top) {
+                                                             struct stack_entry *stack, struct stack_entry **top,
+                                                             struct trail *trail) {
   const int plane = on_grid ? 2 : 4, second_box = 6 * plane, children = 12 * plane;
   int32_t enter0, enter1;
   ENTER_BOX(0, enter0, second_only);
   ENTER_BOX(second_box, enter1, first_only);
   if (enter0 <= enter1) {
     *reference = load_word(node + children);
-    *(*top)++ = (struct stack_entry){load_word(node + children + 4), enter1};
+    stack_push(stack, top, load_word(node + children + 4), enter1);
+    trail_descend(trail, false, false);
   } else {
     *reference = load_word(node + children + 4);
-    *(*top)++ = (struct stack_entry){load_word(node + children), enter0};
+    stack_push(stack, top, load_word(node + children), enter0);
+    trail_descend(trail, true, false);
   }
   return true;
 first_only:
   *reference = load_word(node + children);
+  trail_descend(trail, false, true);
   return true;
 second_only:
   ENTER_BOX(second_box, enter1, neither);
   *reference = load_word(node + children + 4);
+  trail_descend(trail, true, true);
   return true;
 neither:
   return false;
 }
 
+/* From the root to the child that the trail leads to, whose entry the stack has lost. It may be behind the nearest hit,
+   which a visit finds out: to test its box here takes more than it saves. */
+static inline trax_scene_ref find_again(uint32_t layout, const char *scene, trax_scene_ref root,
+                                        const struct trail *trail) {
+  const int children = layout == TRAX_NODES_BINARY ? 48 : 24;
+  trax_scene_ref reference = root;
+  uint32_t level = TRAIL_END, second = TRAIL_IS_LONG && trail->below ? trail->upper_second : trail->second;
+  bool upper = TRAIL_IS_LONG && trail->below;
+  do {
+    const char *node = scene_at(scene, reference);
+    ACCESS_NODE(node);
+    if (upper && level == 1)
+      upper = false, level = TRAIL_END, second = trail->second;
+    level >>= 1;
+    reference = load_word(node + children + (second & level ? 4 : 0));
+  } while (upper || level != trail->level);
+  return reference;
+}
+
 /* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The probabilities
    tell the register allocator what matters: rays visit many more nodes than triangles. */
-static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene,
-                                                            trax_scene_ref reference, const struct ray *ray, bool any,
-                                                            struct hit *hit) {
-  struct stack_entry stack[TRAX_STACK_ENTRIES], *top = stack;
+static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene, trax_scene_ref root,
+                                                            const struct ray *ray, bool any, struct hit *hit) {
+  struct stack_entry stack[TRAX_STACK_ENTRIES], *top = stack, entry;
+  struct trail trail;
+  trax_scene_ref reference = root;
 #define LIMIT() (layout == TRAX_NODES_BINARY ? hit->distance_bits : distance_on_grid(hit->distance_bits))
   int32_t limit = LIMIT(); /* boxes that begin there or later are left out */
 
-  if (reference == 0)
+  if (root == 0)
     return false;
+  if (STACK_IS_SHORT)
+    trail_begin(&trail);
+  stack_begin(stack);
   for (;;) {
     while (__builtin_expect_with_probability(TRAX_SCENE_REF_COUNT(reference) == 0, 1, 0.95)) {
       const char *node = scene_at(scene, reference);
       ACCESS_NODE(node);
-      if (!(layout == TRAX_NODES_BINARY ? visit_node(false, node, ray, limit, &reference, &top)
-                                        : visit_node(true, node, ray, limit, &reference, &top)))
+      if (STACK_IS_SHORT)
+        trail_make_room(&trail);
+      if (!(layout == TRAX_NODES_BINARY ? visit_node(false, node, ray, limit, &reference, stack, &top, &trail)
+                                        : visit_node(true, node, ray, limit, &reference, stack, &top, &trail)))
         goto back;
     }
 
@@ -124,11 +148,15 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
   back:
     KEEP_ROLLED
     do {
-      if (top == stack)
+      if (STACK_IS_SHORT ? !trail_back(&trail) : top == stack)
         return hit->triangle != NULL;
-      top--;
-    } while (top->enter >= limit);
-    reference = top->reference;
+      entry = stack_pop(stack, &top);
+      if (STACK_IS_SHORT && __builtin_expect(entry.reference == 0, 0)) {
+        entry.reference = find_again(layout, scene, root, &trail);
+        break;
+      }
+    } while (entry.enter >= limit);
+    reference = entry.reference;
   }
 }
 

@@ -13,7 +13,6 @@ struct trax_buffer plain_nodes, plain_triangles, params, image;
 unsigned next_pixel; /* shared by all threads */
 
 #define EPSILON 1e-4f /* of the distance: how far a shadow ray's origin is off the surface */
-#define MAX_DEPTH 40
 
 struct vector {
   float x, y, z;
@@ -92,7 +91,7 @@ static inline void hit_triangle(const struct ray *ray, const struct trax_plain_t
 static __attribute__((noinline)) void trace(const struct ray *ray, struct hit *hit) {
   const struct trax_plain_node *nodes = plain_nodes.data;
   const struct trax_plain_triangle *triangles = plain_triangles.data;
-  unsigned stack[MAX_DEPTH], top = 0, number = 0;
+  unsigned stack[TRAX_PLAIN_MAX_DEPTH], top = 0, number = 0;
   for (;;) {
     const struct trax_plain_node *node = &nodes[number];
     if (node->count < 0) {

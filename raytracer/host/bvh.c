@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Defaults; docs/raytracer.md tells how they were measured. */
-enum { default_max_leaf = 4, default_max_depth = TRAX_SCENE_MAX_DEPTH };
+enum { default_max_leaf = 4, default_max_depth = TRAX_SCENE_DEFAULT_DEPTH };
 static const float default_traversal_cost = 1, default_intersection_cost = 1;
 
 /* One thread and one instruction set: the surface areas are rounded in the same way on every host. */

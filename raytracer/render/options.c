@@ -76,6 +76,9 @@ static const char usage[] =
     "      --queues N          how many queues the pixels wait in, 1 to 16; tms: one for each TM, whose threads\n"
     "                          then share tiles and the cache's lines (default 1)\n"
     "      --fast-math         compiles the program with -ffast-math: its picture is not the twin's in every bit\n"
+    "      --stack N           compiles the program with N entries on the stack of the traversal, 1 to 62; what it has "
+    "no\n"
+    "                          room for it finds again (default: as many as the tree is deep, 16 if deeper than 32)\n"
     "      --bench-accuracy    renders by each method and precision and prints what each costs and how wrong it is;\n"
     "                          -o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
     "                          so that a run that was stopped goes on\n"
@@ -143,6 +146,7 @@ enum {
   OPT_TRIANGLE,
   OPT_QUEUES,
   OPT_FAST_MATH,
+  OPT_STACK,
   OPT_BENCH_ACCURACY,
   OPT_KEEP,
   OPT_PREPARE,
@@ -201,6 +205,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"triangle", required_argument, NULL, OPT_TRIANGLE},
                                              {"queues", required_argument, NULL, OPT_QUEUES},
                                              {"fast-math", no_argument, NULL, OPT_FAST_MATH},
+                                             {"stack", required_argument, NULL, OPT_STACK},
                                              {"bench-accuracy", no_argument, NULL, OPT_BENCH_ACCURACY},
                                              {"keep", required_argument, NULL, OPT_KEEP},
                                              {"prepare", required_argument, NULL, OPT_PREPARE},
@@ -467,6 +472,11 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_FAST_MATH:
     options->frame.method.fast_math = true;
     return TRAX_OK;
+  case OPT_STACK:
+    if (!parse_number(&value, TRAX_SCENE_MAX_DEPTH, &options->frame.method.stack) || *value != '\0' ||
+        options->frame.method.stack == 0)
+      return trax_fail(error, "--stack: expected a number from 1 to %u", TRAX_SCENE_MAX_DEPTH);
+    return TRAX_OK;
   case OPT_BENCH_ACCURACY:
     options->bench_accuracy = true;
     return TRAX_OK;
@@ -582,6 +592,8 @@ static trax_status check(const struct options *options, trax_error *error) {
     if (options->frame.samples != 1 || options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT ||
         options->frame.method.fast_math)
       return trax_fail(error, "--bench-accuracy varies --samples, --triangle and --fast-math itself");
+    if (options->frame.method.stack)
+      return trax_fail(error, "--bench-accuracy is about pictures, which --stack leaves as they are");
     if (options->stats || options->cost_picture || options->cost_values || options->compare || options->report ||
         options->keep || options->prepare || options->frames > 1 || options->id_picture ||
         trax_explain_wanted(&options->explain))
@@ -616,6 +628,8 @@ static trax_status check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
     if (options->frame.method.fast_math)
       return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
+    if (options->frame.method.stack)
+      return trax_fail(error, "--stack needs the emulator: it is about the program that is compiled for it");
     if (options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT && options->engine == ENGINE_EMBREE)
       return trax_fail(error, "--triangle: engine embree has a test of its own");
   }
@@ -623,6 +637,9 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--queues needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
   const struct trax_method *method = &options->frame.method;
+  if (method->stack && (options->no_specialise || options->program))
+    return trax_fail(error, "--stack needs a program compiled for the picture; %s asks for another",
+                     options->program ? "--program" : "--no-specialise");
   if (method->triangle != TRAX_TRIANGLE_WATERTIGHT || method->fast_math) {
     const char *name = method->fast_math ? "--fast-math" : "--triangle";
     if (options->no_specialise || options->program)

@@ -21,7 +21,7 @@ static float not_above(double value) {
   return rounded > value ? nextafterf(rounded, -INFINITY) : rounded;
 }
 
-/* Recursion is as deep as the tree: TRAX_SCENE_MAX_DEPTH. */
+/* Recursion is as deep as the tree: TRAX_PLAIN_MAX_DEPTH. */
 static void place(struct walk *walk, uint32_t number, trax_scene_ref reference) {
   struct trax_plain_node *node = &walk->nodes[number];
   const uint32_t offset = TRAX_SCENE_REF_OFFSET(reference);
@@ -64,6 +64,10 @@ trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene
   const trax_image *image = trax_host_of(machine)->image;
   trax_status status = TRAX_OK;
   if (trax_image_symbol(image, "plain_nodes")) {
+    if (scene->header->max_depth > TRAX_PLAIN_MAX_DEPTH)
+      return trax_fail(error,
+                       "the program takes scenes of %d nodes from the root to a leaf, not %u (trax-scene --depth)",
+                       TRAX_PLAIN_MAX_DEPTH, scene->header->max_depth);
     const uint32_t count = 2 * scene->node_count + 2;
     struct trax_plain_node *nodes = NULL;
     status = make_nodes(&nodes, scene, count, error);

@@ -25,6 +25,8 @@ extern const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS]; /* as optio
 struct trax_method {
   enum trax_triangle_method triangle; /* device/triangle.h */
   bool fast_math;                     /* -ffast-math: only a specialised program has it, not the twin */
+  uint32_t stack;                     /* entries at most, of a specialised program; 0: as many as the scene is deep, or
+                                         TRAX_SHORT_STACK if that is more than TRAX_SCENE_DEFAULT_DEPTH */
 };
 
 struct trax_frame {

@@ -66,7 +66,10 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   FILE *out = open_memstream(&text, &size);
   if (!out)
     return NULL;
-  const uint32_t depth = frame->scene->header->max_depth;
+  const uint32_t depth = frame->scene->header->max_depth ? frame->scene->header->max_depth : 1;
+  const uint32_t entries = frame->method.stack                ? frame->method.stack
+                           : depth > TRAX_SCENE_DEFAULT_DEPTH ? TRAX_SHORT_STACK
+                                                              : depth;
   fprintf(out,
           "/* One picture's constants; device/run.h says what they are. */\n"
           "#include \"trax/render_params.h\"\n\n"
@@ -81,6 +84,7 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   if (queues > 1)
     fprintf(out, "#define TRAX_QUEUES %u\n", queues < TRAX_MAX_QUEUES ? queues : TRAX_MAX_QUEUES);
   fprintf(out,
+          "#define TRAX_TREE_DEPTH %u\n"
           "#define TRAX_STACK_ENTRIES %u\n"
           "#define TRAX_NODE_LAYOUT %u\n\n"
           "static const union {\n"
@@ -90,7 +94,7 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
           "    %s behind;\n"
           "  };\n"
           "} trax_constants __attribute__((unused)) = {{",
-          depth ? depth : 1, frame->params->node_layout, count,
+          depth, entries < depth ? entries : depth, frame->params->node_layout, count,
           path ? "struct trax_path_params" : "struct trax_palette_entry");
   for (size_t i = 0; i < count; i++)
     fprintf(out, "%s0x%08Xu,", i % 6 ? " " : "\n    ", words[i]);
@@ -355,9 +359,13 @@ static trax_status build(const char *root, const char *constants, const char *pr
 static trax_status note_or_error(const struct trax_method *method, bool record, const char *note, trax_error *error) {
   if (record)
     return trax_fail(error, "there is no program that records: %s", note);
-  if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math)
+  if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math && !method->stack)
     return TRAX_OK;
-  return trax_fail(error, "%s: there is no program for it: %s", method->fast_math ? "--fast-math" : "--triangle", note);
+  return trax_fail(error, "%s: there is no program for it: %s",
+                   method->fast_math ? "--fast-math"
+                   : method->stack   ? "--stack"
+                                     : "--triangle",
+                   note);
 }
 
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,

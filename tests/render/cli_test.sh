@@ -93,6 +93,12 @@ refuse '--fast-math needs a program.*--program asks' "$render" "$box" -o x.png -
 refuse '--report compares with the general' "$render" "$box" -o x.png --triangle moller-trumbore --report
 refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
 refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
+for entries in 0 63 -1 2x; do
+  refuse '--stack: expected a number from 1 to 62' "$render" "$box" -o x.png --stack $entries
+done
+refuse '--stack needs a program compiled.*--no-specialise' "$render" "$box" -o x.png --stack 2 --no-specialise
+refuse '--stack needs the emulator' "$render" "$box" -o x.png --stack 2 --engine native
+refuse 'which --stack leaves' "$render" "$box" -o x.png --stack 2 --bench-accuracy
 refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
 for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option

@@ -24,7 +24,7 @@ float random_unit(uint32_t *state);
 struct trax_view view_from(float ex, float ey, float ez, float dx, float dy, float dz, float fov, float lx, float ly,
                            float lz);
 
-/* A BVH that fills the device's stack: a chain of TRAX_SCENE_MAX_DEPTH inner nodes over parallel triangles, the nearer
+/* A BVH as deep as there may be: a chain of TRAX_SCENE_MAX_DEPTH inner nodes over parallel triangles, the nearer
    ones deeper for a ray along -z. */
 void chain_scene(struct trax_scene *scene);
 

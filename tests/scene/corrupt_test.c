@@ -400,7 +400,7 @@ static void test_messages(void **state) {
   expect(smaller_texture, "texels of no texture");
 }
 
-/* A chain deeper than the device's stack is refused, however well it is made. */
+/* A chain deeper than the device's trail is refused, however well it is made. */
 static void test_deep_chain(void **state) {
   (void)state;
   for (unsigned depth = TRAX_SCENE_MAX_DEPTH; depth <= TRAX_SCENE_MAX_DEPTH + 1; depth++) {

@@ -11,6 +11,8 @@
 
 #include <stdint.h>
 
+#define TRAX_PLAIN_MAX_DEPTH 40 /* inner nodes from the root to a leaf, at most */
+
 /* Two siblings stand one behind the other, in one line of 64 bytes; pairs follow in the order of a depth-first
    traversal. The root is number 0, and number 1 is none. A scene without triangles has one leaf of none. */
 struct trax_plain_node {

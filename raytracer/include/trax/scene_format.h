@@ -26,8 +26,9 @@
 #define TRAX_SCENE_MAGIC 0x53585254u /* the bytes "TRXS" */
 #define TRAX_SCENE_VERSION 2u
 #define TRAX_SCENE_ALIGNMENT 64u
-#define TRAX_SCENE_MAX_LEAF 7u   /* triangles in a leaf, at most */
-#define TRAX_SCENE_MAX_DEPTH 32u /* inner nodes from the root to a leaf, at most: bounds the device's stack */
+#define TRAX_SCENE_MAX_LEAF 7u       /* triangles in a leaf, at most */
+#define TRAX_SCENE_MAX_DEPTH 62u     /* inner nodes from the root to a leaf, at most */
+#define TRAX_SCENE_DEFAULT_DEPTH 32u /* the builder's: a stack for as many is in the device's memory as a whole */
 
 typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_COUNT(ref) ((ref) & 7u)   /* triangles of a leaf; 0: an inner node */
@@ -72,7 +73,7 @@ struct trax_scene_header {
   uint32_t checksum;       /* CRC-32 (ISO 3309, as in zlib) of the whole file with this field zero */
   trax_scene_ref root;     /* an inner node; a leaf if that holds all triangles; 0 if there are none */
   uint32_t max_depth;      /* most inner nodes on a path from the root; a traversal that pushes one child per inner
-                              node never has more entries on its stack */
+                              node never has more entries on its stack, and may have room for fewer */
   uint32_t max_leaf;       /* most triangles in one leaf */
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
   float bounds_min[3];     /* of all triangles; zeros if there are none */

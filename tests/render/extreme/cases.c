@@ -505,12 +505,13 @@ static void make_layers_4(struct setup *setup, uint32_t rays) {
 /* --- depth --- */
 
 /* Triangles each a little smaller than the one before, down through 179 octaves: surface areas alone lead to a tree
-   far deeper than the device's stack. */
+   far deeper than allowed, which is far deeper than the device's stack. */
 static void make_deep(struct setup *setup, uint32_t rays) {
   for (int i = 0; i < 5000; i++) {
     float size = exp2f(59 - 0.0358f * (float)i);
     triangle_at(setup, (float[]){size, 0, 0}, (float[]){0, size, 0}, (float[]){0, 0, size});
   }
+  setup->build.max_depth = TRAX_SCENE_MAX_DEPTH;
   for (uint32_t i = 0; i < rays; i++) {
     float size = exp2f(30 + 28 * any(setup));
     float at[3] = {0.3f * size, 0.3f * size, 0.3f * size};
@@ -519,12 +520,27 @@ static void make_deep(struct setup *setup, uint32_t rays) {
   }
 }
 
-static void make_chain(struct setup *setup, uint32_t rays) {
+/* The triangle at `turned` fills the other half of its box: half of the rays go down through all nodes, miss
+   everything, and must find it on the way back, when a short stack has lost it. */
+static void chain(struct setup *setup, uint32_t rays, uint32_t turned) {
   chain_scene(&setup->premade);
+  struct trax_triangle *triangle = (struct trax_triangle *)setup->premade.triangles + turned;
+  const float z = triangle->v0[2];
+  *triangle = (struct trax_triangle){{3, 3, z}, {-1, 3, z}, {3, -1, z}, 0};
   for (uint32_t i = 0; i < rays; i++) {
-    float from[3] = {any(setup), any(setup), i & 1 ? 5 : -60}, at[3] = {2 * any(setup), 2 * any(setup), -20};
+    float from[3] = {any(setup), any(setup), i & 1 ? 5 : -80}, at[3] = {2 * any(setup), 2 * any(setup), -20};
+    if (i & 2)
+      for (int axis = 0; axis < 2; axis++)
+        from[axis] = 2.2f + 0.5f * any(setup), at[axis] = from[axis];
     aim(setup, from, at);
   }
+}
+
+static void make_chain(struct setup *setup, uint32_t rays) {
+  chain(setup, rays, 5);
+}
+static void make_chain_below(struct setup *setup, uint32_t rays) {
+  chain(setup, rays, 40);
 }
 
 /* --- vertices that are no points --- */
@@ -757,8 +773,9 @@ const struct extreme_case extreme_cases[] = {
     {"layers-2", "layers 2 ulp apart", make_layers_2, 0},
     {"layers-3", "layers 3 ulp apart", make_layers_3, 0},
     {"layers-4", "layers 4 ulp apart", make_layers_4, 0},
-    {"deep", "5,000 triangles through 179 octaves: depth beyond the stack", make_deep, 0},
-    {"deepest", "a chain that fills the stack", make_chain, 0},
+    {"deep", "5,000 triangles through 179 octaves: depth beyond the stack", make_deep, CASE_DEPTH},
+    {"deepest", "a chain of as many nodes as there may be", make_chain, CASE_DEPTH},
+    {"deepest-below", "the same, what is hit is among the lower half", make_chain_below, CASE_DEPTH},
     {"grazing-shadows", "a globe of 3,200 triangles in grazing light", make_grazing_globe, CASE_SHADOWS},
     {"grazing-shadows-away", "the same, 1000 radii from the origin", make_grazing_globe_away, CASE_SHADOWS},
     {"corners-dark", "edges and corners of a room, light outside", make_corners_dark, CASE_CLOSED | CASE_SHADOWS},

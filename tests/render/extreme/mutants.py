@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-METHODS = ["watertight", "moller-trumbore"]
+METHODS = ["watertight", "moller-trumbore", "stack-1", "stack-2", "stack-4"]
 
 # Name, file of raytracer/device, text, what it becomes, the case that must fail.
 MUTANTS = [
@@ -27,7 +27,11 @@ MUTANTS = [
     ("far-planes", "ray.h", "far_origin_x = ox - margin_x", "far_origin_x = ox + margin_x", "closed-globe"),
     ("length-of-direction", "ray.h", "return bits_float(larger(0x7F000000 - exponent, 0x00800000))",
      "return exponent ? 1.0f : 1.0f", "directions-10^-20"),
-    ("stack-dropped", "traverse.h", "top->enter >= limit", "top->enter >= 0", "soup"),
+    ("stack-dropped", "traverse.h", "entry.enter >= limit", "entry.enter >= 0", "soup"),
+    ("ring-of-old", "stack.h", "(*top)->reference = 0;", ";", "soup"),
+    ("trail-not-cut", "stack.h", "(trail->second & -trail->level) ^", "trail->second ^", "closed-globe"),
+    ("lost-for-good", "traverse.h", "entry.reference = find_again(layout, scene, root, &trail);\n", "return hit->triangle != NULL;\n", "soup"),
+    ("one-word", "stack.h", "trail->second = trail->upper_second;", "trail->second = 0;", "deepest"),
     ("no-offset", "shade.h", "float offset = bound * inverse_length", "float offset = 0 * inverse_length", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
     ("no-slack", "shade.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
@@ -56,6 +60,8 @@ def make(mutant, folder, build):
     link = link_command(build)
     for method in METHODS:
         macro = "-DTRAX_TRIANGLE=TRAX_" + method.upper().replace("-", "_")
+        if method.startswith("stack-"):
+            macro = "-DTRAX_STACK_ENTRIES=" + method.removeprefix("stack-")
         subprocess.run([build / "bin/clang", "--target=trax", "-std=c17", "-O3", macro, *include, query, "-o",
                         folder / f"query-{method}.elf"], check=True)
         subprocess.run(["cc", "-std=gnu17", "-O3", "-ffp-contract=off", macro, *include, "-I", str(ROOT / "runtime/include"),
@@ -82,7 +88,7 @@ def main():
         folder = (options.scratch / name).resolve()
         suite = make(mutant, folder, options.build.resolve())
         run = subprocess.run([suite, "--program-directory", folder, "--case", case], capture_output=True, text=True, timeout=600)
-        said = sorted({line.split(": ")[2] for line in run.stderr.splitlines() if line.startswith("FAILED: ")})
+        said = sorted({line.split(": ", 2)[2] for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
         missed += not said
         print(f"{name}: {case}: {'; '.join(said) if said else 'NOT NOTICED'}", flush=True)
     print(f"{len(chosen) - missed} of {len(chosen)} noticed")

@@ -32,9 +32,16 @@ static const struct method {
     {"watertight, boxes as they are", query_watertight, "query-watertight.elf", true},
 };
 
+/* The default with fewer entries on its stack than these trees are deep. */
+static const struct method short_stacks[] = {
+    {"stack of 1", query_stack_1, "query-stack-1.elf", false},
+    {"stack of 2", query_stack_2, "query-stack-2.elf", false},
+    {"stack of 4", query_stack_4, "query-stack-4.elf", false},
+};
+
 struct row {
   struct exact_tally tally;
-  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, variant_differs;
+  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, variant_differs, stack_differs;
   uint64_t cycles, emulated;
 };
 
@@ -313,6 +320,20 @@ static void compare_variants(struct row *row, const struct prepared *prepared, c
   }
 }
 
+/* Short stacks, the same answers, and in scenes of great depth on the emulated machine, too. */
+static void compare_stacks(struct row *row, const struct prepared *prepared, const char *directory, bool emulated,
+                           const struct query_answer *answers) {
+  for (unsigned s = 0; s < sizeof short_stacks / sizeof *short_stacks; s++) {
+    struct query_answer *others = trace(prepared, &prepared->scene, &short_stacks[s]);
+    uint64_t cycles;
+    if (emulated)
+      emulate(row, &cycles, prepared, &prepared->scene, &short_stacks[s], directory, others);
+    for (uint32_t i = 0; i < prepared->params.count; i++)
+      row->stack_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
+    free(others);
+  }
+}
+
 static void judge(struct row rows[METHODS], const struct prepared *prepared,
                   struct query_answer *const answers[METHODS]) {
   double most = JUDGED_PAIRS / fmax(1, prepared->exact.count);
@@ -371,6 +392,7 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
         emulate(&rows[m], &rows[m].cycles, &prepared, &prepared.scene, &methods[m], directory, answers[m]);
     }
     compare_variants(&rows[0], &prepared, directory, done == 0, answers[0]);
+    compare_stacks(&rows[0], &prepared, directory, done == 0 && extreme->flags & CASE_DEPTH, answers[0]);
     if (done == 0)
       judge(rows, &prepared, answers);
     if (done == 0 && prepared.setup.width > 0) {
@@ -445,6 +467,7 @@ static unsigned check_row(const struct extreme_case *extreme, const struct row *
   if (!is_default)
     return failures;
   failures += complain(name, "other nodes of the same triangles answer otherwise", row->variant_differs);
+  failures += complain(name, "a shorter stack answers otherwise", row->stack_differs);
   failures += complain(name, "wrong beyond what rounding explains", row->tally.unexplained);
   if (!(extreme->flags & CASE_BELOW_ROUNDING)) {
     failures += complain(name, "left a closed surface", row->escapes);
