@@ -28,10 +28,8 @@ bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capaci
 void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report) {
   for (uint32_t i = 0; mesh->uvs && i < mesh->triangle_count; i++) {
     const uint32_t texture = mesh->materials[mesh->triangles[i].material].surface.texture;
-    if (texture == 0) { /* nothing reads them, but the scene file may have them beside another triangle's */
-      memset(mesh->uvs[i], 0, sizeof mesh->uvs[i]);
+    if (texture == 0)
       continue;
-    }
     const bool clamp = mesh->textures[texture - 1].flags & TRAX_TEXTURE_CLAMP;
     bool mended = false;
     for (int axis = 0; axis < 2; axis++) {

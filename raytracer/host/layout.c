@@ -159,7 +159,8 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
     if (layout->normals && layout->file_normals)
       memcpy(layout->normals[layout->next_triangle].corner, layout->mesh->normals[node->triangles[i]],
              sizeof layout->normals->corner);
-    if (layout->uvs && layout->mesh->uvs)
+    /* Without a texture they stay zeros: nothing reads them, and nobody has seen whether they are in range. */
+    if (layout->uvs && layout->mesh->uvs && layout->mesh->materials[source->material].surface.texture)
       memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
              sizeof layout->uvs->corner);
     if (layout->numbers)
