@@ -17,12 +17,19 @@
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
 
 static volatile sig_atomic_t interrupted; /* the signal's number */
+static volatile sig_atomic_t reader_gone; /* nobody reads standard output, or another pipe, any more */
 
 static void on_signal(int number) {
   interrupted = number;
 }
 
-/* The first signal ends the run with what it has so far, the second one the process. */
+static void on_broken_pipe(int number) {
+  interrupted = number;
+  reader_gone = 1;
+}
+
+/* The first signal ends the run with what it has so far, the second one the process. A pipe that nobody reads ends a
+   run whose program writes to it, but not what is still to be written to other files after a run. */
 static void catch_signals(void) {
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
   sigemptyset(&action.sa_mask);
@@ -32,6 +39,9 @@ static void catch_signals(void) {
     if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
       sigaction(signals[i], &action, NULL);
   }
+  struct sigaction broken_pipe = {.sa_handler = on_broken_pipe};
+  sigemptyset(&broken_pipe.sa_mask);
+  sigaction(SIGPIPE, &broken_pipe, NULL);
 }
 
 static int complain(const trax_error *error) {
@@ -178,7 +188,7 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   const bool finished = run == TRAX_OK;
   trax_status result = TRAX_OK;
   trax_error reason;
-  if (fflush(stdout) != 0 || ferror(stdout))
+  if ((fflush(stdout) != 0 || ferror(stdout)) && !reader_gone)
     result = trax_fail(error, "standard output cannot be written: %s", strerror(errno));
   if (options->stats && trax_stats_write_json(machine, options->stats, &reason) != TRAX_OK && result == TRAX_OK)
     result = trax_fail(error, "%s", reason.message);
@@ -268,7 +278,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
     result = complain(&write_error);
   trax_post_mortem_destroy(post_mortem);
   trax_machine_destroy(machine);
-  return result;
+  return result == EXIT_SUCCESS && reader_gone ? EXIT_SIGNAL + SIGPIPE : result;
 }
 
 /* Options that print something instead of running a program. */
@@ -296,6 +306,8 @@ static int flush_standard_output(int result) {
   trax_error error;
   if (fflush(stdout) == 0 && !ferror(stdout))
     return result;
+  if (reader_gone)
+    return EXIT_SIGNAL + SIGPIPE;
   trax_fail(&error, "standard output cannot be written: %s", strerror(errno));
   return complain(&error);
 }

@@ -71,7 +71,10 @@ trax_status trax_output_commit(trax_output *output, trax_error *error) {
   } else if (fflush(output->file) != 0) {
     failure = errno;
   }
-  if (output->file != stdout) {
+  if (output->file == stdout) {
+    if (failure == EPIPE) /* whoever read it wants no more; main says so by its exit status */
+      failure = 0;
+  } else {
     if (fclose(output->file) != 0 && !failure)
       failure = errno;
     output->file = NULL;

@@ -22,6 +22,13 @@ static void on_interrupt(int signal_number) {
   signal(signal_number, SIG_DFL); /* a second one ends the program at once */
 }
 
+static volatile sig_atomic_t reader_gone; /* nobody reads standard output any more: pictures are written all the same */
+
+static void on_broken_pipe(int signal_number) {
+  (void)signal_number;
+  reader_gone = 1;
+}
+
 /* --- the other engines --- */
 
 struct step {
@@ -249,6 +256,7 @@ int main(int argc, char **argv) {
     progress_init(&progress, "trax-render", options.quiet);
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
+    signal(SIGPIPE, on_broken_pipe);
     trax_status status = render(&options, &progress, &agrees, &error);
     progress_clear(&progress);
     if (status == TRAX_INTERRUPTED) {
@@ -262,7 +270,10 @@ int main(int argc, char **argv) {
     }
   }
   options_release(&options);
-  if (fflush(stdout) != 0 && exit_status == 0) {
+  const bool unwritten = fflush(stdout) != 0 || ferror(stdout);
+  if (exit_status == 0 && reader_gone) {
+    exit_status = 128 + SIGPIPE;
+  } else if (exit_status == 0 && unwritten) {
     fprintf(stderr, "trax-render: error: standard output: %s\n", strerror(errno));
     exit_status = 1;
   }

@@ -259,6 +259,32 @@ class Signals(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         self.assertEqual(self.end(process)[0], 124)
 
+    def piped(self, *words):
+        """With a standard output that nobody reads: (status, standard error)."""
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([SIM, *words], stdout=writer, stderr=subprocess.PIPE, timeout=60)
+        os.close(writer)
+        return done.returncode, done.stderr.decode()
+
+    def test_reader_gone(self):
+        """What follows the report is written; a program that writes to nobody is ended; a failure is told all the same."""
+        buffers = ("--alloc", "input=64", "--alloc", "output=64", "--dump", "output=d.bin", "copy.elf")
+        for where in ("--report", "--stats", "--profile"):
+            self.assertEqual(self.piped(where, "-", *buffers), (141, ""), where)
+            self.assertEqual(os.path.getsize("d.bin"), 64)
+            os.remove("d.bin")
+        status, err = self.piped("--report", "-", "--stats", "/dev/full", *buffers)
+        self.assertEqual(status, 1)
+        self.assertIn("/dev/full: cannot be written: No space left", err)
+        os.remove("d.bin")
+        self.assertEqual(self.piped("--report", "-", "exit3.elf"), (3, ""))
+        status, err = self.piped("--stats", "s.json", "print.elf")  # for ever
+        self.assertEqual(status, 141)
+        self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
+        os.remove("s.json")
+        self.assertEqual(self.litter(), [])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -289,5 +289,16 @@ for file in interrupted.png*; do
   [ -e "$file" ] && fail "interrupted: left $file"
 done
 
+# --- nobody reads what is printed: every picture is written all the same
+{
+  sleep 0.2
+  "$render" "$box" -o piped.png $native --size 32x24 --frames 3 2>"$err"
+  echo $? >"$out"
+} | true
+[ "$(cat "$out")" = 141 ] || fail "a reader that is gone: status $(cat "$out") instead of 141"
+[ -s "$err" ] && fail "a reader that is gone: $(cat "$err")"
+[ "$(ls piped-*.png | wc -l)" -eq 3 ] || fail "a reader that is gone: $(ls)"
+rm -f piped-*.png
+
 [ $failures -eq 0 ] && echo "all command lines as expected"
 exit $((failures > 0))
