@@ -59,10 +59,44 @@ static void decode_uri(char *name) {
   *to = 0;
 }
 
-/* *channel: of texture coordinates. */
+static const struct assimp_uvs ordinary_uvs = {0, {{1, 0, 0}, {0, 1, 0}}};
+
+static float rounded(double value) {
+  return (float)(rint(value * 0x1p20) * 0x1p-20);
+}
+
+/* glTF's extension KHR_texture_transform: coordinates are scaled, turned counterclockwise around (0, 0) as they are
+   seen, with v down, and moved. assimp (5.2) has made of it a turn around the middle with v up, by changing what is
+   added; that is taken back here, and rounded to what is left of its precision. */
+static void set_gltf_map(struct assimp_uvs *uvs, const struct aiUVTransform *transform) {
+  const double turn = -(double)transform->mRotation, c = cos(turn), s = sin(turn);
+  const double scale_u = transform->mScaling.x, scale_v = transform->mScaling.y;
+  const float move_u = rounded(transform->mTranslation.x - 0.5 * scale_u * (1 - c + s));
+  const float move_v = rounded(0.5 * scale_v * (s + c - 1) + 1 - scale_v - transform->mTranslation.y);
+  const double down[2][3] = {{c * scale_u, s * scale_v, move_u}, {-s * scale_u, c * scale_v, move_v}};
+  const double up[2][3] = {{down[0][0], -down[0][1], down[0][2] + down[0][1]},
+                           {-down[1][0], down[1][1], 1 - down[1][2] - down[1][1]}};
+  for (int axis = 0; axis < 2; axis++)
+    for (int i = 0; i < 3; i++)
+      uvs->map[axis][i] = rounded(up[axis][i]);
+}
+
+static void find_uvs(const struct assimp_import *import, const struct aiMaterial *material, enum aiTextureType type,
+                     unsigned index, struct assimp_uvs *uvs) {
+  struct aiUVTransform transform;
+  if (aiGetMaterialUVTransform(material, AI_MATKEY_UVTRANSFORM(type, index), &transform) != aiReturn_SUCCESS)
+    return;
+  if (import->gltf)
+    set_gltf_map(uvs, &transform);
+  else if (transform.mTranslation.x != 0 || transform.mTranslation.y != 0 || transform.mScaling.x != 1 ||
+           transform.mScaling.y != 1 || transform.mRotation != 0)
+    import->report->unread |= TRAX_UNREAD_UV_TRANSFORMS;
+}
+
+/* *uvs: what its coordinates are; NULL: no matter. */
 static trax_status find_texture(struct assimp_import *import, const struct aiMaterial *material,
                                 enum aiTextureType type, unsigned index, struct scene_texture wanted,
-                                const struct scene_texture **found, unsigned *channel) {
+                                const struct scene_texture **found, struct assimp_uvs *uvs) {
   static const struct scene_texture none;
   struct aiString name;
   enum aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
@@ -76,8 +110,10 @@ static trax_status find_texture(struct assimp_import *import, const struct aiMat
     decode_uri(name.data);
   wanted.base = name.data;
   wanted.flags = modes[0] == aiTextureMapMode_Clamp ? TRAX_TEXTURE_CLAMP : 0;
-  if (channel)
-    *channel = coordinates;
+  if (uvs) {
+    uvs->channel = coordinates;
+    find_uvs(import, material, type, index, uvs);
+  }
   return scene_find_texture(&import->textures, &wanted, import->path, found, import->error);
 }
 
@@ -165,14 +201,16 @@ static trax_status set_emission(struct assimp_import *import, const struct aiMat
 }
 
 static trax_status copy_material(struct assimp_import *import, const struct aiMaterial *material,
-                                 struct trax_material *surface, unsigned *channel) {
+                                 struct trax_material *surface, struct assimp_uvs *uvs) {
   const struct scene_texture *base;
-  trax_status result =
-      find_texture(import, material, aiTextureType_DIFFUSE, 0, (struct scene_texture){0}, &base, channel);
+  trax_status result = find_texture(import, material, aiTextureType_DIFFUSE, 0, (struct scene_texture){0}, &base, uvs);
   if (result == TRAX_OK && !base->good)
-    result = find_texture(import, material, aiTextureType_BASE_COLOR, 0, (struct scene_texture){0}, &base, channel);
+    result = find_texture(import, material, aiTextureType_BASE_COLOR, 0, (struct scene_texture){0}, &base, uvs);
   if (result != TRAX_OK)
     return result;
+  if (!import->textures.options->no_textures && (aiGetMaterialTextureCount(material, aiTextureType_NORMALS) > 0 ||
+                                                 aiGetMaterialTextureCount(material, aiTextureType_HEIGHT) > 0))
+    import->report->unread |= TRAX_UNREAD_NORMAL_MAPS;
   struct aiColor4D colour = {1, 1, 1, 1};
   const bool coloured =
       aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &colour) == aiReturn_SUCCESS || base->good;
@@ -195,22 +233,24 @@ trax_status assimp_copy_materials(struct assimp_import *import) {
   struct trax_mesh *mesh = import->mesh;
   const unsigned count = scene->mNumMaterials;
   mesh->materials = calloc(count ? count : 1, sizeof *mesh->materials);
-  import->uv_channels = calloc(count ? count : 1, sizeof *import->uv_channels);
-  if (!mesh->materials || !import->uv_channels)
+  import->uvs = calloc(count ? count : 1, sizeof *import->uvs);
+  if (!mesh->materials || !import->uvs)
     return scene_out_of_memory(import->error, import->path);
   mesh->material_count = count ? count : 1;
   mesh->materials[0].surface = trax_default_material;
+  import->uvs[0] = ordinary_uvs;
   import->textures.embedded = find_embedded;
   import->textures.context = (void *)scene;
   trax_status result = TRAX_OK;
   for (unsigned i = 0; i < count && result == TRAX_OK; i++) {
     struct trax_mesh_material *material = &mesh->materials[i];
     material->surface = trax_default_material;
+    import->uvs[i] = ordinary_uvs;
     struct aiString name;
     if (aiGetMaterialString(scene->mMaterials[i], AI_MATKEY_NAME, &name) == aiReturn_SUCCESS)
       memcpy(material->name, name.data, strnlen(name.data, sizeof material->name - 1));
     if (!is_placeholder(scene, i, material->name, import->gltf))
-      result = copy_material(import, scene->mMaterials[i], &material->surface, &import->uv_channels[i]);
+      result = copy_material(import, scene->mMaterials[i], &material->surface, &import->uvs[i]);
   }
   return result;
 }

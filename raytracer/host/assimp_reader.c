@@ -191,8 +191,11 @@ static void copy_part(struct assimp_import *import, const struct aiMesh *part, c
     out[1] = keep ? v.y : m->b1 * v.x + m->b2 * v.y + m->b3 * v.z + m->b4;
     out[2] = keep ? v.z : m->c1 * v.x + m->c2 * v.y + m->c3 * v.z + m->c4;
   }
-  const unsigned channel = import->uv_channels[part->mMaterialIndex];
-  const struct aiVector3D *uvs = channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? part->mTextureCoords[channel] : NULL;
+  const struct assimp_uvs *from = &import->uvs[part->mMaterialIndex];
+  const struct aiVector3D *uvs =
+      from->channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? part->mTextureCoords[from->channel] : NULL;
+  if (part->mColors[0])
+    import->report->unread |= TRAX_UNREAD_COLOURS;
   for (unsigned i = 0; i < part->mNumFaces; i++) {
     const struct aiFace *face = &part->mFaces[i];
     if (face->mNumIndices != 3) { /* polygons have been cut: a point or a line */
@@ -205,8 +208,9 @@ static void copy_part(struct assimp_import *import, const struct aiMesh *part, c
       const unsigned index = face->mIndices[mirror && corner ? 3 - corner : corner];
       triangle->vertices[corner] = first + index;
       if (mesh->uvs && uvs) {
-        mesh->uvs[number][corner][0] = uvs[index].x;
-        mesh->uvs[number][corner][1] = uvs[index].y;
+        for (int axis = 0; axis < 2; axis++)
+          mesh->uvs[number][corner][axis] =
+              from->map[axis][0] * uvs[index].x + from->map[axis][1] * uvs[index].y + from->map[axis][2];
       }
     }
     if (mesh->normals && part->mNormals)
@@ -291,7 +295,7 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
   if (result == TRAX_OK)
     result = assimp_copy_cameras(&import);
   scene_textures_release(&import.textures);
-  free(import.uv_channels);
+  free(import.uvs);
   if (result == TRAX_OK && system.missing > 0) {
     if (report->missing_files == 0)
       memcpy(report->first_missing_file, system.first_missing, sizeof system.first_missing);

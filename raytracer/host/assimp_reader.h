@@ -6,6 +6,13 @@
 
 #include <assimp/scene.h>
 
+/* The texture coordinates of a material: which of a mesh's, and what brings them to the texture, as rows over (u, v, 1)
+   with v up. */
+struct assimp_uvs {
+  unsigned channel;
+  float map[2][3];
+};
+
 struct assimp_import {
   const char *path;
   bool gltf;
@@ -14,7 +21,7 @@ struct assimp_import {
   struct trax_import_report *report;
   trax_error *error;
   struct scene_textures textures;
-  unsigned *uv_channels; /* of each material's texture */
+  struct assimp_uvs *uvs; /* of each material */
 };
 
 trax_status assimp_copy_materials(struct assimp_import *import);

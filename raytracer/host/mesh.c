@@ -364,6 +364,7 @@ static void add_report(struct trax_import_report *total, const struct trax_impor
   if (part->bad_images && total->bad_images == 0)
     memcpy(total->first_bad_image, part->first_bad_image, sizeof total->first_bad_image);
   total->bad_images += part->bad_images;
+  total->unread |= part->unread;
 }
 
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
@@ -430,4 +431,8 @@ void trax_import_print_notes(const struct trax_import_report *report, const char
   if (report->other_primitives)
     fprintf(out, "%s: note: %llu points and lines are left out\n", program,
             (unsigned long long)report->other_primitives);
+  static const char *const unread[] = {"colours of vertices", "normal maps", "transforms of texture coordinates"};
+  for (unsigned i = 0; i < sizeof unread / sizeof *unread; i++)
+    if (report->unread >> i & 1)
+      fprintf(out, "%s: note: %s are not read\n", program, unread[i]);
 }

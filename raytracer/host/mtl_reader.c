@@ -113,11 +113,12 @@ static trax_status read_map(struct library *library, const char *keyword, char *
       break;
     next_word(&rest);
     for (; words > 0; words--) {
-      float value;
       rest = skip_blanks(rest);
       char *at = rest, *end;
-      value = strtof(at, &end);
-      (void)value;
+      const float value = strtof(at, &end);
+      const bool scale = !strcmp(option, "-s"), shift = !strcmp(option, "-o") || !strcmp(option, "-t");
+      if (end != at && ((scale && value != 1) || (shift && value != 0)))
+        library->textures->report->unread |= TRAX_UNREAD_UV_TRANSFORMS;
       if (numbers && (end == at || (*end && !is_blank(*end))))
         break;
       const char *word = next_word(&rest);
@@ -158,6 +159,10 @@ static trax_status read_statement(struct library *library, const char *keyword, 
     source->has_kd = source->has_kd || (read && statements[i].colour == source->kd);
     return result;
   }
+  static const char *const normal_maps[] = {"norm", "bump", "Bump", "map_bump", "map_Bump", "map_Kn"};
+  for (size_t i = 0; i < sizeof normal_maps / sizeof *normal_maps; i++)
+    if (!strcmp(keyword, normal_maps[i]) && !library->textures->options->no_textures)
+      library->textures->report->unread |= TRAX_UNREAD_NORMAL_MAPS;
   if (!strcmp(keyword, "illum")) {
     float value = -1;
     trax_status result = read_value(library, keyword, rest, &value);

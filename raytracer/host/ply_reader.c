@@ -68,6 +68,7 @@ struct ply_reader {
   float (*normals)[3];   /* of the vertices; NULL: there are none */
   float (*uvs)[2];
   char texture[256]; /* "": none */
+  unsigned unread;   /* as the report has it */
   size_t triangle_capacity, normal_capacity, uv_capacity;
   uint32_t *list; /* the indices of one face or strip */
   size_t list_capacity;
@@ -205,6 +206,8 @@ static trax_status read_property(struct ply_reader *reader) {
   if (!next_word(reader, word))
     return fail_here(reader, "a property without a name");
   property->role = role_of(element->name, word, is_list);
+  if (!strcmp(word, "red") || !strcmp(word, "diffuse_red"))
+    reader->unread |= TRAX_UNREAD_COLOURS;
   if (property->role == indices && property->type >= float32)
     return fail_here(reader, "the type of vertex indices is no integer type");
   reader->property_count++;
@@ -570,6 +573,7 @@ trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, const struc
   if (result == TRAX_OK)
     result = read_elements(reader);
   report->source_triangles += mesh->triangle_count;
+  report->unread |= reader->unread;
   free(reader->list);
   free(reader->normals);
   free(reader->uvs);

@@ -337,6 +337,41 @@ static void test_large_uvs(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* What is not read is said. */
+static void test_unread(void **state) {
+  (void)state;
+  static const struct {
+    const char *mtl;
+    unsigned unread;
+  } libraries[] = {{"map_Kd -s 1 1 1 -o 0 0 -t 0 -mm 0 2 four.png", 0},
+                   {"map_Kd -s 2 2 1 four.png", TRAX_UNREAD_UV_TRANSFORMS},
+                   {"map_Kd -o 0 0.5 four.png", TRAX_UNREAD_UV_TRANSFORMS},
+                   {"map_Bump four.png", TRAX_UNREAD_NORMAL_MAPS},
+                   {"norm four.png", TRAX_UNREAD_NORMAL_MAPS}};
+  write_png("four.png", four, 2, 2);
+  const char *path = test_text("unread.obj", "mtllib unread.mtl\nusemtl a\n" TRIANGLE "vt 0 0\nf 1/1 2/1 3/1\n");
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
+    char text[200];
+    snprintf(text, sizeof text, "newmtl a\n%s\n", libraries[i].mtl);
+    test_text("unread.mtl", text);
+    import_good(&mesh, path, &report);
+    trax_mesh_release(&mesh);
+    if (report.unread != libraries[i].unread)
+      fail_msg("%s: %u", libraries[i].mtl, report.unread);
+  }
+  char *notes;
+  size_t size;
+  FILE *out = open_memstream(&notes, &size);
+  report.unread = TRAX_UNREAD_COLOURS | TRAX_UNREAD_NORMAL_MAPS | TRAX_UNREAD_UV_TRANSFORMS;
+  trax_import_print_notes(&report, "test", out);
+  fclose(out);
+  assert_string_equal(notes, "test: note: colours of vertices are not read\ntest: note: normal maps are not read\n"
+                             "test: note: transforms of texture coordinates are not read\n");
+  free(notes);
+}
+
 /* --- corners --- */
 
 /* A concave polygon is cut; its corners keep what belongs to them. */
@@ -438,6 +473,7 @@ static void test_ply(void **state) {
   struct trax_import_report report;
   import_good(&mesh, path, &report);
   assert_int_equal(report.missing_files, 0);
+  assert_int_equal(report.unread, TRAX_UNREAD_COLOURS);
   assert_int_equal(mesh.triangle_count, 2);
   assert_int_equal(mesh.materials[0].surface.texture, 1);
   assert_colour(mesh.materials[0].surface.diffuse, 1, 1, 1);
@@ -593,6 +629,61 @@ static void test_gltf(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* The extension's own example shows the lower left quarter of an image, turned clockwise by 90 degrees. */
+static void test_gltf_uv_transforms(void **state) {
+  (void)state;
+  static const struct {
+    const char *transform;
+    float expected[4][2]; /* of a quad's corners, in the image, v up */
+  } cases[] = {
+      {"", {{0, 1}, {1, 1}, {1, 0}, {0, 0}}},
+      {"\"offset\":[0,1],\"rotation\":1.57079632679,\"scale\":[0.5,0.5]", {{0, 0}, {0, 0.5f}, {0.5f, 0.5f}, {0.5f, 0}}},
+      {"\"offset\":[0,1],\"scale\":[1,-1]", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
+      {"\"offset\":[0.25,-0.5]", {{0.25f, 1.5f}, {1.25f, 1.5f}, {1.25f, 0.5f}, {0.25f, 0.5f}}},
+      /* scaled first, then turned by atan(3/4) */
+      {"\"rotation\":0.643501109,\"scale\":[5,10]", {{0, 1}, {4, 4}, {10, -4}, {6, -7}}}};
+  static const float corners[] = {0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0, /* uvs, v down */ 0, 0, 1, 0, 1, 1, 0, 1};
+  static const uint16_t indices[] = {0, 3, 2, 0, 2, 1};
+  unsigned char buffer[sizeof corners + sizeof indices];
+  memcpy(buffer, corners, sizeof corners);
+  memcpy(buffer + sizeof corners, indices, sizeof indices);
+  test_file("quad.bin", buffer, sizeof buffer);
+  write_png("four.png", four, 2, 2);
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char json[3000];
+    const int length =
+        snprintf(json, sizeof json,
+                 "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+                 "\"extensionsUsed\":[\"KHR_texture_transform\"],\"images\":[{\"uri\":\"four.png\"}],"
+                 "\"textures\":[{\"source\":0}],\"materials\":[{\"normalTexture\":{\"index\":0},"
+                 "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":"
+                 "{\"KHR_texture_transform\":{%s}}}}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+                 "\"TEXCOORD_0\":1,\"COLOR_0\":0},\"indices\":2,\"material\":0}]}],"
+                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":80},"
+                 "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12}],\"accessors\":["
+                 "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+                 "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
+                 "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],"
+                 "\"buffers\":[{\"byteLength\":92,\"uri\":\"quad.bin\"}]}",
+                 cases[i].transform);
+    assert_true((size_t)length < sizeof json);
+    struct trax_mesh mesh;
+    struct trax_import_report report;
+    import_good(&mesh, test_text("quad.gltf", json), &report);
+    assert_int_equal(report.unread, TRAX_UNREAD_COLOURS | TRAX_UNREAD_NORMAL_MAPS);
+    assert_int_equal(mesh.triangle_count, 2);
+    for (uint32_t t = 0; t < 2; t++)
+      for (int corner = 0; corner < 3; corner++) {
+        const float *place = mesh.vertices[mesh.triangles[t].vertices[corner]], *uv = mesh.uvs[t][corner];
+        const float *expected = cases[i].expected[place[1] > 0 ? (int)place[0] : 3 - (int)place[0]];
+        if (fabsf(uv[0] - expected[0]) > 2e-5f || fabsf(uv[1] - expected[1]) > 2e-5f)
+          fail_msg("%s: (%g, %g) has %g %g, not %g %g", cases[i].transform, (double)place[0], (double)place[1],
+                   (double)uv[0], (double)uv[1], (double)expected[0], (double)expected[1]);
+      }
+    trax_mesh_release(&mesh);
+  }
+}
+
 /* --- the command line --- */
 
 static void test_overrides(void **state) {
@@ -657,6 +748,8 @@ int main(void) {
       cmocka_unit_test(test_file_normals),
       cmocka_unit_test(test_ply),
       cmocka_unit_test(test_gltf),
+      cmocka_unit_test(test_gltf_uv_transforms),
+      cmocka_unit_test(test_unread),
       cmocka_unit_test(test_overrides),
   };
   return cmocka_run_group_tests_name("materials", tests, NULL, NULL);

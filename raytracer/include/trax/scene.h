@@ -111,7 +111,10 @@ struct trax_import_report {
   char first_missing_file[256]; /* its name */
   uint32_t bad_images;          /* textures that are there but no readable PNG or JPEG */
   char first_bad_image[256];    /* its name and why */
+  unsigned unread;              /* TRAX_UNREAD_: what the meshes have and the ray tracer does not */
 };
+
+enum { TRAX_UNREAD_COLOURS = 1, TRAX_UNREAD_NORMAL_MAPS = 2, TRAX_UNREAD_UV_TRANSFORMS = 4 };
 
 /* Lines on what was left out, mended or missing; none if all is well. */
 void trax_import_print_notes(const struct trax_import_report *report, const char *program, FILE *out);
