@@ -24,6 +24,7 @@ packages=(
   newlib-source                                                          # the mathematical functions of binary64
   gnuplot-nox                                                            # the evaluation's figures
   parallel chromium                                                      # tests: runs handed to GNU parallel; the evaluation's page in a browser
+  slurmctld slurmd slurm-client                                          # tests: the same by Slurm; its services do nothing without a configuration
   csmith libcsmith-dev lib32gcc-12-dev libc6-dev-i386                    # tests: random programs, and a host of 32 bits
   glmark2-data                                                           # the demo's bunny
   qemu-user lld-19 gcc-12-source gcc-multilib libclang-rt-19-dev         # longer checks: code quality, gcc's torture, fuzzers

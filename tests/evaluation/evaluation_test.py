@@ -3,8 +3,8 @@
 
     tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]
 
---only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. Exit status 77: what was
-asked for is not installed.
+--only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. --only hosts needs the hosts of
+tests/evaluation/ssh.sh. Exit status 77: what was asked for is not there.
 """
 
 import argparse
@@ -223,37 +223,50 @@ def simulators(folder):
     return found
 
 
+def wait_for_simulators(folder, seconds):
+    """What a killed command had started ends by itself, and soon."""
+    deadline = time.monotonic() + seconds
+    while simulators(folder) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    check(not simulators(folder), "simulators live on")
+
+
 def test_kill(evaluation, scratch, kills):
+    """kills moments at random; a command that is at its end before its moment comes begins again in another folder."""
     generator = random.Random(7)
     begin = time.monotonic()
     evaluation.run(SMALL, "once", "--jobs", "2")
     whole = time.monotonic() - begin
-    hit = 0
-    for number in range(kills):
-        process = subprocess.Popen(evaluation.command(SMALL, "killed", "--jobs", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    hit, folders = 0, 1
+    while hit < kills and folders < 3 * kills:
+        name = f"killed-{folders}"
+        process = subprocess.Popen(evaluation.command(SMALL, name, "--jobs", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                    start_new_session=True)
-        time.sleep(generator.uniform(0, whole))
-        hit += process.poll() is None
-        if number % 2:
+        try:
+            process.wait(timeout=generator.uniform(0, whole))
+            check(process.returncode == 0, f"{name}: exit status {process.returncode} after kills")
+            same_bytes(scratch, "undisturbed", name)
+            folders += 1
+            continue
+        except subprocess.TimeoutExpired:
+            pass
+        if hit % 2:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
         else:  # the command alone: what it started is to end by itself
             process.kill()
-        process.wait()
-        deadline = time.monotonic() + 5
-        while simulators(scratch / "killed") and time.monotonic() < deadline:
-            time.sleep(0.02)
-        check(not simulators(scratch / "killed"), "simulators live on")
-        for path in (scratch / "killed").rglob("*.json"):
+        hit += process.wait() == -signal.SIGKILL
+        wait_for_simulators(scratch / name, 5)
+        for path in (scratch / name).rglob("*.json"):
             if not path.name.startswith(".") and "scratch" not in path.parts:
                 json.loads(path.read_text())
-    check(hit * 2 >= kills, f"only {hit} of {kills} kills came before the end")
-    run = evaluation.run(SMALL, "killed", "--jobs", "2")
+    check(hit == kills, f"only {hit} of {kills} kills came before the end")
+    run = evaluation.run(SMALL, name, "--jobs", "2")
     check(run.returncode == 0, f"after the kills: {run.stderr}")
-    same_bytes(scratch, "undisturbed", "killed")
-    print(f"killed {hit} times, {whole:.1f} s undisturbed")
+    same_bytes(scratch, "undisturbed", name)
+    print(f"killed {hit} times in {folders} folders, {whole:.1f} s undisturbed")
 
 
 def test_interrupt(evaluation, scratch):
@@ -280,6 +293,32 @@ def test_parallel(evaluation, scratch):
     same_bytes(scratch, "undisturbed", "parallel")
 
 
+def test_hosts(evaluation, scratch):
+    """GNU parallel over SSH: tests/evaluation/ssh.sh is both hosts."""
+    if not os.environ.get("TRAX_SSH_CONFIG"):
+        print("no hosts: tests/evaluation/ssh.sh starts a server for them (see docs/testing.md)")
+        sys.exit(77)
+    hosts = ",".join(f"1/ssh -F {os.environ['TRAX_SSH_CONFIG']} {name}" for name in ("first", "second"))
+    run = evaluation.run(SMALL, "hosts", "--runner", "parallel", "--hosts", hosts)
+    check(run.returncode == 0, f"GNU parallel over hosts: {run.stderr}")
+    same_bytes(scratch, "undisturbed", "hosts")
+    with open(scratch / "hosts/parallel.log") as log:
+        used = {line.split("\t")[1] for line in log.readlines()[1:]}
+    check({name.split()[-1] for name in used} == {"first", "second"}, f"runs were on {used}")
+    # A host that does not answer is an error that names it; an interrupt ends what runs on the others.
+    run = evaluation.run(dict(SMALL, chips="1x32"), "no-host", "--runner", "parallel", "--hosts", hosts.replace("first", "nowhere.invalid").split(",")[0])
+    check(run.returncode == 1 and "nowhere.invalid" in run.stderr and "Traceback" not in run.stderr, f"a host that is not there: {run.returncode}: {run.stderr}")
+    process = subprocess.Popen(evaluation.command(dict(SMALL, size="400x240"), "hosts-interrupted", "--runner", "parallel", "--hosts", hosts),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while not simulators(scratch / "hosts-interrupted") and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    errors = process.communicate(timeout=60)[1]
+    check(process.returncode == 130 and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
+    wait_for_simulators(scratch / "hosts-interrupted", 15)
+
+
 def test_slurm(evaluation, scratch):
     if not shutil.which("sbatch") or subprocess.run(["sinfo"], capture_output=True).returncode != 0:
         print("Slurm is not installed, or no controller answers: tests/evaluation/slurm.sh starts one (see docs/testing.md)")
@@ -292,14 +331,14 @@ def test_slurm(evaluation, scratch):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=("sweep", "refusals", "experiments", "kill", "interrupt", "parallel", "slurm"))
+    parser.add_argument("--only", choices=("sweep", "refusals", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
     parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch = pathlib.Path(temporary).resolve()
         evaluation = Evaluation(options.bin.resolve(), scratch)
         wanted = [options.only] if options.only else ["sweep", "refusals", "experiments", "kill", "interrupt", "parallel"]
-        if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "slurm"}:
+        if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "hosts", "slurm"}:
             evaluation.run(SMALL, "undisturbed", "--jobs", "2")
         for name in wanted:
             begin = time.monotonic()

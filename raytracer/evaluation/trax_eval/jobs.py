@@ -219,6 +219,10 @@ def check_inputs(job, inputs):
             raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
 
 
+# The simulator dies with this process, whatever ends it: also if that was before the kernel had been asked for it.
+DIES_WITH_PARENT = ("setpriv", "--pdeathsig", "KILL", "sh", "-c", '[ "$PPID" = "$0" ] && exec "$@"')
+
+
 def run_job(out, tools, key, threads=1, on_start=None):
     """Makes runs/KEY.json, unless it is there. on_start is told the process."""
     if is_done(out, key):
@@ -235,9 +239,8 @@ def run_job(out, tools, key, threads=1, on_start=None):
     try:
         write_file(pathlib.Path(scratch, "machine.cfg"), job["configuration"])
         begin = time.monotonic()
-        # The simulator dies with this process, whatever ends it.
         with open(f"{scratch}/errors", "wb") as errors:
-            process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command_of(tools, inputs, job, scratch, threads)],
+            process = subprocess.Popen([*DIES_WITH_PARENT, str(os.getpid()), *command_of(tools, inputs, job, scratch, threads)],
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors)
         if on_start:
             on_start(process)
