@@ -35,13 +35,9 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   goto stretch;
 
 #define AT ((unsigned)(((uintptr_t)inst - begin) / sizeof *inst))
-/* What the instructions' semantics are written in (isa/TraxInstructions.td). */
-#define RD reg[inst->rd]
-#define RA reg[inst->ra]
-#define RB reg[inst->rb]
-#define IMM ((uint32_t)inst->imm)
+#include "core/semantics_begin.h"
+#define PRECISION config->special.precision_bits
 #define PC (program->pc[inst - program->inst])
-#define NEXT_PC next_pc
 #define LOAD(ADDRESS, BYTES)                                                                                           \
   (__extension__({                                                                                                     \
     address = (ADDRESS);                                                                                               \
@@ -79,14 +75,6 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     word = (VALUE);                                                                                                    \
     memcpy(local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                         \
   } while (0)
-#define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
-#define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
-#define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
-#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
-#define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
-#define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
-#define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
-#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
 #define ATOMIC_INC(ADDRESS)                                                                                            \
   (__extension__({                                                                                                     \
     (void)(ADDRESS);                                                                                                   \
@@ -96,8 +84,6 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 #define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(ftm->tm, number, NUMBER, 0) /* the cycle ends a burst */
 #define TRAP(VALUE, CODE) goto stop
 #define HALT() goto stop
-#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), config->special.precision_bits)
-#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), config->special.precision_bits)
 
 /* Each operation goes on to the next one by itself, which the host's branch predictor learns far better than one switch
    for all. */
@@ -132,6 +118,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   }
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
+#include "core/semantics_end.h"
 
 stretch:
   at = AT;
@@ -160,27 +147,5 @@ stop:
 
 #undef BURST
 #undef EXACTLY
-#undef RD
-#undef RA
-#undef RB
-#undef IMM
-#undef PC
-#undef NEXT_PC
 #undef AT
-#undef LOAD
-#undef STORE
-#undef LOAD8
-#undef LOAD16
-#undef LOAD32
-#undef LOAD32_GLOBAL
-#undef STORE8
-#undef STORE16
-#undef STORE32
-#undef STORE32_GLOBAL
-#undef ATOMIC_INC
-#undef SPECIAL_REGISTER
-#undef TRAP
-#undef HALT
-#undef FPDIV
-#undef ISQRT
 #undef GO_ON

@@ -34,12 +34,9 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
 
 /* The pc of an instruction of the section in which the thread is; pc is that of the last jump's target. */
 #define HERE (pc + (uint32_t)(inst - begin) * 4)
-#define RD reg[inst->rd]
-#define RA reg[inst->ra]
-#define RB reg[inst->rb]
-#define IMM ((uint32_t)inst->imm)
+#include "core/semantics_begin.h"
 #define PC HERE
-#define NEXT_PC next_pc
+#define PRECISION bits
 #define LOAD(ADDRESS, BYTES)                                                                                           \
   (__extension__({                                                                                                     \
     address = (ADDRESS);                                                                                               \
@@ -69,14 +66,6 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
     else                                                                                                               \
       goto slow;                                                                                                       \
   } while (0)
-#define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
-#define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
-#define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
-#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
-#define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
-#define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
-#define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
-#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
 #define ATOMIC_INC(ADDRESS)                                                                                            \
   (__extension__({                                                                                                     \
     (void)(ADDRESS);                                                                                                   \
@@ -87,8 +76,6 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
   trax_tp_special_register(tm, number, NUMBER, time_of(functional, count + (uint64_t)(inst - begin)))
 #define TRAP(VALUE, CODE) goto slow
 #define HALT() goto slow
-#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)
-#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), bits)
 #define NOWHERE UINT64_MAX
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
   do_##NAME : {                                                                                                        \
@@ -111,6 +98,7 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
   }
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
+#include "core/semantics_end.h"
 
 slow:
   changes[inst - base]--;
@@ -130,26 +118,4 @@ jumped:
 #undef TOUCH_DATA
 #undef TOUCH_TEXT
 #undef HERE
-#undef RD
-#undef RA
-#undef RB
-#undef IMM
-#undef PC
-#undef NEXT_PC
-#undef LOAD
-#undef STORE
-#undef LOAD8
-#undef LOAD16
-#undef LOAD32
-#undef LOAD32_GLOBAL
-#undef STORE8
-#undef STORE16
-#undef STORE32
-#undef STORE32_GLOBAL
-#undef ATOMIC_INC
-#undef SPECIAL_REGISTER
-#undef TRAP
-#undef HALT
-#undef FPDIV
-#undef ISQRT
 #undef NOWHERE

@@ -68,65 +68,34 @@ static trax_fault_kind trap(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint
 
 /* Registers, memory, pc and the outside world. Gives the fault of a trap, which then had no effect. */
 static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
-  const trax_inst inst = tp->inst;
-  const unsigned bits = tm->config->special.precision_bits;
+  const trax_inst *const inst = &tp->inst;
+  uint32_t *const reg = tp->reg;
   uint32_t next_pc = tp->pc + 4;
   trax_fault_kind fault = TRAX_FAULT_NONE;
 
-/* What the instructions' semantics are written in (isa/TraxInstructions.td). */
-#define RD tp->reg[inst.rd]
-#define RA tp->reg[inst.ra]
-#define RB tp->reg[inst.rb]
-#define IMM ((uint32_t)inst.imm)
+#include "core/semantics_begin.h"
 #define PC tp->pc
-#define NEXT_PC next_pc
-#define LOAD8(ADDRESS) load(tm, tp, ADDRESS, 1)
-#define LOAD16(ADDRESS) load(tm, tp, ADDRESS, 2)
-#define LOAD32(ADDRESS) load(tm, tp, ADDRESS, 4)
-#define LOAD32_GLOBAL(ADDRESS) LOAD32(ADDRESS)
-#define STORE8(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 1)
-#define STORE16(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 2)
-#define STORE32(ADDRESS, VALUE) store(tm, tp, ADDRESS, VALUE, 4)
-#define STORE32_GLOBAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
+#define PRECISION tm->config->special.precision_bits
+#define LOAD(ADDRESS, BYTES) load(tm, tp, ADDRESS, BYTES)
+#define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
 #define SPECIAL_REGISTER(NUMBER) special_register(tm, tp, NUMBER, t)
 #define TRAP(VALUE, CODE) fault = trap(tm, tp, VALUE, CODE)
 #define HALT() end(tm, tp, 0)
-#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), bits)
-#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), bits)
-  switch (inst.op) {
+  switch (inst->op) {
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
   case TRAX_OP_##NAME:                                                                                                 \
     __VA_ARGS__                                                                                                        \
     break;
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
+#include "core/semantics_end.h"
   case TRAX_OP_ILLEGAL: /* faulted before */
   case TRAX_OP_COUNT:
     break;
   }
-#undef RD
-#undef RA
-#undef RB
-#undef IMM
-#undef PC
-#undef NEXT_PC
-#undef LOAD8
-#undef LOAD16
-#undef LOAD32
-#undef LOAD32_GLOBAL
-#undef STORE8
-#undef STORE16
-#undef STORE32
-#undef STORE32_GLOBAL
-#undef ATOMIC_INC
-#undef SPECIAL_REGISTER
-#undef TRAP
-#undef HALT
-#undef FPDIV
-#undef ISQRT
 
-  tp->reg[0] = 0;
+  reg[0] = 0;
   if (!fault)
     tp->pc = next_pc;
   return fault;

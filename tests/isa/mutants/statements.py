@@ -178,8 +178,8 @@ def results(statement, flags):
         return
     yield f"const uint32_t kept = RD; {statement} RD = kept;", "rd is not written"
     yield (f"const uint32_t kept = RD; {statement} const uint32_t result = RD; RD = kept; "
-           "if (inst.rd) tp->reg[inst.rd ^ 1] = result;"), "the register beside rd is written"
-    yield f"{statement} if (inst.rd == 0) trax_keep_r0(tp->reg, RD);", "r0 keeps what is written to it"
+           "if (inst->rd) tp->reg[inst->rd ^ 1] = result;"), "the register beside rd is written"
+    yield f"{statement} if (inst->rd == 0) trax_keep_r0(tp->reg, RD);", "r0 keeps what is written to it"
     yield f"{statement} RD ^= 1;", "the lowest bit of the result is inverted"
     if re.search(r"RD = [^;]*( < |trax_f(eq|lt|le)\()", statement):
         yield f"{statement} RD = -RD;", "true is all ones"
@@ -204,7 +204,7 @@ def memory(statement):
 def mine(statement):
     """With the registers of `own`, memory of `tp`."""
     for name, field in (("RD", "rd"), ("RA", "ra"), ("RB", "rb")):
-        statement = re.sub(rf"\b{name}\b", f"own->reg[inst.{field}]", statement)
+        statement = re.sub(rf"\b{name}\b", f"own->reg[inst->{field}]", statement)
     return statement + " tp = own;"
 
 

@@ -1,0 +1,24 @@
+/* The end of core/semantics_begin.h, with what its includer defines. */
+#undef RD
+#undef RA
+#undef RB
+#undef IMM
+#undef PC
+#undef NEXT_PC
+#undef LOAD
+#undef LOAD8
+#undef LOAD16
+#undef LOAD32
+#undef LOAD32_GLOBAL
+#undef STORE
+#undef STORE8
+#undef STORE16
+#undef STORE32
+#undef STORE32_GLOBAL
+#undef ATOMIC_INC
+#undef SPECIAL_REGISTER
+#undef TRAP
+#undef HALT
+#undef PRECISION
+#undef FPDIV
+#undef ISQRT
