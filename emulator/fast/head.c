@@ -9,6 +9,19 @@ static void drop_arrived(struct trax_fast_tp *ftp, const struct trax_tp *tp) {
       ftp->atomics &= ~(rest & -rest);
 }
 
+/* Whether all lines of the burst are certainly there. What was noted of them may contain lines that are never executed,
+   and so never come. */
+static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsigned count) {
+  const struct trax_fast_tp *ftp = &ftm->tp[number];
+  const uint64_t missing = ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]];
+  if (!missing || ftm->fast->program.lines > 64)
+    return !missing;
+  uint64_t found = 0;
+  for (unsigned i = 0; i < count; i++)
+    found |= (uint64_t)1 << ftm->fast->program.inst[ftp->index[i]].line % 64;
+  return !(missing & found);
+}
+
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
@@ -22,8 +35,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   }
   if (count) {
     ftm->deferred &= ~bit;
-    const bool certain = !(ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]]);
-    ftm->uncertain = (ftm->uncertain & ~bit) | (certain ? 0 : bit);
+    ftm->uncertain = (ftm->uncertain & ~bit) | (all_resident(ftm, number, count) ? 0 : bit);
     ftp->asks[count - 1] |= TRAX_ASKS_SLOWLY;
     ftm->heads.last[number] = (uint8_t)(count - 1);
     trax_fast_set_head(&ftm->heads, number, 0);
