@@ -32,8 +32,8 @@ def neighbours(mesh):
     return [(entry.name, entry.stat().st_size, entry.stat().st_mtime_ns) for entry in sorted(os.scandir(folder), key=lambda one: one.name) if entry.is_file()]
 
 
-# What trax-scene is told for a program; the era program's boxes are those of the triangles, not of a grid.
-IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary"]}
+# What trax-scene is told for a program; the era program's boxes are those of the triangles, not of a grid, and no triangle is split.
+IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary", "--splits=1"]}
 
 
 def scene_file(out, tools, directory, name, scene, program):
