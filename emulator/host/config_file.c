@@ -202,9 +202,12 @@ trax_status trax_config_read_file(struct trax_config *config, const char *path, 
     config_t file;
     config_init(&file);
     struct trax_config result;
-    if (config_read_string(&file, text) != CONFIG_TRUE)
-      status = trax_fail(error, "%s:%d: %s", path, config_error_line(&file), config_error_text(&file));
-    else
+    if (config_read_string(&file, text) != CONFIG_TRUE) {
+      const char *reason = config_error_text(&file);
+      if (reason && strcmp(reason, "memory exhausted") == 0) /* the parser's stack, which has a limit */
+        reason = "sections too deep within each other";
+      status = trax_fail(error, "%s:%d: %s", path, config_error_line(&file), reason);
+    } else
       status = apply_all(&result, path, &file, error);
     config_destroy(&file);
     if (status == TRAX_OK)

@@ -152,6 +152,20 @@ def with_value(case, name, value):
     return [f"--{name}={value}", *case.words[1:]]
 
 
+def same_file():
+    """Two outputs in one file; what is no file takes several."""
+    outputs = [[f"--{name}", "both", *case.words[1:]] for name, case in CASES.items() if case.bad is FILES and name != "stats"]
+    outputs.append(["--dump", "input=both", "--bind", "input=in.bin"])
+    for words in outputs:
+        refused(words[0], words + ["--stats", "both"], "copy.elf")
+        err = run(*words, "--stats", "both", "copy.elf")[2]
+        if "--stats" not in err or f"{words[0]} " not in err or "would both write both" not in err:
+            fail(f"it is not said that {words[0]} and --stats would both write the file", err)
+    refused("dump", ["--dump", "input=both", "--dump", "output=both"], "copy.elf")
+    if run("--stats", "/dev/null", "--report", "/dev/null", "hello.elf")[0] != 0:
+        fail("/dev/null does not take two outputs")
+
+
 def try_option(name, argument, case):
     words = [f"--{name}", *case.words]
     status, out, err = run(*words, case.program)
@@ -190,6 +204,7 @@ with tempfile.TemporaryDirectory() as directory:
         fail(f"--{name} is tested, but not listed by --help")
     for name in options.keys() & CASES.keys():
         try_option(name, options[name] or None, CASES[name])
+    same_file()
     os.chdir("/")
 print(f"{len(CASES)} options, {failures} failures")
 sys.exit(failures > 0)
