@@ -49,7 +49,8 @@ trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, s
   sampling->slots.counter = counter->address;
   sampling->slots.costs = sampling->prediction.cycles;
   sampling->slots.block = TRAX_PREDICTION_BLOCK;
-  sampling->slots.rays = by_tiles ? run->rays : 0; /* another program may trace others */
+  /* Another program may trace other rays than the twin, unless it says that it does not. */
+  sampling->slots.rays = by_tiles || trax_image_symbol(image, "workload_rays") ? run->rays : 0;
   sampling->slots.items = (uint64_t)frame->params->width * frame->params->height;
   return TRAX_OK;
 }

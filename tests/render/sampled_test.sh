@@ -88,6 +88,7 @@ if [ -e "$bin/../lib/trax/trax-era.elf" ]; then
   render some --size 320x180 --config 1x32 --program "$bin/../lib/trax/trax-era.elf" --sampled --sample-fraction 0.2
   is "$(number some.json cycles) / $(number exact.json cycles) < 1.1 && $(number some.json cycles) / $(number exact.json cycles) > 0.9" ||
     fail "era: far off: $(number some.json cycles) for $(number exact.json cycles)"
+  [ "$(number some.json rays)" = "$(number exact.json rays)" ] || fail "era: $(number some.json rays) rays, not $(number exact.json rays)"
 fi
 refuse() {
   pattern=$1
