@@ -1,71 +1,55 @@
 #include "gdb/dwarf_registers.h"
 
+#include "host/dwarf_reader.h"
 #include <dwarf.h>
-#include <string.h>
 
 enum { REGISTERS = 32, ADDRESS = 4, OFFSET = 4, DEPTH = 4 }; /* of expressions within each other */
 
 struct cursor {
-  uint8_t *at, *end;
-  bool bad; /* it went past the end, or met what it does not know */
+  trax_dwarf_reader in; /* bad: also if it met what it does not know */
   trax_register_map map;
   unsigned depth;
 };
 
-static uint8_t *skip(struct cursor *cursor, uint64_t bytes) {
-  uint8_t *at = cursor->at;
-  if (bytes > (uint64_t)(cursor->end - at)) {
-    cursor->bad = true;
-    cursor->at = cursor->end;
-    return NULL;
-  }
-  cursor->at += bytes;
-  return at;
+/* The bytes are there to be changed (dwarf_registers.h). */
+static void put(const uint8_t *at, uint8_t byte) {
+  *(uint8_t *)at = byte;
+}
+
+static const uint8_t *skip(struct cursor *cursor, uint64_t bytes) {
+  return trax_dwarf_take(&cursor->in, bytes);
 }
 
 static uint64_t fixed(struct cursor *cursor, unsigned bytes) {
-  uint64_t value = 0;
-  const uint8_t *at = skip(cursor, bytes);
-  for (unsigned i = 0; at && i < bytes; i++)
-    value |= (uint64_t)at[i] << 8 * i;
-  return value;
+  return trax_dwarf_fixed(&cursor->in, bytes);
 }
 
 static uint64_t leb(struct cursor *cursor) { /* of signed ones only the end matters */
-  uint64_t value = 0;
-  for (unsigned shift = 0;; shift += 7) {
-    const uint8_t *at = skip(cursor, 1);
-    if (!at)
-      return 0;
-    if (shift < 64)
-      value |= (uint64_t)(*at & 0x7F) << shift;
-    if (!(*at & 0x80))
-      return value;
-  }
+  return trax_dwarf_leb(&cursor->in, false);
 }
 
 /* A register as ULEB128. */
 static void renumber(struct cursor *cursor) {
-  uint8_t *at = cursor->at;
+  const uint8_t *at = cursor->in.at;
   const uint64_t number = leb(cursor);
-  if (cursor->bad || number >= REGISTERS || cursor->at != at + 1)
-    cursor->bad = true;
+  if (cursor->in.bad || number >= REGISTERS || cursor->in.at != at + 1)
+    cursor->in.bad = true;
   else
-    *at = cursor->map[number];
+    put(at, cursor->map[number]);
 }
 
 static void expression(struct cursor *cursor, uint64_t size);
 
 static void operation(struct cursor *cursor) {
-  uint8_t *at = skip(cursor, 1);
+  const uint8_t *at = skip(cursor, 1);
   if (!at)
     return;
   if (*at >= DW_OP_reg0 && *at <= DW_OP_reg31) {
-    *at = (uint8_t)(DW_OP_reg0 + cursor->map[*at - DW_OP_reg0]);
+    put(at, (uint8_t)(DW_OP_reg0 + cursor->map[*at - DW_OP_reg0]));
     return;
   }
   if (*at >= DW_OP_breg0 && *at <= DW_OP_breg31) {
-    *at = (uint8_t)(DW_OP_breg0 + cursor->map[*at - DW_OP_breg0]);
+    put(at, (uint8_t)(DW_OP_breg0 + cursor->map[*at - DW_OP_breg0]));
     leb(cursor);
     return;
   }
@@ -117,7 +101,7 @@ static void operation(struct cursor *cursor) {
     break;
   case DW_OP_form_tls_address: /* of an address in local memory, which is the place itself (docs/abi.md) */
   case DW_OP_GNU_push_tls_address:
-    *at = DW_OP_nop;
+    put(at, DW_OP_nop);
     break;
   case DW_OP_regx:
     renumber(cursor);
@@ -183,34 +167,34 @@ static void operation(struct cursor *cursor) {
   case DW_OP_stack_value:
     break;
   default:
-    cursor->bad = true;
+    cursor->in.bad = true;
     break;
   }
 }
 
 static void expression(struct cursor *cursor, uint64_t size) {
-  uint8_t *at = skip(cursor, size);
+  const uint8_t *at = skip(cursor, size);
   if (!at || ++cursor->depth > DEPTH) {
-    cursor->bad = true;
+    cursor->in.bad = true;
     return;
   }
-  struct cursor inner = {.at = at, .end = at + size, .map = cursor->map, .depth = cursor->depth};
-  while (inner.at < inner.end && !inner.bad)
+  struct cursor inner = {.in = {at, at + size, false}, .map = cursor->map, .depth = cursor->depth};
+  while (inner.in.at < inner.in.end && !inner.in.bad)
     operation(&inner);
-  cursor->bad |= inner.bad;
+  cursor->in.bad |= inner.in.bad;
   cursor->depth--;
 }
 
 bool trax_dwarf_renumber_expression(uint8_t *bytes, size_t size, trax_register_map map) {
-  struct cursor cursor = {.at = bytes, .end = bytes + size, .map = map};
+  struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
   expression(&cursor, size);
-  return !cursor.bad;
+  return !cursor.in.bad;
 }
 
 /* --- call frames --- */
 
 static void frame_instruction(struct cursor *cursor) {
-  uint8_t *at = skip(cursor, 1);
+  const uint8_t *at = skip(cursor, 1);
   if (!at)
     return;
   const uint8_t low = *at & 0x3F, high = *at & 0xC0;
@@ -218,9 +202,9 @@ static void frame_instruction(struct cursor *cursor) {
     return;
   if (high) { /* offset, restore */
     if (low >= REGISTERS)
-      cursor->bad = true;
+      cursor->in.bad = true;
     else
-      *at = high | cursor->map[low];
+      put(at, high | cursor->map[low]);
     if (high == DW_CFA_offset)
       leb(cursor);
     return;
@@ -273,7 +257,7 @@ static void frame_instruction(struct cursor *cursor) {
     expression(cursor, leb(cursor));
     break;
   default:
-    cursor->bad = true;
+    cursor->in.bad = true;
     break;
   }
 }
@@ -283,7 +267,7 @@ static void common_information(struct cursor *cursor) {
   const uint64_t version = fixed(cursor, 1);
   const uint8_t *augmentation = skip(cursor, 1);
   if (!augmentation || *augmentation) /* what follows would be of a kind that our compiler does not write */
-    cursor->bad = true;
+    cursor->in.bad = true;
   if (version >= 4)
     skip(cursor, 2); /* sizes of addresses and segments */
   leb(cursor);
@@ -292,34 +276,34 @@ static void common_information(struct cursor *cursor) {
 }
 
 bool trax_dwarf_renumber_frames(uint8_t *bytes, size_t size, trax_register_map map) {
-  struct cursor cursor = {.at = bytes, .end = bytes + size, .map = map};
-  while (cursor.at < cursor.end && !cursor.bad) {
+  struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
+  while (cursor.in.at < cursor.in.end && !cursor.in.bad) {
     const uint64_t length = fixed(&cursor, 4);
-    uint8_t *at = skip(&cursor, length);
+    const uint8_t *at = skip(&cursor, length);
     if (!at)
       break;
-    struct cursor entry = {.at = at, .end = at + length, .map = map};
+    struct cursor entry = {.in = {at, at + length, false}, .map = map};
     if (fixed(&entry, 4) == DW_CIE_ID_32)
       common_information(&entry);
     else
       skip(&entry, 2 * ADDRESS);
-    while (entry.at < entry.end && !entry.bad)
+    while (entry.in.at < entry.in.end && !entry.in.bad)
       frame_instruction(&entry);
-    cursor.bad |= entry.bad;
+    cursor.in.bad |= entry.in.bad;
   }
-  return !cursor.bad;
+  return !cursor.in.bad;
 }
 
 /* --- location lists --- */
 
 bool trax_dwarf_renumber_locations(uint8_t *bytes, size_t size, trax_register_map map) {
-  struct cursor cursor = {.at = bytes, .end = bytes + size, .map = map};
-  while (cursor.at < cursor.end && !cursor.bad) {
+  struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
+  while (cursor.in.at < cursor.in.end && !cursor.in.bad) {
     const uint64_t begin = fixed(&cursor, ADDRESS), end = fixed(&cursor, ADDRESS);
     if ((begin || end) && begin != UINT32_MAX) /* the end of a list, a new base */
       expression(&cursor, fixed(&cursor, 2));
   }
-  return !cursor.bad;
+  return !cursor.in.bad;
 }
 
 static void list_entry(struct cursor *cursor) {
@@ -348,25 +332,25 @@ static void list_entry(struct cursor *cursor) {
     leb(cursor);
     break;
   default:
-    cursor->bad = true;
+    cursor->in.bad = true;
     return;
   }
   expression(cursor, leb(cursor));
 }
 
 bool trax_dwarf_renumber_lists(uint8_t *bytes, size_t size, trax_register_map map) {
-  struct cursor cursor = {.at = bytes, .end = bytes + size, .map = map};
-  while (cursor.at < cursor.end && !cursor.bad) {
+  struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
+  while (cursor.in.at < cursor.in.end && !cursor.in.bad) {
     const uint64_t length = fixed(&cursor, 4);
-    uint8_t *at = skip(&cursor, length);
+    const uint8_t *at = skip(&cursor, length);
     if (!at)
       break;
-    struct cursor unit = {.at = at, .end = at + length, .map = map};
+    struct cursor unit = {.in = {at, at + length, false}, .map = map};
     skip(&unit, 4); /* version, sizes */
     skip(&unit, fixed(&unit, 4) * OFFSET);
-    while (unit.at < unit.end && !unit.bad)
+    while (unit.in.at < unit.in.end && !unit.in.bad)
       list_entry(&unit);
-    cursor.bad |= unit.bad;
+    cursor.in.bad |= unit.in.bad;
   }
-  return !cursor.bad;
+  return !cursor.in.bad;
 }

@@ -3,57 +3,21 @@
 #include <dwarf.h>
 #include <string.h>
 
+#include "dwarf_reader.h"
 #include "image_internal.h"
 
 enum { RA = 1, SP = 2, SAVED_STATES = 8 };
 
-/* Reads of damaged information give 0 and set `bad`. */
-struct cursor {
-  const uint8_t *at, *end;
-  bool bad;
-};
-
-static const uint8_t *take(struct cursor *cursor, uint64_t bytes) {
-  const uint8_t *at = cursor->at;
-  if (bytes > (uint64_t)(cursor->end - at)) {
-    cursor->bad = true;
-    cursor->at = cursor->end;
-    return NULL;
-  }
-  cursor->at += bytes;
-  return at;
-}
-
-static uint32_t fixed(struct cursor *cursor, unsigned bytes) {
-  uint32_t value = 0;
-  const uint8_t *at = take(cursor, bytes);
-  for (unsigned i = 0; at && i < bytes; ++i)
-    value |= (uint32_t)at[i] << 8 * i;
-  return value;
-}
-
 /* Cut to 32 bits, which is all that an address or an offset has. */
-static uint32_t leb(struct cursor *cursor, bool is_signed) {
-  uint32_t value = 0;
-  for (unsigned shift = 0;; shift += 7) {
-    const uint8_t *at = take(cursor, 1);
-    if (!at)
-      return 0;
-    if (shift < 32)
-      value |= (uint32_t)(*at & 0x7F) << shift;
-    if (*at & 0x80)
-      continue;
-    if (is_signed && (*at & 0x40) && shift + 7 < 32)
-      value |= ~(uint32_t)0 << (shift + 7);
-    return value;
-  }
+static uint32_t leb(trax_dwarf_reader *reader, bool is_signed) {
+  return (uint32_t)trax_dwarf_leb(reader, is_signed);
 }
 
-static unsigned register_number(struct cursor *cursor) {
-  const uint32_t number = leb(cursor, false);
+static unsigned register_number(trax_dwarf_reader *reader) {
+  const uint64_t number = trax_dwarf_leb(reader, false);
   if (number < TRAX_NUM_REGISTERS)
-    return number;
-  cursor->bad = true;
+    return (unsigned)number;
+  reader->bad = true;
   return 0;
 }
 
@@ -71,12 +35,12 @@ struct row {
 struct frame_entry {
   uint32_t begin, bytes, code_factor, data_factor;
   unsigned return_column;
-  struct cursor common, own; /* instructions of the CIE and of the FDE */
+  trax_dwarf_reader common, own; /* instructions of the CIE and of the FDE */
 };
 
 /* --- finding --- */
 
-static bool section_named(const trax_image *image, const char *wanted, struct cursor *cursor) {
+static bool section_named(const trax_image *image, const char *wanted, trax_dwarf_reader *reader) {
   size_t names;
   if (elf_getshdrstrndx(image->elf, &names) != 0)
     return false;
@@ -85,31 +49,31 @@ static bool section_named(const trax_image *image, const char *wanted, struct cu
     const char *name = header ? elf_strptr(image->elf, names, header->sh_name) : NULL;
     if (name && strcmp(name, wanted) == 0 && header->sh_type != SHT_NOBITS) { /* which lies in the file (image.c) */
       const uint8_t *begin = image->bytes + header->sh_offset;
-      *cursor = (struct cursor){begin, begin + header->sh_size, false};
+      *reader = (trax_dwarf_reader){begin, begin + header->sh_size, false};
       return true;
     }
   }
   return false;
 }
 
-/* The entry at the cursor, which goes behind it. */
-static struct cursor take_entry(struct cursor *cursor) {
-  const uint32_t length = fixed(cursor, 4);
-  const uint8_t *at = take(cursor, length);
-  return at ? (struct cursor){at, at + length, false} : (struct cursor){.bad = true};
+/* The entry at the reader, which goes behind it. */
+static trax_dwarf_reader take_entry(trax_dwarf_reader *reader) {
+  const uint32_t length = trax_dwarf_fixed(reader, 4);
+  const uint8_t *at = trax_dwarf_take(reader, length);
+  return at ? (trax_dwarf_reader){at, at + length, false} : (trax_dwarf_reader){.bad = true};
 }
 
-static bool read_common(struct cursor section, uint32_t offset, struct frame_entry *entry) {
-  if (!take(&section, offset))
+static bool read_common(trax_dwarf_reader section, uint32_t offset, struct frame_entry *entry) {
+  if (!trax_dwarf_take(&section, offset))
     return false;
-  struct cursor cie = take_entry(&section);
-  if (cie.bad || fixed(&cie, 4) != DW_CIE_ID_32)
+  trax_dwarf_reader cie = take_entry(&section);
+  if (cie.bad || trax_dwarf_fixed(&cie, 4) != DW_CIE_ID_32)
     return false;
-  const uint32_t version = fixed(&cie, 1);
-  if (fixed(&cie, 1) != 0) /* an augmentation: of a kind that our compiler does not write */
+  const uint32_t version = trax_dwarf_fixed(&cie, 1);
+  if (trax_dwarf_fixed(&cie, 1) != 0) /* an augmentation: of a kind that our compiler does not write */
     return false;
   if (version >= 4)
-    take(&cie, 2); /* sizes of addresses and segments */
+    trax_dwarf_take(&cie, 2); /* sizes of addresses and segments */
   entry->code_factor = leb(&cie, false);
   entry->data_factor = leb(&cie, true);
   entry->return_column = register_number(&cie);
@@ -118,19 +82,19 @@ static bool read_common(struct cursor section, uint32_t offset, struct frame_ent
 }
 
 static bool find_entry(const trax_image *image, uint32_t pc, struct frame_entry *entry) {
-  struct cursor section, whole;
+  trax_dwarf_reader section, whole;
   if (!section_named(image, ".debug_frame", &section))
     return false;
   whole = section;
   while (section.at < section.end) {
-    struct cursor fde = take_entry(&section);
-    const uint32_t common = fixed(&fde, 4);
+    trax_dwarf_reader fde = take_entry(&section);
+    const uint32_t common = trax_dwarf_fixed(&fde, 4);
     if (fde.bad)
       return false;
     if (common == DW_CIE_ID_32)
       continue;
-    entry->begin = fixed(&fde, 4);
-    entry->bytes = fixed(&fde, 4);
+    entry->begin = trax_dwarf_fixed(&fde, 4);
+    entry->bytes = trax_dwarf_fixed(&fde, 4);
     entry->own = fde;
     if (!fde.bad && pc - entry->begin < entry->bytes)
       return read_common(whole, common, entry);
@@ -156,93 +120,93 @@ static void advance(struct interpreter *it, uint32_t units) {
   it->place += units * it->entry->code_factor;
 }
 
-static void interpret_long(struct interpreter *it, uint8_t opcode, struct cursor *cursor) {
+static void interpret_long(struct interpreter *it, uint8_t opcode, trax_dwarf_reader *reader) {
   const uint32_t factor = it->entry->data_factor;
   unsigned number;
   switch (opcode) {
   case DW_CFA_nop:
     break;
   case DW_CFA_set_loc:
-    it->place = fixed(cursor, 4);
+    it->place = trax_dwarf_fixed(reader, 4);
     break;
   case DW_CFA_advance_loc1:
-    advance(it, fixed(cursor, 1));
+    advance(it, trax_dwarf_fixed(reader, 1));
     break;
   case DW_CFA_advance_loc2:
-    advance(it, fixed(cursor, 2));
+    advance(it, trax_dwarf_fixed(reader, 2));
     break;
   case DW_CFA_advance_loc4:
-    advance(it, fixed(cursor, 4));
+    advance(it, trax_dwarf_fixed(reader, 4));
     break;
   case DW_CFA_offset_extended:
-    number = register_number(cursor);
-    set_rule(it, number, RULE_AT, leb(cursor, false) * factor);
+    number = register_number(reader);
+    set_rule(it, number, RULE_AT, leb(reader, false) * factor);
     break;
   case DW_CFA_offset_extended_sf:
-    number = register_number(cursor);
-    set_rule(it, number, RULE_AT, leb(cursor, true) * factor);
+    number = register_number(reader);
+    set_rule(it, number, RULE_AT, leb(reader, true) * factor);
     break;
   case DW_CFA_val_offset:
-    number = register_number(cursor);
-    set_rule(it, number, RULE_IS, leb(cursor, false) * factor);
+    number = register_number(reader);
+    set_rule(it, number, RULE_IS, leb(reader, false) * factor);
     break;
   case DW_CFA_val_offset_sf:
-    number = register_number(cursor);
-    set_rule(it, number, RULE_IS, leb(cursor, true) * factor);
+    number = register_number(reader);
+    set_rule(it, number, RULE_IS, leb(reader, true) * factor);
     break;
   case DW_CFA_register:
-    number = register_number(cursor);
-    set_rule(it, number, RULE_REGISTER, register_number(cursor));
+    number = register_number(reader);
+    set_rule(it, number, RULE_REGISTER, register_number(reader));
     break;
   case DW_CFA_restore_extended:
-    number = register_number(cursor);
+    number = register_number(reader);
     it->row.rules[number] = it->initial.rules[number];
     break;
   case DW_CFA_undefined:
-    set_rule(it, register_number(cursor), RULE_UNDEFINED, 0);
+    set_rule(it, register_number(reader), RULE_UNDEFINED, 0);
     break;
   case DW_CFA_same_value:
-    set_rule(it, register_number(cursor), RULE_SAME, 0);
+    set_rule(it, register_number(reader), RULE_SAME, 0);
     break;
   case DW_CFA_remember_state:
     if (it->saved_count == SAVED_STATES)
-      cursor->bad = true;
+      reader->bad = true;
     else
       it->saved[it->saved_count++] = it->row;
     break;
   case DW_CFA_restore_state:
     if (it->saved_count == 0)
-      cursor->bad = true;
+      reader->bad = true;
     else
       it->row = it->saved[--it->saved_count];
     break;
   case DW_CFA_def_cfa:
-    it->row.cfa_register = register_number(cursor);
-    it->row.cfa_offset = leb(cursor, false);
+    it->row.cfa_register = register_number(reader);
+    it->row.cfa_offset = leb(reader, false);
     break;
   case DW_CFA_def_cfa_register:
-    it->row.cfa_register = register_number(cursor);
+    it->row.cfa_register = register_number(reader);
     break;
   case DW_CFA_def_cfa_offset:
-    it->row.cfa_offset = leb(cursor, false);
+    it->row.cfa_offset = leb(reader, false);
     break;
   case DW_CFA_def_cfa_sf:
-    it->row.cfa_register = register_number(cursor);
-    it->row.cfa_offset = leb(cursor, true) * factor;
+    it->row.cfa_register = register_number(reader);
+    it->row.cfa_offset = leb(reader, true) * factor;
     break;
   case DW_CFA_def_cfa_offset_sf:
-    it->row.cfa_offset = leb(cursor, true) * factor;
+    it->row.cfa_offset = leb(reader, true) * factor;
     break;
   default: /* expressions: our compiler writes none */
-    cursor->bad = true;
+    reader->bad = true;
     break;
   }
 }
 
 /* Up to the row that holds at it->pc. */
-static bool interpret(struct interpreter *it, struct cursor cursor) {
-  while (cursor.at < cursor.end && !cursor.bad) {
-    const uint8_t opcode = (uint8_t)fixed(&cursor, 1), low = opcode & 0x3F;
+static bool interpret(struct interpreter *it, trax_dwarf_reader reader) {
+  while (reader.at < reader.end && !reader.bad) {
+    const uint8_t opcode = (uint8_t)trax_dwarf_fixed(&reader, 1), low = opcode & 0x3F;
     switch (opcode & 0xC0) {
     case DW_CFA_advance_loc:
       advance(it, low);
@@ -250,7 +214,7 @@ static bool interpret(struct interpreter *it, struct cursor cursor) {
     case DW_CFA_offset:
       if (low >= TRAX_NUM_REGISTERS)
         return false;
-      set_rule(it, low, RULE_AT, leb(&cursor, false) * it->entry->data_factor);
+      set_rule(it, low, RULE_AT, leb(&reader, false) * it->entry->data_factor);
       break;
     case DW_CFA_restore:
       if (low >= TRAX_NUM_REGISTERS)
@@ -258,13 +222,13 @@ static bool interpret(struct interpreter *it, struct cursor cursor) {
       it->row.rules[low] = it->initial.rules[low];
       break;
     default:
-      interpret_long(it, opcode, &cursor);
+      interpret_long(it, opcode, &reader);
       break;
     }
     if (it->place > it->pc)
       break;
   }
-  return !cursor.bad;
+  return !reader.bad;
 }
 
 /* --- applying --- */
