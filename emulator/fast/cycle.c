@@ -141,8 +141,6 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   struct trax_tm *tm = ftm->tm;
   const struct trax_tp *tp = &tm->tp[number];
   const struct trax_fast_inst *inst = trax_fast_head_inst(ftm, number);
-  if ((ftm->deferred >> number & 1) && inst->decoded->ask == TRAX_ASK_ILLEGAL)
-    return true;
   for (uint32_t rest = inst->waits & ftm->busy_registers[number]; rest; rest &= rest - 1)
     if (tp->usable[trax_first(rest)] > t) {
       uint64_t until = 0;

@@ -220,9 +220,6 @@ MUTANTS = [
     # A pc that is not a multiple of 4 is misaligned.
     ("fast/cycle.c", "pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE",
      "TRAX_FAULT_EXECUTE"),
-    # An illegal instruction faults before its operands are looked at.
-    ("fast/cycle.c", "inst->decoded->ask == TRAX_ASK_ILLEGAL)\n    return true;",
-     "false)\n    return true;"),
     # Losers of integer multipliers are charged.
     ("fast/cycle.c", "lost->int_mul = askers & ~won;",
      "lost->int_mul = askers & ~won & ~(askers & -askers);"),
