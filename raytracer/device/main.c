@@ -26,7 +26,7 @@ struct trax_buffer record;
 /* The paper's workload: the pixel's word. All rays go through one copy of the traversal, so that the program fits in
    the instruction cache. */
 static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
-                                                                   struct pixel pixel) {
+                                                                   uint32_t layout, struct pixel pixel) {
   struct vector sum = {0, 0, 0};
   uint32_t sample = 0;
 
@@ -42,10 +42,10 @@ next_sample:
   for (;;) {
     struct ray ray;
     prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin,
-                RUN_GRID(run));
+                LAYOUT_GRID(run, layout));
     HIDE_ORIGIN(shadow); /* or the loop would be unrolled into two copies */
-    bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
-                           shadow, &hit);
+    bool found =
+        trace_ray(layout, scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
     LOAD_AGAIN(run);
     if (shadow) {
       RECORD_SHADOW(run, pixel, sample, found);
@@ -92,7 +92,7 @@ next_sample:
   return mean_pixel(&sum, run->sample_weight);
 }
 
-/* The general program has both kinds of pictures, each in a function with a frame of its own; neither returns to main,
+/* The general program has all kinds of pictures, each in a function with a frame of its own; none returns to main,
    which would need its frame all the while. */
 #if !defined __trax__
 #define RENDER_ALL
@@ -104,19 +104,22 @@ next_sample:
 
 #ifdef __trax__
 #define END_THREAD() trax_halt()
+#define NO_RETURN __attribute__((noreturn))
 #else
 #define END_THREAD() ((void)0)
+#define NO_RETURN
 #endif
 
-/* The paper's workload. */
-static RENDER_ALL void render_all(const struct trax_render_params *run) {
+/* The paper's workload. Each layout of nodes has a loop of its own, which fits in the instruction cache. */
+static inline __attribute__((always_inline)) NO_RETURN void render_layout(const struct trax_render_params *run,
+                                                                          uint32_t layout) {
   uint32_t slot, queue = first_queue();
   while (take_slot(run, next_slot, &queue, &slot)) {
     struct pixel pixel;
     HIDE_ORIGIN(slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
     if (!slot_pixel(run, slot, &pixel))
       continue;
-    uint32_t word = render_pixel(run, pixel);
+    uint32_t word = render_pixel(run, layout, pixel);
     HIDE_ORIGIN(pixel.packed);
     ACCESS_SLOT(slot);
     LOAD_AGAIN(run);
@@ -125,6 +128,14 @@ static RENDER_ALL void render_all(const struct trax_render_params *run) {
     trax_count_items(1);
   }
   END_THREAD();
+}
+
+static RENDER_ALL void render_binary(const struct trax_render_params *run) {
+  render_layout(run, TRAX_NODES_BINARY);
+}
+
+static RENDER_ALL void render_quantised(const struct trax_render_params *run) {
+  render_layout(run, TRAX_NODES_QUANTISED);
 }
 
 /* Everything else. */
@@ -148,16 +159,15 @@ static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
 }
 
 /* On the TP it ends its thread: what does not return need not save its caller's registers. */
-#ifdef __trax__
-__attribute__((noreturn))
-#endif
-int main(void) {
+NO_RETURN int main(void) {
   const struct trax_render_params *run = RUN_PARAMS;
-  check_scene_address(scene.data);
+  check_scene(scene.data);
   if (NEEDS_PATHS(run))
     render_all_paths(run);
+  else if (RUN_LAYOUT(run) == TRAX_NODES_BINARY)
+    render_binary(run);
   else
-    render_all(run);
+    render_quantised(run);
 #ifndef __trax__
   return 0;
 #endif

@@ -38,9 +38,10 @@ extern struct trax_buffer scene, params, image;
 #else
 #define RUN_LAYOUT(run) ((run)->node_layout)
 #endif
-#define RUN_GRID(run) (RUN_LAYOUT(run) == TRAX_NODES_BINARY ? NULL : &(run)->grid)
+#define LAYOUT_GRID(run, layout) ((layout) == TRAX_NODES_BINARY ? NULL : &(run)->grid)
+#define RUN_GRID(run) LAYOUT_GRID(run, RUN_LAYOUT(run))
 
-/* The general program has a short stack; the host has room. */
+/* Of a general program that is told nothing else; the host has room for a whole stack. */
 #ifndef TRAX_TREE_DEPTH
 #define TRAX_TREE_DEPTH TRAX_SCENE_MAX_DEPTH
 #endif
@@ -84,13 +85,14 @@ static inline const char *scene_at(const char *scene_bytes, uint32_t offset) {
 }
 
 #ifdef TRAX_SPECIALISED_FEATURES
-static inline void check_scene_address(const struct trax_scene_header *header) {
+static inline void check_scene(const struct trax_scene_header *header) {
   if (header->base != (uint32_t)header)
     trax_abort("the scene's references are addresses of another place than where it is bound");
 }
 #else
-static inline void check_scene_address(const struct trax_scene_header *header) {
-  (void)header;
+static inline void check_scene(const struct trax_scene_header *header) {
+  if (header->max_depth > TRAX_TREE_DEPTH)
+    trax_abort("the scene is deeper than this program's stack");
 }
 #endif
 

@@ -36,14 +36,16 @@ bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *n
   return written > 0 && written < TRAX_PATH_SIZE && access(path, R_OK) == 0;
 }
 
-static trax_status general_program(struct trax_program *program, const struct options *options, trax_error *error) {
+static trax_status general_program(struct trax_program *program, const struct options *options,
+                                   const struct trax_frame *frame, trax_error *error) {
+  const bool deep = frame->scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH;
   program->specialised = false;
   if (options->program) {
     if (snprintf(program->path, sizeof program->path, "%s", options->program) >= (int)sizeof program->path)
       return trax_fail(error, "the path of the program is too long");
     return TRAX_OK;
   }
-  if (!installed_file(program->path, "lib/trax", "trax-raytracer", ".elf"))
+  if (!installed_file(program->path, "lib/trax", deep ? "trax-raytracer-deep" : "trax-raytracer", ".elf"))
     return trax_fail(error, "%s is missing; --program names another one", program->path);
   return TRAX_OK;
 }
@@ -52,7 +54,7 @@ static trax_status general_program(struct trax_program *program, const struct op
 static trax_status find_program(struct trax_program *program, const struct options *options,
                                 const struct trax_frame *frame, unsigned queues, const volatile int *interrupt,
                                 trax_error *error) {
-  trax_status status = general_program(program, options, error);
+  trax_status status = general_program(program, options, frame, error);
   if (status != TRAX_OK || options->program || options->no_specialise)
     return status;
   char root[TRAX_PATH_SIZE], note[256] = "";
@@ -305,7 +307,7 @@ static trax_status report(struct trax_picture *picture, const struct options *op
   struct trax_program program;
   struct trax_picture other = {0};
   struct program_figures figures[2];
-  trax_status status = general_program(&program, options, error);
+  trax_status status = general_program(&program, options, frame, error);
   if (status == TRAX_OK)
     status = run_program(&other, &plain, frame, &program, progress, interrupt, &figures[0], error);
   if (status == TRAX_OK)

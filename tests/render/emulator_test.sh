@@ -149,6 +149,8 @@ whole=$(stack_bytes)
 code_bytes=4224 # a trail of two words
 both deeper.trax --size 16x9 --config 1x32 --cache deeper
 grep -q 'TRAX_STACK_ENTRIES 8$' deeper/*.h || fail "deeper.trax: $(grep TRAX_ deeper/*.h)"
+"$bin/trax-render" deeper.trax --size 16x9 --config 1x32 -o x.png --program "$bin/../lib/trax/trax-raytracer.elf" >.out 2>.err && fail "too deep for its stack"
+grep -q "the scene is deeper than this program's stack" .err || fail "too deep for its stack: $(cat .err)"
 for entries in 1 3; do
   both deeper.trax --size 16x9 --config 1x32 --cache deeper --stack $entries
   both deep.obj --size 16x9 --config 1x32 --stack $entries
