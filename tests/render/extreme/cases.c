@@ -1,3 +1,4 @@
+/* Cases of geometry: what is hit? */
 #define _GNU_SOURCE /* mkstemps */
 #include "cases.h"
 
@@ -5,99 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-/* --- rays --- */
-
-static void add_ray(struct setup *setup, const float origin[3], const float direction[3]) {
-  if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0)
-    return;
-  if (setup->ray_count == setup->ray_capacity) {
-    setup->ray_capacity = setup->ray_capacity ? 2 * setup->ray_capacity : 1024;
-    setup->rays = realloc(setup->rays, setup->ray_capacity * sizeof *setup->rays);
-    if (!setup->rays)
-      abort();
-  }
-  struct query_ray *ray = &setup->rays[setup->ray_count++];
-  memcpy(ray->origin, origin, sizeof ray->origin);
-  memcpy(ray->direction, direction, sizeof ray->direction);
-}
-
-static void aim(struct setup *setup, const float from[3], const float at[3]) {
-  add_ray(setup, from, (float[]){at[0] - from[0], at[1] - from[1], at[2] - from[2]});
-}
-
-static float any(struct setup *setup) { /* in [-1, 1) */
-  return 2 * random_unit(&setup->seed) - 1;
-}
-
-static uint32_t one_of(struct setup *setup, uint32_t count) {
-  return (uint32_t)((double)random_unit(&setup->seed) * count);
-}
-
-/* A vertex, a point of an edge, or one inside, of a triangle by chance. */
-static void random_target(struct setup *setup, float at[3]) {
-  const struct trax_mesh *mesh = &setup->mesh;
-  const struct trax_mesh_triangle *triangle = &mesh->triangles[one_of(setup, mesh->triangle_count)];
-  uint32_t kind = one_of(setup, 4);
-  float w1 = kind == 0 ? 0 : kind == 1 ? 0.5f : random_unit(&setup->seed);
-  float w2 = kind == 3 ? (1 - w1) * random_unit(&setup->seed) : 0;
-  const float *a = mesh->vertices[triangle->vertices[0]], *b = mesh->vertices[triangle->vertices[1]],
-              *c = mesh->vertices[triangle->vertices[2]];
-  for (int axis = 0; axis < 3; axis++)
-    at[axis] = a[axis] + w1 * (b[axis] - a[axis]) + w2 * (c[axis] - a[axis]);
-}
-
-/* From near `centre`, within `radius` of it along each axis, at targets on the mesh. */
-static void aim_from_within(struct setup *setup, const float centre[3], float radius, uint32_t rays) {
-  for (uint32_t i = 0; i < rays; i++) {
-    float from[3], at[3];
-    for (int axis = 0; axis < 3; axis++)
-      from[axis] = i % 8 == 0 ? centre[axis] : centre[axis] + radius * any(setup);
-    random_target(setup, at);
-    aim(setup, from, at);
-  }
-}
-
-/* --- surfaces --- */
-
-static void triangle_at(struct setup *setup, const float a[3], const float b[3], const float c[3]) {
-  uint32_t first = mesh_vertex(&setup->mesh, a[0], a[1], a[2]);
-  mesh_vertex(&setup->mesh, b[0], b[1], b[2]);
-  mesh_vertex(&setup->mesh, c[0], c[1], c[2]);
-  mesh_triangle(&setup->mesh, first, first + 1, first + 2, 0);
-}
-
-struct globe {
-  float centre[3], radius, roughness;
-};
-
-/* Of the point (i, j, k) of an octahedron's surface; the same numbers give the same bits. */
-static void globe_point(const struct globe *globe, const int place[3], float point[3]) {
-  float length = sqrtf((float)(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]));
-  uint32_t seed = (uint32_t)place[0] * 73856093u ^ (uint32_t)place[1] * 19349663u ^ (uint32_t)place[2] * 83492791u;
-  random_unit(&seed);
-  float radius = globe->radius * (1 + globe->roughness * random_unit(&seed)) / length;
-  for (int axis = 0; axis < 3; axis++)
-    point[axis] = globe->centre[axis] + radius * (float)place[axis];
-}
-
-/* A closed surface of 8 n^2 triangles, seen from whose centre each is in front of no other; with roughness the radius
-   of each vertex varies by as much. */
-static void add_globe(struct setup *setup, int n, const struct globe *globe) {
-  for (int octant = 0; octant < 8; octant++)
-    for (int i = 0; i < n; i++)
-      for (int j = 0; i + j < n; j++)
-        for (int flipped = 0; flipped < 2 && i + j + flipped < n; flipped++) {
-          int steps[2][3][2] = {{{0, 0}, {1, 0}, {0, 1}}, {{1, 0}, {1, 1}, {0, 1}}};
-          float corner[3][3];
-          for (int v = 0; v < 3; v++) {
-            int x = i + steps[flipped][v][0], y = j + steps[flipped][v][1];
-            int place[3] = {octant & 1 ? -x : x, octant & 2 ? -y : y, octant & 4 ? x + y - n : n - x - y};
-            globe_point(globe, place, corner[v]);
-          }
-          triangle_at(setup, corner[0], corner[1], corner[2]);
-        }
-}
 
 static const float nowhere[3];
 
@@ -187,14 +95,6 @@ static void make_subnormal_components(struct setup *setup, uint32_t rays) {
       direction[axis] = axis == (int)(i % 3) ? any(setup) : 1e-38f * any(setup) * random_unit(&setup->seed);
     add_ray(setup, from, direction);
   }
-}
-
-/* A room of 2 x 2 x 2 with boxes whose planes go on where others' end: a grid of 0.5. */
-static void add_blocks(struct setup *setup) {
-  mesh_box(&setup->mesh, (float[]){-1, -1, -1}, (float[]){1, 1, 1}, 0);
-  mesh_box(&setup->mesh, (float[]){-0.5f, -1, -0.5f}, (float[]){0, 0, 0}, 0);
-  mesh_box(&setup->mesh, (float[]){0, 0, 0}, (float[]){0.5f, 0.5f, 0.5f}, 0);
-  mesh_box(&setup->mesh, (float[]){0.5f, -0.5f, -1}, (float[]){0.5f, 0.5f, 0.5f}, 0); /* flat */
 }
 
 static void axis_parallel(struct setup *setup, uint32_t rays, float zero) {
@@ -596,146 +496,7 @@ static void make_nonfinite(struct setup *setup, uint32_t rays) {
   aim_from_within(setup, nowhere, 0.4f, rays);
 }
 
-/* --- shadows --- */
-
-/* Rays from around at a globe; the light low over its horizon: half of the points are within a degree of the border
-   between day and night. */
-static void grazing_globe(struct setup *setup, uint32_t rays, float offset) {
-  add_globe(setup, 20, &(struct globe){{offset, offset, offset}, 1, 0});
-  setup->light[0] = offset + 50, setup->light[1] = setup->light[2] = offset;
-  for (uint32_t i = 0; i < rays; i++) {
-    float normal[3] = {i & 1 ? 0.02f + 0.02f * any(setup) : random_unit(&setup->seed), any(setup), any(setup)};
-    float length = sqrtf(normal[1] * normal[1] + normal[2] * normal[2]), from[3], at[3];
-    if (length < 0.01f)
-      continue;
-    for (int axis = 0; axis < 3; axis++) {
-      if (i & 1 && axis > 0)
-        normal[axis] /= length;
-      at[axis] = offset + 0.99f * normal[axis];
-      from[axis] = offset + 3 * normal[axis] + 2 * any(setup);
-    }
-    if (i & 2) { /* seen as flatly as it is lit: from along the surface */
-      float turn = any(setup) > 0 ? 3.0f : -3.0f;
-      for (int axis = 0; axis < 3; axis++)
-        at[axis] = offset + 0.999f * normal[axis];
-      from[0] = at[0];
-      from[1] = at[1] - turn * normal[2];
-      from[2] = at[2] + turn * normal[1];
-    }
-    aim(setup, from, at);
-  }
-}
-
-static void make_grazing_globe(struct setup *setup, uint32_t rays) {
-  grazing_globe(setup, rays, 0);
-}
-
-static void make_grazing_globe_away(struct setup *setup, uint32_t rays) {
-  grazing_globe(setup, rays, 1000);
-}
-
-/* At edges and corners of a room, exactly and close by, from inside. */
-static void corners(struct setup *setup, uint32_t rays) {
-  mesh_box(&setup->mesh, (float[]){-2, -1, -3}, (float[]){2, 1, 3}, 0);
-  const float half[3] = {2, 1, 3};
-  for (uint32_t i = 0; i < rays; i++) {
-    float from[3], at[3];
-    for (int axis = 0; axis < 3; axis++) {
-      from[axis] = 0.9f * half[axis] * any(setup);
-      at[axis] = half[axis] * (i >> axis & 1 ? 1.0f : -1.0f);
-    }
-    uint32_t free = i % 3; /* along this edge; every sixth into the corner */
-    if (i % 6 != 0)
-      at[free] = half[free] * any(setup);
-    if (i & 8) /* beside it */
-      at[(free + 1) % 3] *= 1 - exp2f(-10 - 14 * random_unit(&setup->seed));
-    aim(setup, from, at);
-  }
-}
-
-static void make_corners_dark(struct setup *setup, uint32_t rays) {
-  corners(setup, rays);
-  setup->light[0] = 5, setup->light[1] = 4, setup->light[2] = 7;
-}
-
-static void make_corners_lit(struct setup *setup, uint32_t rays) {
-  corners(setup, rays);
-  setup->light[0] = 0.3f, setup->light[1] = 0.4f, setup->light[2] = -0.2f;
-}
-
-/* A light on a vertex of a room, and in the planes of its walls. */
-static void make_light_on_surface(struct setup *setup, uint32_t rays) {
-  corners(setup, rays);
-  setup->light[0] = 2, setup->light[1] = 1, setup->light[2] = 3;
-}
-
-/* --- pictures: the rays are those of the pixels --- */
-
-static void picture(struct setup *setup, uint32_t width, uint32_t height, struct trax_view view) {
-  setup->view = view;
-  setup->width = width, setup->height = height;
-  memcpy(setup->light, view.light, sizeof setup->light);
-}
-
-static void make_picture_empty(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  picture(setup, 24, 16, view_from(0, 0, 0, 0, 0, -1, 60, 0, 1, 0));
-}
-
-static void make_picture_room(struct setup *setup, uint32_t width, uint32_t height) {
-  add_blocks(setup);
-  picture(setup, width, height, view_from(-0.7f, 0.6f, 0.8f, 0.6f, -0.6f, -1, 70, 0.3f, 0.8f, 0.7f));
-}
-
-static void make_picture_1x1(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 1, 1);
-}
-
-static void make_picture_1xN(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 1, 333);
-}
-
-static void make_picture_Nx1(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 333, 1);
-}
-
-static void make_picture_small(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 5, 3);
-}
-
-static void make_picture_hardware(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 24, 16);
-}
-
-/* The room at 10^7, where floats are a unit apart: it is 128 of them wide. */
-static void make_picture_offset(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  add_blocks(setup);
-  mesh_transform(&setup->mesh, 64, 1e7f, -1e7f, 1e7f);
-  picture(setup, 48, 36,
-          view_from(1e7f - 45, -1e7f + 38, 1e7f + 51, 0.6f, -0.6f, -1, 70, 1e7f + 19, -1e7f + 51, 1e7f + 45));
-}
-
-static void make_picture_within(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  add_globe(setup, 6, &(struct globe){{0, 0, 0}, 1, 0});
-  add_globe(setup, 6, &(struct globe){{0, 0, 0}, 0x1p-20f, 0}); /* the eye is in it, on a plane of its box */
-  picture(setup, 48, 32, view_from(0, 0, 0, 1, 1, -1, 100, 0, 0.1f, 0));
-}
-
-static void make_picture_on_vertex(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  add_globe(setup, 6, &(struct globe){{0, 0, 0}, 1, 0});
-  mesh_box(&setup->mesh, (float[]){-0.5f, -0.5f, -0.5f}, (float[]){0, 0, 0}, 0);
-  picture(setup, 48, 32, view_from(0, 0, 0, 1, 0, 0, 120, 0, 0.4f, 0));
-}
-
-const struct extreme_case extreme_cases[] = {
+static const struct extreme_case cases[] = {
     {"closed-globe", "edges and vertices of a closed surface, from inside", make_globe, CASE_CLOSED},
     {"closed-100k", "the same, 100,352 triangles of a rough surface", make_rough_globe, CASE_CLOSED | CASE_MANY_RAYS},
     {"axis-plus-zero", "parallel to an axis, other components +0", make_axis_parallel, CASE_CLOSED},
@@ -776,26 +537,11 @@ const struct extreme_case extreme_cases[] = {
     {"deep", "5,000 triangles through 179 octaves: depth beyond the stack", make_deep, CASE_DEPTH},
     {"deepest", "a chain of as many nodes as there may be", make_chain, CASE_DEPTH},
     {"deepest-below", "the same, what is hit is among the lower half", make_chain_below, CASE_DEPTH},
-    {"grazing-shadows", "a globe of 3,200 triangles in grazing light", make_grazing_globe, CASE_SHADOWS},
-    {"grazing-shadows-away", "the same, 1000 radii from the origin", make_grazing_globe_away, CASE_SHADOWS},
-    {"corners-dark", "edges and corners of a room, light outside", make_corners_dark, CASE_CLOSED | CASE_SHADOWS},
-    {"corners-lit", "edges and corners of a room, light inside", make_corners_lit, CASE_CLOSED | CASE_SHADOWS},
-    {"light-on-surface", "the light on a corner of the room", make_light_on_surface, CASE_CLOSED | CASE_SHADOWS},
-    {"picture-empty", "a picture of nothing", make_picture_empty, 0},
-    {"picture-1x1", "one pixel", make_picture_1x1, CASE_CLOSED},
-    {"picture-1xN", "1 x 333 pixels", make_picture_1xN, CASE_CLOSED},
-    {"picture-Nx1", "333 x 1 pixels", make_picture_Nx1, CASE_CLOSED},
-    {"picture-few", "15 pixels, more threads", make_picture_small, CASE_CLOSED},
-    {"picture-hardware", "saturated hardware, 12 machines", make_picture_hardware, CASE_CLOSED | CASE_HARDWARE},
-    {"picture-offset", "a room of 128 at 10^7 from the origin", make_picture_offset, CASE_CLOSED | CASE_BELOW_ROUNDING},
-    {"eye-within", "the eye inside of geometry", make_picture_within, CASE_CLOSED},
-    {"eye-on-vertex", "the eye on a vertex", make_picture_on_vertex, CASE_CLOSED},
 };
-const unsigned extreme_case_count = sizeof extreme_cases / sizeof *extreme_cases;
 
-void setup_release(struct setup *setup) {
-  trax_mesh_release(&setup->mesh);
-  free(setup->premade.bytes);
-  free(setup->rays);
-  memset(setup, 0, sizeof *setup);
+const struct extreme_case *extreme_case(unsigned number) {
+  const unsigned count = sizeof cases / sizeof *cases;
+  if (number < count)
+    return &cases[number];
+  return number - count < picture_case_count ? &picture_cases[number - count] : NULL;
 }

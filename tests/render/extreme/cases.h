@@ -1,26 +1,8 @@
-/* The extreme suite's scenes and rays. */
+/* The extreme suite's cases. */
 #ifndef TRAX_EXTREME_CASES_H
 #define TRAX_EXTREME_CASES_H
 
-#include "../meshes.h"
-#include "query.h"
-
-#include <stdbool.h>
-#include <stdint.h>
-
-/* What make() fills, all of it zero before. */
-struct setup {
-  struct trax_mesh mesh;
-  struct trax_scene premade; /* instead of the mesh */
-  struct trax_build_options build;
-  bool turned; /* the children of every node change places */
-  struct query_ray *rays;
-  uint32_t ray_count, ray_capacity;
-  float light[3];
-  struct trax_view view;  /* of cases with pictures: the rays are its pixels' */
-  uint32_t width, height; /* 0: no picture */
-  uint32_t seed;
-};
+#include "setup.h"
 
 enum case_flags {
   CASE_CLOSED = 1,          /* every ray is inside a closed surface: none may escape */
@@ -38,9 +20,11 @@ struct extreme_case {
   unsigned flags;
 };
 
-extern const struct extreme_case extreme_cases[];
-extern const unsigned extreme_case_count;
+/* From 0; NULL behind the last one. */
+const struct extreme_case *extreme_case(unsigned number);
 
-void setup_release(struct setup *setup);
+/* picture_cases.c */
+extern const struct extreme_case picture_cases[];
+extern const unsigned picture_case_count;
 
 #endif

@@ -522,17 +522,18 @@ int main(int argc, char **argv) {
          "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   unsigned failures = 0, run = 0;
   uint64_t faults[METHODS] = {0};
-  for (unsigned i = 0; i < extreme_case_count; i++) {
-    if (only && strcmp(only, extreme_cases[i].name) != 0)
+  const struct extreme_case *extreme;
+  for (unsigned i = 0; (extreme = extreme_case(i)); i++) {
+    if (only && strcmp(only, extreme->name) != 0)
       continue;
     struct row rows[METHODS];
-    run_case(rows, &extreme_cases[i], rays, directory);
+    run_case(rows, extreme, rays, directory);
     clear_progress();
-    print_row(&extreme_cases[i], rows);
+    print_row(extreme, rows);
     if (csv)
-      write_csv(csv, &extreme_cases[i], rows);
+      write_csv(csv, extreme, rows);
     for (int m = 0; m < METHODS; m++) {
-      failures += check_row(&extreme_cases[i], &rows[m], m == 0);
+      failures += check_row(extreme, &rows[m], m == 0);
       faults[m] += rows[m].escapes + rows[m].tally.unexplained;
     }
     run++;

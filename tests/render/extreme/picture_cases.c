@@ -1,0 +1,162 @@
+/* Cases of light: shadows and whole pictures. */
+#include "cases.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- shadows --- */
+
+/* Rays from around at a globe; the light low over its horizon: half of the points are within a degree of the border
+   between day and night. */
+static void grazing_globe(struct setup *setup, uint32_t rays, float offset) {
+  add_globe(setup, 20, &(struct globe){{offset, offset, offset}, 1, 0});
+  setup->light[0] = offset + 50, setup->light[1] = setup->light[2] = offset;
+  for (uint32_t i = 0; i < rays; i++) {
+    float normal[3] = {i & 1 ? 0.02f + 0.02f * any(setup) : random_unit(&setup->seed), any(setup), any(setup)};
+    float length = sqrtf(normal[1] * normal[1] + normal[2] * normal[2]), from[3], at[3];
+    if (length < 0.01f)
+      continue;
+    for (int axis = 0; axis < 3; axis++) {
+      if (i & 1 && axis > 0)
+        normal[axis] /= length;
+      at[axis] = offset + 0.99f * normal[axis];
+      from[axis] = offset + 3 * normal[axis] + 2 * any(setup);
+    }
+    if (i & 2) { /* seen as flatly as it is lit: from along the surface */
+      float turn = any(setup) > 0 ? 3.0f : -3.0f;
+      for (int axis = 0; axis < 3; axis++)
+        at[axis] = offset + 0.999f * normal[axis];
+      from[0] = at[0];
+      from[1] = at[1] - turn * normal[2];
+      from[2] = at[2] + turn * normal[1];
+    }
+    aim(setup, from, at);
+  }
+}
+
+static void make_grazing_globe(struct setup *setup, uint32_t rays) {
+  grazing_globe(setup, rays, 0);
+}
+
+static void make_grazing_globe_away(struct setup *setup, uint32_t rays) {
+  grazing_globe(setup, rays, 1000);
+}
+
+/* At edges and corners of a room, exactly and close by, from inside. */
+static void corners(struct setup *setup, uint32_t rays) {
+  mesh_box(&setup->mesh, (float[]){-2, -1, -3}, (float[]){2, 1, 3}, 0);
+  const float half[3] = {2, 1, 3};
+  for (uint32_t i = 0; i < rays; i++) {
+    float from[3], at[3];
+    for (int axis = 0; axis < 3; axis++) {
+      from[axis] = 0.9f * half[axis] * any(setup);
+      at[axis] = half[axis] * (i >> axis & 1 ? 1.0f : -1.0f);
+    }
+    uint32_t free = i % 3; /* along this edge; every sixth into the corner */
+    if (i % 6 != 0)
+      at[free] = half[free] * any(setup);
+    if (i & 8) /* beside it */
+      at[(free + 1) % 3] *= 1 - exp2f(-10 - 14 * random_unit(&setup->seed));
+    aim(setup, from, at);
+  }
+}
+
+static void make_corners_dark(struct setup *setup, uint32_t rays) {
+  corners(setup, rays);
+  setup->light[0] = 5, setup->light[1] = 4, setup->light[2] = 7;
+}
+
+static void make_corners_lit(struct setup *setup, uint32_t rays) {
+  corners(setup, rays);
+  setup->light[0] = 0.3f, setup->light[1] = 0.4f, setup->light[2] = -0.2f;
+}
+
+/* A light on a vertex of a room, and in the planes of its walls. */
+static void make_light_on_surface(struct setup *setup, uint32_t rays) {
+  corners(setup, rays);
+  setup->light[0] = 2, setup->light[1] = 1, setup->light[2] = 3;
+}
+
+/* --- pictures: the rays are those of the pixels --- */
+
+static void picture(struct setup *setup, uint32_t width, uint32_t height, struct trax_view view) {
+  setup->view = view;
+  setup->width = width, setup->height = height;
+  memcpy(setup->light, view.light, sizeof setup->light);
+}
+
+static void make_picture_empty(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  picture(setup, 24, 16, view_from(0, 0, 0, 0, 0, -1, 60, 0, 1, 0));
+}
+
+static void make_picture_room(struct setup *setup, uint32_t width, uint32_t height) {
+  add_blocks(setup);
+  picture(setup, width, height, view_from(-0.7f, 0.6f, 0.8f, 0.6f, -0.6f, -1, 70, 0.3f, 0.8f, 0.7f));
+}
+
+static void make_picture_1x1(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  make_picture_room(setup, 1, 1);
+}
+
+static void make_picture_1xN(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  make_picture_room(setup, 1, 333);
+}
+
+static void make_picture_Nx1(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  make_picture_room(setup, 333, 1);
+}
+
+static void make_picture_small(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  make_picture_room(setup, 5, 3);
+}
+
+static void make_picture_hardware(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  make_picture_room(setup, 24, 16);
+}
+
+/* The room at 10^7, where floats are a unit apart: it is 128 of them wide. */
+static void make_picture_offset(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  add_blocks(setup);
+  mesh_transform(&setup->mesh, 64, 1e7f, -1e7f, 1e7f);
+  picture(setup, 48, 36,
+          view_from(1e7f - 45, -1e7f + 38, 1e7f + 51, 0.6f, -0.6f, -1, 70, 1e7f + 19, -1e7f + 51, 1e7f + 45));
+}
+
+static void make_picture_within(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  add_globe(setup, 6, &(struct globe){{0, 0, 0}, 1, 0});
+  add_globe(setup, 6, &(struct globe){{0, 0, 0}, 0x1p-20f, 0}); /* the eye is in it, on a plane of its box */
+  picture(setup, 48, 32, view_from(0, 0, 0, 1, 1, -1, 100, 0, 0.1f, 0));
+}
+
+static void make_picture_on_vertex(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  add_globe(setup, 6, &(struct globe){{0, 0, 0}, 1, 0});
+  mesh_box(&setup->mesh, (float[]){-0.5f, -0.5f, -0.5f}, (float[]){0, 0, 0}, 0);
+  picture(setup, 48, 32, view_from(0, 0, 0, 1, 0, 0, 120, 0, 0.4f, 0));
+}
+
+const struct extreme_case picture_cases[] = {
+    {"grazing-shadows", "a globe of 3,200 triangles in grazing light", make_grazing_globe, CASE_SHADOWS},
+    {"grazing-shadows-away", "the same, 1000 radii from the origin", make_grazing_globe_away, CASE_SHADOWS},
+    {"corners-dark", "edges and corners of a room, light outside", make_corners_dark, CASE_CLOSED | CASE_SHADOWS},
+    {"corners-lit", "edges and corners of a room, light inside", make_corners_lit, CASE_CLOSED | CASE_SHADOWS},
+    {"light-on-surface", "the light on a corner of the room", make_light_on_surface, CASE_CLOSED | CASE_SHADOWS},
+    {"picture-empty", "a picture of nothing", make_picture_empty, 0},
+    {"picture-1x1", "one pixel", make_picture_1x1, CASE_CLOSED},
+    {"picture-1xN", "1 x 333 pixels", make_picture_1xN, CASE_CLOSED},
+    {"picture-Nx1", "333 x 1 pixels", make_picture_Nx1, CASE_CLOSED},
+    {"picture-few", "15 pixels, more threads", make_picture_small, CASE_CLOSED},
+    {"picture-hardware", "saturated hardware, 12 machines", make_picture_hardware, CASE_CLOSED | CASE_HARDWARE},
+    {"picture-offset", "a room of 128 at 10^7 from the origin", make_picture_offset, CASE_CLOSED | CASE_BELOW_ROUNDING},
+    {"eye-within", "the eye inside of geometry", make_picture_within, CASE_CLOSED},
+    {"eye-on-vertex", "the eye on a vertex", make_picture_on_vertex, CASE_CLOSED},
+};
+const unsigned picture_case_count = sizeof picture_cases / sizeof *picture_cases;
