@@ -27,10 +27,19 @@ def find(directory, name):
     sys.exit(f"speed.py: error: {directory}: neither {name} nor {name}.xz is there")
 
 
-def engine_arguments(command):
-    """The executable and its buffers, as engine-bench takes them, of a trax-sim command line."""
-    words, program, buffers = shlex.split(command), None, []
-    words = words[1:]
+def render(build, directory, scene, options, scratch):
+    """Renders the scene and keeps in scratch what its trax-sim was given; gives the arguments of that command line."""
+    files = [find(directory, name) for name in FILES[scene]]
+    subprocess.run([build / "bin/trax-render", *files, "--view", scene, *options, "--quiet", "--keep", scratch,
+                    "-o", pathlib.Path(scratch) / "picture.png"], check=True)
+    lines = (pathlib.Path(scratch) / "run.sh").read_text().replace("\\\n", " ").splitlines()
+    words = shlex.split(next(line for line in lines if "--bind" in line))[1:]
+    return [word for word in words if not word.startswith("$")]  # the shell's: which trax-sim, and further options
+
+
+def engine_arguments(words):
+    """The executable and its buffers, as engine-bench takes them, of the arguments of trax-sim."""
+    program, buffers, words = None, [], list(words)
     while words:
         word = words.pop(0)
         if word in ("--bind", "--scene"):
@@ -59,13 +68,9 @@ def main():
     header = True
     for scene in options.names.split(","):
         with tempfile.TemporaryDirectory() as scratch:
-            files = [find(options.scenes, name) for name in FILES[scene]]
-            subprocess.run([options.build / "bin/trax-render", *files, "--view", scene, "--size", options.size, "--quiet",
-                            "--keep", scratch, "-o", pathlib.Path(scratch) / "picture.png"], check=True)
-            lines = (pathlib.Path(scratch) / "run.sh").read_text().replace("\\\n", " ").splitlines()
-            command = next(line for line in lines if "--bind" in line)
+            words = render(options.build, options.scenes, scene, ["--size", options.size], scratch)
             run = subprocess.run([(options.build / "bin/engine-bench").resolve(), "--chips", options.chips, "--max-cycles",
-                                  options.max_cycles, "--repeats", options.repeats, *engine_arguments(command)],
+                                  options.max_cycles, "--repeats", options.repeats, *engine_arguments(words)],
                                  cwd=scratch, text=True, stdout=subprocess.PIPE)
         rows = run.stdout.splitlines()
         if header and rows:
