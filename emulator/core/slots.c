@@ -3,7 +3,11 @@
    cost, one from each of as many parts of equal cost as there are draws. In the exact run, the time from when a range's
    first slot is handed out until its last one is sums up, over all ranges, to the run's. So each range's time is
    measured, in a machine brought near the state that it would be in: between ranges the counter is set to some slots
-   before the next one, and threads take these as soon as they are done with what they have. */
+   before the next one, and threads take these as soon as they are done with what they have.
+
+   Of several queues with a counter each, the place of a slot is the sum of the counters when it is handed out, and
+   they are set to where they are thought to be then: queues with cheap slots are ahead of others, and were they not,
+   cheap slots would be measured more often than they are met. Ranges lie where no queue is near its end. */
 #include "core/slots.h"
 
 #include "core/estimate.h"
@@ -47,10 +51,10 @@ struct trax_slots {
   bool extended; /* draws were added after a pilot */
 
   enum phase phase;
-  uint32_t target;  /* the counter's value that ends the phase */
+  uint32_t target;  /* the place that ends the phase */
   double begun;     /* when the phase's first slot was handed out */
   uint64_t counted; /* when `before` was read */
-  uint32_t seen;    /* the counter, when it was looked at last, in cycle */
+  uint32_t seen;    /* the place, when it was looked at last, in cycle */
   uint64_t seen_at;
   double exact_cycles;           /* of beginning and end */
   double unit_cycles, unit_cost; /* measured, and expected, of all units so far */
@@ -136,6 +140,40 @@ static double draws_for(const struct trax_slots *slots, double fraction) {
   return fraction * slots->sizes[slots->units] / with_warm_up;
 }
 
+static uint32_t queue_slots(const trax_slot_sampling *asked, uint32_t queue) {
+  const uint32_t tiles = asked->slots / asked->tile;
+  return asked->queues == 1 ? asked->slots : (tiles - queue + asked->queues - 1) / asked->queues * asked->tile;
+}
+
+/* How many slots a queue has handed out where `place`, a multiple of the block, begins. */
+static uint32_t handed_out(const trax_slot_sampling *asked, uint32_t queue, uint32_t place) {
+  if (asked->queues == 1)
+    return place;
+  if (asked->handed_out)
+    return asked->handed_out[(size_t)(place / asked->block) * asked->queues + queue];
+  const uint32_t round = asked->tile * asked->queues, begun = place % round, before = queue * asked->tile;
+  const uint32_t more = begun > before ? begun - before : 0;
+  return place / round * asked->tile + (more < asked->tile ? more : asked->tile);
+}
+
+/* The last place, a multiple of the block, where so many slots are left, of each queue its part of them. */
+static uint32_t place_with(const trax_slot_sampling *asked, uint64_t left) {
+  uint64_t most = asked->slots > left ? asked->slots - left : 0, least = 0;
+  if (asked->queues == 1)
+    return (uint32_t)most;
+  least /= asked->block, most /= asked->block;
+  while (least < most) {
+    const uint64_t middle = (least + most + 1) / 2;
+    bool enough = true;
+    for (uint32_t queue = 0; queue < asked->queues && enough; queue++)
+      enough =
+          handed_out(asked, queue, (uint32_t)middle * asked->block) + left / asked->queues <= queue_slots(asked, queue);
+    least = enough ? middle : least;
+    most = enough ? most : middle - 1;
+  }
+  return (uint32_t)(least * asked->block);
+}
+
 static bool make_room(struct trax_slots *slots, size_t most) {
   slots->most_draws = most;
   slots->draws = calloc(most, sizeof *slots->draws);
@@ -147,13 +185,14 @@ static bool make_room(struct trax_slots *slots, size_t most) {
 static trax_status plan(struct trax_slots *slots, uint32_t threads, trax_error *error) {
   trax_slot_sampling *asked = &slots->asked;
   asked->block = asked->block ? asked->block : 1;
+  asked->queues = asked->queues ? asked->queues : 1;
   const uint64_t unit = UNIT_ROUNDS * (uint64_t)threads;
   asked->unit = rounded_up(asked->unit ? asked->unit : unit > LEAST_UNIT ? unit : LEAST_UNIT, asked->block);
   asked->warm_up = rounded_up(asked->warm_up ? asked->warm_up : WARM_UP_ROUNDS * (uint64_t)threads, asked->block);
   asked->seed = asked->seed ? asked->seed : 1;
   slots->random = scrambled(asked->seed << 32 | slots->chip->tms << 16 | threads); /* chips choose differently */
   slots->first = rounded_up(asked->warm_up > unit ? asked->warm_up : unit, asked->block);
-  const uint64_t ends = (uint64_t)slots->first + asked->warm_up + threads;
+  const uint64_t end = place_with(asked, asked->warm_up + (uint64_t)threads), ends = slots->first + asked->slots - end;
   if (asked->fraction >= 1 || ends >= asked->slots)
     return TRAX_OK;
   const uint32_t units = (uint32_t)((asked->slots - ends) / asked->unit);
@@ -181,17 +220,26 @@ static trax_status plan(struct trax_slots *slots, uint32_t threads, trax_error *
 
 /* --- phases --- */
 
-static void set_counter(struct trax_slots *slots, uint32_t value, uint64_t t) {
+static void set_counters(struct trax_slots *slots, uint32_t place, uint64_t t) {
   struct trax_chip *chip = slots->chip;
   trax_chip_gather(chip);
-  memcpy(chip->machine->space.bytes + slots->asked.counter, &value, sizeof value);
+  for (uint32_t queue = 0; queue < slots->asked.queues; queue++) {
+    const uint32_t value = handed_out(&slots->asked, queue, place);
+    memcpy(chip->machine->space.bytes + slots->asked.counter + 4 * queue, &value, sizeof value);
+  }
   trax_chip_scatter(chip, t);
 }
 
-static uint32_t read_counter(const struct trax_slots *slots) {
-  uint32_t value;
-  memcpy(&value, slots->chip->machine->space.bytes + slots->asked.counter, sizeof value);
-  return value;
+/* The place. A counter goes on where its queue is empty. */
+static uint32_t read_counters(const struct trax_slots *slots) {
+  uint32_t sum = 0;
+  for (uint32_t queue = 0; queue < slots->asked.queues; queue++) {
+    const uint32_t most = queue_slots(&slots->asked, queue);
+    uint32_t value;
+    memcpy(&value, slots->chip->machine->space.bytes + slots->asked.counter + 4 * queue, sizeof value);
+    sum += value < most ? value : most;
+  }
+  return sum;
 }
 
 /* After a pilot: as many draws as the interval takes, or as make sense. */
@@ -201,7 +249,7 @@ static void extend(struct trax_slots *slots) {
   draw(slots, needed - slots->draw_count);
 }
 
-/* At time `at`, in cycle t, the counter, which is n now, was slots->target. */
+/* At time `at`, in cycle t, the place, which is n now, was slots->target. */
 static void go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
   if (slots->done == slots->draw_count && slots->asked.error > 0 && !slots->extended)
     extend(slots);
@@ -217,10 +265,10 @@ static void go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
   slots->phase = more ? WARM_UP : LEAD;
   slots->target = start;
   if (n > start || start - n > slots->asked.warm_up) {
-    const uint32_t value = start - slots->asked.warm_up;
-    slots->slots_left_out += (uint64_t)value - n; /* going back counts what is simulated twice */
-    set_counter(slots, value, t);
-    slots->seen = value;
+    const uint32_t place = start - slots->asked.warm_up;
+    slots->slots_left_out += (uint64_t)place - n; /* going back counts what is simulated twice */
+    set_counters(slots, place, t);
+    slots->seen = place;
     slots->seen_at = t;
   }
 }
@@ -235,7 +283,7 @@ static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
     slots->ratios[slots->done++] = cycles / size; /* drawn again */
 }
 
-/* When to look next: somewhat before the counter is expected to reach the target. */
+/* When to look next: somewhat before the place is expected to reach the target. */
 static uint64_t next_look(const struct trax_slots *slots, uint64_t t) {
   if (slots->phase == END)
     return TRAX_NEVER;
@@ -250,7 +298,7 @@ static uint64_t next_look(const struct trax_slots *slots, uint64_t t) {
   return t + (uint64_t)fmax(cycles, fmax(one, LEAST_STEP));
 }
 
-/* The phase ends: at time `at`, before cycle t, when the counter is n. */
+/* The phase ends: at time `at`, before cycle t, when the place is n. */
 static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
   switch (slots->phase) {
   case BEGINNING:
@@ -277,13 +325,13 @@ static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
 static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
   struct trax_slots *slots = watch->context;
   const uint64_t t = watch->next;
-  uint32_t n = read_counter(slots);
+  uint32_t n = read_counters(slots);
   (void)chip;
   while (n >= slots->target) { /* it was passed between the last look and this one, at an even pace */
     const double share = (double)(slots->target - slots->seen) / (n - slots->seen);
     const double at = (double)slots->seen_at + share * (double)(t - slots->seen_at);
     end_phase(slots, at, t, n);
-    if (slots->seen_at == t) /* the counter was set */
+    if (slots->seen_at == t) /* the counters were set */
       n = slots->seen;
   }
   slots->seen = n;
@@ -294,11 +342,39 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
 
 /* --- the run --- */
 
+static trax_status check_queues(const trax_slot_sampling *asked, trax_error *error) {
+  if (asked->queues > TRAX_MAX_SLOT_QUEUES)
+    return trax_fail(error, "slots wait in %u queues; allowed are %d at most", asked->queues, TRAX_MAX_SLOT_QUEUES);
+  if (asked->queues < 2)
+    return TRAX_OK;
+  if (!asked->tile || asked->slots % asked->tile)
+    return trax_fail(error, "%u slots of several queues are not whole tiles of %u", asked->slots, asked->tile);
+  if (asked->handed_out && !asked->block)
+    return trax_fail(error, "what queues have handed out needs the number of slots in a block");
+  for (uint64_t place = 0; asked->handed_out && place < asked->slots; place += asked->block) {
+    const uint32_t *row = &asked->handed_out[place / asked->block * asked->queues];
+    uint64_t sum = 0;
+    for (uint32_t queue = 0; queue < asked->queues; queue++) {
+      if (row[queue] > queue_slots(asked, queue) || (place && row[queue] < (row - asked->queues)[queue]))
+        return trax_fail(error, "queue %u cannot have handed out %u slots at slot %llu", queue, row[queue],
+                         (unsigned long long)place);
+      sum += row[queue];
+    }
+    if (sum != place)
+      return trax_fail(error, "queues have handed out %llu slots at slot %llu", (unsigned long long)sum,
+                       (unsigned long long)place);
+  }
+  return TRAX_OK;
+}
+
 static trax_status check(const trax_slot_sampling *asked, const struct trax_machine *machine, trax_error *error) {
-  if (asked->counter % 4 || (uint64_t)asked->counter + 4 > machine->space.size)
+  const uint32_t words = asked->queues ? asked->queues : 1;
+  if (asked->counter % 4 || asked->counter + 4 * (uint64_t)words > machine->space.size)
     return trax_fail(error, "the counter of slots at 0x%08x is not a word of global memory", asked->counter);
   if (!asked->slots)
     return trax_fail(error, "there are no slots to sample");
+  if (check_queues(asked, error))
+    return TRAX_ERROR;
   if (!(asked->error > 0) && !(asked->fraction > 0 && asked->fraction <= 1))
     return trax_fail(error, "the fraction of slots to simulate is %g; allowed is above 0 to 1", asked->fraction);
   if (asked->error < 0 || asked->error >= 1 || isnan(asked->error))

@@ -20,7 +20,7 @@
     "only of a sampled run: cycles_low and cycles_high, mrps_low and mrps_high, between which these lie with 95 % "    \
     "confidence (null: too few windows); windows, detailed_cycles, detailed_instructions: what was simulated; exact: " \
     "the figures that are no estimates; period, window, warm_up, hold, seed, or, where slots are sampled, slots, "     \
-    "detailed_slots, predicted_cycles, fraction, error, unit, warm_up, seed")                                          \
+    "queues, detailed_slots, predicted_cycles, fraction, error, unit, warm_up, seed")                                  \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
   X("tms", "for each TM: tm, the figures that are counted in every TM, utilisations and hit rates of its own, and "    \
            "tps: for each TP "                                                                                         \
@@ -123,6 +123,7 @@ static void put_slots(struct document *document, json_t *object, const trax_mach
   const struct trax_sampling_stats *sampling = &machine->stats.sampling;
   const trax_slot_sampling *asked = &sampling->asked_slots;
   put(document, object, "slots", json_integer(asked->slots));
+  put(document, object, "queues", json_integer(asked->queues));
   put(document, object, "detailed_slots", json_integer((json_int_t)sampling->detailed_slots));
   put(document, object, "predicted_cycles", sampling->predicted > 0 ? json_real(sampling->predicted) : json_null());
   put(document, object, "fraction", asked->error > 0 ? json_null() : json_real(asked->fraction));

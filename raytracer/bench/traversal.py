@@ -31,7 +31,7 @@ WAYS = [
     ("node costs 2 triangles", ["--nodes", "quantised", "--splits=1", "--traversal-cost", "2"], []),
     ("depth first", ["--nodes", "quantised", "--splits=1", "--cache-lines", "1"], []),
     ("by itself", [], []),
-    ("by itself, a queue for each TM", [], ["--queues", "tms"]),
+    ("by itself, one queue", [], ["--queues", "1"]),
 ]
 
 

@@ -213,7 +213,10 @@ static void show_row(void *context, double fraction) {
 
 static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *config, const struct trax_exact *exact) {
   return (struct trax_accuracy_run){
-      .specialise = {.root = bench->root, .cache = bench->options->cache, .interrupt = bench->interrupt},
+      .specialise = {.root = bench->root,
+                     .cache = bench->options->cache,
+                     .queues = bench->options->queues ? bench->options->queues : config->chip.tms,
+                     .interrupt = bench->interrupt},
       .config = config,
       .original = bench->scene,
       .exact = exact,

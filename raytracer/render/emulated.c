@@ -88,6 +88,20 @@ trax_status emulated_config(trax_config *config, const struct options *options, 
   return status == TRAX_OK ? trax_config_check(config, error) : status;
 }
 
+static trax_status count_queues(unsigned *queues, const struct options *options, const struct trax_frame *frame,
+                                trax_error *error) {
+  *queues = options->queues;
+  if (*queues)
+    return TRAX_OK;
+  trax_config *config = trax_config_create();
+  const trax_status status =
+      config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
+  if (status == TRAX_OK)
+    *queues = config->chip.tms;
+  trax_config_destroy(config);
+  return status;
+}
+
 static void show_run(void *context, const trax_progress *status) {
   char detail[96];
   double seconds = status->host_seconds > 0 ? status->host_seconds : 1;
@@ -277,6 +291,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     if (status == TRAX_OK)
       status = trax_simulated_run(picture, frame, machine, &run, error);
     machine->stats.sampling.asked_slots.costs = NULL;
+    machine->stats.sampling.asked_slots.handed_out = NULL;
     trax_picture_sampling_release(&sampling);
     progress_clear(progress);
     if (status == TRAX_FAULT)
@@ -329,23 +344,12 @@ static trax_status report(struct trax_picture *picture, const struct options *op
   return status;
 }
 
-static trax_status count_tms(unsigned *tms, const struct options *options, const struct trax_frame *frame,
-                             trax_error *error) {
-  trax_config *config = trax_config_create();
-  const trax_status status =
-      config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
-  if (status == TRAX_OK)
-    *tms = config->chip.tms;
-  trax_config_destroy(config);
-  return status;
-}
-
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
                     struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
   struct trax_program program;
   progress_show(progress, "compiling", -1, NULL);
-  unsigned queues = options->queues;
-  trax_status status = options->queue_per_tm ? count_tms(&queues, options, frame, error) : TRAX_OK;
+  unsigned queues;
+  trax_status status = count_queues(&queues, options, frame, error);
   if (status == TRAX_OK)
     status = find_program(&program, options, frame, queues, interrupt, error);
   if (status != TRAX_OK)

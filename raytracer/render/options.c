@@ -73,8 +73,8 @@ static const char usage[] =
     "                          99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
     "                          of the whole picture within 0.2 %)\n"
     "      --triangle METHOD   watertight (default) or moller-trumbore, which misses some rays between triangles\n"
-    "      --queues N          how many queues the pixels wait in, 1 to 16; tms: one for each TM, whose threads\n"
-    "                          then share tiles and the cache's lines (default 1)\n"
+    "      --queues N          how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
+    "                          threads then share tiles and the cache's lines\n"
     "      --fast-math         compiles the program with -ffast-math: its picture is not the twin's in every bit\n"
     "      --stack N           compiles the program with N entries on the stack of the traversal, 1 to 62; what it has "
     "no\n"
@@ -458,9 +458,9 @@ static trax_status take_option(struct options *options, int which, const char *v
     return TRAX_OK;
   case OPT_QUEUES: {
     const char *text = value;
-    options->queue_per_tm = strcmp(value, "tms") == 0;
+    options->choose_queues = true;
     options->queues = 0;
-    if (!options->queue_per_tm &&
+    if (strcmp(value, "tms") != 0 &&
         (!parse_number(&text, TRAX_MAX_QUEUES, &options->queues) || *text != '\0' || options->queues == 0))
       return trax_fail(error, "--queues %s: expected 1 to %d, or tms", value, TRAX_MAX_QUEUES);
     return TRAX_OK;
@@ -611,8 +611,6 @@ static trax_status check(const struct options *options, trax_error *error) {
       (options->compare || options->report || options->bench_accuracy || options->prepare || options->frames > 1 ||
        options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
-  if (options->sampled && (options->queues > 1 || options->queue_per_tm))
-    return trax_fail(error, "--sampled: pixels that wait in several --queues have no order to sample");
   if (options->sampled && options->frame.method.fast_math)
     return trax_fail(error, "--sampled: with --fast-math the native twin's picture would be another one");
   if (options->engine > ENGINE_REFERENCE) {
@@ -622,7 +620,7 @@ static trax_status check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--profile, --profile-folded, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
       return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
-    if (options->queues || options->queue_per_tm)
+    if (options->choose_queues)
       return trax_fail(error, "--queues needs the emulator: other engines have no TMs");
     if (options->cache || options->report || options->no_specialise)
       return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
@@ -633,7 +631,7 @@ static trax_status check(const struct options *options, trax_error *error) {
     if (options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT && options->engine == ENGINE_EMBREE)
       return trax_fail(error, "--triangle: engine embree has a test of its own");
   }
-  if ((options->queues > 1 || options->queue_per_tm) && (options->no_specialise || options->program))
+  if (options->choose_queues && (options->no_specialise || options->program))
     return trax_fail(error, "--queues needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
   const struct trax_method *method = &options->frame.method;

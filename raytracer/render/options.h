@@ -28,8 +28,8 @@ struct options {
   size_t mesh_count;
   const char *output;
   const char *config;
-  unsigned queues;   /* of pixels; 0: 1 */
-  bool queue_per_tm; /* instead */
+  unsigned queues;    /* of pixels; 0: one for each TM */
+  bool choose_queues; /* --queues was given */
   const char *view;  /* NULL: framed automatically */
   struct camera_options camera;
   unsigned frames;        /* pictures of a turntable; 1: none */

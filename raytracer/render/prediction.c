@@ -27,13 +27,21 @@ enum {
 
 struct trace {
   size_t begin, end; /* in steps */
-  uint32_t slot;
+  uint32_t number;   /* of the slot in its queue */
+};
+
+struct queue {
+  struct trace *traces; /* [capacity]: slots that wait to be taken */
+  size_t count, capacity, taken;
+  uint32_t handed_out; /* slots, those that are no pixels included */
 };
 
 /* A TM. */
 struct tm {
   double clock;
-  double *wake;             /* [tps]: when the TP takes its next step; DBL_MAX: never */
+  double *wake;    /* [tps]: when the TP takes its next step; DBL_MAX: never */
+  uint32_t *queue; /* [tps]: where it takes its slots */
+  uint32_t first_queue;
   const trax_access **next; /* [tps] */
   const trax_access **end;  /* [tps] */
   uint32_t *line;           /* [sets * ways]: + 1; of a set the latest used or the latest loaded first */
@@ -44,8 +52,9 @@ struct model {
   struct trax_access_log log; /* first: it is what the twin knows */
   trax_access *steps;         /* [capacity] */
   size_t capacity, begin;     /* of the present slot */
-  struct trace *traces;       /* [trace_capacity]: slots that wait to be taken */
-  size_t trace_count, trace_capacity, taken;
+  struct queue *queues;       /* [queue_count] */
+  uint32_t queue_count, tile_bits;
+  uint32_t slots, place; /* how many there are, and how many were handed out */
   bool failed;
   uint64_t rays;
 
@@ -87,19 +96,48 @@ static double load(struct model *model, struct tm *tm, uint32_t address, double 
   return time;
 }
 
-static void note_blocks(struct model *model, uint32_t slot, double now) {
+static void note_block(struct model *model, double now) {
   double *cycles = model->prediction->cycles;
-  for (; model->noted * TRAX_PREDICTION_BLOCK <= slot; model->noted++)
-    cycles[model->noted] = model->noted && cycles[model->noted - 1] > now ? cycles[model->noted - 1] : now;
+  cycles[model->noted] = model->noted && cycles[model->noted - 1] > now ? cycles[model->noted - 1] : now;
+  uint32_t *handed_out = model->prediction->handed_out + (size_t)model->noted * model->queue_count;
+  for (uint32_t i = 0; i < model->queue_count; i++)
+    handed_out[i] = model->queues[i].handed_out;
+  model->noted++;
+}
+
+/* That a queue hands out its slot `number` now. */
+static void hand_out(struct model *model, struct queue *queue, uint32_t number, double now) {
+  while (model->noted * TRAX_PREDICTION_BLOCK <= model->place + (number - queue->handed_out)) {
+    const uint32_t more = model->noted * TRAX_PREDICTION_BLOCK - model->place;
+    queue->handed_out += more;
+    model->place += more;
+    note_block(model, now);
+  }
+  model->place += number + 1 - queue->handed_out;
+  queue->handed_out = number + 1;
+}
+
+/* The next slot for a TP, or NULL. */
+static const struct trace *take_slot(struct model *model, const struct tm *tm, uint32_t tp, double now) {
+  for (;;) {
+    struct queue *queue = &model->queues[tm->queue[tp]];
+    if (queue->taken < queue->count) {
+      const struct trace *trace = &queue->traces[queue->taken++];
+      hand_out(model, queue, trace->number, now);
+      return trace;
+    }
+    tm->queue[tp] = tm->queue[tp] + 1 < model->queue_count ? tm->queue[tp] + 1 : 0;
+    if (tm->queue[tp] == tm->first_queue)
+      return NULL;
+  }
 }
 
 /* The TP's next step, which lasts `node` cycles if it is a node's; returns when the one after it begins. */
 static double step(struct model *model, struct tm *tm, uint32_t tp, double now, double node) {
   if (tm->next[tp] == tm->end[tp]) {
-    if (model->taken == model->trace_count)
+    const struct trace *trace = take_slot(model, tm, tp, now);
+    if (!trace)
       return DBL_MAX;
-    const struct trace *trace = &model->traces[model->taken++];
-    note_blocks(model, trace->slot, now);
     tm->next[tp] = model->steps + trace->begin;
     tm->end[tp] = model->steps + trace->end;
     return transfer(model, now, SLOT_BYTES);
@@ -137,14 +175,20 @@ static void go_round(struct model *model, struct tm *tm) {
   tm->clock = next < least ? least : next;
 }
 
-/* Goes on while there are slots for all who may want one; with `last`, to the end. */
+/* Are there slots for all of a TM that may want one? */
+static bool has_slots(const struct model *model, const struct tm *tm) {
+  const struct queue *queue = &model->queues[tm->first_queue];
+  return queue->count - queue->taken > model->tps;
+}
+
+/* Goes on while there are slots for all; with `last`, to the end. */
 static void advance(struct model *model, bool last) {
-  while (last || model->trace_count - model->taken > model->tps) {
+  for (;;) {
     struct tm *tm = &model->tm[0];
     for (uint32_t i = 1; i < model->tms; i++)
       if (model->tm[i].clock < tm->clock)
         tm = &model->tm[i];
-    if (tm->clock == DBL_MAX)
+    if (tm->clock == DBL_MAX || (!last && !has_slots(model, tm)))
       return;
     go_round(model, tm);
   }
@@ -155,7 +199,12 @@ static void advance(struct model *model, bool last) {
 /* Those steps that will be read again move to a new place, with room behind them. */
 static void compact(struct model *model) {
   size_t left = (size_t)(model->log.end - model->steps);
-  const size_t unread = model->taken < model->trace_count ? model->traces[model->taken].begin : model->begin;
+  size_t unread = model->begin;
+  for (uint32_t i = 0; i < model->queue_count; i++) {
+    const struct queue *queue = &model->queues[i];
+    if (queue->taken < queue->count && queue->traces[queue->taken].begin < unread)
+      unread = queue->traces[queue->taken].begin;
+  }
   left -= unread;
   for (uint32_t i = 0; i < model->tms; i++)
     for (uint32_t tp = 0; tp < model->tps; tp++)
@@ -165,7 +214,9 @@ static void compact(struct model *model) {
   trax_access *steps = malloc(model->capacity * sizeof *steps), *to = steps;
   if (!steps) { /* whatever comes is for nothing */
     model->failed = true;
-    model->begin = model->trace_count = model->taken = 0;
+    model->begin = 0;
+    for (uint32_t i = 0; i < model->queue_count; i++)
+      model->queues[i].count = model->queues[i].taken = 0;
     model->capacity = (size_t)(model->log.limit - model->steps);
     model->log.end = model->steps;
     return;
@@ -180,13 +231,17 @@ static void compact(struct model *model) {
     }
   const size_t place = (size_t)(to - steps), count = (size_t)(model->log.end - model->steps) - unread;
   memcpy(to, model->steps + unread, count * sizeof *to);
-  size_t traces = 0;
-  for (size_t i = model->taken; i < model->trace_count; i++) {
-    const struct trace *trace = &model->traces[i];
-    model->traces[traces++] = (struct trace){trace->begin - unread + place, trace->end - unread + place, trace->slot};
+  for (uint32_t i = 0; i < model->queue_count; i++) {
+    struct queue *queue = &model->queues[i];
+    size_t traces = 0;
+    for (size_t j = queue->taken; j < queue->count; j++) {
+      const struct trace *trace = &queue->traces[j];
+      queue->traces[traces++] =
+          (struct trace){trace->begin - unread + place, trace->end - unread + place, trace->number};
+    }
+    queue->count = traces;
+    queue->taken = 0;
   }
-  model->trace_count = traces;
-  model->taken = 0;
   model->begin = model->begin - unread + place;
   free(model->steps);
   model->steps = steps;
@@ -208,41 +263,66 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
       make_room(log);
     *log->end++ = PAUSE;
   }
-  if (model->trace_count == model->trace_capacity) {
-    const size_t capacity = model->trace_capacity ? 2 * model->trace_capacity : 4096;
-    struct trace *traces = realloc(model->traces, capacity * sizeof *traces);
+  const uint32_t tile = slot >> model->tile_bits, round = tile / model->queue_count;
+  struct queue *queue = &model->queues[tile - round * model->queue_count];
+  if (queue->count == queue->capacity) {
+    const size_t capacity = queue->capacity ? 2 * queue->capacity : 4096;
+    struct trace *traces = realloc(queue->traces, capacity * sizeof *traces);
     if (!traces) {
       model->failed = true;
       return;
     }
-    model->traces = traces;
-    model->trace_capacity = capacity;
+    queue->traces = traces;
+    queue->capacity = capacity;
   }
   const size_t end = (size_t)(log->end - model->steps);
-  model->traces[model->trace_count++] = (struct trace){model->begin, end, slot};
+  const uint32_t number = round << model->tile_bits | (slot & ((1u << model->tile_bits) - 1));
+  queue->traces[queue->count++] = (struct trace){model->begin, end, number};
   model->begin = end;
+}
+
+/* What is behind the last pixels. */
+static void end_blocks(struct model *model) {
+  const uint32_t slots = model->slots, tile = 1u << model->tile_bits, tiles = slots >> model->tile_bits;
+  for (uint32_t i = 0; i < model->queue_count; i++) {
+    const uint32_t most = (tiles + model->queue_count - 1 - i) / model->queue_count * tile;
+    if (most > model->queues[i].handed_out)
+      hand_out(model, &model->queues[i], most - 1, model->bus_free);
+  }
+  while (model->noted <= model->prediction->blocks)
+    note_block(model, model->bus_free);
 }
 
 /* --- the whole --- */
 
-static bool make_tm(struct tm *tm, const struct model *model) {
+static bool make_tm(struct tm *tm, uint32_t number, const struct model *model) {
   const size_t lines = (size_t)(model->set_mask + 1) * model->config->dcache.ways;
+  tm->first_queue = number % model->queue_count;
   tm->wake = calloc(model->tps, sizeof *tm->wake);
+  tm->queue = calloc(model->tps, sizeof *tm->queue);
   tm->next = calloc(model->tps, sizeof *tm->next);
   tm->end = calloc(model->tps, sizeof *tm->end);
   tm->line = calloc(lines, sizeof *tm->line);
   tm->ready = calloc(lines, sizeof *tm->ready);
-  for (uint32_t tp = 0; tm->next && tm->end && tp < model->tps; tp++)
+  if (!tm->wake || !tm->queue || !tm->next || !tm->end || !tm->line || !tm->ready)
+    return false;
+  for (uint32_t tp = 0; tp < model->tps; tp++) {
+    tm->queue[tp] = tm->first_queue;
     tm->next[tp] = tm->end[tp] = model->steps;
-  return tm->wake && tm->next && tm->end && tm->line && tm->ready;
+  }
+  return true;
 }
 
 static trax_status begin_model(struct model *model, struct trax_prediction *prediction, const struct trax_frame *frame,
-                               const struct trax_config *config, uint32_t scene_address, trax_error *error) {
+                               uint32_t queues, const struct trax_config *config, uint32_t scene_address,
+                               trax_error *error) {
   const uint32_t slots = frame->params->slot_count;
   *prediction = (struct trax_prediction){.blocks = (slots + TRAX_PREDICTION_BLOCK - 1) / TRAX_PREDICTION_BLOCK};
   *model = (struct model){.log = {.full = make_room, .slot = end_slot},
                           .capacity = CHUNK,
+                          .queue_count = queues,
+                          .slots = slots,
+                          .tile_bits = frame->params->tile_log2_width + frame->params->tile_log2_height,
                           .config = config,
                           .tms = config->chip.tms,
                           .tps = config->chip.tps_per_tm,
@@ -252,11 +332,13 @@ static trax_status begin_model(struct model *model, struct trax_prediction *pred
                           .cycles_per_byte = config->chip.clock_mhz / (1000 * config->memory.bandwidth_gbps),
                           .prediction = prediction};
   prediction->cycles = calloc(prediction->blocks + 1, sizeof *prediction->cycles);
+  prediction->handed_out = calloc(((size_t)prediction->blocks + 1) * queues, sizeof *prediction->handed_out);
+  model->queues = calloc(queues, sizeof *model->queues);
   model->steps = malloc(model->capacity * sizeof *model->steps);
   model->tm = calloc(model->tms, sizeof *model->tm);
-  bool made = prediction->cycles && model->steps && model->tm;
+  bool made = prediction->cycles && prediction->handed_out && model->queues && model->steps && model->tm;
   for (uint32_t i = 0; i < model->tms && made; i++)
-    made = make_tm(&model->tm[i], model);
+    made = make_tm(&model->tm[i], i, model);
   model->log.end = model->steps;
   model->log.limit = model->steps + model->capacity;
   return made ? TRAX_OK : trax_fail(error, "out of memory for the prediction");
@@ -266,22 +348,25 @@ static void end_model(struct model *model) {
   for (uint32_t i = 0; model->tm && i < model->tms; i++) {
     struct tm *tm = &model->tm[i];
     free(tm->wake);
+    free(tm->queue);
     free(tm->next);
     free(tm->end);
     free(tm->line);
     free(tm->ready);
   }
   free(model->tm);
-  free(model->traces);
+  for (uint32_t i = 0; model->queues && i < model->queue_count; i++)
+    free(model->queues[i].traces);
+  free(model->queues);
   free(model->steps);
 }
 
 trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture *picture,
-                         const struct trax_frame *frame, const struct trax_config *config, uint32_t scene_address,
-                         struct trax_render_run *run, trax_error *error) {
+                         const struct trax_frame *frame, uint32_t queues, const struct trax_config *config,
+                         uint32_t scene_address, struct trax_render_run *run, trax_error *error) {
   struct model model;
   struct trax_render_run logged = *run;
-  trax_status status = begin_model(&model, prediction, frame, config, scene_address, error);
+  trax_status status = begin_model(&model, prediction, frame, queues, config, scene_address, error);
   logged.accesses = &model.log;
   if (status == TRAX_OK)
     status = trax_render_twin(picture, frame, 1, &logged, error);
@@ -292,7 +377,7 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
   if (status == TRAX_OK) {
     advance(&model, false);
     advance(&model, true);
-    note_blocks(&model, prediction->blocks * TRAX_PREDICTION_BLOCK, model.bus_free);
+    end_blocks(&model);
     run->rays = model.rays;
   } else {
     trax_prediction_release(prediction);
@@ -303,5 +388,6 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
 
 void trax_prediction_release(struct trax_prediction *prediction) {
   free(prediction->cycles);
+  free(prediction->handed_out);
   *prediction = (struct trax_prediction){0};
 }

@@ -13,13 +13,14 @@
 
 struct trax_prediction {
   uint32_t blocks;
-  double *cycles; /* [blocks + 1]: when the first slot of a block is handed out, and at the end */
+  double *cycles;       /* [blocks + 1]: when so many blocks have been handed out, and at the end */
+  uint32_t *handed_out; /* [blocks + 1][queues]: how many slots of each queue (device/slots.h) then */
 };
 
 /* scene_address: where the device has the scene. The picture is the twin's, run->rays the rays traced. */
 trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture *picture,
-                         const struct trax_frame *frame, const struct trax_config *config, uint32_t scene_address,
-                         struct trax_render_run *run, trax_error *error);
+                         const struct trax_frame *frame, uint32_t queues, const struct trax_config *config,
+                         uint32_t scene_address, struct trax_render_run *run, trax_error *error);
 void trax_prediction_release(struct trax_prediction *prediction);
 
 #endif

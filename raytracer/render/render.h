@@ -92,7 +92,7 @@ void trax_scene_relocate(void *bytes, uint32_t address);
 /* --- specialise.c: the program for the TPs --- */
 
 #define TRAX_PATH_SIZE 4096
-#define TRAX_MAX_QUEUES 16
+#define TRAX_MAX_QUEUES TRAX_MAX_SLOT_QUEUES
 
 struct trax_program {
   char path[TRAX_PATH_SIZE];
@@ -103,7 +103,7 @@ struct trax_specialise_options {
   const char *root;              /* where trax is installed: bin, lib/trax */
   const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
-  unsigned queues;               /* of pixels (device/slots.h), TRAX_MAX_QUEUES at most; 0: 1 */
+  unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
   bool record;                   /* it tells what trax/record.h says, too; not for measuring time: its stack is in
                                     global memory */
 };

@@ -9,7 +9,7 @@
 
 /* The twin's accesses in the order of the program's slots. */
 static trax_status predict(struct trax_picture_sampling *sampling, struct trax_picture *picture,
-                           const struct trax_frame *frame, trax_machine *machine, bool by_rows,
+                           const struct trax_frame *frame, trax_machine *machine, bool by_rows, uint32_t queues,
                            struct trax_render_run *run, trax_error *error) {
   const uint8_t *scene = machine->space.bytes;
   uint32_t scene_bytes;
@@ -25,9 +25,10 @@ static trax_status predict(struct trax_picture_sampling *sampling, struct trax_p
   if (by_rows)
     trax_frame_set_tiles(params, 0);
   ordered.params = params;
-  const trax_status status = trax_predict(&sampling->prediction, picture, &ordered, &machine->config,
+  const trax_status status = trax_predict(&sampling->prediction, picture, &ordered, queues, &machine->config,
                                           (uint32_t)(scene - machine->space.bytes), run, error);
   sampling->slots.slots = params->slot_count;
+  sampling->slots.tile = 1u << (params->tile_log2_width + params->tile_log2_height);
   free(params);
   return status;
 }
@@ -43,11 +44,17 @@ trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, s
                      "%s: the program has neither next_slot nor next_pixel, which count the pixels handed out: "
                      "it cannot be sampled",
                      trax_image_path(image));
-  const trax_status status = predict(sampling, picture, frame, machine, !by_tiles, run, error);
+  const uint32_t queues = by_tiles && by_tiles->bytes > 4 ? by_tiles->bytes / 4 : 1; /* device/slots.h */
+  if (queues > TRAX_MAX_QUEUES)
+    return trax_fail(error, "%s: next_slot has %u queues; allowed are %u at most", trax_image_path(image), queues,
+                     TRAX_MAX_QUEUES);
+  const trax_status status = predict(sampling, picture, frame, machine, !by_tiles, queues, run, error);
   if (status != TRAX_OK)
     return status;
   sampling->slots.counter = counter->address;
   sampling->slots.costs = sampling->prediction.cycles;
+  sampling->slots.queues = queues;
+  sampling->slots.handed_out = sampling->prediction.handed_out;
   sampling->slots.block = TRAX_PREDICTION_BLOCK;
   /* Another program may trace other rays than the twin, unless it says that it does not. */
   sampling->slots.rays = by_tiles || trax_image_symbol(image, "workload_rays") ? run->rays : 0;

@@ -84,7 +84,7 @@ refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise
 refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --report
 refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
 refuse '--triangle fast: expected watertight or moller-trumbore' "$render" "$box" -o x.png --triangle fast
-refuse '--queues 17: expected 1 to 16, or tms' "$render" "$box" -o x.png --queues 17
+refuse '--queues 65: expected 1 to 64, or tms' "$render" "$box" -o x.png --queues 65
 refuse '--queues 0: expected' "$render" "$box" -o x.png --queues 0
 refuse '--queues needs a program.*--no-specialise' "$render" "$box" -o x.png --queues tms --no-specialise
 refuse '--queues needs the emulator' "$render" "$box" -o x.png --engine native --queues tms

@@ -37,7 +37,7 @@ done
 same "$source/box.obj" $view --size 64x36 --config 1x32 --set memory.latency_cycles=7 --set dcache.bytes=1024
 "$bin/trax-compare" -q x.png box.png || fail "timing changes the picture"
 # Queues of pixels, as many as TMs, fewer, and more: every pixel once.
-for queues in 1 3 16 tms; do
+for queues in 1 3 64 tms; do
   same "$source/box.obj" $view --size 203x101 --config 6x32 --queues $queues --stats queues$queues.json
   cp x.png queues$queues.png
   "$bin/trax-compare" -q x.png queues1.png || fail "--queues $queues renders another picture"

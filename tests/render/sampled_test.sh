@@ -68,6 +68,15 @@ for chip in 1x32 2x32 4x48; do
 done
 [ $misses -le 1 ] || fail "$misses of 9 intervals miss the exact run"
 
+# --- one queue for all TMs, and more queues than TMs
+for queues in 1 5; do
+  render exact --size 320x180 --config 2x32 --queues $queues
+  render some --size 320x180 --config 2x32 --queues $queues --sampled --sample-fraction 0.2
+  is "$(number some.json cycles) / $(number exact.json cycles) < 1.1 && $(number some.json cycles) / $(number exact.json cycles) > 0.9" ||
+    fail "$queues queues: far off: $(number some.json cycles) for $(number exact.json cycles)"
+  [ "$(number some.json queues)" = $queues ] || fail "$queues queues: $(number some.json queues)"
+done
+
 # --- the same for any number of host threads, and as precise as asked
 render one --size 320x180 --sampled --threads 1
 render two --size 320x180 --sampled --threads 2
@@ -107,6 +116,9 @@ refuse 'neither next_slot nor next_pixel' --sampled --program still.elf
 printf '#include <trax.h>\nstruct trax_buffer scene, image;\nunsigned next_slot;\nint main(void) { return scene.size + image.size + next_slot == 0; }\n' >idle.c
 "$bin/clang" --target=trax -O2 idle.c -o idle.elf || fail "idle.c"
 refuse 'not taken by increments' --sampled --program idle.elf --size 320x180
+printf '#include <trax.h>\nstruct trax_buffer scene, image;\nunsigned next_slot[65];\nint main(void) { return scene.size + image.size + next_slot[64] == 0; }\n' >many.c
+"$bin/clang" --target=trax -O2 many.c -o many.elf || fail "many.c"
+refuse 'next_slot has 65 queues; allowed are 64 at most' --sampled --program many.elf
 for value in 0 1.5 -0.1 nan '' 5%; do
   refuse '--sample-fraction .*: expected' --sampled --sample-fraction "$value"
 done
@@ -126,7 +138,6 @@ refuse 'nothing to compare' --sampled --compare
 refuse 'nothing to compare' --sampled --profile x.txt
 refuse 'nothing to compare' --sampled --cost-picture y.png
 refuse '--fast-math' --sampled --fast-math
-refuse '--queues' --sampled --queues tms
 
 [ $failures -eq 0 ] && echo "sampled runs as expected"
 exit $((failures > 0))

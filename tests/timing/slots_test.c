@@ -93,6 +93,52 @@ static double turns(uint32_t item) {
   return 10 + (item >> 5);
 }
 
+/* The same by two queues, a TM's threads beginning with its own; items of every other tile, so of one of the queues,
+   are longer. */
+enum { TILE = 8, QUEUES = 2, LONGER = 64 };
+
+static size_t queued_items(uint32_t *words) {
+  static uint32_t plain[BODY + 64];
+  const size_t plain_count = item_program(plain);
+  size_t n = 0, from = 0;
+  for (; plain[from] != I(AINC, 10, 12, 0); from++)
+    words[n++] = plain[from];
+  words[n++] = U(RDSR, 13, TRAX_SR_TM);
+  words[n++] = I(ADDI, 14, 13, 0);
+  const size_t next = n;
+  words[n++] = I(SLLI, 15, 13, 2);
+  words[n++] = R(ADD, 15, 15, 12);
+  words[n++] = I(AINC, 10, 15, 0);
+  words[n++] = I(SRLI, 16, 10, 3);
+  words[n++] = I(SLLI, 16, 16, 1);
+  words[n++] = R(ADD, 16, 16, 13);
+  words[n++] = I(SLLI, 16, 16, 3);
+  words[n++] = I(ANDI, 10, 10, TILE - 1);
+  words[n++] = R(ADD, 10, 10, 16);
+  const size_t leave = n++;
+  for (from += 2; from < plain_count - 2; from++) {
+    if (plain[from] == I(ANDI, 20, 10, 31)) {
+      words[n++] = I(ANDI, 16, 10, TILE);
+      words[n++] = I(SLLI, 16, 16, 3);
+      words[n++] = I(SRLI, 20, 10, 5);
+      words[n++] = R(ADD, 20, 20, 16);
+    } else {
+      words[n++] = plain[from];
+    }
+  }
+  words[n] = B(BEQ, 0, 0, ((int32_t)next - (int32_t)n) * 4);
+  n++;
+  words[leave] = B(BGE, 10, 11, ((int32_t)n - (int32_t)leave) * 4);
+  words[n++] = I(XORI, 13, 13, 1);
+  words[n] = B(BNE, 13, 14, ((int32_t)next - (int32_t)n) * 4);
+  n++;
+  words[n++] = HALT;
+  return n;
+}
+static double queued_turns(uint32_t item) {
+  return turns(item) + (item & TILE ? LONGER : 0);
+}
+
 static struct run sample(const trax_slot_sampling *slots, unsigned host_threads) {
   uint32_t program[BODY + 64];
   const size_t count = growing_items(program);
@@ -105,6 +151,13 @@ static struct run exact_run(void) {
   const size_t count = growing_items(program);
   const struct trax_config config = plain_config();
   return run_alone(&config, program, count, TRAX_ENGINE_FAST, 0, 1);
+}
+
+static struct run queued(const trax_slot_sampling *slots, unsigned host_threads) {
+  uint32_t program[2 * (BODY + 64)];
+  const size_t count = queued_items(program);
+  const struct trax_config config = plain_config();
+  return run_with(&config, program, count, &(trax_run_options){.slots = slots, .host_threads = host_threads});
 }
 
 /* Guesses of what items cost, some per cent off. */
@@ -221,6 +274,99 @@ static void as_asked(void **state) {
   }
 }
 
+/* Two queues that are handed out at the pace of what their items take: the longer ones' falls behind. */
+static double queued_costs[ITEMS / BLOCK + 1];
+static uint32_t handed_out[(ITEMS / BLOCK + 1) * QUEUES];
+
+static void go_through_queues(void) {
+  double at[QUEUES] = {0}; /* when the queue hands out its next item */
+  uint32_t taken[QUEUES] = {0};
+  for (uint32_t place = 0; place <= ITEMS; place++) {
+    const bool none[QUEUES] = {taken[0] == ITEMS / 2, taken[1] == ITEMS / 2};
+    const unsigned queue = none[0] || (!none[1] && at[1] < at[0]);
+    if (place % BLOCK == 0) {
+      memcpy(&handed_out[place / BLOCK * QUEUES], taken, sizeof taken);
+      queued_costs[place / BLOCK] = fmax(at[queue], place ? queued_costs[place / BLOCK - 1] : 0);
+    }
+    const uint32_t item = (taken[queue] / TILE * QUEUES + queue) * TILE + taken[queue] % TILE;
+    at[queue] += queued_turns(item) / (none[0] || none[1] ? 2 : 1); /* both TMs take those of one queue */
+    taken[queue] += place < ITEMS;
+  }
+}
+
+static void several_queues(void **state) {
+  (void)state;
+  go_through_queues();
+  trax_slot_sampling asked = some;
+  asked.queues = QUEUES;
+  asked.tile = TILE;
+  asked.costs = queued_costs;
+  asked.handed_out = handed_out;
+  asked.warm_up = 64;
+  asked.fraction = 1;
+  struct run exact = queued(NULL, 1), all = queued(&asked, 1);
+  expect_same(&exact, &all);
+  end(&all);
+  asked.fraction = 0.2;
+  const double truth = (double)exact.bench.machine->stats.cycles;
+  uint32_t counters[QUEUES];
+  memcpy(counters, exact.bench.machine->space.bytes + ITEM_COUNTER, sizeof counters);
+  assert_true(counters[0] > ITEMS / 2 && counters[1] > ITEMS / 2); /* both are empty, and somebody has seen it */
+  double sums[2] = {0};
+  unsigned hits = 0;
+  for (int in_step = 0; in_step < 2; in_step++)
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+      asked.handed_out = in_step ? NULL : handed_out;
+      asked.seed = seed;
+      struct run sampled = queued(&asked, 1);
+      const struct trax_stats *stats = &sampled.bench.machine->stats;
+      assert_int_equal(sampled.bench.status, TRAX_OK);
+      assert_true(stats->sampling.windows >= 12 && (double)stats->sampling.detailed_cycles < 0.8 * truth);
+      assert_int_equal(stats->total.items, ITEMS);
+      sums[in_step] += (double)stats->cycles / truth - 1;
+      hits += !in_step && stats->sampling.low <= truth && truth <= stats->sampling.high;
+      end(&sampled);
+    }
+  assert_true(hits >= 17 && fabs(sums[0] / 20) < 0.01);
+  assert_true(sums[1] / 20 < -0.02); /* in step, short items would be seen too often */
+  struct run one = queued(&asked, 1), two = queued(&asked, 2);
+  expect_same(&one, &two);
+  end(&two);
+  end(&one);
+  end(&exact);
+}
+
+static void refusals_of_queues(void **state) {
+  (void)state;
+  static uint32_t wrong[2][(ITEMS / BLOCK + 1) * QUEUES];
+  go_through_queues();
+  memcpy(wrong[0], handed_out, sizeof handed_out);
+  memcpy(wrong[1], handed_out, sizeof handed_out);
+  wrong[0][100]++;
+  wrong[1][100]--, wrong[1][101]++, wrong[1][98]++, wrong[1][99]--; /* the first goes back */
+  wrong[1][98] += BLOCK, wrong[1][99] -= BLOCK;
+  trax_slot_sampling cases[5];
+  for (size_t i = 0; i < 5; i++) {
+    cases[i] = some;
+    cases[i].queues = QUEUES;
+    cases[i].tile = TILE;
+  }
+  cases[0].queues = TRAX_MAX_SLOT_QUEUES + 1;
+  cases[1].tile = 0;
+  cases[2].tile = 7;
+  cases[3].handed_out = wrong[0];
+  cases[4].handed_out = wrong[1];
+  const char *const words[] = {"65 queues; allowed are 64", "not whole tiles of 0", "not whole tiles of 7",
+                               "401 slots at slot 400", "cannot have handed out"};
+  for (size_t i = 0; i < 5; i++) {
+    struct run sampled = queued(&cases[i], 1);
+    assert_int_equal(sampled.bench.status, TRAX_ERROR);
+    if (!strstr(sampled.bench.error.message, words[i]))
+      fail_msg("%s", sampled.bench.error.message);
+    end(&sampled);
+  }
+}
+
 static void refusals(void **state) {
   (void)state;
   static double wrong[ITEMS / BLOCK + 1];
@@ -255,9 +401,9 @@ static void refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(by_hand),    cmocka_unit_test(coverage),   cmocka_unit_test(everything),
-      cmocka_unit_test(some_of_it), cmocka_unit_test(repeatable), cmocka_unit_test(as_asked),
-      cmocka_unit_test(refusals),
+      cmocka_unit_test(by_hand),        cmocka_unit_test(coverage),   cmocka_unit_test(everything),
+      cmocka_unit_test(some_of_it),     cmocka_unit_test(repeatable), cmocka_unit_test(as_asked),
+      cmocka_unit_test(several_queues), cmocka_unit_test(refusals),   cmocka_unit_test(refusals_of_queues),
   };
   return cmocka_run_group_tests(tests, guess, NULL);
 }

@@ -94,11 +94,17 @@ typedef struct trax_sampling {
   uint64_t seed;    /* of where the first window lies */
 } trax_sampling;
 
+#define TRAX_MAX_SLOT_QUEUES 64
+
 /* Slot-sampled simulation (docs/emulator.md): for a program whose threads take numbered pieces of work, slots, by the
-   atomic increment of one word, until the number is `slots` or more. 0 is the default. */
+   atomic increment of one word, until the number is `slots` or more; or from several queues, each with its word, of
+   which queue q has every tile q, q + queues, q + 2 * queues and so on, and a thread whose queue is empty goes on with
+   another one. A slot's place is then how many the queues have handed out together. 0 is the default. */
 typedef struct trax_slot_sampling {
-  uint32_t counter; /* address of the word */
-  uint32_t slots;   /* how many there are */
+  uint32_t counter; /* address of the word, of the first one of several */
+  uint32_t slots;   /* how many there are; of several queues whole tiles */
+  uint32_t queues;  /* at most TRAX_MAX_SLOT_QUEUES */
+  uint32_t tile;    /* slots of a tile; of one queue without meaning */
   double fraction;  /* of the slots that is simulated, above 0 to 1; 1: the exact run */
   double error;     /* instead: half of the 95 % interval wanted, relative to the estimate */
   uint32_t unit;    /* slots of a range that is measured */
@@ -108,6 +114,9 @@ typedef struct trax_slot_sampling {
      all, in any unit. NULL: all are alike. A bad guess makes intervals wide, not wrong. */
   const double *costs;
   uint32_t block;       /* slots of a block; the unit is a multiple of it */
+  /* [as costs, times queues]: how many slots each queue is thought to have handed out where a block begins. NULL: they
+     keep step. */
+  const uint32_t *handed_out;
   uint64_t rays, items; /* what the whole program will report; 0: not known, to be estimated */
 } trax_slot_sampling;
 

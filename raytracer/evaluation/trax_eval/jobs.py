@@ -37,14 +37,16 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in 
 QUICK_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of: quick runs choose by it what to simulate
 
 
-def prepare_inputs(out, tools, scene, view, size, program, quick=False):
-    """The files that a program reads for a picture; returns their description, which is part of the job."""
+def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False):
+    """The files that a program reads for a picture; returns their description, which is part of the job. queues: of pixels, or None for a program that
+    knows nothing of them."""
     scratch = new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
         command += ["--write-view", f"{scratch}/picture.view"] if quick else []
         command += ["--view", view] if view else []
         command += ["--program", tools.era_program()] if program == "era" else []
+        command += ["--queues", str(queues)] if queues else []
         run = subprocess.run(command, capture_output=True, text=True)
         if run.returncode != 0:
             raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")

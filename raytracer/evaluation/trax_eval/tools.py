@@ -2,6 +2,7 @@
 
 import functools
 import pathlib
+import re
 import subprocess
 
 from .util import Problem, hash_file
@@ -37,3 +38,7 @@ class Tools:
         if run.returncode != 0:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
         return run.stdout
+
+    def tms(self, chip, settings):
+        """How many TMs that chip has."""
+        return int(re.search(r"^ *tms = (\d+);", self.configuration(chip, settings), re.MULTILINE).group(1))
