@@ -3,7 +3,9 @@
 
 import json
 import os
+import pty
 import re
+import select
 import signal
 import subprocess
 import sys
@@ -284,6 +286,70 @@ class Signals(unittest.TestCase):
         self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
         os.remove("s.json")
         self.assertEqual(self.litter(), [])
+
+
+class Progress(unittest.TestCase):
+    """The line on a terminal, of a program that finishes an item every few hundred cycles and does not end."""
+
+    SOURCE = """#include <trax.h>
+    int main(void) {
+      for (volatile unsigned i = 0;; i++)
+        if (i % 64 == 0)
+          trax_count_items(1);
+    }"""
+    LINE = (r"([\d.]+) million cycles, ([\d.]+) million instructions/s, (\d+) of 100000000 items \(([\d.]+) %\)"
+            r"(?:, (?:(\d+):)?(\d+):(\d\d) left)?")
+
+    def on_a_terminal(self, *words, seconds=0.7):
+        """What is written to a terminal on standard error until the run is interrupted."""
+        master, slave = pty.openpty()
+        process = subprocess.Popen([SIM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=slave)
+        os.close(slave)
+        written, deadline = b"", time.monotonic() + 60
+        interrupt = None
+        try:
+            while time.monotonic() < deadline:
+                if select.select([master], [], [], 0.1)[0]:
+                    try:
+                        data = os.read(master, 4096)
+                    except OSError:  # nobody has the other end any more
+                        break
+                    written += data
+                if interrupt is None and (b"left" in written or words[0] == "--quiet"):
+                    interrupt = time.monotonic() + seconds
+                if interrupt and time.monotonic() > interrupt:
+                    process.send_signal(signal.SIGINT)
+                    interrupt = float("inf")
+        finally:
+            os.close(master)
+            if time.monotonic() > deadline:
+                process.kill()
+        self.assertEqual(process.wait(timeout=60), 130)
+        return written.decode()
+
+    def test_line(self):
+        with open("items.c", "w") as file:
+            file.write(self.SOURCE)
+        subprocess.run([f"{BIN}/clang", "--target=trax", "-O1", "-o", "forever.elf", "items.c"], check=True)
+        for engine in ENGINES:
+            text = self.on_a_terminal("--engine", engine, "--progress-total", "100000000", "forever.elf")
+            shown, _, message = text.rpartition("\r\033[K")  # the line goes before the message comes
+            self.assertRegex(message, r"^trax-sim: .*interrupted")
+            lines = [line.removesuffix("\033[K") for line in shown.split("\r") if line]
+            self.assertGreater(len(lines), 3, text)
+            figures = [re.fullmatch(self.LINE, line) for line in lines]
+            self.assertTrue(all(figures), lines)
+            items = [int(figure[3]) for figure in figures]
+            self.assertEqual(items, sorted(items))
+            self.assertLess(items[0], items[-1])
+            for figure in figures:
+                self.assertAlmostEqual(float(figure[4]), int(figure[3]) / 1e6, delta=0.06)
+                self.assertGreater(float(figure[2]), 0)
+            self.assertIsNotNone(figures[-1][6])
+            if engine != "functional":
+                self.assertGreater(float(figures[-1][1]), 0)
+        self.assertNotIn("million", self.on_a_terminal("--quiet", "--progress-total", "100000000", "forever.elf", seconds=0.5))
+        os.remove("items.c")
 
 
 if __name__ == "__main__":
