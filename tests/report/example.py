@@ -42,7 +42,7 @@ def run(program, scene, chip, changes=None, mode="exact", experiments=("table2",
     }
     for name, setting in changes.items():
         section, name = name.split(".")
-        record["stats"]["configuration"][section][name] = setting
+        record["stats"]["configuration"].setdefault(section, {})[name] = setting
     if mode == "sampled":
         record["stats"]["sampled"] = {"cycles_low": cycles * 0.98, "cycles_high": cycles * 1.02}
     return record
@@ -72,6 +72,40 @@ def complete():
     series = [{"name": "staggering", "title": "Instruction-bank conflicts over time", "run": "era-conference-4x32-exact-0",
                "columns": ["cycle", "fetch_refused", "issued"], "rows": rows}]
     return document(runs, sweeps, series)
+
+
+def assertions():
+    """Runs of the sweeps that show why the machine is as it is, and of the dragon's other view; ours loses nothing by sharing, the era program does."""
+    runs = []
+    for program, lost in (("ours", 0.01), ("era", 0.2)):
+        for scene in SCENES:
+            rate = mrps(program, scene, "4x32")
+            for name, key, values in (("fpu-sharing", "fpu.tps_per_cluster", (1, 4, 8, 16)), ("icache-banks", "icache.banks", (32, 16)), ("dcache-banks", "dcache.tps_per_bank", (2, 8))):
+                for place, value in enumerate(values):
+                    made = run(program, scene, "4x32", {key: value} if value not in (8, 16) or name == "fpu-sharing" and value == 16 else {}, experiments=(name,), value=rate * (1 - lost * (place > 0)))
+                    section, name_of_key = key.split(".")
+                    made["stats"]["configuration"].setdefault(section, {})[name_of_key] = value
+                    made["stats"]["cause_percent"] = {"icache_bank_conflict": 3.5}
+                    made["values"]["mrps_per_mm2"] = 10 + place
+                    runs.append(made)
+            for units in (1, 2):
+                made = run(program, scene, "1x32", {"chip.tps_per_tm": 64} | ({"special.units_per_tm": 2} if units == 2 else {}), experiments=("special-unit",), value=10 - lost * 10 * (units == 1))
+                made["stats"]["configuration"]["special"] = {"units_per_tm": units}
+                runs.append(made)
+            for size, moved in ((16384, 700), (32768, 700 * (1.3 - lost * 10))):
+                made = run(program, scene, "8x32", {"dcache.bytes": size} if size > 16384 else {}, experiments=("dcache-bytes",))
+                made["stats"]["configuration"]["dcache"] = {"bytes": size}
+                made["values"]["bytes_per_ray"] = moved
+                runs.append(made)
+            made = run(program, scene, "4x32", experiments=("lockstep",))
+            made["values"] = {"simd_utilisation.32": 0.7 - lost, "simd_bound.32": 0.9}
+            runs.append(made)
+    for chip in CHIPS:
+        runs.append(run("era", "dragon-close", chip, value=1.9 if chip == "1x32" else 6.0))
+    runs.append(run("era", "dragon-close", "8x32", {"memory.bandwidth_gbps": 16.0}, value=10.5))
+    for index, record in enumerate(runs):
+        record["key"] = f"assertion-{index}"
+    return runs
 
 
 def partial():

@@ -186,6 +186,37 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(verdicts["Power of 4x32"], ["'differs'", "'differs'"])
         self.assertEqual(verdicts["Adds and multiplications a ray"], ["'agrees'", "'agrees'"])
         self.assertEqual([verdicts[name] for name in verdicts if name.startswith("Threads stagger")], [["'agrees'", "'unknown'"]])
+        for name in ("A TM's operations per cycle", "Eight TPs share an FPU", "One FPDIV/iSQRT unit serves up to 64 TPs", "Lanes in use in lockstep", "FPDIV/iSQRT are rarely used"):
+            self.assertEqual(verdicts[name], ["'unknown'", "'unknown'"], name)
+
+    def test_assertions(self):
+        """What the paper asserts of its choices, from the sweeps; and the reasons beside what differs."""
+        made = example.complete()
+        made["runs"] = [record for record in made["runs"] if record["set"].keys() <= {"memory.bandwidth_gbps"} and record["key"] != "lockstep"] + example.assertions()
+        rare = {"era": 5, "ours": 1}
+        for record in made["runs"]:
+            record["stats"].update(instructions=1000, instructions_by_unit={"special": 10 * rare[record["program"]]})
+            fpu = record["stats"]["configuration"]["fpu"]
+            fpu.update(adders_per_cluster=1 if record["program"] == "ours" else 2, multipliers_per_cluster=1)
+            record["stats"]["configuration"].setdefault("special", {"units_per_tm": 1})
+        page = self.make(made)
+        rows = {row[0][0]: row for row in page.tables["claims"]["rows"]}
+        for name in ("A TM's operations per cycle", "Eight TPs share an FPU", "FPDIV/iSQRT are rarely used", "One FPDIV/iSQRT unit serves up to 64 TPs", "16 banks for the instructions of 16 TPs",
+                     "A bank of the data cache for each 8 TPs", "Lanes in use in lockstep"):
+            self.assertEqual([cell[1] for cell in rows[name][2:4]], ["'differs'", "'agrees'"], rows[name])
+        self.assertEqual([cell[1] for cell in rows["A larger data cache takes pressure off the memory"][2:4]], ["'agrees'", "'differs'"])
+        self.assertIn("13, 19, 25", rows["A TM's operations per cycle"][2][0])
+        self.assertIn("99 % of the rays of an FPU for each TP", rows["Eight TPs share an FPU"][3][0])
+        self.assertIn("80.0 % of the rays of two units", rows["One FPDIV/iSQRT unit serves up to 64 TPs"][2][0])
+        self.assertIn("there a ray moves 700 bytes", rows["Speed-up from 1x32"][2][0])
+        self.assertRegex(rows["Speed-up from 1x32"][2][0], r"\d+ of 42 speed-ups within 10 % \(conference \d+ of 14, crytek-sponza \d+ of 14, forest \d+ of 14\); furthest off: ")
+        self.assertIn("dragon-close.view: 1.00 times on", rows["The dragon stops scaling at 128 threads at 8 GB/s"][2][0])
+        self.assertIn("dragon-close.view: 1.75 times", rows["The dragon gains from 16 GB/s"][2][0])
+        self.assertIn("5 of 15 chips within 10 %", rows["Table 1: area of the chips"][3][0])
+        machine = {row[2][0]: (row[3][0], row[4][1]) for row in page.tables["described"]["rows"]}
+        self.assertEqual(machine["chip.clock_mhz"], ("500", "'agrees'"))
+        self.assertEqual(machine["fpu.adders_per_cluster"], ("1, 2", "'differs'"))
+        self.assertEqual(machine["icache.tps_per_cache"], ("–", "'unknown'"))
         other = example.complete()
         for record in other["runs"]:
             if record["scene"] == "dragon" and record["config"] == "8x64":

@@ -105,7 +105,7 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
                 ("tables", "The paper's tables", join([tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs), tables.table3(results, paper)])),
                 ("scaling", "Scaling", join([el("p", "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."), figures("scaling-")])),
                 ("stalls", "Where the time goes", join([el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")])),
-                ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper)])),
+                ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper), tables.described(results, paper)])),
                 ("error", "Error and run time", join([figures("error-"), tables.sampled(results)]))]
     if results.series:
         sections.append(("time", "Over time", join([el("p", "Shares of the thread-cycles of each interval."), figures("series-")])))

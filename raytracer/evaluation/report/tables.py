@@ -123,6 +123,33 @@ def table3(results, paper):
     return table("table3", "Table 3: 8 and 16 GB/s, million rays per second", head, rows)
 
 
+# What section 3 says of the machine, and where the configuration has it.
+_DESCRIBED = [
+    ("clock", "500 MHz", "chip.clock_mhz", 500), ("TPs that share an FPU, one adder and one multiplier", "8", "fpu.tps_per_cluster", 8),
+    ("adders of a cluster", "1", "fpu.adders_per_cluster", 1), ("multipliers of a cluster", "1", "fpu.multipliers_per_cluster", 1),
+    ("FPDIV/iSQRT units of a TM", "1", "special.units_per_tm", 1), ("latency of FPDIV/iSQRT", "8 cycles", "special.latency_cycles", 8),
+    ("latency of additions", "1 cycle", "fpu.add_latency_cycles", 1), ("latency of multiplications", "1 cycle", "fpu.mul_latency_cycles", 1),
+    ("instruction cache", "4 kB", "icache.bytes", 4096), ("its banks", "16", "icache.banks", 16), ("TPs that share it", "16", "icache.tps_per_cache", 16),
+    ("data cache of a TM", "16 kB", "dcache.bytes", 16384), ("TPs for each of its banks", "8", "dcache.tps_per_bank", 8),
+    ("off-chip bandwidth", "8 GB/s", "memory.bandwidth_gbps", 8),
+]
+
+
+def described(results, paper):
+    """The machine of the text beside the configurations of the runs of its chips, but for what a sweep set."""
+    head = [("the text", "t"), ("says", "t"), ("key", "t"), ("the runs have", "n"), ("", "t")]
+    runs = [run for run in results.runs if run.done and run.config in paper.table2]
+    rows = []
+    for what, says, key, wanted in _DESCRIBED:
+        values = sorted({value for run in runs if key not in run.set and (value := run.setting(key)) is not None})
+        verdict = AGREES if values == [wanted] else DIFFERS if values else "unknown"
+        kind, text = _VERDICTS[verdict]
+        rows.append([cell(what, what), cell(says, says), cell(el("code", key), key), cell(", ".join(f"{value:g}" for value in values) or MISSING, values[0] if values else None, class_="n"),
+                     cell(el("span", text, class_="verdict " + kind), verdict)])
+    return table("described", "The machine as section 3 describes it", head, rows,
+                 note="32 registers and 512 bytes of local memory are the instruction set's (docs/isa.md) and cannot be configured. What the text leaves open is in docs/timing.md.")
+
+
 def hardware(results, paper):
     """What each chip's hardware did, a row for each run of a cell."""
     head = [("program", "t"), ("scene", "t"), ("chip", "t"), ("adders", "n"), ("multipliers", "n"), ("FPDIV/iSQRT", "n"), ("issue", "n"), ("data-cache hits", "n"),

@@ -1,0 +1,96 @@
+"""What the paper asserts of its choices, and what the sweeps say: judges of claims.py that return (holds, what was found); None: not known."""
+
+from .results import SCENES, mean, ratio
+
+_NOT_KNOWN = None, "not measured"
+
+
+def swept(results, sweep, program, chip, settings, figure):
+    """The mean over the scenes of a figure in a sweep's runs with these settings, or None. Exact runs go before estimates, large pictures before small ones."""
+    values = []
+    for scene in SCENES.values():
+        runs = [run for run in results.runs if sweep in run.experiments and (run.program, run.scene, run.config) == (program, scene, chip) and run.done and
+                set(run.set) <= set(settings) and all(run.setting(key) == value for key, value in settings.items())]
+        best = max(runs, key=lambda run: (run.mode == "exact", run.size or (0, 0)), default=None)
+        values.append(best.get(figure) if best else None)
+    return mean(values)
+
+
+def _fpu(results, paper, program):
+    rays, per_area = ([swept(results, "fpu-sharing", program, "4x32", {"fpu.tps_per_cluster": tps}, figure) for tps in (1, 4, 8, 16)]
+                      for figure in ("mrps", "values.mrps_per_mm2"))
+    kept = ratio(rays[2], rays[0])
+    if kept is None or None in per_area:
+        return _NOT_KNOWN
+    best = max(zip(per_area, (1, 4, 8, 16)))[1]
+    return kept >= 0.9, f"{100 * kept:.0f} % of the rays of an FPU for each TP, {per_area[2] / per_area[0]:.1f} times those per mm²; of 1, 4, 8 and 16 TPs, {best} have the most per mm²"
+
+
+def _special(results, paper, program):
+    one, two = (swept(results, "special-unit", program, "1x32", {"chip.tps_per_tm": 64, "special.units_per_tm": units}, "mrps") for units in (1, 2))
+    kept = ratio(one, two)
+    return _NOT_KNOWN if kept is None else (kept >= 0.95, f"{100 * kept:.1f} % of the rays of two units")
+
+
+def _rarely(results, paper, program):
+    shares = []
+    for scene in SCENES.values():
+        run = results.cell(program, scene, "4x32")
+        shares.append(ratio(run.get("instructions_by_unit.special"), run.get("instructions")) if run else None)
+    share = mean(shares)
+    busy = mean(results.figure("special.utilisation", program, scene, "4x32") for scene in SCENES.values())
+    return _NOT_KNOWN if share is None or busy is None else (share <= 0.02, f"{100 * share:.2f} % of the instructions; the unit is busy in {100 * busy:.0f} % of the cycles")
+
+
+def _icache(results, paper, program):
+    many, few = (swept(results, "icache-banks", program, "4x32", {"icache.banks": banks}, "mrps") for banks in (32, 16))
+    lost = swept(results, "icache-banks", program, "4x32", {"icache.banks": 16}, "cause_percent.icache_bank_conflict")
+    kept = ratio(few, many)
+    if kept is None or lost is None:
+        return _NOT_KNOWN
+    return kept >= 0.95, f"{100 * kept:.1f} % of the rays of 32 banks; conflicts take {lost:.1f} % of the thread-cycles"
+
+
+def _dcache_banks(results, paper, program):
+    two, eight = (swept(results, "dcache-banks", program, "4x32", {"dcache.tps_per_bank": tps}, "mrps") for tps in (2, 8))
+    kept = ratio(eight, two)
+    return _NOT_KNOWN if kept is None else (kept >= 0.95, f"{100 * kept:.1f} % of the rays of a bank for each 2 TPs")
+
+
+def _dcache_bytes(results, paper, program):
+    now, twice = (swept(results, "dcache-bytes", program, "8x32", {"dcache.bytes": size}, "values.bytes_per_ray") for size in (16384, 32768))
+    kept = ratio(twice, now)
+    return _NOT_KNOWN if kept is None else (kept < 1, f"32 kB for 16: {100 * (1 - kept):.0f} % fewer bytes a ray on 8x32")
+
+
+def _lockstep(results, paper, program):
+    used, bound = (swept(results, "lockstep", program, "4x32", {}, f"values.simd_{name}.32") for name in ("utilisation", "bound"))
+    if used is None or bound is None:
+        return _NOT_KNOWN
+    return 0.61 <= used <= 0.86, f"{100 * used:.0f} % of the lanes of warps of 32, at most {100 * bound:.0f} % whatever the order; this program does not keep its loops in step"
+
+
+def _peak(results, paper, program):
+    found = []
+    for chip, wanted in (("1x32", 9), ("1x48", 13), ("1x64", 17)):
+        run = next((run for scene in SCENES.values() if (run := results.cell(program, scene, chip)) and run.done), None)
+        if run is None:
+            return _NOT_KNOWN
+        keys = ("chip.tps_per_tm", "fpu.tps_per_cluster", "fpu.adders_per_cluster", "fpu.multipliers_per_cluster", "special.units_per_tm")
+        tps, cluster, adders, multipliers, special = values = [run.setting(key) for key in keys]
+        if None in values or not cluster:
+            return _NOT_KNOWN
+        found.append((-(-tps // cluster) * (adders + multipliers) + special, wanted))
+    return all(ours == wanted for ours, wanted in found), ", ".join(f"{ours:.0f}" for ours, _ in found)
+
+
+ASSERTIONS = [
+    ("A TM's operations per cycle", "the same: adders, multipliers and FPDIV/iSQRT of a TM of 32, 48 and 64 TPs", "9, 13 and 17", _peak),
+    ("Eight TPs share an FPU", "on 4x32 at least 90 % of the rays of an FPU for each TP", "found sufficient", _fpu),
+    ("FPDIV/iSQRT are rarely used", "at most 2 % of the instructions, mean of the scenes on 4x32", "described, no figures", _rarely),
+    ("One FPDIV/iSQRT unit serves up to 64 TPs", "on a TM of 64 TPs at least 95 % of the rays of two units", "described, no figures", _special),
+    ("16 banks for the instructions of 16 TPs", "on 4x32 at least 95 % of the rays of 32 banks", "no large negative impact", _icache),
+    ("A bank of the data cache for each 8 TPs", "on 4x32 at least 95 % of the rays of a bank for each 2 TPs", "the appropriate choice", _dcache_banks),
+    ("A larger data cache takes pressure off the memory", "fewer bytes a ray on 8x32 with twice the cache", "likely", _dcache_bytes),
+    ("Lanes in use in lockstep", "between the figures that the paper quotes for a ray tracer on a GTX 280: warps of 32 on 4x32", "61 to 86 %", _lockstep),
+]
