@@ -46,12 +46,16 @@ def _threads_axis(paper):
     return [(count, str(count)) for count in counts if count in (32, 64, 128, 256, 512)] or [(count, str(count)) for count in counts]
 
 
+OTHER_VIEWS = {"dragon-close": "dragon"}  # of a scene of the paper
+
+
 def _scaling(results, paper, scene):
     series = []
-    if paper.speedup(scene, "8x64"):
-        points = [(paper.threads(chip), paper.speedup(scene, chip), f"paper, {chip}: {paper.speedup(scene, chip):.2f} times, "
-                   f"{paper.mrps(scene, chip):.2f} MRPS") for chip in paper.chips]
-        series.append(Series("paper", PAPER[0], points, PAPER[1], line=False))
+    same = OTHER_VIEWS.get(scene, scene)
+    if paper.speedup(same, "8x64"):
+        points = [(paper.threads(chip), paper.speedup(same, chip), f"paper, {chip}: {paper.speedup(same, chip):.2f} times, "
+                   f"{paper.mrps(same, chip):.2f} MRPS") for chip in paper.chips]
+        series.append(Series("paper" if same == scene else f"paper, {same}", PAPER[0], points, PAPER[1], line=False))
     for index, program in enumerate(results.programs()):
         style, mark = style_of(program, index)
         points = []
@@ -62,7 +66,7 @@ def _scaling(results, paper, scene):
     top = max((point[0] for one in series for point in one.known()), default=512)
     series.append(Series("in proportion", 7, [(32, 1.0, "1x32: 1"), (top, top / 32, f"in proportion: {top / 32:g} times")] if len(series) and
                          any(one.known() for one in series[:-1] or series) else [], "dot", dashed=True))
-    return Lines("scaling-" + scene, f"Speed-up from 1x32: {scene}", "threads", "times", series, x_ticks=_threads_axis(paper))
+    return Lines("scaling-" + scene, f"Speed-up from 1x32: {scene}", "threads", "speed-up (times)", series, x_ticks=_threads_axis(paper))
 
 
 def _memory(results, paper, program):
@@ -74,7 +78,7 @@ def _memory(results, paper, program):
             points.append((paper.threads(chip), None if used is None else 100 * used, f"{scene}, {chip}: {100 * used:.0f} % of 8 GB/s" if used is not None else ""))
         style, mark = _STYLES[index % len(_STYLES)]
         series.append(Series(scene, style, points, mark, line=False))
-    return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "per cent", series, x_ticks=_threads_axis(paper))
+    return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "of 8 GB/s (%)", series, x_ticks=_threads_axis(paper))
 
 
 def _stalls(results, paper, program, scene):
@@ -99,7 +103,7 @@ def _error_time(results, paper):
             points.append((run.host_seconds, 100 * (value - 1), f"{run.name()}: {100 * (value - 1):+.0f} % in {run.host_seconds:.1f} s"))
         series.append(Series(program, style, points, mark, line=False))
     ticks = log_ticks(point[0] for one in series for point in one.known())
-    return Lines("error-time", "Deviation from Table 2 against the host's time", "seconds of the host for a cell", "per cent", series, log_x=True,
+    return Lines("error-time", "Deviation from Table 2 against the host's time", "time of the host for a cell (s)", "deviation from the paper (%)", series, log_x=True,
                  from_zero=False, x_ticks=ticks)
 
 
@@ -157,7 +161,7 @@ def _over_time(record, identity):
         series.append(Series(str(column), style, points))
         used.add(style)
     title = ": ".join(str(part) for part in (record.get("name"), record.get("title")) if part)
-    return Lines(identity, title or "series", "cycle", "per cent of thread-cycles", series, x_format="%.0s%c")
+    return Lines(identity, title or "series", "cycle", "share of thread-cycles (%)", series, x_format="%.0s%c")
 
 
 def _lockstep(results):
@@ -173,14 +177,15 @@ def _lockstep(results):
             style, mark = _STYLES[len(series) % len(_STYLES)]
             series.append(Series(f"{run.scene}, {run.program}", style, points, mark, dashed=len(series) >= len(_STYLES)))
     ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
-    return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "per cent of lanes", series, log_x=True, base=2, x_ticks=ticks)
+    return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
 
 
 def all_figures(results, paper):
     figures = [_scaling(results, paper, scene) for scene in _paper_scenes(results)]
     figures += [_memory(results, paper, program) for program in results.programs()]
     for program in results.programs():
-        figures += [_stalls(results, paper, program, scene) for scene in _paper_scenes(results)]
+        figures += [_stalls(results, paper, program, scene) for scene in _paper_scenes(results)
+                    if scene in SCENES.values() or any((run.scene, run.program) == (scene, program) for run in results.runs)]
     figures.append(_error_time(results, paper))
     figures += [_sweep(results, sweep, f"sweep-{index}") for index, sweep in enumerate(results.sweeps) if is_plotted(results, sweep)]
     if any(name.startswith("simd_utilisation.") for run in results.runs for name in run.values):

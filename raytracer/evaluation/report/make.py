@@ -20,16 +20,22 @@ from .plots import PlotError, draw, marks
 from .results import SCENES, Paper, ResultsError, read_results
 
 HERE = pathlib.Path(__file__).resolve().parent
+SHORT = {"tables": "Tables", "stalls": "Time", "units": "Hardware", "error": "Error and run time"}  # in the page's head
 
 
 def summary(results, paper, judged):
     """In plain words: what was measured, and what agrees."""
     done, failed = [run for run in results.runs if run.done], [run for run in results.runs if run.status == "failed"]
     sentences = [f"{len(done)} of {len(results.runs)} runs are there" + (f", {len(failed)} failed." if failed else ".")]
-    sizes = sorted({run.size for run in done if run.size}, reverse=True)
-    if sizes:
-        sentences.append("Pictures of " + ", ".join(f"{width}x{height}" for width, height in sizes) + " pixels; the paper's are 1280x720.")
-        if sizes[-1] < (1280, 720):
+    cells = {run.size for program in results.programs() for scene in SCENES.values() for chip in paper.chips if (run := results.cell(program, scene, chip)) and run.done and run.size}
+    others = {run.size for run in done if run.size} - cells
+
+    def named(sizes):
+        return ", ".join(f"{width}x{height}" for width, height in sorted(sizes, reverse=True))
+
+    if cells:
+        sentences.append(f"The pictures of the paper's tables have {named(cells)} pixels" + (f", those of other sweeps {named(others)}" if others else "") + "; the paper's have 1280x720.")
+        if min(cells) < (1280, 720):
             sentences.append("In a smaller picture neighbouring rays share less, so each moves more bytes, and large chips are sooner out of bandwidth: "
                              "of small pictures the verdicts say little.")
     times = [run.host_seconds for run in done if run.host_seconds]
@@ -39,8 +45,7 @@ def summary(results, paper, judged):
     for program in results.programs():
         what = {"era": "The era program (binary BVH, Möller and Trumbore's test: as near to the paper's as its text allows)", "ours": "Our program"}
         deviations = [value for _, _, value in table2_deviations(results, paper, program)]
-        said = [claim.title for claim in judged if claim.verdicts[program][0] == AGREES]
-        not_said = [claim.title for claim in judged if claim.verdicts[program][0] == DIFFERS]
+        said, not_said = (sum(claim.verdicts[program][0] == verdict for claim in judged) for verdict in (AGREES, DIFFERS))
         text = [el("b", what.get(program, f"Program “{program}”")), ": "]
         if deviations:
             middle = median(deviations)
@@ -48,12 +53,8 @@ def summary(results, paper, judged):
         own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
         if own:
             text.append(f"Its chips are the paper's, with {own}. ")
-        text.append(f"Agrees with the paper in {len(said)}, differs in {len(not_said)} of {len(judged)} claims; "
-                    f"not known: {len(judged) - len(said) - len(not_said)}.")
+        text.append(f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; not known: {len(judged) - said - not_said}.")
         items.append(el("p", *text))
-        for title, names, kind in (("Agrees", said, "yes"), ("Differs", not_said, "no")):
-            if names:
-                items.append(el("p", el("span", title, class_="verdict " + kind), " ", "; ".join(names), ".", class_="list"))
     return join(items)
 
 
@@ -132,7 +133,7 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
               el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"), el("style", Html(style)))
     body = el("body", marks(), el("header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
                                   el("p", join([part for part in about if part], " · "), class_="about"),
-                                  el("nav", *(el("a", title, href="#" + identity) for identity, title, _ in sections),
+                                  el("nav", *(el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections),
                                      el("button", "Light or dark", type="button", id="theme"))),
               el("main", *(el("section", el("h2", title), content, id=identity) for identity, title, content in sections)), el("script", Html(script)))
     return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"

@@ -52,8 +52,8 @@ def figure(value, digits=3):
 
 
 def published(value):
-    """As the paper has it: no digit more."""
-    return MISSING if value is None else Html(f"{value:g}")
+    """As the paper has it: no digit more, and none less."""
+    return MISSING if value is None else Html(escape(getattr(value, "text", f"{value:g}")))
 
 
 def percent(value, signed=False, digits=0):
@@ -76,7 +76,7 @@ def seconds(value):
 
 def cell(shown, value=None, **attributes):
     """A table's cell; value is what it is sorted by, and a cell of a number without one is missing."""
-    return el("td", shown, data_value=None if value is None else repr(value), **attributes)
+    return el("td", shown, data_value=None if value is None else repr(float(value) if isinstance(value, float) else value), **attributes)
 
 
 def number_cell(value, shown=None, below=None, **attributes):

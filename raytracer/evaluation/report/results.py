@@ -203,6 +203,15 @@ def read_results(path):
         raise ResultsError(f"{path}: {error}") from None
 
 
+class Published(float):
+    """A figure with the digits that the paper prints."""
+
+    def __new__(cls, text):
+        made = super().__new__(cls, text)
+        made.text = text.strip()
+        return made
+
+
 class Paper:
     """The tables of the paper, by chip; the numbers are those of its text."""
 
@@ -231,7 +240,7 @@ class Paper:
                 if key in ("name", "unit", "place", "what", "where"):
                     continue
                 try:
-                    row[key] = float(value) if value and value.strip() else None
+                    row[key] = Published(value) if value and value.strip() else None
                 except (TypeError, ValueError):
                     raise ResultsError(f"{path}:{line}: {key}: \"{value}\" is no number") from None
         return rows

@@ -16,6 +16,9 @@ def shade(value):
     return "near" if size <= 0.10 else ("high" if value > 0 else "low") + ("2" if size > 0.5 else "1")
 
 
+SHADES = "Below a figure: its deviation from the paper's. Green: within 10 %; blue: above, deep blue by more than half; orange: below, deep orange by more than half."
+
+
 def paper_cell(value):
     return number_cell(value, published(value), class_="paper")
 
@@ -45,11 +48,11 @@ def _figures_of(results, program, chip, name):
 
 def table1(results, paper):
     programs = results.programs()
-    head = [("chip", "t"), ("threads", "n"), ("area, paper (mm²)", "n"), ("area, fit", "n"), ("peak GFLOPS, paper", "n"), ("peak, ours", "n"),
+    head = [("chip", "t"), ("threads", "n"), ("area (mm²), paper", "n"), ("area (mm²), fit", "n"), ("peak GFLOPS, paper", "n"), ("peak GFLOPS, here", "n"),
             ("RT GFLOPS, paper", "n")] + [(f"RT GFLOPS, {program}", "n") for program in programs]
     units = {run.config: run.get("values.area_units") for run in results.runs if run.done and not run.set and "area_units" in run.values}
     if units:
-        head.insert(4, ("area, sum of units", "n"))
+        head.insert(4, ("area (mm²), sum of units", "n"))
     rows = []
     for row in paper.table1:
         chip, ours = row["name"], row["name"] in paper.table2
@@ -64,16 +67,16 @@ def table1(results, paper):
         cells += [compared(_figures_of(results, program, chip, "gflops"), row.get("rt_gflops")) if ours else cell("") for program in programs]
         rows.append(cells)
     return table("table1", "Table 1: area and floating-point operations per second", head, rows,
-                 note="RT GFLOPS are the mean of the four scenes, and missing if one of them is. Below each figure of ours: its deviation from the paper's. "
-                      "The other accelerators' figures are those that the paper quotes.")
+                 note="RT GFLOPS are the mean of the four scenes, and missing if one of them is. "
+                      f"The other accelerators' figures are those that the paper quotes. {SHADES}")
 
 
 def table2(results, paper, program):
     names = list(SCENES)
     head = [("chip", "t"), ("threads", "n")]
     for name in names:
-        head += [(f"{name}, paper", "n"), (SCENES[name] if SCENES[name] != name else "ours", "n")]
-    head += [("average, paper", "n"), ("average", "n")]
+        head += [(f"{name}, paper", "n"), (f"{SCENES[name] if name == 'fairy' else name}, {program}", "n")]
+    head += [("average, paper", "n"), (f"average, {program}", "n")]
     rows = []
     for chip in paper.chips:
         row = [cell(chip, paper.threads(chip)), number_cell(paper.threads(chip))]
@@ -87,6 +90,7 @@ def table2(results, paper, program):
     times = [run.host_seconds for chip in paper.chips for scene in SCENES.values() if (run := results.cell(program, scene, chip)) and run.host_seconds]
     own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
     note = (f"The chips are the paper's, with {own}. " if own else "") + "Million rays per second. The fairy scene is not to be had; the generated forest stands in for it."
+    note += " " + SHADES
     if times:
         note += f" The cells took {seconds(sum(times))} of the host together."
     return table(f"table2-{program}", f"Table 2, program “{program}”: million rays per second", head, rows, note=note)
@@ -120,7 +124,7 @@ def table3(results, paper):
             row.append(paper_cell(of_average))
             row += [compared(mean(results.figure("mrps", p, scene, chip, bandwidth) for scene in SCENES.values()), of_average) for p in results.programs()]
             rows.append(row)
-    return table("table3", "Table 3: 8 and 16 GB/s, million rays per second", head, rows)
+    return table("table3", "Table 3: 8 and 16 GB/s, million rays per second", head, rows, note=SHADES)
 
 
 # What section 3 says of the machine, and where the configuration has it.
