@@ -105,9 +105,11 @@ static trax_status load_view(struct trax_view *view, const struct options *optio
     return camera ? take_camera(view, inputs, options->view + sizeof camera_prefix - 1, error) : TRAX_OK;
   }
   char path[TRAX_PATH_SIZE];
-  if (access(options->view, F_OK) != 0 && !strchr(options->view, '/') &&
-      installed_file(path, "share/trax/views", options->view, ".view"))
-    return trax_view_read(view, path, error);
+  if (access(options->view, F_OK) != 0 && !strchr(options->view, '/')) {
+    if (installed_file(path, "share/trax/views", options->view, ".view"))
+      return trax_view_read(view, path, error);
+    return trax_fail(error, "--view %s: there is no such file, and trax comes with no such view", options->view);
+  }
   return trax_view_read(view, options->view, error);
 }
 

@@ -586,6 +586,8 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (!options->output && !options->prepare)
     return trax_fail(error, "no picture given: -o PICTURE.png");
+  if (options->output && trax_picture_check_name(options->output, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (options->bench_accuracy) {
     if (options->engine != ENGINE_FAST || options->program || options->no_specialise)
       return trax_fail(error, "--bench-accuracy chooses engines and programs itself");

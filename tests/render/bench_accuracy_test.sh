@@ -1,19 +1,7 @@
 #!/bin/sh
 # trax-render --bench-accuracy from the command line: what it writes, goes on with, leaves behind and refuses.
-# Usage: bench_accuracy_test.sh BIN SOURCE; BIN has the programs, SOURCE this folder.
-set -u
-bin=$1
-source=$2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-export XDG_CACHE_HOME="$work/cache"
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+# Usage: bench_accuracy_test.sh BIN, the folder of the programs
+. "$(dirname "$0")/head.sh"
 
 bench() {
   "$bin/trax-render" --bench-accuracy "$source/box.obj" --view "$source/box.view" --size 48x27 "$@" >.out 2>.err

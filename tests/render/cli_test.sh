@@ -1,20 +1,9 @@
 #!/bin/sh
 # The command lines of trax-render and trax-compare: what they refuse, what they leave behind, what they print.
-# Usage: cli_test.sh BIN SOURCE; BIN has the programs, SOURCE this folder.
-set -u
-bin=$1
-source=$2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+# Usage: cli_test.sh BIN, the folder of the programs
+. "$(dirname "$0")/head.sh"
 out=$work/out err=$work/err # of the last command
-mkdir "$work/here" && cd "$work/here" || exit 1
-failures=0
-export XDG_CACHE_HOME="$work/cache"
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+mkdir here && cd here || exit 1
 
 # refuse PATTERN COMMAND...: status 1, nothing on standard output, one line on standard error that matches, no new files.
 refuse() {
@@ -128,7 +117,8 @@ refuse 'nowhere' "$render" "$box" -o x.png --stats nowhere/s.json
 for option in profile profile-folded cost-picture cost-values; do
   refuse 'nowhere' "$render" "$box" -o x.png --$option nowhere/x
 done
-refuse 'missing.view' "$render" "$box" -o x.png --view missing.view
+refuse 'view missing.view: there is no such file, and trax comes with no such view' "$render" "$box" -o x.png --view missing.view
+refuse 'nowhere/a.view: ' "$render" "$box" -o x.png --view nowhere/a.view
 printf 'eye = [0, 0];\n' >bad.view
 refuse 'bad.view:1' "$render" "$box" -o x.png --view bad.view
 printf 'not a scene' >bad.trax
@@ -254,6 +244,7 @@ refuse 'odd.pfm: not a readable PFM' "$compare" odd.pfm pixels.png
 printf 'PF\n99999 99999\n-1.0\n' >vast.pfm
 refuse 'vast.pfm: a picture of 99999 x 99999' "$compare" vast.pfm pixels.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.exr $native
+refuse 'x.JPG: pictures are .png, .pfm or .exr' "$render" "$box" -o x.JPG $native
 
 # Which triangle a pixel shows: the same by the twin and by Embree in nearly all of a small picture.
 accept "$render" "$box" -o h.png $native --size 32x24 --id-picture ids.png --compare

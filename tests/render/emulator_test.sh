@@ -1,20 +1,8 @@
 #!/bin/sh
 # Pictures by the emulated machine: the same bits as the native twin's, and close to Embree's, on several chips.
-# Usage: emulator_test.sh BIN SOURCE [CASE...]
-set -u
-bin=$1
-source=$2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-export XDG_CACHE_HOME="$work/cache"
+# Usage: emulator_test.sh BIN, the folder of the programs
+. "$(dirname "$0")/head.sh"
 bunny=/usr/share/glmark2/models/bunny.obj
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # same ARGUMENTS...: --compare finds nothing; what it printed stays in .out.
 same() {

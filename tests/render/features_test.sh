@@ -1,19 +1,8 @@
 #!/bin/sh
 # Every feature of the ray tracer with every other, by the emulated machine: the program for all pictures and the one for this
 # picture render the same bits, and so does the native twin; the reference agrees.
-# Usage: features_test.sh BIN
-set -u
-bin=$1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-export XDG_CACHE_HOME="$work/cache"
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+# Usage: features_test.sh BIN, the folder of the programs
+. "$(dirname "$0")/head.sh"
 
 # Twelve rows in which any two of the eleven columns have all four pairs of values (Plackett and Burman, 1946).
 row=11011100010

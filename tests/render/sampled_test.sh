@@ -1,20 +1,8 @@
 #!/bin/sh
 # trax-render --sampled: the picture, the estimate and its interval against the exact run, what it refuses.
-# Usage: sampled_test.sh BIN SOURCE
-set -u
-bin=$1
-source=$2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-export XDG_CACHE_HOME="$work/cache"
+# Usage: sampled_test.sh BIN, the folder of the programs
+. "$(dirname "$0")/head.sh"
 scene="$source/box.obj --view $source/box.view"
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # render NAME ARGUMENTS...: NAME.png and NAME.json
 render() {
