@@ -154,7 +154,7 @@ static trax_status read_statement(struct library *library, const char *keyword, 
       return read_value(library, keyword, rest, statements[i].value);
     if (statements[i].map)
       return read_map(library, keyword, rest, statements[i].map);
-    bool read;
+    bool read = false;
     trax_status result = read_colour(library, keyword, rest, statements[i].colour, &read);
     source->has_kd = source->has_kd || (read && statements[i].colour == source->kd);
     return result;
