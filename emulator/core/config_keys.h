@@ -14,7 +14,6 @@
 #define TRAX_MAX_TMS 64
 #define TRAX_MAX_TPS_PER_TM 64 /* the TPs of a TM are the bits of one uint64_t */
 #define TRAX_MAX_CHANNELS 16
-#define TRAX_MAX_THREADS (TRAX_MAX_TMS * TRAX_MAX_TPS_PER_TM)
 
 /* clang-format off */
 #define TRAX_CONFIG_KEYS(BEGIN, COUNT, POWER, FLAG, REAL, END)                                                                             \

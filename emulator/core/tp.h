@@ -34,11 +34,6 @@ struct trax_tm;
    from which it is usable, TRAX_NEVER if unknown. TRAX_CAUSE_ISSUED if there is none. */
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until);
 
-static inline bool trax_tp_operands_usable(const struct trax_tp *tp, uint64_t t) {
-  const struct trax_decoded *inst = tp->inst;
-  return tp->usable[inst->wait_ra] <= t && tp->usable[inst->wait_rb] <= t && tp->usable[inst->wait_rd] <= t;
-}
-
 static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t cycle, trax_cause cause) {
   tp->usable[rd] = cycle;
   tp->usable_cause[rd] = (uint8_t)cause;

@@ -47,6 +47,4 @@ const char *trax_status_name(trax_status status);
 /* Share of the cycles in which a channel's bus was taken. */
 double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel);
 
-trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_error *error);
-
 #endif

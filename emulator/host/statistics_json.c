@@ -236,7 +236,7 @@ static void put_configuration(struct document *document, const struct trax_confi
   }
 }
 
-trax_status trax_stats_dump_json(const trax_machine *machine, FILE *out, trax_error *error) {
+static trax_status dump(const trax_machine *machine, FILE *out, trax_error *error) {
   if (!machine->has_run)
     return trax_fail(error, "no statistics: the machine has not run");
   struct document document = {json_object(), false};
@@ -271,7 +271,7 @@ trax_status trax_stats_write_json(const trax_machine *machine, const char *path,
     return TRAX_ERROR;
   /* A failing write shows again, with its reason, when the file is closed. */
   trax_error reason;
-  if (trax_stats_dump_json(machine, output.file, &reason) != TRAX_OK && !ferror(output.file)) {
+  if (dump(machine, output.file, &reason) != TRAX_OK && !ferror(output.file)) {
     trax_output_discard(&output);
     return trax_fail(error, "%s: %s", path, reason.message);
   }

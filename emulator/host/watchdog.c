@@ -75,10 +75,6 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
   return NULL;
 }
 
-bool trax_watchdog_barked(const struct trax_watchdog *watchdog) {
-  return watchdog->barked;
-}
-
 /* --- the statement --- */
 
 /* What a thread did for most of the time, other than to issue; ISSUED if that was all. */

@@ -111,7 +111,8 @@ static void cut_functions(ld_context *ctx) {
   }
 }
 
-ld_function *ld_function_at(const ld_context *ctx, const ld_section *section, uint32_t offset) {
+/* NULL if there is none. */
+static ld_function *function_at(const ld_context *ctx, const ld_section *section, uint32_t offset) {
   if (!section->function_count || offset >= section->size)
     return NULL;
   size_t low = section->first_function, high = low + section->function_count;
@@ -136,7 +137,7 @@ static ld_function *function_of(const ld_context *ctx, const ld_symbol *symbol, 
   }
   if (symbol->kind != LD_DEFINED || !symbol->section->live)
     return NULL;
-  return ld_function_at(ctx, symbol->section, symbol->value + (uint32_t)addend);
+  return function_at(ctx, symbol->section, symbol->value + (uint32_t)addend);
 }
 
 /* --- calls --- */
@@ -210,7 +211,7 @@ static void scan_transfer(scanner *scanner, ld_function *function, uint32_t offs
     if (!callee && reloc->symbol->kind != LD_UNDEFINED)
       function->indirect_calls++; /* an address without a function */
   } else {
-    callee = ld_function_at(ctx, function->section, offset + (uint32_t)inst.imm);
+    callee = function_at(ctx, function->section, offset + (uint32_t)inst.imm);
   }
   bool links = inst.op == TRAX_OP_JAL && inst.rd != 0;
   if (!callee || (callee == function && !links))
@@ -259,7 +260,7 @@ static void scan_function(scanner *scanner, ld_function *function) {
   bool ends = (inst.op == TRAX_OP_JAL || inst.op == TRAX_OP_JALR) && inst.rd == 0;
   if (!function->is_complete && !ends && inst.op != TRAX_OP_HALT && inst.op != TRAX_OP_ILLEGAL &&
       function->end < section->size)
-    add_call(scanner->ctx, function, ld_function_at(scanner->ctx, section, function->end), true);
+    add_call(scanner->ctx, function, function_at(scanner->ctx, section, function->end), true);
 }
 
 /* A function whose address is taken can be called through a pointer. Calls and branches take none. */
@@ -287,7 +288,7 @@ static void note_table_entry(ld_context *ctx, const ld_section *table, const ld_
 }
 
 static void note_table_reader(ld_context *ctx, const ld_section *section, const ld_reloc *reloc) {
-  ld_function *reader = ld_function_at(ctx, section, reloc->offset);
+  ld_function *reader = function_at(ctx, section, reloc->offset);
   if (reader && strcmp(reloc->symbol->name, "__init_array_start") == 0)
     reader->runs_constructors = true;
   else if (reader && strcmp(reloc->symbol->name, "__fini_array_start") == 0)

@@ -344,7 +344,6 @@ typedef struct ld_function {
 } ld_function;
 
 bool ld_build_call_graph(ld_context *ctx);
-ld_function *ld_function_at(const ld_context *ctx, const ld_section *section, uint32_t offset); /* NULL if none */
 
 /* --- stack.c --- */
 

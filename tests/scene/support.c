@@ -50,10 +50,6 @@ unsigned count_files(void) {
   return for_each_file(NULL);
 }
 
-bool file_exists(const char *path) {
-  return access(path, F_OK) == 0;
-}
-
 const char *test_path(const char *name) {
   static char paths[64][512];
   static unsigned next;

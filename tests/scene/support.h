@@ -19,7 +19,6 @@ const char *test_path(const char *name);
 const char *test_file(const char *name, const void *bytes, size_t size);
 const char *test_text(const char *name, const char *text);
 unsigned count_files(void);
-bool file_exists(const char *path);
 
 /* Uniform in [0, 1). */
 float random_unit(uint32_t *state);

@@ -220,12 +220,6 @@ bool different_issues(struct difference *to, const struct bench_issues *a, const
   return different_number(to, "issues", a->count, b->count);
 }
 
-void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b) {
-  struct difference difference;
-  if (different_issues(&difference, a, b))
-    fail_msg("%s", difference.text);
-}
-
 void expect_same(const struct run *a, const struct run *b) {
   struct difference difference;
   assert_int_not_equal(a->bench.status, TRAX_ERROR);

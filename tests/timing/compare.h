@@ -49,7 +49,6 @@ bool different_runs(struct difference *to, const struct run *a, const struct run
 /* Of them what does not depend on time: instructions, exit statuses, memory and output. */
 bool different_effects(struct difference *to, const struct run *a, const struct run *b);
 
-void expect_same_issues(const struct bench_issues *a, const struct bench_issues *b);
 void expect_same(const struct run *a, const struct run *b);
 
 /* A number from the environment. */

@@ -12,8 +12,6 @@ enum {
   BODY = 120,   /* instructions of the loop */
   MAX_THREADS = 128
 };
-#define SHARED_WORDS (DATA + 0xC000)
-#define COUNTERS (DATA + 0xE000)
 
 extern uint64_t random_state;
 uint32_t any(uint32_t least, uint32_t most);
