@@ -23,14 +23,36 @@ static inline uint32_t pixel_y(struct pixel pixel) {
   return pixel.packed >> 16;
 }
 
+/* Where a number lies on Hilbert's curve through a square of 2^log2_side a side, at most 2^5, from its upper left
+   corner to the upper right one. Each pair of bits chooses a quadrant, and turns or mirrors all that is below it: all
+   of these are found at once, by exclusive ors over the pairs above (Warren, "Hacker's Delight", 2nd edition, section
+   16-2). */
+static inline void curve_place(uint32_t number, uint32_t log2_side, uint32_t *x, uint32_t *y) {
+  const uint32_t pairs = 0x155, within = (1u << 2 * log2_side) - 1; /* the lower bit of each pair */
+  uint32_t bits = (number & within) | (pairs & ~within);            /* pairs of 1 turn nothing */
+  uint32_t high = bits >> 1 & pairs;
+  uint32_t turns = ((bits & pairs) + high) ^ pairs;
+  turns ^= turns >> 2;
+  turns ^= turns >> 4;
+  turns ^= turns >> 8;
+  uint32_t flipped = (bits & turns & pairs) ^ (turns >> 1 & pairs);
+  bits = (bits ^ high ^ flipped ^ flipped << 1) & within;
+  uint32_t across = bits >> 1 & pairs, down = bits & pairs;
+  across = (across | across >> 1) & 0x133, down = (down | down >> 1) & 0x133;
+  across = (across | across >> 2) & 0x10F, down = (down | down >> 2) & 0x10F;
+  *x = (across | across >> 4) & 0x1F;
+  *y = (down | down >> 4) & 0x1F;
+}
+
 /* False: the slot is past the picture's edge. */
 static inline bool slot_pixel(const struct trax_render_params *frame, uint32_t slot, struct pixel *pixel) {
-  uint32_t log2_width = frame->tile_log2_width, log2_height = frame->tile_log2_height;
-  uint32_t tile = slot >> (log2_width + log2_height);
+  uint32_t log2_side = frame->tile_log2_side, tile = slot >> 2 * log2_side;
   uint32_t tile_row = (uint32_t)((uint64_t)(2 * tile) * frame->row_multiplier >> 32) >> frame->row_shift;
   uint32_t tile_column = tile - tile_row * frame->tiles_across;
-  uint32_t x = tile_column << log2_width | (slot & ((1u << log2_width) - 1));
-  uint32_t y = tile_row << log2_height | (slot >> log2_width & ((1u << log2_height) - 1));
+  uint32_t x, y;
+  curve_place(slot, log2_side, &x, &y);
+  x |= tile_column << log2_side;
+  y |= tile_row << log2_side;
   *pixel = pixel_at(x, y);
   return x < frame->width && y < frame->height;
 }

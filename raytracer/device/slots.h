@@ -29,7 +29,7 @@ static inline bool take_slot(const struct trax_render_params *run, unsigned next
                              uint32_t *slot) {
   if (TRAX_QUEUES == 1)
     return (*slot = trax_atomic_inc(next)) < run->slot_count;
-  const uint32_t tile_bits = run->tile_log2_width + run->tile_log2_height;
+  const uint32_t tile_bits = 2 * run->tile_log2_side;
   for (;;) {
     const uint32_t number = trax_atomic_inc(&next[*queue]);
     *slot = ((number >> tile_bits) * TRAX_QUEUES + *queue) << tile_bits | (number & ((1u << tile_bits) - 1));

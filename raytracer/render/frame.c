@@ -168,12 +168,13 @@ static uint32_t log2_ceiling(uint32_t value) {
    adds less than 1 / across. */
 void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side) {
   uint32_t width = log2_ceiling(params->width), height = log2_ceiling(params->height);
-  params->tile_log2_width = width < log2_side ? width : log2_side;
-  params->tile_log2_height = height < log2_side ? height : log2_side;
-  uint32_t across = (params->width + (1u << params->tile_log2_width) - 1) >> params->tile_log2_width;
-  uint32_t down = (params->height + (1u << params->tile_log2_height) - 1) >> params->tile_log2_height;
+  uint32_t shorter = width < height ? width : height;
+  log2_side = shorter < log2_side ? shorter : log2_side;
+  params->tile_log2_side = log2_side;
+  uint32_t across = (params->width + (1u << log2_side) - 1) >> log2_side;
+  uint32_t down = (params->height + (1u << log2_side) - 1) >> log2_side;
   params->tiles_across = across;
-  params->slot_count = (across * down) << (params->tile_log2_width + params->tile_log2_height);
+  params->slot_count = (across * down) << 2 * log2_side;
   params->row_shift = log2_ceiling(across);
   params->row_multiplier = (uint32_t)(((uint64_t)1 << (31 + params->row_shift)) / across + 1);
 }
@@ -255,7 +256,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   }
   set_camera(params, view);
   set_ambient(params, view, options->paths ? 0 : options->ambient);
-  trax_frame_set_tiles(params, 3);
+  trax_frame_set_tiles(params, TRAX_TILE_LOG2_SIDE);
   if (lighting) {
     trax_lighting_fill(params, scene, view, options);
     return TRAX_OK;

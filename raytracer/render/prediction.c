@@ -322,7 +322,7 @@ static trax_status begin_model(struct model *model, struct trax_prediction *pred
                           .capacity = CHUNK,
                           .queue_count = queues,
                           .slots = slots,
-                          .tile_bits = frame->params->tile_log2_width + frame->params->tile_log2_height,
+                          .tile_bits = 2 * frame->params->tile_log2_side,
                           .config = config,
                           .tms = config->chip.tms,
                           .tps = config->chip.tps_per_tm,

@@ -65,7 +65,8 @@ void trax_scale_view(struct trax_view *view, int exponent);
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error);
-/* The order in which slots are pixels: by square tiles, which trax_frame_init makes of 8 x 8 pixels; 0: row by row. */
+/* The order in which slots are pixels: by tiles of 2^log2_side by as many pixels, TRAX_TILE_LOG2_SIDE unless the
+   picture is smaller; 0: row by row. */
 void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side);
 void trax_frame_release(struct trax_frame *frame);
 /* Of the device program's buffer `image`. */

@@ -28,7 +28,7 @@ static trax_status predict(struct trax_picture_sampling *sampling, struct trax_p
   const trax_status status = trax_predict(&sampling->prediction, picture, &ordered, queues, &machine->config,
                                           (uint32_t)(scene - machine->space.bytes), run, error);
   sampling->slots.slots = params->slot_count;
-  sampling->slots.tile = 1u << (params->tile_log2_width + params->tile_log2_height);
+  sampling->slots.tile = 1u << 2 * params->tile_log2_side;
   free(params);
   return status;
 }

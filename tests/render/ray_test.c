@@ -57,16 +57,16 @@ static void test_slots_of_large_pictures(void **state) {
     trax_error error;
     assert_int_equal(trax_frame_init(&frame, &scene, &view, &options, &error), TRAX_OK);
     const struct trax_render_params *params = frame.params;
-    uint32_t per_tile = params->tile_log2_width + params->tile_log2_height;
-    for (uint32_t row = 1; row <= TRAX_RENDER_MAX_SIDE >> params->tile_log2_height; row += 61) {
+    uint32_t per_tile = 2 * params->tile_log2_side;
+    for (uint32_t row = 1; row <= TRAX_RENDER_MAX_SIDE >> params->tile_log2_side; row += 61) {
       struct pixel pixel;
       uint32_t tile = row * params->tiles_across; /* the first of this row, and the last of the one above */
       slot_pixel(params, tile << per_tile, &pixel);
       assert_int_equal(pixel_x(pixel), 0);
-      assert_int_equal(pixel_y(pixel), row << params->tile_log2_height);
+      assert_int_equal(pixel_y(pixel), row << params->tile_log2_side);
       slot_pixel(params, (tile - 1) << per_tile, &pixel);
-      assert_int_equal(pixel_x(pixel), (params->tiles_across - 1) << params->tile_log2_width);
-      assert_int_equal(pixel_y(pixel), (row - 1) << params->tile_log2_height);
+      assert_int_equal(pixel_x(pixel), (params->tiles_across - 1) << params->tile_log2_side);
+      assert_int_equal(pixel_y(pixel), (row - 1) << params->tile_log2_side);
     }
     trax_frame_release(&frame);
   }

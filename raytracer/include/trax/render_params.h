@@ -37,14 +37,16 @@ struct trax_ray_grid {
   float origin[3], cell[3];
 };
 
+#define TRAX_TILE_LOG2_SIDE 5u
+
 /* Pixels are handed out in tiles, so that the threads that share a data cache look at neighbouring parts of the scene.
-   Slot s is pixel s % 2^(tile_log2_width + tile_log2_height), row by row, of tile s / 2^(...), row by row. Slots past
+   Slot s is pixel s % 2^(2 * tile_log2_side), along Hilbert's curve, of tile s / 2^(...), row by row. Slots past
    the picture's right or lower edge are no pixels. A tile's row is its number divided by tiles_across, which takes no
    division: the upper word of (2 * tile) * row_multiplier, shifted right by row_shift. */
 struct trax_render_params {
   uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
   uint32_t slot_count;
-  uint32_t tile_log2_width, tile_log2_height;
+  uint32_t tile_log2_side; /* TRAX_TILE_LOG2_SIDE at most */
   uint32_t tiles_across;
   uint32_t row_multiplier, row_shift;
 
@@ -134,7 +136,7 @@ struct trax_emitter {
 _Static_assert(sizeof(struct trax_path_params) == 64, "no padding");
 _Static_assert(sizeof(struct trax_device_material) == 64, "one line");
 _Static_assert(sizeof(struct trax_device_light) == 64, "one line");
-_Static_assert(sizeof(struct trax_render_params) == 41 * 4, "no padding");
+_Static_assert(sizeof(struct trax_render_params) == 40 * 4, "no padding");
 _Static_assert(sizeof(struct trax_palette_entry) == 16, "no padding");
 
 #endif
