@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -123,6 +124,9 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--leaf", "2x"}, "--leaf: '2x'"},
       {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
       {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
+      {{good, "-o", scene, "--intersection-cost", "0"}, "--intersection-cost: '0' is not a positive number"},
+      {{good, "-o", scene, "--cache-lines", "0"}, "--cache-lines: '0' is not a number from 1 to 4096"},
+      {{good, "-o", scene, "--cache-lines", "4097"}, "--cache-lines: '4097'"},
       {{good, "-o", scene, "--splits=9"}, "--splits: '9' is neither auto nor a number from 1 to 8"},
       {{good, "-o", scene, "--nodes", "octal"}, "--nodes: 'octal' is none of auto, binary and quantised"},
       {{good, "-o", scene, "--crease", "30"}, "--crease without --smooth or --normals"},
@@ -154,6 +158,80 @@ static void test_refusals(void **state) {
     assert_string_equal(outcome.out, "");
     assert_int_equal(count_files(), files);
   }
+}
+
+/* 300 triangles here and there, and one without area; their material's image is not there. */
+static const char *crowd(void) {
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  assert_non_null(out);
+  test_text("crowd.mtl", "newmtl m\nmap_Kd lost.png\n");
+  fprintf(out, "mtllib crowd.mtl\nusemtl m\n");
+  uint32_t state = 7;
+  for (unsigned i = 1; i <= 300; i++) {
+    const float x = 9 * random_unit(&state), y = 9 * random_unit(&state), z = 9 * random_unit(&state);
+    fprintf(out, "v %g %g %g\nv %g %g %g\nv %g %g %g\nvt 0 0\nf -3/1 -2/1 -1/1\n", (double)x, (double)y, (double)z,
+            (double)(x + random_unit(&state)), (double)y, (double)z, (double)x, (double)(y + random_unit(&state)),
+            (double)z);
+  }
+  fprintf(out, "f 1/1 2/1 2/1\n");
+  fclose(out);
+  const char *path = test_text("crowd.obj", text);
+  free(text);
+  return path;
+}
+
+/* Imports it with an option; the file's bytes, for as long as the next but one call. */
+static size_t import_crowd(struct outcome *outcome, const char *option, const char *value, char **bytes) {
+  static char kept[2][1 << 17];
+  static unsigned next;
+  const char *scene = test_path("crowd.trax");
+  RUN(outcome, crowd(), "-o", scene, "--stats", option, value);
+  assert_int_equal(exit_status(outcome), 0);
+  struct outcome check;
+  RUN(&check, "--check", scene);
+  assert_int_equal(exit_status(&check), 0);
+  *bytes = kept[next++ % 2];
+  const int descriptor = open(scene, O_RDONLY);
+  const ssize_t size = read(descriptor, *bytes, sizeof kept[0]);
+  close(descriptor);
+  assert_in_range(size, 1, sizeof kept[0] - 1);
+  return (size_t)size;
+}
+
+static unsigned figure(const struct outcome *outcome, const char *name) {
+  const char *at = strstr(outcome->out, name);
+  assert_non_null(at);
+  return (unsigned)strtoul(at + strlen(name), NULL, 10);
+}
+
+static void test_what_options_do(void **state) {
+  (void)state;
+  struct outcome plain, changed;
+  char *bytes, *others;
+  const size_t size = import_crowd(&plain, "--depth", "32", &bytes); /* the default */
+  assert_contains(plain.err, "1 of 301 triangles have no area");
+  assert_contains(plain.err, "lost.png");
+  assert_int_equal(figure(&plain, "scene.triangles "), 300);
+
+  import_crowd(&changed, "--keep-degenerate", NULL, &others);
+  assert_int_equal(figure(&changed, "scene.triangles "), 301);
+  import_crowd(&changed, "--no-textures", NULL, &others);
+  assert_null(strstr(changed.err, "lost.png"));
+  assert_true(import_crowd(&changed, "--no-source-ids", NULL, &others) + 4 * 300 <= size);
+
+  assert_int_equal(import_crowd(&changed, "--cache-lines", "256", &others), size); /* the default */
+  import_crowd(&plain, "--cache-lines", "256", &bytes);
+  assert_memory_equal(bytes, others, size);
+  assert_int_equal(import_crowd(&changed, "--cache-lines", "1", &others), size);
+  assert_memory_not_equal(bytes, others, size);
+
+  const unsigned leaves = figure(&plain, "bvh.leaves ");
+  import_crowd(&changed, "--intersection-cost", "0.1", &others);
+  assert_true(figure(&changed, "bvh.leaves ") < leaves);
+  import_crowd(&changed, "--traversal-cost", "0.1", &others);
+  assert_true(figure(&changed, "bvh.leaves ") > leaves);
 }
 
 static void test_empty(void **state) {
@@ -206,8 +284,9 @@ static void test_interrupt(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_success), cmocka_unit_test(test_notes),           cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_empty),   cmocka_unit_test(test_output_survives), cmocka_unit_test(test_interrupt),
+      cmocka_unit_test(test_success),         cmocka_unit_test(test_notes), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_what_options_do), cmocka_unit_test(test_empty), cmocka_unit_test(test_output_survives),
+      cmocka_unit_test(test_interrupt),
   };
   return cmocka_run_group_tests_name("trax-scene", tests, NULL, NULL);
 }
