@@ -178,13 +178,14 @@ enum { WORKS = sizeof works / sizeof *works };
 
 static const struct {
   const char *name, *title, *colour;
-} groups[] = {{"triangle", "other triangle test", "#0072b2"},
-              {"math", "-ffast-math", "#d55e00"},
-              {"tree", "other nodes, split triangles", "#e69f00"},
-              {"vertices", "vertices of 16 bits", "#56b4e9"},
-              {"unit", "special unit of so many bits", "#009e73"},
-              {"samples", "more samples", "#cc79a7"},
-              {"default", "default", "black"}}; /* above the others */
+  int shape; /* gnuplot's pointtype: to be told apart without colours, too */
+} groups[] = {{"triangle", "other triangle test", "#0072b2", 9},
+              {"math", "-ffast-math", "#d55e00", 11},
+              {"tree", "other nodes, split triangles", "#e69f00", 5},
+              {"vertices", "vertices of 16 bits", "#56b4e9", 13},
+              {"unit", "special unit of so many bits", "#009e73", 6},
+              {"samples", "more samples", "#cc79a7", 4},
+              {"default", "default", "black", 7}}; /* above the others */
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 /* A logarithmic axis has no 0. */
@@ -253,9 +254,10 @@ static void write_axis(double least, double most, FILE *out) {
   const double low = least * pow(most / least, -0.1) * 0.995, high = most * pow(most / least, 0.1) * 1.005;
   fprintf(out, "set xrange [%.9g:%.9g]\nset xtics (", low, high);
   if (high / low < 4) {
+    const int decimals = (int)fmax(0, 1 - floor(log10((high - low) / 4))); /* two digits of the distance */
     for (int i = 0; i < 4; i++) {
       const double place = low + (high - low) * (i + 0.5) / 4;
-      fprintf(out, "%s'%.*f' %.9g", i ? ", " : "", place < 100 ? 2 : 0, place, place);
+      fprintf(out, "%s'%.*f' %.9g", i ? ", " : "", decimals, place, place);
     }
   } else {
     bool first = true;
@@ -286,13 +288,15 @@ static trax_status write_plot(const struct trax_accuracy_report *report, int wor
   const char *kind = total ? "total" : "numerical";
   fprintf(out,
           "set xlabel '%s'\nset ylabel '%s RMSE, of 255'\nset key %s\nplot $front using 1:2 with steps linecolor "
-          "rgb 'gray60' title 'front'",
-          works[work].label, kind, total && work == WORKS - 1 ? "inside top right" : "off");
+          "rgb 'gray60' title 'Pareto front'",
+          works[work].label, kind,
+          total && work == WORKS - 1 ? "at screen 0.5,0.01 center bottom maxrows 2 samplen 2 width 1" : "off");
   for (int group = 0; group < GROUPS; group++) {
     if (!total && strcmp(groups[group].name, "samples") == 0)
       continue;
-    fprintf(out, ", \\\n  $%s_%s using %d:%d with points pointtype 7 pointsize 0.6 linecolor rgb '%s' title '%s'", kind,
-            groups[group].name, work + 1, WORKS + 1, groups[group].colour, groups[group].title);
+    fprintf(out, ", \\\n  $%s_%s using %d:%d with points pointtype %d pointsize 0.7 linecolor rgb '%s' title '%s'",
+            kind, groups[group].name, work + 1, WORKS + 1, groups[group].shape, groups[group].colour,
+            groups[group].title);
   }
   if (!total)
     fprintf(out, ", \\\n  $numerical_unit using %d:%d:%d with labels font ',8' offset char 1.2,0 notitle", work + 1,
@@ -301,19 +305,37 @@ static trax_status write_plot(const struct trax_accuracy_report *report, int wor
   return TRAX_OK;
 }
 
+/* Within single quotes of gnuplot's. */
+static void write_quoted(const char *text, FILE *out) {
+  for (; *text; text++) {
+    if (*text == '\'')
+      fputc('\'', out);
+    fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
+  }
+}
+
 static trax_status write_script(const struct trax_accuracy_report *report, const char *path, trax_error *error) {
   trax_output output;
   if (trax_output_open(&output, path, error) != TRAX_OK)
     return TRAX_ERROR;
   FILE *out = output.file;
   trax_status status = TRAX_OK;
-  fputs("# Draws accuracy.svg on standard output.\nset terminal svg size 1350,820 name 'accuracy'\nset logscale xy\n"
+  fputs("# Draws accuracy.svg on standard output.\nset terminal svg size 1350,850 name 'accuracy'\nset logscale xy\n"
         "set format y '10^{%L}'\nset grid\n",
         out);
   for (int total = 0; total < 2; total++)
     for (int group = 0; group < GROUPS; group++)
       write_block(report, groups[group].name, total, out);
-  fputs("set multiplot layout 2,3\n", out);
+  fputs("set multiplot layout 2,3 title '", out);
+  write_quoted(report->scene, out);
+  fputs(", view ", out);
+  write_quoted(report->view, out);
+  fprintf(out, ", %u x %u pixels, chip ", report->width, report->height);
+  write_quoted(report->chip, out);
+  fprintf(out,
+          ": above against exact arithmetic, below against %u samples a pixel' noenhanced "
+          "margins 0.05,0.98,0.13,0.94 spacing 0.065,0.1\n",
+          report->converged_samples);
   for (int total = 0; total < 2; total++)
     for (int work = 0; work < WORKS && status == TRAX_OK; work++)
       status = write_plot(report, work, total, out, error);

@@ -36,6 +36,7 @@ for column in cycles numerical_rmse total_rmse wrong_pixels energy; do
   head -n 1 out/accuracy.csv | grep -q ",$column," || fail "no column $column"
 done
 grep -q '^$numerical_unit << EOD$' out/accuracy.gnuplot || fail "no data in the script"
+grep "^set xtics" out/accuracy.gnuplot | grep "\('[0-9.]*'\).*\1" && fail "two places of an axis have one number"
 if command -v gnuplot >/dev/null; then
   grep -q '</svg>' out/accuracy.svg || fail "no diagram: $(cat .err)"
 fi

@@ -1,0 +1,15 @@
+# The head of this folder's test scripts: $1 is the folder of the programs. They begin in a folder of their own, $work, which
+# goes when they end, with a cache of their own, and count what fails in $failures.
+set -u
+bin=$1
+source=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+export XDG_CACHE_HOME="$work/cache"
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
