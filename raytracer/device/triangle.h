@@ -1,9 +1,11 @@
-/* Whether a ray hits a triangle. The method is chosen at compile time, -DTRAX_TRIANGLE=METHOD:
+/* Whether a ray hits a triangle. The method is chosen at compile time, -DTRAX_TRIANGLE=METHOD.
 
-     TRAX_WATERTIGHT        Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013), the
-   default: two triangles that share an edge compute the same value for it with opposite signs, and zero counts as
-   inside, so a ray cannot pass between them. TRAX_MOLLER_TRUMBORE   "Fast, Minimum Storage Ray/Triangle Intersection"
-   (Journal of Graphics Tools 2(1), 1997), to compare: two triangles round their common edge each in its own way.
+   TRAX_WATERTIGHT, the default: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013). Two
+   triangles that share an edge compute the same value for it with opposite signs, and zero counts as inside, so a ray
+   cannot pass between them.
+
+   TRAX_MOLLER_TRUMBORE, to compare: "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1),
+   1997). Two triangles round their common edge each in its own way.
 
    docs/robustness.md shows what each gets wrong and what it costs. */
 #ifndef TRAX_DEVICE_TRIANGLE_H

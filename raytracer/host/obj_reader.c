@@ -77,6 +77,9 @@ static trax_status read_vertex(struct obj_reader *reader, char *rest) {
     if (!parse_float(word, &vertex[axis]))
       return fail_here(reader, "a vertex's coordinate is not a number:", word);
   }
+  /* One number more is a weight, three are a colour. */
+  if (next_word(&rest) && next_word(&rest) && next_word(&rest))
+    reader->report->unread |= TRAX_UNREAD_COLOURS;
   mesh->vertex_count++;
   return TRAX_OK;
 }

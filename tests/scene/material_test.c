@@ -361,6 +361,12 @@ static void test_unread(void **state) {
     if (report.unread != libraries[i].unread)
       fail_msg("%s: %u", libraries[i].mtl, report.unread);
   }
+  import_good(&mesh, test_text("weighted.obj", "v 0 0 0 1\nv 1 0 0\nv 0 1 0 1\nf 1 2 3\n"), &report);
+  assert_int_equal(report.unread, 0);
+  trax_mesh_release(&mesh);
+  import_good(&mesh, test_text("coloured.obj", "v 0 0 0\nv 1 0 0 0.5 0.25 1\nv 0 1 0\nf 1 2 3\n"), &report);
+  assert_int_equal(report.unread, TRAX_UNREAD_COLOURS);
+  trax_mesh_release(&mesh);
   char *notes;
   size_t size;
   FILE *out = open_memstream(&notes, &size);
