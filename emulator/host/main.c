@@ -42,6 +42,7 @@ static void catch_signals(void) {
   struct sigaction broken_pipe = {.sa_handler = on_broken_pipe};
   sigemptyset(&broken_pipe.sa_mask);
   sigaction(SIGPIPE, &broken_pipe, NULL);
+  signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
 }
 
 static int complain(const trax_error *error) {

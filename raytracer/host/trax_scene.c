@@ -76,6 +76,7 @@ static void catch_signals(void) {
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
   sigaction(SIGHUP, &action, NULL);
+  signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
 }
 
 /* Ends as if the signal had not been caught, so that a shell sees it. */
@@ -502,11 +503,19 @@ static trax_status run(const struct arguments *arguments, struct progress *progr
   return result;
 }
 
+/* The status, unless what was printed could not be written. */
+static int end_of_output(int status) {
+  if (fflush(stdout) == 0 && !ferror(stdout))
+    return status;
+  complain("cannot write to standard output: %s", strerror(errno));
+  return 1;
+}
+
 int main(int argc, char **argv) {
   static struct arguments arguments = {.build = {.choose_nodes = true, .choose_splits = true}};
   int status = parse_arguments(&arguments, argc, argv);
   if (status >= 0)
-    return status;
+    return end_of_output(status);
   catch_signals();
   struct progress progress = {0};
   if (!arguments.quiet && isatty(STDERR_FILENO)) {
@@ -524,9 +533,5 @@ int main(int argc, char **argv) {
     complain("%s", error.message);
     return 1;
   }
-  if (fflush(stdout) != 0 || ferror(stdout)) {
-    complain("cannot write to standard output: %s", strerror(errno));
-    return 1;
-  }
-  return 0;
+  return end_of_output(0);
 }

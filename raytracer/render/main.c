@@ -257,6 +257,7 @@ int main(int argc, char **argv) {
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
     signal(SIGPIPE, on_broken_pipe);
+    signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
     trax_status status = render(&options, &progress, &agrees, &error);
     progress_clear(&progress);
     if (status == TRAX_INTERRUPTED) {

@@ -5,6 +5,7 @@ import json
 import os
 import pty
 import re
+import resource
 import select
 import signal
 import subprocess
@@ -227,6 +228,13 @@ class Signals(unittest.TestCase):
         with open("d.bin") as file:
             self.assertEqual(file.read(), "of before")
         os.remove("d.bin")
+
+    def test_file_size_limit(self):
+        """A file beyond the limit is an error of writing, and nothing of it is left."""
+        done = subprocess.run([SIM, "--trace", "trace.txt", "mix.elf"], capture_output=True, text=True, timeout=60,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+        self.assertEqual((done.returncode, done.stderr), (1, "trax-sim: error: trace.txt: cannot be written: File too large\n"))
+        self.assertEqual(self.litter(), [])
 
     def test_host_threads(self):
         process = self.start("--config", "4x32", "--host-threads", "3", "--stats", "s.json", "print.elf")

@@ -257,6 +257,24 @@ static void test_output_survives(void **state) {
   assert_string_equal(text, "old");
 }
 
+/* What cannot be printed is an error. */
+static void test_full_output(void **state) {
+  (void)state;
+  const char *scene = test_path("full.trax");
+  const char *const commands[][6] = {{"--help"}, {triangle(), "-o", scene, "--stats"}, {"--check", scene, "--stats"}};
+  for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+    const int full = open("/dev/full", O_WRONLY | O_CLOEXEC), err = memfd_create("err", MFD_CLOEXEC);
+    assert_true(full >= 0 && err >= 0);
+    const pid_t child = start(full, err, commands[i]);
+    struct outcome outcome;
+    assert_int_equal(waitpid(child, &outcome.status, 0), child);
+    read_back(err, outcome.err, sizeof outcome.err);
+    close(full);
+    assert_contains(outcome.err, "trax-scene: error: cannot write to standard output: No space left");
+    assert_int_equal(exit_status(&outcome), 1);
+  }
+}
+
 /* Interrupted while the importer waits for its input (a pipe that nobody writes): ends by the signal, at once, with
    nothing left behind. */
 static void test_interrupt(void **state) {
@@ -284,9 +302,10 @@ static void test_interrupt(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_success),         cmocka_unit_test(test_notes), cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_what_options_do), cmocka_unit_test(test_empty), cmocka_unit_test(test_output_survives),
-      cmocka_unit_test(test_interrupt),
+      cmocka_unit_test(test_success),   cmocka_unit_test(test_notes),
+      cmocka_unit_test(test_refusals),  cmocka_unit_test(test_what_options_do),
+      cmocka_unit_test(test_empty),     cmocka_unit_test(test_output_survives),
+      cmocka_unit_test(test_interrupt), cmocka_unit_test(test_full_output),
   };
   return cmocka_run_group_tests_name("trax-scene", tests, NULL, NULL);
 }
