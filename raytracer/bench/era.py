@@ -171,7 +171,8 @@ def main():
             for choice in chosen:
                 if choice.tree not in stored:
                     stored[choice.tree] = scratch / f"{scene}-{len(stored)}.trax"
-                    subprocess.run([options.bin / "trax-scene", "--quiet", "--nodes", "binary", *([] if "--splits" in choice.tree else ["--splits=1"]), *choice.tree,
+                    subprocess.run([options.bin / "trax-scene", "--quiet", "--nodes", "binary", "--passes", "0",
+                                    *([] if "--splits" in choice.tree else ["--splits=1"]), *choice.tree,
                                     *[find(options.scenes, file) for file in SCENES[scene]], "-o", stored[choice.tree]], check=True)
             runs = [pool.submit(measure, options, scratch, scene, choice, stored[choice.tree]) for choice in chosen]
             for choice, run in zip(chosen, runs):

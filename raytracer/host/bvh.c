@@ -1,4 +1,5 @@
-/* The tree: built by Embree, then renumbered depth first so that nothing depends on where or when its callbacks ran. */
+/* The tree: built by Embree, improved (reinsert.c), then renumbered depth first so that nothing depends on where or
+ * when its callbacks ran. */
 #include "internal.h"
 
 #include <embree3/rtcore.h>
@@ -316,13 +317,60 @@ static bool number_nodes(struct numbering *numbering, const struct built_node *b
   return true;
 }
 
+/* --- improving what was built --- */
+
+/* Of the subtree; returns its number. */
+static uint32_t link_built(struct scene_links *links, struct built_node **of, struct built_node *built,
+                           uint32_t parent) {
+  const uint32_t index = links->count++;
+  struct scene_link *link = &links->nodes[index];
+  of[index] = built;
+  *link = (struct scene_link){built->box, built->below, parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height};
+  if (built->triangle_count)
+    return index;
+  link->box = scene_empty_box();
+  for (int i = 0; i < 2; i++) {
+    link->child[i] = link_built(links, of, built->child[i], index);
+    scene_box_add_box(&link->box, &links->nodes[link->child[i]].box);
+  }
+  return index;
+}
+
+/* A tree that is too deep is not: number_nodes rebuilds what is. */
+static trax_status improve(struct built_node **root, unsigned max_depth, const struct trax_build_options *options,
+                           trax_error *error) {
+  if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
+    return TRAX_OK;
+  const size_t most = 2 * (size_t)(*root)->below; /* a binary tree over n leaves has 2n - 1 nodes */
+  struct scene_links links = {.nodes = malloc(most * sizeof *links.nodes), .max_depth = max_depth};
+  struct built_node **of = malloc(most * sizeof(struct built_node *));
+  trax_status result = links.nodes && of ? TRAX_OK : scene_out_of_memory(error, "BVH");
+  if (result == TRAX_OK) {
+    links.root = link_built(&links, of, *root, SCENE_NO_LINK);
+    result = scene_reinsert(&links, options->passes, options, error);
+  }
+  for (uint32_t i = 0; result == TRAX_OK && i < links.count; i++)
+    for (int c = 0; c < 2 && links.nodes[i].child[0] != SCENE_NO_LINK; c++)
+      of[i]->child[c] = of[links.nodes[i].child[c]];
+  if (result == TRAX_OK)
+    *root = of[links.root];
+  free(links.nodes);
+  free(of);
+  return result;
+}
+
 static trax_status make_tree(struct scene_tree *tree, struct built_node *root, const struct trax_mesh *mesh,
                              struct RTCBuildPrimitive *primitives, const struct scene_duplicates *duplicates,
-                             unsigned max_depth, unsigned max_leaf, trax_error *error) {
+                             unsigned max_depth, unsigned max_leaf, const struct trax_build_options *options,
+                             trax_error *error) {
   struct numbering numbering = {tree, primitives, duplicates, max_depth, max_leaf, NULL};
   if (!measure_built(&numbering, root) || least_height(mesh->triangle_count, max_leaf) > max_depth)
     return scene_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf",
                       max_depth, max_leaf);
+  const trax_status improved = improve(&root, max_depth, options, error);
+  if (improved != TRAX_OK)
+    return improved;
+  measure_built(&numbering, root);
   fill_primitives(primitives, mesh, NULL); /* the builder sorts and splits its own */
   numbering.triangles = malloc(root->below * sizeof *numbering.triangles);
   /* A binary tree over n triangles has at most 2n - 1 nodes. */
@@ -337,6 +385,9 @@ static trax_status check_options(const struct trax_build_options *options, trax_
     return scene_fail(error, "the leaf size is at most %u triangles, not %u", TRAX_SCENE_MAX_LEAF, options->max_leaf);
   if (options->max_depth > TRAX_SCENE_MAX_DEPTH)
     return scene_fail(error, "the depth is at most %u nodes, not %u", TRAX_SCENE_MAX_DEPTH, options->max_depth);
+  if (options->passes > TRAX_SCENE_MAX_PASSES)
+    return scene_fail(error, "the tree is improved in at most %u passes, not %u", TRAX_SCENE_MAX_PASSES,
+                      options->passes);
   if (options->cache_lines > 4096) /* the search for the largest node is linear in it */
     return scene_fail(error, "nodes can be ordered for at most 4096 lines of cache, not %u", options->cache_lines);
   if (!(options->traversal_cost >= 0 && options->intersection_cost >= 0 && isfinite(options->traversal_cost) &&
@@ -460,8 +511,8 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     else if (!root || context.failed)
       result = scene_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
     else
-      result =
-          make_tree(tree, root, mesh, primitives, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize, error);
+      result = make_tree(tree, root, mesh, primitives, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize,
+                         options, error);
   }
   free(primitives);
   scene_duplicates_release(&duplicates);

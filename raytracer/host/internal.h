@@ -256,6 +256,28 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
                              const struct trax_build_options *options, trax_error *error);
 void scene_tree_release(struct scene_tree *tree);
 
+/* --- reinsert.c --- */
+
+#define SCENE_NO_LINK UINT32_MAX
+
+/* A binary tree by its links. */
+struct scene_links {
+  struct scene_link {
+    struct scene_box box;
+    uint32_t triangles; /* of the subtree, as built */
+    uint32_t parent;    /* SCENE_NO_LINK: it is the root */
+    uint32_t child[2];  /* SCENE_NO_LINK: it is a leaf */
+    uint32_t height;    /* most inner nodes from here to a leaf; of a leaf that will be divided more than 0 */
+  } *nodes;
+  uint32_t count, root;
+  uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */
+};
+
+/* Moves parts of the tree so that rays visit fewer nodes; leaves stay as they are. options: for progress and interrupt.
+ */
+trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
+                           trax_error *error);
+
 /* --- duplicates.c --- */
 
 #define SCENE_NO_DUPLICATE UINT32_MAX

@@ -39,6 +39,8 @@ static const char usage[] =
     "      --splits[=FACTOR]        splits large triangles, which then stand in several leaves: room for FACTOR times\n"
     "                               as many, 1 (none) to 8, without FACTOR 1.5; =auto (default): so, if many are "
     "askew\n"
+    "      --passes N               N times over the tree after it was built, to move its parts to where they cost\n"
+    "                               less, 0 to 16 (default 0)\n"
     "      --depth N                at most N nodes from the root to a leaf, 1 to %u\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"
@@ -289,6 +291,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     nodes,
     splits,
     leaf,
+    passes,
     depth,
     traversal,
     intersection,
@@ -312,6 +315,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"nodes", required_argument, NULL, nodes},
                                           {"splits", optional_argument, NULL, splits},
                                           {"leaf", required_argument, NULL, leaf},
+                                          {"passes", required_argument, NULL, passes},
                                           {"depth", required_argument, NULL, depth},
                                           {"traversal-cost", required_argument, NULL, traversal},
                                           {"intersection-cost", required_argument, NULL, intersection},
@@ -373,6 +377,9 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       break;
     case leaf:
       good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_LEAF, &arguments->build.max_leaf);
+      break;
+    case passes:
+      good = parse_unsigned(options[index].name, optarg, 0, TRAX_SCENE_MAX_PASSES, &arguments->build.passes);
       break;
     case depth:
       good = parse_unsigned(options[index].name, optarg, 1, TRAX_SCENE_MAX_DEPTH, &arguments->build.max_depth);
@@ -512,7 +519,8 @@ static int end_of_output(int status) {
 }
 
 int main(int argc, char **argv) {
-  static struct arguments arguments = {.build = {.choose_nodes = true, .choose_splits = true}};
+  static struct arguments arguments = {
+      .build = {.choose_nodes = true, .choose_splits = true, .passes = TRAX_DEFAULT_PASSES}};
   int status = parse_arguments(&arguments, argc, argv);
   if (status >= 0)
     return end_of_output(status);

@@ -30,7 +30,8 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
                                      .progress_context = progress,
                                      .interrupt = interrupt,
                                      .smooth = options->frame.smooth,
-                                     .compute_normals = options->compute_normals};
+                                     .compute_normals = options->compute_normals,
+                                     .passes = options->program ? 0 : TRAX_DEFAULT_PASSES};
   trax_splits_choose(options->splits ? options->splits : options->program ? "1" : "auto", &build);
   trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
   struct trax_mesh mesh = {0};

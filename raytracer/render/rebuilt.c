@@ -86,6 +86,7 @@ trax_status trax_scene_rebuild(struct trax_scene *rebuilt, const struct trax_sce
         add_triangle(&mesh, scene, i, how->vertex_bits);
     const struct trax_build_options options = {.nodes = how->nodes,
                                                .splits = how->split ? TRAX_DEFAULT_SPLITS : 0,
+                                               .passes = TRAX_DEFAULT_PASSES,
                                                .allow_empty = true,
                                                .smooth = scene->normals != NULL,
                                                .interrupt = interrupt};

@@ -122,6 +122,7 @@ static void test_refusals(void **state) {
       {{"--check", scene, good}, "--check takes neither"},
       {{good, "-o", scene, "--leaf", "8"}, "--leaf: '8' is not a number from 1 to 7"},
       {{good, "-o", scene, "--leaf", "2x"}, "--leaf: '2x'"},
+      {{good, "-o", scene, "--passes", "17"}, "--passes: '17' is not a number from 0 to 16"},
       {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
       {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
       {{good, "-o", scene, "--intersection-cost", "0"}, "--intersection-cost: '0' is not a positive number"},

@@ -353,6 +353,37 @@ static void test_normals(void **state) {
   trax_mesh_release(&roof);
 }
 
+/* Passes over the tree that was built make it cheaper, keep its depth within bounds and every triangle in it, and end.
+ */
+static void test_passes(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  mesh_soup(&mesh, 4000, 0.1f, 5);
+  for (float splits = 0; splits <= 2; splits += 2) {
+    double visited[3];
+    for (unsigned i = 0; i < 3; i++) {
+      struct trax_scene scene, again;
+      struct trax_scene_stats stats;
+      const struct trax_build_options options = {
+          .passes = (unsigned[]){0, 2, TRAX_SCENE_MAX_PASSES}[i], .splits = splits, .max_depth = 20};
+      build_good(&scene, &mesh, &options);
+      if (splits == 0)
+        check_shape(&scene, &mesh);
+      trax_scene_measure(&stats, &scene);
+      visited[i] = stats.sah_nodes;
+      assert_true(scene.header->max_depth <= 20);
+      build_good(&again, &mesh, &options);
+      assert_int_equal(scene.size, again.size);
+      assert_memory_equal(scene.bytes, again.bytes, scene.size);
+      trax_scene_release(&scene);
+      trax_scene_release(&again);
+    }
+    assert_true(visited[1] < 0.99 * visited[0]);
+    assert_true(visited[2] < visited[1]);
+  }
+  trax_mesh_release(&mesh);
+}
+
 static void test_bad_options(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
@@ -360,10 +391,10 @@ static void test_bad_options(void **state) {
   const struct {
     struct trax_build_options options;
     const char *message;
-  } bad[] = {{{.max_leaf = 8}, "at most 7"},          {{.max_depth = 63}, "at most 62"},
-             {{.cache_lines = 4097}, "at most 4096"}, {{.crease_degrees = 181}, "up to 180"},
-             {{.crease_degrees = NAN}, "up to 180"},  {{.traversal_cost = NAN}, "costs"},
-             {{.intersection_cost = -1}, "costs"}};
+  } bad[] = {{{.max_leaf = 8}, "at most 7"},         {{.max_depth = 63}, "at most 62"},
+             {{.passes = 17}, "at most 16 passes"},  {{.cache_lines = 4097}, "at most 4096"},
+             {{.crease_degrees = 181}, "up to 180"}, {{.crease_degrees = NAN}, "up to 180"},
+             {{.traversal_cost = NAN}, "costs"},     {{.intersection_cost = -1}, "costs"}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     struct trax_scene scene;
     trax_error error;
@@ -476,9 +507,10 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_shapes),         cmocka_unit_test(test_awkward_meshes),
       cmocka_unit_test(test_extreme_scales), cmocka_unit_test(test_rays_find_the_nearest),
-      cmocka_unit_test(test_determinism),    cmocka_unit_test(test_bad_options),
-      cmocka_unit_test(test_normals),        cmocka_unit_test(test_empty),
-      cmocka_unit_test(test_write_and_read), cmocka_unit_test(test_statistics),
+      cmocka_unit_test(test_determinism),    cmocka_unit_test(test_passes),
+      cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_normals),
+      cmocka_unit_test(test_empty),          cmocka_unit_test(test_write_and_read),
+      cmocka_unit_test(test_statistics),
   };
   return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

@@ -33,7 +33,7 @@ def neighbours(mesh):
 
 
 # What trax-scene is told for a program; the era program's boxes are those of the triangles, not of a grid, and no triangle is split.
-IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary", "--splits=1"]}
+IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary", "--splits=1", "--passes", "0"]}
 
 
 def scene_file(out, tools, directory, name, scene, program):

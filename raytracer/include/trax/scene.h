@@ -188,6 +188,7 @@ struct trax_build_options {
   float splits;            /* room for so many times the triangles, to split large ones: they then stand in several
                               leaves; 0 or 1: none */
   bool choose_splits;      /* the default instead, if many triangles' boxes are much larger than they; never of lamps */
+  unsigned passes;         /* over the tree that was built, to improve it: at most TRAX_SCENE_MAX_PASSES */
   float traversal_cost;    /* of a node, relative to intersection_cost; 0: default */
   float intersection_cost; /* of a triangle; 0: default */
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
@@ -208,6 +209,8 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 
 #define TRAX_DEFAULT_SPLITS 1.5f
 #define TRAX_SCENE_MAX_SPLITS 8.0f
+#define TRAX_DEFAULT_PASSES 0u /* of trax-scene and trax-render; 2 are worth their time (docs/raytracer.md) */
+#define TRAX_SCENE_MAX_PASSES 16u
 #define TRAX_DEFAULT_CREASE 60 /* degrees */
 
 /* Builds the BVH (surface-area heuristic) and lays the file out. The same mesh and options give the same bytes on every

@@ -92,8 +92,9 @@ static void turn_children(const struct trax_scene *scene) {
   }
 }
 
-/* The same meshes with other layouts of nodes, and with triangles split, scaled alike. A tree that was made by hand has
-   no other. */
+/* The same meshes with other layouts of nodes, with triangles split, and with trees improved, scaled
+   alike. A tree that was made
+   by hand has no other. */
 static void make_variants(struct prepared *prepared, const struct trax_view *view, const char *name) {
   trax_error error;
   for (unsigned i = 1; i < 2 * TRAX_NODE_LAYOUTS; i++) {
@@ -103,6 +104,7 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
       continue;
     build.nodes = i / 2;
     build.splits = i % 2 ? 3 : 0;
+    build.passes = i & 2;
     if (trax_scene_build(&prepared->variants[i], &prepared->setup.mesh, &build, &error) != TRAX_OK ||
         trax_scene_check(NULL, prepared->variants[i].bytes, prepared->variants[i].size, name, &error) != TRAX_OK)
       die(name, &error);

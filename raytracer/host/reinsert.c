@@ -1,0 +1,239 @@
+/* A tree made better after it was built: one part of it after the other is taken out, and put where it costs least, by
+   a search of the whole tree. J. Bittner, M. Hapala and V. Havran, "Fast insertion-based optimization of bounding
+   volume hierarchies" (Computer Graphics Forum 32(1), 2013), but that a part is taken as a whole, as in D. Meister and
+   J. Bittner, "Parallel reinsertion for bounding volume hierarchy optimization" (Computer Graphics Forum 37(2), 2018).
+
+   The cost of a tree is the sum of what its inner nodes cost, and that is not only the chance that a random line
+   through the scene visits them, which knows nothing of what is small: a clearing in a forest would be made slower for
+   the forest's sake, and whoever stands in it would see only that. There are lines through smaller boxes, too: on the
+   way from the root down to the children with more triangles, each with a quarter of the surface of the one before.
+   Each box counts the same. */
+#include "internal.h"
+
+#include <stdlib.h>
+
+enum { MOST_FOCI = 8, FOCUS_STEP = 4, LEAST_OF_TRIANGLES = 16 };
+
+/* Where everything overlaps everything a search would end nowhere. */
+enum { MOST_LOOKED_AT = 1000 };
+
+struct focus {
+  struct scene_box box;
+  double scale; /* the reciprocal of its half area */
+};
+
+struct place {
+  double least; /* what the part adds to the nodes above, if it is put beside this node, or below it */
+  uint32_t node, depth;
+};
+
+struct search {
+  struct scene_links *links;
+  struct focus foci[MOST_FOCI];
+  int focus_count;
+  struct place *heap; /* the least first */
+  size_t heap_count, heap_capacity;
+};
+
+/* Expected visits to a node with this box. */
+static double visits(const struct search *search, const struct scene_box *box) {
+  double sum = 0;
+  for (int i = 0; i < search->focus_count; i++) {
+    const struct focus *focus = &search->foci[i];
+    struct scene_box part = *box;
+    bool inside = true;
+    for (int axis = 0; axis < 3; axis++) {
+      part.min[axis] = part.min[axis] > focus->box.min[axis] ? part.min[axis] : focus->box.min[axis];
+      part.max[axis] = part.max[axis] < focus->box.max[axis] ? part.max[axis] : focus->box.max[axis];
+      inside &= part.min[axis] <= part.max[axis];
+    }
+    if (inside)
+      sum += focus->scale * scene_half_area(part.min, part.max);
+  }
+  return sum;
+}
+
+static void choose_foci(struct search *search) {
+  const struct scene_link *nodes = search->links->nodes, *node = &nodes[search->links->root];
+  const uint32_t least = node->triangles / LEAST_OF_TRIANGLES;
+  double last = __builtin_inf();
+  while (node->child[0] != SCENE_NO_LINK && node->triangles >= least && search->focus_count < MOST_FOCI) {
+    const double area = scene_half_area(node->box.min, node->box.max);
+    if (area > 0 && area * FOCUS_STEP <= last) {
+      search->foci[search->focus_count++] = (struct focus){node->box, 1 / area};
+      last = area;
+    }
+    const struct scene_link *a = &nodes[node->child[0]], *b = &nodes[node->child[1]];
+    node = b->triangles > a->triangles ? b : a;
+  }
+}
+
+static struct scene_box join(const struct scene_box *a, const struct scene_box *b) {
+  struct scene_box both = *a;
+  scene_box_add_box(&both, b);
+  return both;
+}
+
+/* --- the heap --- */
+
+static bool comes_before(const struct place *a, const struct place *b) {
+  return a->least != b->least ? a->least < b->least : a->node < b->node;
+}
+
+/* False when out of memory. */
+static bool push(struct search *search, struct place place) {
+  if (search->heap_count == search->heap_capacity) {
+    const size_t capacity = 2 * search->heap_capacity + 256;
+    struct place *heap = realloc(search->heap, capacity * sizeof *heap);
+    if (!heap)
+      return false;
+    search->heap = heap, search->heap_capacity = capacity;
+  }
+  size_t at = search->heap_count++;
+  for (; at > 0 && comes_before(&place, &search->heap[(at - 1) / 2]); at = (at - 1) / 2)
+    search->heap[at] = search->heap[(at - 1) / 2];
+  search->heap[at] = place;
+  return true;
+}
+
+static struct place pop(struct search *search) {
+  const struct place least = search->heap[0], last = search->heap[--search->heap_count];
+  size_t at = 0;
+  for (size_t child; (child = 2 * at + 1) < search->heap_count; at = child) {
+    if (child + 1 < search->heap_count && comes_before(&search->heap[child + 1], &search->heap[child]))
+      child++;
+    if (!comes_before(&search->heap[child], &last))
+      break;
+    search->heap[at] = search->heap[child];
+  }
+  search->heap[at] = last;
+  return least;
+}
+
+/* --- the tree --- */
+
+/* What follows from the children, from here up to the root. */
+static void refit(struct scene_link *nodes, uint32_t index) {
+  for (; index != SCENE_NO_LINK; index = nodes[index].parent) {
+    const struct scene_link *a = &nodes[nodes[index].child[0]], *b = &nodes[nodes[index].child[1]];
+    nodes[index].box = join(&a->box, &b->box);
+    nodes[index].height = 1 + (a->height > b->height ? a->height : b->height);
+  }
+}
+
+/* As a child of what old is a child of, or as the root if old is that. */
+static void take_place_of(struct scene_links *links, uint32_t index, uint32_t old) {
+  const uint32_t parent = links->nodes[old].parent;
+  links->nodes[index].parent = parent;
+  if (parent == SCENE_NO_LINK)
+    links->root = index;
+  else
+    links->nodes[parent].child[links->nodes[parent].child[1] == old] = index;
+}
+
+/* Of the part and of a node over both, with what the part adds to the nodes above: beside `node`. least: what it adds
+   to those above `node`. */
+static double cost_beside(const struct search *search, const struct scene_box *part, const struct scene_box *node,
+                          double least) {
+  const struct scene_box both = join(part, node);
+  return least + visits(search, &both);
+}
+
+static double cost_at(const struct search *search, const struct scene_box *part, uint32_t place) {
+  const struct scene_link *nodes = search->links->nodes;
+  uint32_t above[TRAX_SCENE_MAX_DEPTH];
+  int count = 0;
+  for (uint32_t node = nodes[place].parent; node != SCENE_NO_LINK; node = nodes[node].parent)
+    above[count++] = node;
+  double least = 0;
+  while (count-- > 0) {
+    const struct scene_box *box = &nodes[above[count]].box;
+    least = cost_beside(search, part, box, least) - visits(search, box);
+  }
+  return cost_beside(search, part, &nodes[place].box, least);
+}
+
+/* The node beside which the part, which is not in the tree, costs least: `now` if none is better than this one;
+   SCENE_NO_LINK when out of memory. Branch and bound: below a node it costs at least what it adds to the boxes above,
+   and a node of its own size. */
+static uint32_t find_place(struct search *search, const struct scene_link *part, uint32_t now) {
+  const struct scene_links *links = search->links;
+  const double own = visits(search, &part->box);
+  double best_cost = cost_at(search, &part->box, now);
+  uint32_t best = now;
+  search->heap_count = 0;
+  if (!push(search, (struct place){0, links->root, 0}))
+    return SCENE_NO_LINK;
+  for (int looked_at = 0; looked_at < MOST_LOOKED_AT && search->heap_count; looked_at++) {
+    const struct place place = pop(search);
+    if (place.least + own >= best_cost)
+      break;
+    const struct scene_link *node = &links->nodes[place.node];
+    const double cost = cost_beside(search, &part->box, &node->box, place.least);
+    const uint32_t height = node->height > part->height ? node->height : part->height;
+    if (cost < best_cost && place.depth + 1 + height <= links->max_depth)
+      best_cost = cost, best = place.node;
+    if (node->child[0] == SCENE_NO_LINK)
+      continue;
+    const double below = cost - visits(search, &node->box);
+    for (int i = 0; i < 2 && below + own < best_cost; i++)
+      if (!push(search, (struct place){below, node->child[i], place.depth + 1}))
+        return SCENE_NO_LINK;
+  }
+  return best;
+}
+
+/* The part goes with its parent, whose other child takes the parent's place. False when out of memory. */
+static bool reinsert(struct search *search, uint32_t part) {
+  struct scene_links *links = search->links;
+  struct scene_link *nodes = links->nodes;
+  const uint32_t parent = nodes[part].parent, beside = nodes[parent].child[nodes[parent].child[0] == part];
+  take_place_of(links, beside, parent);
+  refit(nodes, nodes[beside].parent);
+  const uint32_t place = find_place(search, &nodes[part], beside);
+  if (place == SCENE_NO_LINK)
+    return false;
+  take_place_of(links, parent, place);
+  nodes[parent].child[0] = place, nodes[parent].child[1] = part;
+  nodes[place].parent = parent;
+  refit(nodes, parent);
+  return true;
+}
+
+struct ranked {
+  double visits;
+  uint32_t node;
+};
+
+static int compare_ranked(const void *a, const void *b) {
+  const struct ranked *left = a, *right = b;
+  if (left->visits != right->visits)
+    return left->visits > right->visits ? -1 : 1;
+  return left->node < right->node ? -1 : left->node > right->node;
+}
+
+trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
+                           trax_error *error) {
+  struct search search = {.links = links};
+  struct ranked *ranked = malloc(links->count * sizeof *ranked);
+  choose_foci(&search);
+  if (search.focus_count == 0) /* all on one line */
+    passes = 0;
+  trax_status result = ranked ? TRAX_OK : scene_out_of_memory(error, "BVH");
+  for (unsigned pass = 0; pass < passes && result == TRAX_OK; pass++) {
+    for (uint32_t i = 0; i < links->count; i++)
+      ranked[i] = (struct ranked){visits(&search, &links->nodes[i].box), i};
+    qsort(ranked, links->count, sizeof *ranked, compare_ranked);
+    for (uint32_t i = 0; i < links->count && result == TRAX_OK; i++) {
+      if (i % 4096 == 0 && options->progress)
+        options->progress(options->progress_context, "BVH, improved", (pass + (double)i / links->count) / passes);
+      if (options->interrupt && *options->interrupt)
+        result = TRAX_INTERRUPTED;
+      else if (ranked[i].node != links->root && !reinsert(&search, ranked[i].node))
+        result = scene_out_of_memory(error, "BVH");
+    }
+  }
+  free(ranked);
+  free(search.heap);
+  return result;
+}
