@@ -429,6 +429,10 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     complain("%s", arguments->mesh_count ? "no output; give one with -o" : "no mesh; try --help");
     return 1;
   }
+  if (arguments->output && arguments->stats_json && strcmp(arguments->output, arguments->stats_json) == 0) {
+    complain("--output and --stats-json would both write %s", arguments->output);
+    return 1;
+  }
   return -1;
 }
 

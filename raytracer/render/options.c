@@ -7,6 +7,7 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char usage[] =
     "Usage: trax-render [options] MESH [MESH ...] -o PICTURE.png\n"
@@ -577,6 +578,30 @@ static trax_status wrong_option(char **argv, int which, trax_error *error) {
                  : trax_fail(error, "unknown or ambiguous option --%s", name);
 }
 
+/* Of two outputs in one file the second would replace the first. What is no file, such as /dev/null, takes any number.
+ */
+static trax_status check_outputs(const struct options *options, trax_error *error) {
+  const struct {
+    const char *name, *path;
+  } outputs[] = {{"output", options->output},
+                 {"id-picture", options->id_picture},
+                 {"stats", options->stats},
+                 {"profile", options->explain.profile},
+                 {"profile-folded", options->explain.folded},
+                 {"cost-picture", options->cost_picture},
+                 {"cost-values", options->cost_values}};
+  enum { COUNT = sizeof outputs / sizeof *outputs };
+  for (unsigned i = 0; i < COUNT; i++) {
+    struct stat existing;
+    if (!outputs[i].path || (stat(outputs[i].path, &existing) == 0 && !S_ISREG(existing.st_mode)))
+      continue;
+    for (unsigned j = i + 1; j < COUNT; j++)
+      if (outputs[j].path && strcmp(outputs[i].path, outputs[j].path) == 0)
+        return trax_fail(error, "--%s and --%s would both write %s", outputs[i].name, outputs[j].name, outputs[i].path);
+  }
+  return TRAX_OK;
+}
+
 static trax_status check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -586,7 +611,8 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (!options->output && !options->prepare)
     return trax_fail(error, "no picture given: -o PICTURE.png");
-  if (options->output && trax_picture_check_name(options->output, error) != TRAX_OK)
+  if ((options->output && trax_picture_check_name(options->output, error) != TRAX_OK) ||
+      check_outputs(options, error) != TRAX_OK)
     return TRAX_ERROR;
   if (options->bench_accuracy) {
     if (options->engine != ENGINE_FAST || options->program || options->no_specialise)

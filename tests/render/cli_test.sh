@@ -33,6 +33,8 @@ native="--engine native --view $source/box.view"
 refuse 'no mesh' "$render"
 refuse 'no mesh' "$render" -o x.png
 refuse 'no picture given' "$render" "$box"
+refuse '--output and --cost-picture would both write x.png' "$render" "$box" -o x.png --cost-picture x.png
+refuse '--stats and --profile would both write x.json' "$render" "$box" -o x.png --stats x.json --profile x.json
 refuse 'unknown.*--siez; did you mean --size' "$render" "$box" -o x.png --siez 10x10
 refuse 'unknown option -z' "$render" "$box" -o x.png -z
 refuse '--size needs a value' "$render" "$box" -o x.png --size

@@ -142,6 +142,7 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--texture-size", "8192"}, "--texture-size: '8192' is not"},
       {{good, "-o", scene, "--normals", "round"}, "--normals: 'round' is not file, smooth or flat"},
       {{good, "-o", scene, "--normals", "flat", "--crease", "30"}, "--crease without --smooth or --normals"},
+      {{good, "-o", scene, "--stats-json", scene}, "--output and --stats-json would both write"},
       {{good, "-o", scene, "--unknown"}, "unrecognized option '--unknown'"},
       {{lost, "-o", scene}, "trax-scene: error: "},
       {{good, lost, "-o", scene}, "lost.ply: cannot open: No such file"},
