@@ -61,9 +61,11 @@ struct trax_slots {
   uint64_t slots_left_out;
 
   size_t tp_words, memory_words, words; /* where the TPs' and the memory's counts begin, and how many there are */
-  uint64_t *counts;                     /* the next four */
-  uint64_t *before, *now, *exact, *measured;
-  uint64_t exact_counted, measured_counted; /* cycles that these are about */
+  uint64_t *counts;                     /* the next three */
+  uint64_t *before, *now, *exact;
+  double *measured; /* of draws, by their expected costs: what costs more is drawn more often, and counts no more */
+  uint64_t exact_counted;
+  double measured_counted; /* cycles that these are about */
 };
 
 /* --- counts --- */
@@ -81,12 +83,20 @@ static void begin_counts(struct trax_slots *slots, uint64_t t) {
   slots->counted = t;
 }
 
-static void add_counts(struct trax_slots *slots, uint64_t *sum, uint64_t *cycles, uint64_t t) {
+static void add_exact_counts(struct trax_slots *slots, uint64_t t) {
   trax_chip_settle(slots->chip, t);
   read_counts(slots, slots->now);
   for (size_t i = 0; i < slots->words; i++)
-    sum[i] += slots->now[i] - slots->before[i];
-  *cycles += t - slots->counted;
+    slots->exact[i] += slots->now[i] - slots->before[i];
+  slots->exact_counted += t - slots->counted;
+}
+
+static void add_unit_counts(struct trax_slots *slots, double weight, uint64_t t) {
+  trax_chip_settle(slots->chip, t);
+  read_counts(slots, slots->now);
+  for (size_t i = 0; i < slots->words; i++)
+    slots->measured[i] += weight * (double)(slots->now[i] - slots->before[i]);
+  slots->measured_counted += weight * (double)(t - slots->counted);
 }
 
 /* --- draws --- */
@@ -275,12 +285,13 @@ static void go_on(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
 
 static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
   const double cycles = at - slots->begun, size = size_of(slots, slots->draws[slots->done]);
-  add_counts(slots, slots->measured, &slots->measured_counted, t);
+  const size_t before = slots->done;
   slots->unit_cycles += cycles;
   slots->unit_cost += size;
   slots->ratios[slots->done++] = cycles / size;
   while (slots->done < slots->draw_count && slots->draws[slots->done] == slots->draws[slots->done - 1])
     slots->ratios[slots->done++] = cycles / size; /* drawn again */
+  add_unit_counts(slots, (double)(slots->done - before) / size, t);
 }
 
 /* When to look next: somewhat before the place is expected to reach the target. */
@@ -303,7 +314,7 @@ static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
   switch (slots->phase) {
   case BEGINNING:
     slots->exact_cycles = at;
-    add_counts(slots, slots->exact, &slots->exact_counted, t);
+    add_exact_counts(slots, t);
     go_on(slots, at, t, n);
     break;
   case UNIT:
@@ -401,9 +412,10 @@ struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sam
   slots->tp_words = chip->tms * (size_t)TM_WORDS;
   slots->memory_words = slots->tp_words + (size_t)threads * TRAX_CAUSE_COUNT;
   slots->words = slots->memory_words + MEMORY_WORDS;
-  slots->counts = calloc(4 * slots->words, sizeof *slots->counts);
-  if (!slots->counts || plan(slots, threads, error)) {
-    if (!slots->counts)
+  slots->counts = calloc(3 * slots->words, sizeof *slots->counts);
+  slots->measured = calloc(slots->words, sizeof *slots->measured);
+  if (!slots->counts || !slots->measured || plan(slots, threads, error)) {
+    if (!slots->counts || !slots->measured)
       trax_fail(error, "out of memory");
     trax_slots_destroy(slots);
     return NULL;
@@ -411,7 +423,6 @@ struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sam
   slots->before = slots->counts;
   slots->now = slots->before + slots->words;
   slots->exact = slots->now + slots->words;
-  slots->measured = slots->exact + slots->words;
   slots->target = slots->first;
   slots->watch = (struct trax_watch){
       .next = slots->units ? LEAST_STEP : TRAX_NEVER, .look = look, .context = slots, .others = chip->machine->watches};
@@ -431,6 +442,7 @@ void trax_slots_destroy(struct trax_slots *slots) {
   free(slots->draws);
   free(slots->ratios);
   free(slots->counts);
+  free(slots->measured);
   free(slots);
 }
 
@@ -449,9 +461,9 @@ static void round_charges(struct trax_tp_stats *stats, const double *charges, ui
 /* The counts of the whole run: those of beginning and end, and of the units as many times as these stand for. */
 static void estimate_counts(struct trax_slots *slots, double cycles) {
   struct trax_machine *machine = slots->chip->machine;
-  const double factor = (cycles - (double)slots->exact_counted) / (double)slots->measured_counted;
+  const double factor = (cycles - (double)slots->exact_counted) / slots->measured_counted;
   double charges[TRAX_CAUSE_COUNT];
-#define ESTIMATE(i) ((double)slots->exact[i] + factor * (double)slots->measured[i])
+#define ESTIMATE(i) ((double)slots->exact[i] + factor * slots->measured[i])
   for (uint32_t i = 0; i < slots->chip->tms; i++) {
     const uint64_t queue_peak = machine->tm_stats[i].queue_peak;
     for (size_t j = 0; j < TM_WORDS; j++)
@@ -503,7 +515,7 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
                      "the program ended before its counter at 0x%08x reached slot %u of %u: the slots are not "
                      "taken by increments of this word",
                      slots->asked.counter, slots->target, slots->asked.slots);
-  add_counts(slots, slots->exact, &slots->exact_counted, t);
+  add_exact_counts(slots, t);
   slots->exact_cycles += (double)t - slots->begun;
   const struct trax_estimate middle = trax_estimate_total(slots->ratios, slots->done, slots->sizes[slots->units]);
   const double cycles = slots->exact_cycles + middle.total;

@@ -87,6 +87,14 @@ if [ -e "$bin/../lib/trax/trax-era.elf" ]; then
     fail "era: far off: $(number some.json cycles) for $(number exact.json cycles)"
   [ "$(number some.json rays)" = "$(number exact.json rays)" ] || fail "era: $(number some.json rays) rays, not $(number exact.json rays)"
 fi
+# --- what costs much is drawn more often, and stands for no more of the picture than it is: a pixel is stored once, whatever it cost
+if [ -e "$bin/../lib/trax/trax-era.elf" ]; then
+  "$bin/trax-render" /usr/share/glmark2/models/bunny.obj --fov 60 --size 320x180 --config 1x32 --program "$bin/../lib/trax/trax-era.elf" --sampled \
+    --sample-fraction 0.2 -q --stats bunny.json -o bunny.png || fail "the bunny"
+  stored=$(sed -n '/"nontemporal": {/,/}/s/.*"stores": \([0-9]*\).*/\1/p' bunny.json | head -n 1)
+  is "$stored > 0.9 * 57600 && $stored < 1.1 * 57600" || fail "$stored of 57600 pixels stored"
+fi
+
 refuse() {
   pattern=$1
   shift
