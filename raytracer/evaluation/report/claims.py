@@ -94,7 +94,7 @@ def _bytes(results, paper, program, scene, chip, bandwidth=8.0):
     limit = ratio(1e3 * bandwidth, published)
     if None in (moved, used, limit):
         return ""
-    return f"there a ray moves {moved:,.0f} bytes, of {bandwidth:g} GB/s {100 * used:.0f} % are in use; the paper's moved at most {limit:,.0f}"
+    return f"a ray moves {moved:,.0f} bytes, of {bandwidth:g} GB/s {100 * used:.0f} % are in use; the paper's moved at most {limit:,.0f}"
 
 
 def _scaling(results, paper, program):
@@ -116,8 +116,10 @@ def _scaling(results, paper, program):
         return UNKNOWN, "not measured"
     found = f"{near} of {known} speed-ups within 10 % ({', '.join(by_scene)})"
     if near < known:
-        reason = _bytes(results, paper, program, worst[0], worst[1])
-        found += f"; furthest off: {worst[0]} on {worst[1]}, {100 * worst[2]:+.0f} %" + (f": {reason}" if reason else "")
+        scene, chip, off = worst
+        one, many = (deviation(results.figure("mrps", program, scene, name), paper.mrps(scene, name)) for name in ("1x32", chip))
+        reason = _bytes(results, paper, program, scene, chip)
+        found += f"; furthest off: {scene} on {chip}, {100 * off:+.0f} %, of rays {100 * one:+.0f} % on 1x32 and {100 * many:+.0f} % there" + (f": {reason}" if reason else "")
     if known < wanted:
         found += f"; {wanted - known} of {wanted} not measured"
     return _judged(near == wanted if known == wanted else (False if near < known else None), found)
