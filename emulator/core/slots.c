@@ -151,8 +151,10 @@ static double draws_for(const struct trax_slots *slots, double fraction) {
 }
 
 static uint32_t queue_slots(const trax_slot_sampling *asked, uint32_t queue) {
+  if (asked->queues == 1) /* which has no tiles */
+    return asked->slots;
   const uint32_t tiles = asked->slots / asked->tile;
-  return asked->queues == 1 ? asked->slots : (tiles - queue + asked->queues - 1) / asked->queues * asked->tile;
+  return (tiles - queue + asked->queues - 1) / asked->queues * asked->tile;
 }
 
 /* How many slots a queue has handed out where `place`, a multiple of the block, begins. */
