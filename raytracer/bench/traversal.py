@@ -2,14 +2,16 @@
 """How scenes are stored against how fast they are traversed: a table with a row for each way and scene.
 
     raytracer/bench/traversal.py SCENES_DIRECTORY [--size 320x180] [--configs 4x32,8x64] [--only WAY;...] [--scene NAME]
-                                 [--stacks 2,4,8,12,16,62] [--bin build/bin]
+                                 [--choices | --stacks 2,4,8,12,16,62] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. Every way renders the same picture, which is checked. For each chip: million rays a second, bytes
-from and to memory a ray, instructions a ray. With --stacks: how many entries the traversal's stack has, instead of how scenes are stored.
+from and to memory a ray, instructions a ray. With --choices: one choice of the builder's at a time, and the cycles as parts of those of the default.
+With --stacks: how many entries the traversal's stack has, instead of how scenes are stored.
 """
 
 import argparse
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -33,6 +35,45 @@ WAYS = [
     ("by itself", [], []),
     ("by itself, one queue", [], ["--queues", "1"]),
 ]
+
+# What differs from the default, and the options of trax-scene for it.
+CHOICES = [
+    ("default", []),
+    *[(f"leaves of at most {count}", ["--leaf", str(count)]) for count in (1, 2, 3, 5, 7)],
+    *[(f"a node costs {cost} triangles", ["--traversal-cost", cost]) for cost in ("0.5", "1.5", "2", "4")],
+    ("no triangle split", ["--splits=1"]),
+    ("room for 3 times the triangles", ["--splits=3"]),
+    ("nodes depth first", ["--cache-lines", "1"]),
+    *[(f"tree improved, {count} pass{'es' if count > 1 else ''}", ["--passes", str(count)]) for count in (1, 2, 4, 8)],
+]
+
+
+def choices(options, configs):
+    """A row for each choice of CHOICES: cycles in parts of the default's, for each scene and chip, and their geometric mean. How many pictures differ."""
+    chosen = [choice for choice in CHOICES if not options.only or choice[0] in options.only.split(";") or choice[0] == "default"]
+    scenes = [(name, files) for name, files in SCENES if not options.scene or name == options.scene]
+    cycles, pictures = {}, {}
+    with tempfile.TemporaryDirectory() as name:
+        scratch = pathlib.Path(name)
+        for scene, files in scenes:
+            for choice, how in chosen:
+                stored = scratch / "scene.trax"
+                subprocess.run([options.bin / "trax-scene", "--quiet", *[find(options.scenes, file) for file in files], "-o", stored, *how], check=True)
+                for config in configs:
+                    subprocess.run([options.bin / "trax-render", stored, "--view", scene, "--config", config, "--size", options.size, "--quiet",
+                                    "--cache", scratch / "cache", "--stats", scratch / "stats.json", "-o", scratch / "picture.png"], check=True)
+                    cycles[choice, scene, config] = json.loads((scratch / "stats.json").read_text())["cycles"]
+                    pictures.setdefault(scene, set()).add((scratch / "picture.png").read_bytes())
+                print(f"{scene}: {choice}: " + ", ".join(f"{cycles[choice, scene, config]:,}" for config in configs), file=sys.stderr, flush=True)
+    print(f"{options.size}: cycles as parts of the default's, {' and '.join(configs)}")
+    print("| choice | " + " | ".join(scene for scene, _ in scenes) + " | geometric mean |")
+    print("| --- |" + " --- |" * (len(scenes) + 1))
+    for choice, _ in chosen:
+        parts = {scene: [cycles[choice, scene, config] / cycles["default", scene, config] for config in configs] for scene, _ in scenes}
+        every = [part for row in parts.values() for part in row]
+        print(f"| {choice} | " + " | ".join(", ".join(f"{part:.3f}" for part in row) for row in parts.values())
+              + f" | {math.exp(sum(map(math.log, every)) / len(every)):.3f} |")
+    return sum(len(seen) - 1 for seen in pictures.values())
 
 
 def stacks(options, configs):
@@ -74,16 +115,17 @@ def main():
     parser.add_argument("--configs", default="4x32,8x64")
     parser.add_argument("--only", help="ways, separated by ';'")
     parser.add_argument("--scene")
+    parser.add_argument("--choices", action="store_true", help="one choice of the builder's at a time")
     parser.add_argument("--stacks", help="numbers of entries, separated by ','")
     parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/bin")
     options = parser.parse_args()
     configs = options.configs.split(",")
     ways = [way for way in WAYS if not options.only or way[0] in options.only.split(";")]
-    if not ways:
+    if not ways and not options.choices:
         sys.exit(f"traversal.py: error: --only: the ways are {', '.join(name for name, *_ in WAYS)}")
 
-    if options.stacks:
-        different = stacks(options, configs)
+    if options.stacks or options.choices:
+        different = stacks(options, configs) if options.stacks else choices(options, configs)
         print(f"pictures {'different: ' + str(different) if different else 'identical in every bit'}")
         return 1 if different else 0
 
