@@ -84,7 +84,7 @@ static struct aiMaterialProperty *property(const char *key, unsigned semantic, u
     memcpy(out->mData, &text.length, 4);
     memcpy(out->mData + 4, text.data, text.length + 1);
   } else {
-    const unsigned count = 1 + below(4);
+    const unsigned count = !strcmp(key, "$tex.uvtrafo") ? sizeof(struct aiUVTransform) / 4 : 1 + below(4);
     out->mType = aiPTI_Float;
     out->mDataLength = 4 * count;
     out->mData = make(count, 4);
@@ -109,6 +109,7 @@ static struct aiMaterial *material(void) {
               {"$tex.file", aiTextureType_DIFFUSE},
               {"$tex.uvwsrc", aiTextureType_DIFFUSE},
               {"$tex.mapmodeu", aiTextureType_DIFFUSE},
+              {"$tex.uvtrafo", aiTextureType_DIFFUSE},
               {"$tex.file", aiTextureType_UNKNOWN},
               {"$tex.file", aiTextureType_EMISSIVE},
               {"$tex.file", aiTextureType_BASE_COLOR}};
