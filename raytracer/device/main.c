@@ -41,7 +41,7 @@ next_sample:
 
   for (;;) {
     struct ray ray;
-    prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin,
+    prepare_ray(&ray, layout, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin,
                 LAYOUT_GRID(run, layout));
     HIDE_ORIGIN(shadow); /* or the loop would be unrolled into two copies */
     bool found =
@@ -138,6 +138,16 @@ static RENDER_ALL void render_quantised(const struct trax_render_params *run) {
   render_layout(run, TRAX_NODES_QUANTISED);
 }
 
+/* The general program of the TPs has no more layouts: trax-render refuses them. */
+static RENDER_ALL void render_other(const struct trax_render_params *run) {
+#if defined __trax__ && !defined TRAX_NODE_LAYOUT
+  (void)run;
+  trax_abort("this program does not know the scene's layout of nodes");
+#else
+  render_layout(run, RUN_LAYOUT(run));
+#endif
+}
+
 /* Everything else. */
 static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
 #ifdef TRAX_PATHS_LOCAL
@@ -166,8 +176,10 @@ NO_RETURN int main(void) {
     render_all_paths(run);
   else if (RUN_LAYOUT(run) == TRAX_NODES_BINARY)
     render_binary(run);
-  else
+  else if (RUN_LAYOUT(run) == TRAX_NODES_QUANTISED)
     render_quantised(run);
+  else
+    render_other(run);
 #ifndef __trax__
   return 0;
 #endif

@@ -3,17 +3,22 @@
 #define TRAX_DEVICE_RAY_H
 
 #include "bits.h"
+#include "run.h"
 #include "trax/render_params.h"
 #include "triangle.h"
 
-struct ray {
-  /* For boxes. The near planes of a box are its minima where the direction is positive, its maxima where it is
-     negative; near_offset is where in a node's box they are (0, or as many bytes as three planes take), so that no test
-     compares planes. A plane is at (plane - origin) * inverse, or, if it is a number on the
-     grid, at plane * inverse - origin. */
+/* For boxes. A plane is at (plane - origin) * inverse, or, if it is a number on a grid, at plane * inverse - origin. */
+struct box_ray {
   float near_origin_x, near_origin_y, near_origin_z;
   float far_origin_x, far_origin_y, far_origin_z;
   float inverse_x, inverse_y, inverse_z;
+};
+
+struct ray {
+  /* If nodes have frames of their own, still without what these add. */
+  struct box_ray box;
+  /* The near planes of a box are its minima where the direction is positive, its maxima where it is negative: where in
+     a box they are (0, or as many bytes as three planes take), so that no test compares planes. */
   uint32_t near_offset_x, near_offset_y, near_offset_z;
 
   struct triangle_ray triangle;
@@ -36,14 +41,15 @@ static inline float direction_scale(float dx, float dy, float dz) {
 /* A plane's number is used as a float as it is: that is the number times 2^-149, a subnormal, which this machine
    multiplies like any other. So it takes no instruction to convert, but its reciprocal 2^149 must be in the factors:
    distances along the ray are in units of 2^64 here, which keeps all of them within the range of floats as long as the
-   direction's largest component is within 2^-2 and 2^10 and cells within 2^-44 and 2^6 (trax_normalise). */
+   direction's largest component is within 2^-2 and 2^10 and cells within 2^-44 and 2^6 (trax_normalise). In frames,
+   whose planes are up to 2^9 cells apart, the units are 2^72, and the factor has 2^149 by the frame's word. */
 #define PLANE_SCALE 0x1p75f * 0x1p74f
-#define DISTANCE_EXPONENT 64
-#define DISTANCE_SCALE 0x1p-64f
+#define DISTANCE_EXPONENT(layout) (NODES_HAVE_FRAMES(layout) ? 72 : 64)
+#define DISTANCE_SCALE(layout) (NODES_HAVE_FRAMES(layout) ? 0x1p-72f : 0x1p-64f)
 
 /* A distance in those units, as bits; what is nearly 0 becomes a little more. */
-static inline int32_t distance_on_grid(int32_t distance_bits) {
-  return larger(distance_bits - (DISTANCE_EXPONENT << 23), 0x00800000);
+static inline int32_t distance_on_grid(uint32_t layout, int32_t distance_bits) {
+  return larger(distance_bits - (DISTANCE_EXPONENT(layout) << 23), 0x00800000);
 }
 
 static inline float with_sign_of(float magnitude, float sign) {
@@ -53,8 +59,8 @@ static inline float with_sign_of(float magnitude, float sign) {
 /* Prepares the ray that starts at (ox, oy, oz); the direction need not have unit length, but its largest component must
    be within 2^-21 and 2^40, so that the product below neither vanishes nor overflows. grid: of
    quantised nodes, else NULL. */
-static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, float dx, float dy, float dz,
-                               float box_margin, const struct trax_ray_grid *grid) {
+static inline void prepare_ray(struct ray *ray, uint32_t layout, float ox, float oy, float oz, float dx, float dy,
+                               float dz, float box_margin, const struct trax_ray_grid *grid) {
   int32_t size_x = magnitude(dx), size_y = magnitude(dy), size_z = magnitude(dz);
   int32_t size = larger(larger(size_x, size_y), size_z);
   int32_t least = float_bits(bits_float(size) * 0x1p-30f);
@@ -66,7 +72,7 @@ static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, fl
   float product = 1.0f / (xy * cz);
   float inverse_x = cy * cz * product, inverse_y = cx * cz * product, inverse_z = xy * product;
 
-  const int far_planes = grid ? 6 : 12;
+  const int far_planes = 3 * NODE_PLANE_BYTES(layout);
   ray->near_offset_x = float_bits(cx) >> 31 & far_planes;
   ray->near_offset_y = float_bits(cy) >> 31 & far_planes;
   ray->near_offset_z = float_bits(cz) >> 31 & far_planes;
@@ -74,24 +80,34 @@ static inline void prepare_ray(struct ray *ray, float ox, float oy, float oz, fl
   HIDE_ORIGIN(ray->near_offset_y);
   HIDE_ORIGIN(ray->near_offset_z);
   if (grid) {
-    float cell_x = grid->cell[0] * DISTANCE_SCALE, cell_y = grid->cell[1] * DISTANCE_SCALE;
-    float cell_z = grid->cell[2] * DISTANCE_SCALE;
+    float cell_x = grid->cell[0] * DISTANCE_SCALE(layout), cell_y = grid->cell[1] * DISTANCE_SCALE(layout);
+    float cell_z = grid->cell[2] * DISTANCE_SCALE(layout);
     float from_x = ox - grid->origin[0], from_y = oy - grid->origin[1], from_z = oz - grid->origin[2];
     float margin_x = with_sign_of(box_margin, cx), margin_y = with_sign_of(box_margin, cy);
     float margin_z = with_sign_of(box_margin, cz);
-    float step_x = inverse_x * DISTANCE_SCALE, step_y = inverse_y * DISTANCE_SCALE, step_z = inverse_z * DISTANCE_SCALE;
-    ray->near_origin_x = (from_x + margin_x) * step_x, ray->far_origin_x = (from_x - margin_x) * step_x;
-    ray->near_origin_y = (from_y + margin_y) * step_y, ray->far_origin_y = (from_y - margin_y) * step_y;
-    ray->near_origin_z = (from_z + margin_z) * step_z, ray->far_origin_z = (from_z - margin_z) * step_z;
-    ray->inverse_x = inverse_x * cell_x * PLANE_SCALE, ray->inverse_y = inverse_y * cell_y * PLANE_SCALE;
-    ray->inverse_z = inverse_z * cell_z * PLANE_SCALE;
+    float step_x = inverse_x * DISTANCE_SCALE(layout), step_y = inverse_y * DISTANCE_SCALE(layout), step_z = inverse_z * DISTANCE_SCALE(layout);
+    ray->box.near_origin_x = (from_x + margin_x) * step_x, ray->box.far_origin_x = (from_x - margin_x) * step_x;
+    ray->box.near_origin_y = (from_y + margin_y) * step_y, ray->box.far_origin_y = (from_y - margin_y) * step_y;
+    ray->box.near_origin_z = (from_z + margin_z) * step_z, ray->box.far_origin_z = (from_z - margin_z) * step_z;
+    if (NODES_HAVE_FRAMES(layout)) {
+      ray->box.inverse_x = inverse_x * cell_x, ray->box.inverse_y = inverse_y * cell_y;
+      ray->box.inverse_z = inverse_z * cell_z;
+      float bias_x = ray->box.inverse_x * TRAX_FRAME_BIAS, bias_y = ray->box.inverse_y * TRAX_FRAME_BIAS;
+      float bias_z = ray->box.inverse_z * TRAX_FRAME_BIAS;
+      ray->box.near_origin_x += bias_x, ray->box.far_origin_x += bias_x;
+      ray->box.near_origin_y += bias_y, ray->box.far_origin_y += bias_y;
+      ray->box.near_origin_z += bias_z, ray->box.far_origin_z += bias_z;
+    } else {
+      ray->box.inverse_x = inverse_x * cell_x * PLANE_SCALE, ray->box.inverse_y = inverse_y * cell_y * PLANE_SCALE;
+      ray->box.inverse_z = inverse_z * cell_z * PLANE_SCALE;
+    }
   } else {
     float margin_x = with_sign_of(box_margin, cx), margin_y = with_sign_of(box_margin, cy);
     float margin_z = with_sign_of(box_margin, cz);
-    ray->inverse_x = inverse_x, ray->inverse_y = inverse_y, ray->inverse_z = inverse_z;
-    ray->near_origin_x = ox + margin_x, ray->far_origin_x = ox - margin_x;
-    ray->near_origin_y = oy + margin_y, ray->far_origin_y = oy - margin_y;
-    ray->near_origin_z = oz + margin_z, ray->far_origin_z = oz - margin_z;
+    ray->box.inverse_x = inverse_x, ray->box.inverse_y = inverse_y, ray->box.inverse_z = inverse_z;
+    ray->box.near_origin_x = ox + margin_x, ray->box.far_origin_x = ox - margin_x;
+    ray->box.near_origin_y = oy + margin_y, ray->box.far_origin_y = oy - margin_y;
+    ray->box.near_origin_z = oz + margin_z, ray->box.far_origin_z = oz - margin_z;
   }
 
   prepare_triangle_ray(&ray->triangle, ox, oy, oz, dx, dy, dz, inverse_x, inverse_y, inverse_z);

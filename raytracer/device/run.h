@@ -38,8 +38,18 @@ extern struct trax_buffer scene, params, image;
 #else
 #define RUN_LAYOUT(run) ((run)->node_layout)
 #endif
-#define LAYOUT_GRID(run, layout) ((layout) == TRAX_NODES_BINARY ? NULL : &(run)->grid)
+#define LAYOUT_GRID(run, layout) (NODES_ON_GRID(layout) ? &(run)->grid : NULL)
 #define RUN_GRID(run) LAYOUT_GRID(run, RUN_LAYOUT(run))
+
+/* What a layout is like. The general program of the TPs has only the first two of them: it is large enough. */
+#define NODES_ON_GRID(layout) ((layout) != TRAX_NODES_BINARY)
+#if defined __trax__ && !defined TRAX_NODE_LAYOUT
+#define PROGRAM_HAS_LAYOUT(layout) ((layout) <= TRAX_NODES_QUANTISED)
+#else
+#define PROGRAM_HAS_LAYOUT(layout) true
+#endif
+#define NODES_HAVE_FRAMES(layout) (PROGRAM_HAS_LAYOUT(TRAX_NODES_QUANTISED8) && (layout) == TRAX_NODES_QUANTISED8)
+#define NODE_PLANE_BYTES(layout) (NODES_HAVE_FRAMES(layout) ? 1 : NODES_ON_GRID(layout) ? 2 : 4)
 
 /* Of a general program that is told nothing else; the host has room for a whole stack. */
 #ifndef TRAX_TREE_DEPTH

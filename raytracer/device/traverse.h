@@ -18,13 +18,24 @@ static inline uint32_t load_word(const char *address) {
   return *(const uint32_t *)(const void *)address;
 }
 
-/* Where along the ray a plane is, as bits: binary32, or a number on the grid (ray.h). */
-static inline __attribute__((always_inline)) int32_t plane_distance(bool on_grid, const char *address, float origin,
+/* Where along the ray a plane is, as bits: binary32, or a number on a grid (ray.h). */
+static inline __attribute__((always_inline)) int32_t plane_distance(uint32_t layout, const char *address, float origin,
                                                                     float inverse) {
-  if (on_grid)
+  if (NODES_HAVE_FRAMES(layout))
+    return float_bits(bits_float(*(const uint8_t *)address) * inverse - origin);
+  if (NODES_ON_GRID(layout))
     return float_bits(bits_float(*(const uint16_t *)(const void *)address) * inverse - origin);
   return float_bits((load_float(address) - origin) * inverse);
 }
+
+/* Brings one axis of a ray into a node's frame (scene_format.h, struct trax_quantised8_node). */
+#define ENTER_FRAME(AXIS, NUMBER)                                                                                      \
+  do {                                                                                                                 \
+    uint32_t word = load_word(node + (NUMBER) * 4);                                                                    \
+    float first = bits_float((int32_t)word) * way.inverse_##AXIS;                                                      \
+    way.near_origin_##AXIS -= first, way.far_origin_##AXIS -= first;                                                   \
+    way.inverse_##AXIS = bits_float(float_bits(way.inverse_##AXIS) + (int32_t)(word << 23));                           \
+  } while (0)
 
 /* Clips the ray's way through a box to the slab between two of its planes, and leaves for `missed` if nothing remains.
    Distances are compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good
@@ -32,10 +43,10 @@ static inline __attribute__((always_inline)) int32_t plane_distance(bool on_grid
    `plane` bytes each, `box` bytes from the node's beginning, the three least ones first. */
 #define CLIP_TO_SLAB(AXIS, NUMBER, BOX, ENTER, LEAVE, MISSED)                                                          \
   do {                                                                                                                 \
-    int32_t near_bits = plane_distance(on_grid, node + ray->near_offset_##AXIS + ((BOX) + (NUMBER) * plane),           \
-                                       ray->near_origin_##AXIS, ray->inverse_##AXIS);                                  \
-    int32_t far_bits = plane_distance(on_grid, node - ray->near_offset_##AXIS + ((BOX) + ((NUMBER) + 3) * plane),      \
-                                      ray->far_origin_##AXIS, ray->inverse_##AXIS);                                    \
+    int32_t near_bits = plane_distance(layout, node + ray->near_offset_##AXIS + ((BOX) + (NUMBER) * plane),            \
+                                       way.near_origin_##AXIS, way.inverse_##AXIS);                                    \
+    int32_t far_bits = plane_distance(layout, node - ray->near_offset_##AXIS + ((BOX) + ((NUMBER) + 3) * plane),       \
+                                      way.far_origin_##AXIS, way.inverse_##AXIS);                                      \
     if ((NUMBER) == 0 || near_bits > ENTER)                                                                            \
       ENTER = near_bits;                                                                                               \
     if (far_bits < LEAVE)                                                                                              \
@@ -55,15 +66,24 @@ static inline __attribute__((always_inline)) int32_t plane_distance(bool on_grid
       goto MISSED;                                                                                                     \
   } while (0)
 
+#define FIRST_BOX(layout) (NODES_HAVE_FRAMES(layout) ? 12 : 0)
+
 /* Goes from a node to the nearer of the children that the ray enters; the other one is put on the stack. False: it
    enters none. */
-static inline __attribute__((always_inline)) bool visit_node(bool on_grid, const char *node, const struct ray *ray,
+static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, const char *node, const struct ray *ray,
                                                              int32_t limit, trax_scene_ref *reference,
                                                              struct stack_entry *stack, struct stack_entry **top,
                                                              struct trail *trail) {
-  const int plane = on_grid ? 2 : 4, second_box = 6 * plane, children = 12 * plane;
+  const int plane = NODE_PLANE_BYTES(layout), first_box = FIRST_BOX(layout), second_box = first_box + 6 * plane;
+  const int children = second_box + 6 * plane;
+  struct box_ray way = ray->box;
   int32_t enter0, enter1;
-  ENTER_BOX(0, enter0, second_only);
+  if (NODES_HAVE_FRAMES(layout)) {
+    ENTER_FRAME(x, 0);
+    ENTER_FRAME(y, 1);
+    ENTER_FRAME(z, 2);
+  }
+  ENTER_BOX(first_box, enter0, second_only);
   ENTER_BOX(second_box, enter1, first_only);
   if (enter0 <= enter1) {
     *reference = load_word(node + children);
@@ -92,7 +112,7 @@ neither:
    which a visit finds out: to test its box here takes more than it saves. */
 static inline trax_scene_ref find_again(uint32_t layout, const char *scene, trax_scene_ref root,
                                         const struct trail *trail) {
-  const int children = layout == TRAX_NODES_BINARY ? 48 : 24;
+  const int children = FIRST_BOX(layout) + 12 * NODE_PLANE_BYTES(layout);
   trax_scene_ref reference = root;
   uint32_t level = TRAIL_END, second = TRAIL_IS_LONG && trail->below ? trail->upper_second : trail->second;
   bool upper = TRAIL_IS_LONG && trail->below;
@@ -114,7 +134,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
   struct stack_entry stack[TRAX_STACK_ENTRIES], *top = stack, entry;
   struct trail trail;
   trax_scene_ref reference = root;
-#define LIMIT() (layout == TRAX_NODES_BINARY ? hit->distance_bits : distance_on_grid(hit->distance_bits))
+#define LIMIT() (NODES_ON_GRID(layout) ? distance_on_grid(layout, hit->distance_bits) : hit->distance_bits)
   int32_t limit = LIMIT(); /* boxes that begin there or later are left out */
 
   if (root == 0)
@@ -128,9 +148,13 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
       ACCESS_NODE(node);
       if (STACK_IS_SHORT)
         trail_make_room(&trail);
-      if (!(layout == TRAX_NODES_BINARY ? visit_node(false, node, ray, limit, &reference, stack, &top, &trail)
-                                        : visit_node(true, node, ray, limit, &reference, stack, &top, &trail)))
+      /* The layout's own code, where it is known at run time only. */
+#define VISIT(LAYOUT) visit_node(LAYOUT, node, ray, limit, &reference, stack, &top, &trail)
+      if (!(NODES_HAVE_FRAMES(layout) ? VISIT(TRAX_NODES_QUANTISED8)
+            : NODES_ON_GRID(layout)   ? VISIT(TRAX_NODES_QUANTISED)
+                                      : VISIT(TRAX_NODES_BINARY)))
         goto back;
+#undef VISIT
     }
 
     const char *triangle = scene_at(scene, TRAX_SCENE_REF_OFFSET(reference));

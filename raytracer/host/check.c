@@ -247,8 +247,7 @@ static bool box_within(const struct scene_box *inner, const struct scene_box *ou
 }
 
 static struct scene_box as_stored(const struct checker *checker, const struct scene_box *box) {
-  return trax_node_formats[checker->view.header->node_layout].quantised ? scene_box_in_cells(&checker->view.grid, box)
-                                                                        : *box;
+  return scene_box_as_stored(checker->view.header->node_layout, &checker->view.grid, box);
 }
 
 /* A leaf's box that is smaller than its triangles: each that is not within it must stand elsewhere, too. `place` says
@@ -272,6 +271,20 @@ static void note_parts(struct checker *checker, trax_scene_ref ref, const struct
 static trax_status wrong_box(const struct checker *checker, uint32_t place) {
   return scene_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name,
                     place / TRAX_MAX_WIDTH, place % TRAX_MAX_WIDTH);
+}
+
+/* The frame must be the one for these boxes; of a leaf's part nobody knows what it was. */
+static trax_status check_frame(const struct checker *checker, uint32_t number, const struct scene_box boxes[],
+                               const trax_scene_ref children[]) {
+  const struct trax_node_format *format = &trax_node_formats[checker->view.header->node_layout];
+  unsigned char same[TRAX_SCENE_ALIGNMENT] = {0};
+  struct scene_box box;
+  if (format->plane_bytes != 1)
+    return TRAX_OK;
+  scene_node_write(same, checker->view.header->node_layout, boxes, children, &box);
+  if (memcmp(same, (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes, format->bytes) != 0)
+    return scene_fail(checker->error, "%s: node %u: its frame is not that of its boxes", checker->name, number);
+  return TRAX_OK;
 }
 
 /* The subtree below ref, with depth inner nodes above it; *box becomes the one that must be stored for it: of a leaf,
@@ -304,26 +317,30 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     if (memcmp(reserved, zeros, format->reserved_bytes) != 0)
       return scene_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
   }
-  struct scene_box boxes[TRAX_MAX_WIDTH];
+  if (!scene_node_has_frame(&checker->view, number))
+    return scene_fail(checker->error, "%s: node %u: its frame is none", checker->name, number);
+  struct scene_box boxes[TRAX_MAX_WIDTH], below[TRAX_MAX_WIDTH];
   trax_scene_ref children[TRAX_MAX_WIDTH];
+  bool whole = true;
   scene_node_boxes(boxes, children, &checker->view, number);
-  *box = scene_empty_box();
   checker->ranges[number].first = checker->next_triangle;
   for (uint32_t i = 0; i < format->width; i++) {
-    struct scene_box expected = scene_empty_box();
-    trax_status result = check_subtree(checker, children[i], depth, &expected);
+    below[i] = scene_empty_box();
+    trax_status result = check_subtree(checker, children[i], depth, &below[i]);
     if (result != TRAX_OK)
       return result;
     const bool is_leaf = TRAX_SCENE_REF_COUNT(children[i]) != 0;
+    const struct scene_box expected = scene_box_in_frame(&checker->view, number, &below[i]);
     if (!same_box(&boxes[i], &expected)) {
       if (!is_leaf || !box_within(&boxes[i], &expected))
         return wrong_box(checker, number * TRAX_MAX_WIDTH + i);
       note_parts(checker, children[i], &boxes[i], number * TRAX_MAX_WIDTH + i);
+      whole = false;
     }
-    scene_box_add_box(box, &boxes[i]);
   }
+  *box = scene_box_around(checker->view.header->node_layout, boxes, format->width);
   checker->ranges[number].end = checker->next_triangle;
-  return TRAX_OK;
+  return whole ? check_frame(checker, number, below, children) : TRAX_OK;
 }
 
 /* With room for what is noted of each node and triangle. */

@@ -203,13 +203,22 @@ static inline void scene_box_add_box(struct scene_box *box, const struct scene_b
 
 struct scene_tree;
 
-/* The least box of grid planes that contains the box, as numbers of planes. */
-struct scene_box scene_box_in_cells(const struct trax_scene_grid *grid, const struct scene_box *box);
-void scene_node_write(void *node, enum trax_node_layout layout, const struct trax_scene_grid *grid,
-                      const struct scene_box boxes[], const trax_scene_ref children[]);
+/* A leaf's box as the layout's nodes have it: exact, or in cells of the grid, rounded outwards. All boxes below are in
+   the same unit. */
+struct scene_box scene_box_as_stored(enum trax_node_layout layout, const struct trax_scene_grid *grid,
+                                     const struct scene_box *box);
+/* What contains them and nothing beyond the grid. */
+struct scene_box scene_box_around(enum trax_node_layout layout, const struct scene_box boxes[], uint32_t count);
+/* A node around such boxes; *box becomes what is around them as they are stored now. */
+void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[],
+                      const trax_scene_ref children[], struct scene_box *box);
+/* The least box in the node's own frame that contains this one, which is itself if nodes have none. */
+struct scene_box scene_box_in_frame(const struct trax_scene *scene, uint32_t number, const struct scene_box *box);
+/* False: a word of the node's frame is none. */
+bool scene_node_has_frame(const struct trax_scene *scene, uint32_t number);
 /* Do rays visit hardly more of the tree if its boxes are on the scene's grid, in each of its larger parts? */
 bool scene_grid_suits(const struct scene_tree *tree);
-/* The boxes of a node as the file has them: numbers of planes if they are quantised. */
+/* The boxes of a node as they are stored. */
 void scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,
                       uint32_t number);
 

@@ -172,23 +172,20 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
   return offset | node->triangle_count;
 }
 
-/* Depth first; returns the reference and the subtree's box. Recursion is bounded by the depth of the tree, at most
+/* Depth first; returns the reference and the subtree's box as it is stored. Recursion is bounded by the depth of the tree, at most
    TRAX_SCENE_MAX_DEPTH. */
 static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_box *box) {
   const struct scene_tree_node *node = &layout->tree->nodes[index];
   if (node->triangle_count) {
-    *box = node->box;
+    *box = scene_box_as_stored(layout->node_layout, &layout->grid, &node->box);
     return place_leaf(layout, node);
   }
   struct scene_box boxes[2];
   trax_scene_ref children[2];
-  *box = scene_empty_box();
-  for (int i = 0; i < 2; i++) {
+  for (int i = 0; i < 2; i++)
     children[i] = place(layout, node->child[i], &boxes[i]);
-    scene_box_add_box(box, &boxes[i]);
-  }
   const uint32_t offset = layout->positions[index] * trax_node_formats[layout->node_layout].bytes;
-  scene_node_write(layout->nodes + offset, layout->node_layout, &layout->grid, boxes, children);
+  scene_node_write(layout->nodes + offset, layout->node_layout, boxes, children, box);
   return layout->nodes_offset + offset;
 }
 

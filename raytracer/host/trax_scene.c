@@ -368,7 +368,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     case nodes:
       good = trax_node_layout_choose(optarg, &arguments->build);
       if (!good)
-        complain("--nodes: '%s' is none of auto, binary and quantised", optarg);
+        complain("--nodes: '%s' is none of auto, binary, quantised and quantised8", optarg);
       break;
     case splits:
       good = trax_splits_choose(optarg, &arguments->build);

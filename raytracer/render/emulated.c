@@ -45,6 +45,11 @@ static trax_status general_program(struct trax_program *program, const struct op
       return trax_fail(error, "the path of the program is too long");
     return TRAX_OK;
   }
+  const uint32_t layout = frame->scene->header->node_layout;
+  if (layout > TRAX_NODES_QUANTISED)
+    return trax_fail(error, "the general program has no %s nodes: it takes %s and %s ones",
+                     trax_node_formats[layout].name, trax_node_formats[TRAX_NODES_BINARY].name,
+                     trax_node_formats[TRAX_NODES_QUANTISED].name);
   if (!installed_file(program->path, "lib/trax", deep ? "trax-raytracer-deep" : "trax-raytracer", ".elf"))
     return trax_fail(error, "%s is missing; --program names another one", program->path);
   return TRAX_OK;
@@ -54,18 +59,20 @@ static trax_status general_program(struct trax_program *program, const struct op
 static trax_status find_program(struct trax_program *program, const struct options *options,
                                 const struct trax_frame *frame, unsigned queues, const volatile int *interrupt,
                                 trax_error *error) {
-  trax_status status = general_program(program, options, frame, error);
-  if (status != TRAX_OK || options->program || options->no_specialise)
-    return status;
+  if (options->program || options->no_specialise)
+    return general_program(program, options, frame, error);
   char root[TRAX_PATH_SIZE], note[256] = "";
   struct trax_specialise_options specialise = {
       .root = root, .cache = options->cache, .queues = queues, .interrupt = interrupt};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
-  status = trax_program_specialise(program, frame, &specialise, note, error);
-  if (status == TRAX_OK && !program->specialised && !options->quiet)
+  program->specialised = false;
+  trax_status status = trax_program_specialise(program, frame, &specialise, note, error);
+  if (status != TRAX_OK || program->specialised)
+    return status;
+  if (!options->quiet)
     fprintf(stderr, "trax-render: note: the general program renders, there is no specialised one: %s\n", note);
-  return status;
+  return general_program(program, options, frame, error);
 }
 
 /* --- the machine --- */

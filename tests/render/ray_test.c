@@ -80,8 +80,8 @@ static bool shoot(const struct trax_scene *scene, const float from[3], const flo
   memcpy(grid.origin, scene->grid.origin, sizeof grid.origin);
   memcpy(grid.cell, scene->grid.cell, sizeof grid.cell);
   float margin = 0x1p-16f; /* as frame.c has it for a scene of this size */
-  prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], margin,
-              layout == TRAX_NODES_BINARY ? NULL : &grid);
+  prepare_ray(&ray, layout, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], margin,
+              NODES_ON_GRID(layout) ? &grid : NULL);
   *hit = (struct hit){0x7F000000, 0, 0, 0};
   bool nearest = trace_ray(layout, scene->bytes, scene->header->root, &ray, false, hit);
   struct hit any = {0x7F000000, 0, 0, 0};
@@ -193,7 +193,8 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
       to[c] = values[c] + weight1 * (values[3 + c] - values[c]) + weight2 * (values[6 + c] - values[c]);
     }
     struct ray ray;
-    prepare_ray(&ray, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], 0, NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], 0,
+                NULL);
     if (!hit_triangle(&ray.triangle, (const char *)&triangle, false, &hit))
       continue;
     struct surface surface;
@@ -204,7 +205,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};
     if (dot(way, surface.normal) < 0)
       way.x = -way.x, way.y = -way.y, way.z = -way.z;
-    prepare_ray(&ray, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0, NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0, NULL);
     struct hit self = {0x7F000000, 0, 0, 0};
     assert_false(hit_triangle(&ray.triangle, (const char *)&triangle, true, &self));
     tested++;
@@ -213,7 +214,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
 }
 
 int main(void) {
-  enum trax_node_layout binary = TRAX_NODES_BINARY, quantised = TRAX_NODES_QUANTISED;
+  enum trax_node_layout binary = TRAX_NODES_BINARY, quantised = TRAX_NODES_QUANTISED, bytes = TRAX_NODES_QUANTISED8;
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_slots_are_pixels),
       cmocka_unit_test(test_slots_of_large_pictures),
@@ -221,6 +222,8 @@ int main(void) {
       {"rays in a closed surface, quantised nodes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &quantised},
       {"nearest hits, binary nodes", test_nearest_hit, NULL, NULL, &binary},
       {"nearest hits, quantised nodes", test_nearest_hit, NULL, NULL, &quantised},
+      {"rays in a closed surface, nodes of bytes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &bytes},
+      {"nearest hits, nodes of bytes", test_nearest_hit, NULL, NULL, &bytes},
       cmocka_unit_test(test_shadow_rays_start_off_the_surface),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

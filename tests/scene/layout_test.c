@@ -40,17 +40,24 @@ static void walk(const struct trax_scene *scene, trax_scene_ref ref, double min[
     return;
   }
   const struct trax_node_children node = read_node(scene, ref);
-  const bool quantised = trax_node_formats[scene->header->node_layout].quantised;
+  const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
+  double low[TRAX_MAX_WIDTH][3], high[TRAX_MAX_WIDTH][3];
   for (uint32_t i = 0; i < node.count; i++) {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    walk(scene, node.child[i], low, high, next);
-    for (int axis = 0; axis < 3; axis++) {
-      const double cell = quantised ? scene->grid.cell[axis] : 0;
-      assert_true(node.min[i][axis] <= low[axis] && high[axis] <= node.max[i][axis]);
-      assert_true(node.min[i][axis] + cell >= low[axis] && high[axis] >= node.max[i][axis] - cell);
-      min[axis] = fmin(min[axis], low[axis]), max[axis] = fmax(max[axis], high[axis]);
-    }
+    for (int axis = 0; axis < 3; axis++)
+      low[i][axis] = INFINITY, high[i][axis] = -INFINITY;
+    walk(scene, node.child[i], low[i], high[i], next);
+    for (int axis = 0; axis < 3; axis++)
+      min[axis] = fmin(min[axis], low[i][axis]), max[axis] = fmax(max[axis], high[i][axis]);
   }
+  for (uint32_t i = 0; i < node.count; i++)
+    for (int axis = 0; axis < 3; axis++) {
+      double most = format->quantised ? scene->grid.cell[axis] : 0; /* by which a box may be larger than it must be */
+      /* A frame's planes are a 127th of all boxes apart, or a 32nd of a cell, and every level below rounds, too. */
+      if (format->plane_bytes == 1)
+        most = 3 * fmax(most / 32, (max[axis] - min[axis]) / 127);
+      assert_true(node.min[i][axis] <= low[i][axis] && high[i][axis] <= node.max[i][axis]);
+      assert_true(node.min[i][axis] + most >= low[i][axis] && high[i][axis] >= node.max[i][axis] - most);
+    }
 }
 
 /* Of all kinds: one triangle, two, many; flat scenes; scenes far from the origin, tiny and huge. */

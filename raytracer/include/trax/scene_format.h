@@ -38,7 +38,8 @@ typedef uint32_t trax_scene_ref;
 enum trax_node_layout {
   TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
   TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
-  TRAX_NODE_LAYOUTS = 2
+  TRAX_NODES_QUANTISED8 = 2, /* struct trax_quantised8_node: two boxes on a grid of the node's own */
+  TRAX_NODE_LAYOUTS = 3
 };
 
 /* The grid of quantised nodes: along each axis 2^16 planes at equal distances, of which the first is at bounds_min and
@@ -101,6 +102,28 @@ struct trax_quantised_node {
   } box[2];
   trax_scene_ref child[2]; /* never 0 */
 };
+
+/* Boxes on a frame of the node's own: along each axis 256 planes at equal distances, a power of two times the scene's
+   cells. A frame's word is the binary32 number TRAX_FRAME_BIAS + p, where p is the first plane's place in cells, with
+   TRAX_FRAME_EXPONENT + e in its last nine bits, if planes are 2^e cells apart: p is what both together make it. So the
+   traversal takes the word as a float as it is, and one shift makes of it what is to be added to another float's
+   exponent.
+
+   A box is the least in the frame that contains what is below it: of a leaf its triangles, in cells, rounded outwards to
+   multiples of TRAX_FINEST_CELL; of a node both of its boxes. Along each axis the frame is the one of least e, from
+   TRAX_FRAME_LEAST on, and of these of greatest p, that has room for all boxes. Aligned to 32 bytes. */
+struct trax_quantised8_node {
+  uint32_t frame[3];
+  struct {
+    uint8_t min[3], max[3];
+  } box[2];
+  trax_scene_ref child[2]; /* never 0 */
+};
+
+#define TRAX_FRAME_BIAS 65540.0f /* p is -4 at least, in steps of 4 */
+#define TRAX_FRAME_EXPONENT 149  /* a plane's number is used as a float as it is, times 2^-149 */
+#define TRAX_FRAME_LEAST (-7)
+#define TRAX_FINEST_CELL 0x1p-7f
 
 struct trax_triangle {
   float v0[3], v1[3], v2[3]; /* finite; winding as in the mesh */
@@ -168,6 +191,7 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_scene_section, 16);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
+TRAX_SCENE_ASSERT_SIZE(struct trax_quantised8_node, 32);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));

@@ -15,10 +15,10 @@ static inline void answer_query(const char *scene, const struct query_params *pa
   unsigned shadow = 0;
   for (;;) {
     struct ray ray;
-    prepare_ray(&ray, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, params->box_margin,
-                params->node_layout == TRAX_NODES_BINARY ? NULL : &params->grid);
+    prepare_ray(&ray, RUN_LAYOUT(params), origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+                params->box_margin, RUN_GRID(params));
     HIDE_ORIGIN(shadow); /* one copy of the traversal */
-    bool found = trace_ray(params->node_layout, scene, root, &ray, shadow, &hit);
+    bool found = trace_ray(RUN_LAYOUT(params), scene, root, &ray, shadow, &hit);
     if (shadow) {
       answer->light = found ? QUERY_SHADOWED : QUERY_LIT;
       break;

@@ -310,9 +310,14 @@ static void compare_variants(struct row *row, const struct prepared *prepared, c
     if (!scene->bytes)
       continue;
     struct query_answer *others = trace(prepared, scene, &methods[0]);
+    struct method emulated = methods[0];
     uint64_t cycles;
+    char program[32];
+    snprintf(program, sizeof program, "query-nodes-%u.elf", scene->header->node_layout);
+    if (scene->header->node_layout > TRAX_NODES_QUANTISED)
+      emulated.program = program;
     if (first)
-      emulate(row, &cycles, prepared, scene, &methods[0], directory, others);
+      emulate(row, &cycles, prepared, scene, &emulated, directory, others);
     for (uint32_t i = 0; i < prepared->params.count; i++) {
       row->variant_differs += source_of(scene, others[i].triangle) != source_of(&prepared->scene, answers[i].triangle);
       others[i].triangle = answers[i].triangle;
