@@ -85,7 +85,8 @@ static inline void prepare_ray(struct ray *ray, uint32_t layout, float ox, float
     float from_x = ox - grid->origin[0], from_y = oy - grid->origin[1], from_z = oz - grid->origin[2];
     float margin_x = with_sign_of(box_margin, cx), margin_y = with_sign_of(box_margin, cy);
     float margin_z = with_sign_of(box_margin, cz);
-    float step_x = inverse_x * DISTANCE_SCALE(layout), step_y = inverse_y * DISTANCE_SCALE(layout), step_z = inverse_z * DISTANCE_SCALE(layout);
+    float step_x = inverse_x * DISTANCE_SCALE(layout), step_y = inverse_y * DISTANCE_SCALE(layout),
+          step_z = inverse_z * DISTANCE_SCALE(layout);
     ray->box.near_origin_x = (from_x + margin_x) * step_x, ray->box.far_origin_x = (from_x - margin_x) * step_x;
     ray->box.near_origin_y = (from_y + margin_y) * step_y, ray->box.far_origin_y = (from_y - margin_y) * step_y;
     ray->box.near_origin_z = (from_z + margin_z) * step_z, ray->box.far_origin_z = (from_z - margin_z) * step_z;

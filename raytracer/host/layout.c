@@ -172,8 +172,8 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
   return offset | node->triangle_count;
 }
 
-/* Depth first; returns the reference and the subtree's box as it is stored. Recursion is bounded by the depth of the tree, at most
-   TRAX_SCENE_MAX_DEPTH. */
+/* Depth first; returns the reference and the subtree's box as it is stored. Recursion is bounded by the depth of the
+   tree, at most TRAX_SCENE_MAX_DEPTH. */
 static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_box *box) {
   const struct scene_tree_node *node = &layout->tree->nodes[index];
   if (node->triangle_count) {

@@ -6,11 +6,14 @@
 #include <string.h>
 
 #define FORMAT(NAME, STRUCT, WIDTH, PLANE_BYTES, FIRST_BOX, RESERVED)                                                  \
-  {                                                                                                                    \
-    .name = (NAME), .bytes = sizeof(struct STRUCT), .width = (WIDTH), .first_child = offsetof(struct STRUCT, child),   \
-    .quantised = (PLANE_BYTES) != sizeof(float), .reserved_bytes = (RESERVED), .first_box = (FIRST_BOX),               \
-    .plane_bytes = (PLANE_BYTES)                                                                                       \
-  }
+  {.name = (NAME),                                                                                                     \
+   .bytes = sizeof(struct STRUCT),                                                                                     \
+   .width = (WIDTH),                                                                                                   \
+   .first_child = offsetof(struct STRUCT, child),                                                                      \
+   .quantised = (PLANE_BYTES) != sizeof(float),                                                                        \
+   .reserved_bytes = (RESERVED),                                                                                       \
+   .first_box = (FIRST_BOX),                                                                                           \
+   .plane_bytes = (PLANE_BYTES)}
 
 const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS] = {
     [TRAX_NODES_BINARY] = FORMAT("binary", trax_bvh_node, 2, 4, 0, 8),
@@ -59,8 +62,7 @@ static struct scene_box box_in_cells(const struct trax_scene_grid *grid, const s
 struct scene_box scene_box_as_stored(enum trax_node_layout layout, const struct trax_scene_grid *grid,
                                      const struct scene_box *box) {
   const struct trax_node_format *format = &trax_node_formats[layout];
-  return !format->quantised ? *box
-                            : box_in_cells(grid, box, format->plane_bytes == 1 ? (double)TRAX_FINEST_CELL : 1);
+  return !format->quantised ? *box : box_in_cells(grid, box, format->plane_bytes == 1 ? (double)TRAX_FINEST_CELL : 1);
 }
 
 /* A view may show a small part of the scene, so every part counts that holds more than a sixteenth of the leaves: lines

@@ -33,6 +33,7 @@ static const char usage[] =
     "      --allow-empty            write a scene without triangles if the mesh has none\n"
     "      --nodes KIND             binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an "
     "axis;\n"
+    "                               quantised8: four, of 256 planes an axis around each node;\n"
     "                               auto (default): quantised, if the grid is fine enough for each large part of the "
     "tree\n"
     "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"

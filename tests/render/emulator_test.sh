@@ -224,6 +224,10 @@ grep -q 'no specialised program' .err || fail "a report without a compiler: $(ca
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
 [ -s .err ] && fail "--no-specialise has a note: $(cat .err)"
 "$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"
+"$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise --nodes quantised8 -o y.png >.out 2>.err && fail "--nodes quantised8 --no-specialise"
+grep -q 'the general program has no quantised8 nodes: it takes binary and quantised ones' .err || fail "no reason: $(cat .err)"
+"$bin/trax-render" "$source/box.obj" $view --size 64x36 --nodes quantised8 -o x.png >.out 2>.err || fail "--nodes quantised8: $(cat .err)"
+"$bin/trax-compare" -q x.png box.png || fail "--nodes quantised8: another picture"
 
 # What --keep writes runs by itself to the same picture.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept

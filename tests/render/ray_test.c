@@ -193,8 +193,8 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
       to[c] = values[c] + weight1 * (values[3 + c] - values[c]) + weight2 * (values[6 + c] - values[c]);
     }
     struct ray ray;
-    prepare_ray(&ray, TRAX_NODES_BINARY, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], 0,
-                NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2],
+                0, NULL);
     if (!hit_triangle(&ray.triangle, (const char *)&triangle, false, &hit))
       continue;
     struct surface surface;
@@ -205,7 +205,8 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};
     if (dot(way, surface.normal) < 0)
       way.x = -way.x, way.y = -way.y, way.z = -way.z;
-    prepare_ray(&ray, TRAX_NODES_BINARY, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0, NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0,
+                NULL);
     struct hit self = {0x7F000000, 0, 0, 0};
     assert_false(hit_triangle(&ray.triangle, (const char *)&triangle, true, &self));
     tested++;

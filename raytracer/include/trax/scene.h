@@ -158,11 +158,11 @@ struct trax_scene {
 
 /* What there is to know of a layout without its nodes. */
 struct trax_node_format {
-  const char *name;     /* as trax-scene --nodes has it */
-  uint32_t bytes;       /* of a node */
-  uint32_t width;       /* children, at most */
-  uint32_t first_child; /* where in the node the references are, one behind the other; 0: none, behind the last */
-  bool quantised;       /* boxes are in cells of the scene's grid */
+  const char *name;        /* as trax-scene --nodes has it */
+  uint32_t bytes;          /* of a node */
+  uint32_t width;          /* children, at most */
+  uint32_t first_child;    /* where in the node the references are, one behind the other; 0: none, behind the last */
+  bool quantised;          /* boxes are in cells of the scene's grid */
   uint32_t reserved_bytes; /* at its end; zero */
   uint32_t first_box;      /* where the boxes are; a frame is before them */
   uint32_t plane_bytes;    /* 4: binary32; 2: a number on the scene's grid; 1: in the node's frame */

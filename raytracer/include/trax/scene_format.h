@@ -36,8 +36,8 @@ typedef uint32_t trax_scene_ref;
 
 /* What the records of the section of nodes are. */
 enum trax_node_layout {
-  TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
-  TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
+  TRAX_NODES_BINARY = 0,     /* struct trax_bvh_node: two boxes in binary32 */
+  TRAX_NODES_QUANTISED = 1,  /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
   TRAX_NODES_QUANTISED8 = 2, /* struct trax_quantised8_node: two boxes on a grid of the node's own */
   TRAX_NODE_LAYOUTS = 3
 };
@@ -109,8 +109,8 @@ struct trax_quantised_node {
    traversal takes the word as a float as it is, and one shift makes of it what is to be added to another float's
    exponent.
 
-   A box is the least in the frame that contains what is below it: of a leaf its triangles, in cells, rounded outwards to
-   multiples of TRAX_FINEST_CELL; of a node both of its boxes. Along each axis the frame is the one of least e, from
+   A box is the least in the frame that contains what is below it: of a leaf its triangles, in cells, rounded outwards
+   to multiples of TRAX_FINEST_CELL; of a node both of its boxes. Along each axis the frame is the one of least e, from
    TRAX_FRAME_LEAST on, and of these of greatest p, that has room for all boxes. Aligned to 32 bytes. */
 struct trax_quantised8_node {
   uint32_t frame[3];
