@@ -21,6 +21,9 @@ struct stack_entry {
 };
 
 #define STACK_IS_SHORT (TRAX_STACK_ENTRIES < TRAX_TREE_DEPTH)
+#if defined TRAX_NODE_LAYOUT
+_Static_assert(!NODES_ARE_WIDE(TRAX_NODE_LAYOUT) || !STACK_IS_SHORT, "the trail is of binary nodes");
+#endif
 
 /* Of a stack that is not short nothing of it is left. A word has 31 levels, the highest first; where the tree is
    deeper, the upper levels wait in other words while the lower ones are in these. */
@@ -89,6 +92,19 @@ static inline __attribute__((always_inline)) void stack_push(struct stack_entry 
   *(*top)++ = (struct stack_entry){reference, enter};
   if (STACK_IS_SHORT && *top == stack + TRAX_STACK_ENTRIES)
     *top = stack;
+}
+
+/* Among those above `bottom`, of which the last is entered first; of equals the first put there is the last. */
+static inline __attribute__((always_inline)) void stack_insert(const struct stack_entry *bottom,
+                                                               struct stack_entry **top, trax_scene_ref reference,
+                                                               int32_t enter) {
+  struct stack_entry *at = (*top)++;
+  KEEP_ROLLED
+  while (at != bottom && at[-1].enter <= enter) {
+    at[0] = at[-1];
+    at--;
+  }
+  *at = (struct stack_entry){reference, enter};
 }
 
 /* The entry that is then above the top. */

@@ -108,6 +108,38 @@ neither:
   return false;
 }
 
+/* Puts the children of a wide node that the ray enters on the stack, the nearest last. */
+#define VISIT_CHILD(NUMBER)                                                                                            \
+  do {                                                                                                                 \
+    int32_t enter;                                                                                                     \
+    ENTER_BOX(first_box + (NUMBER) * 6 * plane, enter, missed##NUMBER);                                                \
+    trax_scene_ref reference = load_word(node + children + (NUMBER) * 4);                                              \
+    if ((NUMBER) >= 2 && reference == 0)                                                                               \
+      return;                                                                                                          \
+    stack_insert(bottom, top, reference, enter);                                                                       \
+  } while (0)
+
+static inline __attribute__((always_inline)) void visit_wide_node(uint32_t layout, const char *node,
+                                                                  const struct ray *ray, int32_t limit,
+                                                                  struct stack_entry **top) {
+  const int plane = NODE_PLANE_BYTES(layout), first_box = FIRST_BOX(layout), children = first_box + 24 * plane;
+  struct box_ray way = ray->box;
+  const struct stack_entry *bottom = *top;
+  if (NODES_HAVE_FRAMES(layout)) {
+    ENTER_FRAME(x, 0);
+    ENTER_FRAME(y, 1);
+    ENTER_FRAME(z, 2);
+  }
+  VISIT_CHILD(0);
+missed0:
+  VISIT_CHILD(1);
+missed1:
+  VISIT_CHILD(2);
+missed2:
+  VISIT_CHILD(3);
+missed3:;
+}
+
 /* From the root to the child that the trail leads to, whose entry the stack has lost. It may be behind the nearest hit,
    which a visit finds out: to test its box here takes more than it saves. */
 static inline trax_scene_ref find_again(uint32_t layout, const char *scene, trax_scene_ref root,
@@ -131,7 +163,8 @@ static inline trax_scene_ref find_again(uint32_t layout, const char *scene, trax
    tell the register allocator what matters: rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene, trax_scene_ref root,
                                                             const struct ray *ray, bool any, struct hit *hit) {
-  struct stack_entry stack[TRAX_STACK_ENTRIES], *top = stack, entry;
+  /* Of wide nodes the child that is visited next is on it, too. */
+  struct stack_entry stack[TRAX_STACK_ENTRIES + (NODES_ARE_WIDE(layout) ? 1 : 0)], *top = stack, entry;
   struct trail trail;
   trax_scene_ref reference = root;
 #define LIMIT() (NODES_ON_GRID(layout) ? distance_on_grid(layout, hit->distance_bits) : hit->distance_bits)
@@ -150,6 +183,15 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
         trail_make_room(&trail);
       /* The layout's own code, where it is known at run time only. */
 #define VISIT(LAYOUT) visit_node(LAYOUT, node, ray, limit, &reference, stack, &top, &trail)
+      if (NODES_ARE_WIDE(layout)) {
+        if (layout == TRAX_NODES_WIDE)
+          visit_wide_node(TRAX_NODES_WIDE, node, ray, limit, &top);
+        else if (layout == TRAX_NODES_WIDE_QUANTISED)
+          visit_wide_node(TRAX_NODES_WIDE_QUANTISED, node, ray, limit, &top);
+        else
+          visit_wide_node(TRAX_NODES_WIDE_QUANTISED8, node, ray, limit, &top);
+        goto back;
+      }
       if (!(NODES_HAVE_FRAMES(layout) ? VISIT(TRAX_NODES_QUANTISED8)
             : NODES_ON_GRID(layout)   ? VISIT(TRAX_NODES_QUANTISED)
                                       : VISIT(TRAX_NODES_BINARY)))

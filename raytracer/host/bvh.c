@@ -203,6 +203,7 @@ static struct scene_tree_node *add_node(struct scene_tree *tree, unsigned depth,
     if (triangle_count > tree->max_leaf)
       tree->max_leaf = triangle_count;
   } else {
+    memset(node->child, 0, sizeof node->child);
     tree->inner_count++;
     if (depth + 1 > tree->max_depth)
       tree->max_depth = depth + 1;

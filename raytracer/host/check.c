@@ -275,19 +275,19 @@ static trax_status wrong_box(const struct checker *checker, uint32_t place) {
 
 /* The frame must be the one for these boxes; of a leaf's part nobody knows what it was. */
 static trax_status check_frame(const struct checker *checker, uint32_t number, const struct scene_box boxes[],
-                               const trax_scene_ref children[]) {
+                               const trax_scene_ref children[], uint32_t count) {
   const struct trax_node_format *format = &trax_node_formats[checker->view.header->node_layout];
   unsigned char same[TRAX_SCENE_ALIGNMENT] = {0};
   struct scene_box box;
   if (format->plane_bytes != 1)
     return TRAX_OK;
-  scene_node_write(same, checker->view.header->node_layout, boxes, children, &box);
+  scene_node_write(same, checker->view.header->node_layout, boxes, children, count, &box);
   if (memcmp(same, (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes, format->bytes) != 0)
     return scene_fail(checker->error, "%s: node %u: its frame is not that of its boxes", checker->name, number);
   return TRAX_OK;
 }
 
-/* The subtree below ref, with depth inner nodes above it; *box becomes the one that must be stored for it: of a leaf,
+/* The subtree below ref, with `depth` entries on the stack; *box becomes the one that must be stored for it: of a leaf,
    at most. The recursion ends because a node is entered once and depth is limited. */
 static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
   if (TRAX_SCENE_REF_COUNT(ref)) {
@@ -306,10 +306,8 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     return scene_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
   checker->node_seen[number] = 1;
   checker->nodes_left--;
-  if (++depth > TRAX_SCENE_MAX_DEPTH)
+  if (depth + 1 > TRAX_SCENE_MAX_DEPTH)
     return scene_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
-  if (depth > checker->max_depth)
-    checker->max_depth = depth;
   if (format->reserved_bytes) {
     static const unsigned char zeros[TRAX_SCENE_ALIGNMENT];
     const unsigned char *reserved = (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes +
@@ -322,9 +320,14 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
   struct scene_box boxes[TRAX_MAX_WIDTH], below[TRAX_MAX_WIDTH];
   trax_scene_ref children[TRAX_MAX_WIDTH];
   bool whole = true;
-  scene_node_boxes(boxes, children, &checker->view, number);
+  const uint32_t count = scene_node_boxes(boxes, children, &checker->view, number);
+  if (count < 2)
+    return scene_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
+  depth += count - 1;
+  if (depth > checker->max_depth)
+    checker->max_depth = depth;
   checker->ranges[number].first = checker->next_triangle;
-  for (uint32_t i = 0; i < format->width; i++) {
+  for (uint32_t i = 0; i < count; i++) {
     below[i] = scene_empty_box();
     trax_status result = check_subtree(checker, children[i], depth, &below[i]);
     if (result != TRAX_OK)
@@ -338,9 +341,14 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
       whole = false;
     }
   }
-  *box = scene_box_around(checker->view.header->node_layout, boxes, format->width);
+  *box = scene_box_around(checker->view.header->node_layout, boxes, count);
+  struct scene_box none = scene_box_inside_out(box);
+  none = scene_box_in_frame(&checker->view, number, &none);
+  for (uint32_t i = count; i < format->width; i++)
+    if (children[i] || !same_box(&boxes[i], &none))
+      return scene_fail(checker->error, "%s: node %u: child %u is none, and one", checker->name, number, i);
   checker->ranges[number].end = checker->next_triangle;
-  return whole ? check_frame(checker, number, below, children) : TRAX_OK;
+  return whole ? check_frame(checker, number, below, children, count) : TRAX_OK;
 }
 
 /* With room for what is noted of each node and triangle. */

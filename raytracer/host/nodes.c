@@ -18,6 +18,9 @@
 const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS] = {
     [TRAX_NODES_BINARY] = FORMAT("binary", trax_bvh_node, 2, 4, 0, 8),
     [TRAX_NODES_QUANTISED] = FORMAT("quantised", trax_quantised_node, 2, 2, 0, 0),
+    [TRAX_NODES_WIDE] = FORMAT("wide", trax_wide_node, 4, 4, 0, 16),
+    [TRAX_NODES_WIDE_QUANTISED] = FORMAT("wide-quantised", trax_wide_quantised_node, 4, 2, 0, 0),
+    [TRAX_NODES_WIDE_QUANTISED8] = FORMAT("wide-quantised8", trax_wide_quantised8_node, 4, 1, 12, 12),
     [TRAX_NODES_QUANTISED8] = FORMAT("quantised8", trax_quantised8_node, 2, 1, 12, 0),
 };
 
@@ -83,7 +86,7 @@ static bool count_visits(struct visits *visits, struct scene_box *box, const str
   *visits = (struct visits){.leaves = node->triangle_count > 0};
   *box = node->triangle_count ? node->box : scene_empty_box();
   bool suits = true;
-  for (int i = 0; i < 2 && node->triangle_count == 0 && suits; i++) {
+  for (int i = 0; i < 2 && node->triangle_count == 0 && suits; i++) { /* it is not widened yet */
     struct visits below;
     struct scene_box part;
     suits = count_visits(&below, &part, tree, grid, least_leaves, node->child[i]);
@@ -213,49 +216,67 @@ struct scene_box scene_box_around(enum trax_node_layout layout, const struct sce
   return box;
 }
 
-void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[],
-                      const trax_scene_ref children[], struct scene_box *box) {
-  const struct trax_node_format *format = &trax_node_formats[layout];
-  struct axis_frame frames[3];
-  if (format->plane_bytes == 1) {
-    const struct scene_box all = scene_box_around(layout, boxes, format->width);
-    for (int axis = 0; axis < 3; axis++) {
-      const uint32_t word = frame_around(all.min[axis], all.max[axis]);
-      memcpy((unsigned char *)node + sizeof word * (size_t)axis, &word, sizeof word);
-    }
-  }
-  read_frames(frames, format, node);
-  unsigned char *plane = (unsigned char *)node + format->first_box;
-  for (uint32_t i = 0; i < format->width; i++)
-    for (int side = 0; side < 2; side++)
-      for (int axis = 0; axis < 3; axis++, plane += format->plane_bytes) {
-        const struct axis_frame *frame = &frames[axis];
-        float number = side ? boxes[i].max[axis] : boxes[i].min[axis];
-        if (format->plane_bytes == 1) {
-          number = (number - frame->first) / frame->step;
-          number = side ? ceilf(number) : floorf(number);
-        }
-        write_plane(plane, format->plane_bytes, number);
-      }
-  memcpy((unsigned char *)node + format->first_child, children, format->width * sizeof *children);
-  struct scene_box stored[TRAX_MAX_WIDTH];
-  trax_scene_ref same[TRAX_MAX_WIDTH];
-  read_node(stored, same, format, node);
-  *box = scene_box_around(layout, stored, format->width);
+struct scene_box scene_box_inside_out(const struct scene_box *box) {
+  struct scene_box result;
+  memcpy(result.min, box->max, sizeof result.min);
+  memcpy(result.max, box->min, sizeof result.max);
+  return result;
 }
 
-void scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,
-                      uint32_t number) {
+static void write_box(unsigned char *plane, const struct trax_node_format *format, const struct axis_frame frames[3],
+                      const struct scene_box *box) {
+  for (int side = 0; side < 2; side++)
+    for (int axis = 0; axis < 3; axis++, plane += format->plane_bytes) {
+      float number = side ? box->max[axis] : box->min[axis];
+      if (format->plane_bytes == 1) {
+        number = (number - frames[axis].first) / frames[axis].step;
+        number = side ? ceilf(number) : floorf(number);
+      }
+      write_plane(plane, format->plane_bytes, number);
+    }
+}
+
+void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[],
+                      const trax_scene_ref children[], uint32_t count, struct scene_box *box) {
+  const struct trax_node_format *format = &trax_node_formats[layout];
+  unsigned char *bytes = node;
+  const uint32_t box_bytes = 6 * format->plane_bytes;
+  struct axis_frame frames[3];
+  if (format->plane_bytes == 1) {
+    const struct scene_box all = scene_box_around(layout, boxes, count);
+    for (int axis = 0; axis < 3; axis++) {
+      const uint32_t word = frame_around(all.min[axis], all.max[axis]);
+      memcpy(bytes + sizeof word * (size_t)axis, &word, sizeof word);
+    }
+  }
+  memcpy(bytes + format->first_child, children, count * sizeof *children);
+  read_frames(frames, format, bytes);
+  for (uint32_t i = 0; i < count; i++)
+    write_box(bytes + format->first_box + i * box_bytes, format, frames, &boxes[i]);
+  struct scene_box stored[TRAX_MAX_WIDTH];
+  trax_scene_ref same[TRAX_MAX_WIDTH];
+  read_node(stored, same, format, bytes);
+  *box = scene_box_around(layout, stored, count);
+  const struct scene_box none = scene_box_inside_out(box);
+  for (uint32_t i = count; i < format->width; i++)
+    write_box(bytes + format->first_box + i * box_bytes, format, frames, &none);
+}
+
+uint32_t scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,
+                          uint32_t number) {
   const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
   read_node(boxes, children, format, (const unsigned char *)scene->nodes + (size_t)number * format->bytes);
+  uint32_t count = 0;
+  while (count < format->width && children[count])
+    count++;
+  return count;
 }
 
 void trax_node_read(struct trax_node_children *children, const struct trax_scene *scene, uint32_t number) {
   const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
   struct scene_box boxes[TRAX_MAX_WIDTH] = {{{0}, {0}}};
-  scene_node_boxes(boxes, children->child, scene, number);
-  children->count = 0;
-  for (uint32_t i = 0; i < format->width && children->child[i]; i++, children->count++)
+  children->count = scene_node_boxes(boxes, children->child, scene, number);
+  for (uint32_t i = 0; i < children->count; i++)
     for (int axis = 0; axis < 3; axis++) {
       const double origin = format->quantised ? scene->grid.origin[axis] : 0;
       const double cell = format->quantised ? scene->grid.cell[axis] : 1;

@@ -32,7 +32,7 @@ static void measure_areas(double *areas, struct scene_box *boxes, const struct s
   for (uint32_t i = tree->node_count; i-- > 0;) { /* children stand behind their parents */
     const struct scene_tree_node *node = &tree->nodes[i];
     boxes[i] = node->triangle_count ? node->box : scene_empty_box();
-    for (int c = 0; c < 2 && !node->triangle_count; c++)
+    for (int c = 0; c < TRAX_MAX_WIDTH && !node->triangle_count && node->child[c]; c++)
       scene_box_add_box(&boxes[i], &boxes[node->child[c]]);
     areas[i] = scene_half_area(boxes[i].min, boxes[i].max);
   }
@@ -45,7 +45,7 @@ static uint32_t largest_below(const struct scene_order *order, const struct scen
                               uint32_t root) {
   uint32_t largest = 0;
   for (uint32_t node = root;; node = order->next[node]) {
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < TRAX_MAX_WIDTH && tree->nodes[node].child[c]; c++) {
       uint32_t child = tree->nodes[node].child[c];
       if (is_inner(tree, child) && order->group[child] != root && (!largest || areas[child] > areas[largest]))
         largest = child;
@@ -90,7 +90,7 @@ static uint32_t groups_below(uint32_t below[], const struct placing *placing, ui
   const struct scene_order *order = placing->order;
   uint32_t count = 0;
   for (uint32_t node = root;; node = order->next[node]) {
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < TRAX_MAX_WIDTH && placing->tree->nodes[node].child[c]; c++) {
       uint32_t child = placing->tree->nodes[node].child[c];
       if (is_inner(placing->tree, child) && order->group[child] != root && !placing->done[order->group[child]])
         below[count++] = order->group[child];
@@ -100,7 +100,7 @@ static uint32_t groups_below(uint32_t below[], const struct placing *placing, ui
   }
 }
 
-enum { MOST_IN_GROUP = 2, MOST_BELOW = MOST_IN_GROUP + 1 };
+enum { MOST_BELOW = TRAX_MAX_WIDTH }; /* of wide nodes one is a group; of two binary ones there are three */
 
 /* The treelet below root and, recursively, those below it; each level of recursion is at least one of the tree.
    frontier has room for (MOST_BELOW - 1) * treelet + 1 groups for every level. */
@@ -211,10 +211,11 @@ static void assign_positions(const struct placing *placing, uint32_t group_size)
 trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree *tree, enum trax_node_layout layout,
                               uint32_t cache_lines, trax_error *error) {
   const size_t count = tree->node_count;
-  const uint32_t group_size = LINE_BYTES / trax_node_formats[layout].bytes;
+  const uint32_t bytes = trax_node_formats[layout].bytes, group_size = bytes < LINE_BYTES ? LINE_BYTES / bytes : 1;
   *order = (struct scene_order){malloc((count + 1) * sizeof(uint32_t)), malloc((count + 1) * sizeof(uint32_t)),
                                 malloc((count + 1) * sizeof(uint32_t))};
   const bool depth_first = cache_lines < 8 || tree->inner_count == 0;
+  cache_lines = cache_lines * LINE_BYTES / (group_size * bytes); /* from here on, what a group takes */
   struct placing placing = {.tree = tree, .order = order, .treelet = cache_lines / 2};
   const size_t frontier_size = (MOST_BELOW - 1) * (size_t)placing.treelet + 1;
   placing.areas = malloc((count + 1) * sizeof *placing.areas);

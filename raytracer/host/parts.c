@@ -100,11 +100,11 @@ static void list_children(struct subtree below[TRAX_MAX_WIDTH], const struct sce
   const struct trax_scene_section *section = &parts->scene->header->sections[TRAX_SCENE_NODES];
   struct scene_box boxes[TRAX_MAX_WIDTH];
   trax_scene_ref children[TRAX_MAX_WIDTH];
-  const uint32_t width = trax_node_formats[parts->scene->header->node_layout].width;
-  scene_node_boxes(boxes, children, parts->scene, (parent->ref - section->offset) / section->record_size);
-  for (uint32_t i = width; i-- > 0;) {
+  const uint32_t count =
+      scene_node_boxes(boxes, children, parts->scene, (parent->ref - section->offset) / section->record_size);
+  for (uint32_t i = count; i-- > 0;) {
     below[i] =
-        (struct subtree){.ref = children[i], .box = boxes[i], .next = i + 1 < width ? &below[i + 1] : parent->next};
+        (struct subtree){.ref = children[i], .box = boxes[i], .next = i + 1 < count ? &below[i + 1] : parent->next};
     set_range(&below[i], parts);
   }
 }

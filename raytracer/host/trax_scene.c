@@ -369,7 +369,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     case nodes:
       good = trax_node_layout_choose(optarg, &arguments->build);
       if (!good)
-        complain("--nodes: '%s' is none of auto, binary, quantised and quantised8", optarg);
+        complain("--nodes: '%s' is none of auto, binary, quantised, quantised8, wide, wide-quantised and wide-quantised8", optarg);
       break;
     case splits:
       good = trax_splits_choose(optarg, &arguments->build);

@@ -31,12 +31,10 @@ static void scale_scene(struct trax_scene *scene, int exponent) {
   scale_floats(header->bounds_max, 3, exponent);
   scale_floats(scene->grid.origin, 3, exponent);
   scale_floats(scene->grid.cell, 3, exponent);
-  struct trax_bvh_node *nodes = (struct trax_bvh_node *)scene->nodes;
-  for (uint32_t i = 0; i < scene->node_count && header->node_layout == TRAX_NODES_BINARY; i++)
-    for (int child = 0; child < 2; child++) {
-      scale_floats(nodes[i].box[child].min, 3, exponent);
-      scale_floats(nodes[i].box[child].max, 3, exponent);
-    }
+  const struct trax_node_format *format = &trax_node_formats[header->node_layout];
+  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++)
+    scale_floats((float *)scene->nodes + ((size_t)i * format->bytes + format->first_box) / sizeof(float), 6 * format->width,
+                 exponent);
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
   for (uint32_t i = 0; i < scene->triangle_count; i++) {
     scale_floats(triangles[i].v0, 3, exponent);
@@ -108,7 +106,7 @@ static float box_margin(const struct trax_scene_header *header, const float eye[
    scene is normalised, unless the eye is very far away from a very small one. */
 static trax_status set_grid(struct trax_render_params *params, const struct trax_scene *scene, trax_error *error) {
   params->node_layout = scene->header->node_layout;
-  if (params->node_layout == TRAX_NODES_BINARY || scene->triangle_count == 0)
+  if (!trax_node_formats[params->node_layout].quantised || scene->triangle_count == 0)
     return TRAX_OK;
   for (int axis = 0; axis < 3; axis++) {
     if (!(scene->grid.cell[axis] >= 0x1p-44f && scene->grid.cell[axis] <= 0x1p6f))

@@ -64,6 +64,9 @@ trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene
   const trax_image *image = trax_host_of(machine)->image;
   trax_status status = TRAX_OK;
   if (trax_image_symbol(image, "plain_nodes")) {
+    const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
+    if (format->width > 2)
+      return trax_fail(error, "the program takes nodes of two children, not %s ones", format->name);
     if (scene->header->max_depth > TRAX_PLAIN_MAX_DEPTH)
       return trax_fail(error,
                        "the program takes scenes of %d nodes from the root to a leaf, not %u (trax-scene --depth)",

@@ -67,9 +67,10 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   if (!out)
     return NULL;
   const uint32_t depth = frame->scene->header->max_depth ? frame->scene->header->max_depth : 1;
-  const uint32_t entries = frame->method.stack                ? frame->method.stack
-                           : depth > TRAX_SCENE_DEFAULT_DEPTH ? TRAX_SHORT_STACK
-                                                              : depth;
+  const bool wide = trax_node_formats[frame->params->node_layout].width > 2; /* there is no short stack for them */
+  const uint32_t entries = frame->method.stack                         ? frame->method.stack
+                           : depth > TRAX_SCENE_DEFAULT_DEPTH && !wide ? TRAX_SHORT_STACK
+                                                                       : depth;
   fprintf(out,
           "/* One picture's constants; device/run.h says what they are. */\n"
           "#include \"trax/render_params.h\"\n\n"
@@ -374,6 +375,9 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   trax_error reason;
   const char *chosen[MOST_FLAGS];
   const size_t chosen_count = chosen_flags(chosen, &frame->method, options->record);
+  const struct trax_node_format *format = &trax_node_formats[frame->params->node_layout];
+  if (format->width > 2 && frame->method.stack)
+    return trax_fail(error, "--stack: a traversal of %s nodes has a whole stack", format->name);
   note[0] = '\0';
   if (options->cache && snprintf(cache, sizeof cache, "%s", options->cache) >= (int)sizeof cache)
     return trax_fail(error, "--cache: the path is too long");

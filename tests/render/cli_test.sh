@@ -58,7 +58,7 @@ refuse '--seed is for --paths' "$render" "$box" -o x.png --seed 3
 refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
-refuse '--nodes octal: expected auto, binary, quantised or quantised8' "$render" "$box" -o x.png --nodes octal
+refuse '--nodes octal: expected auto, binary, quantised, quantised8, wide, wide-quantised or wide-quantised8' "$render" "$box" -o x.png --nodes octal
 refuse '--texture-size 3: expected a power of two' "$render" "$box" -o x.png --texture-size 3
 refuse '--normals round: expected file' "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
@@ -150,7 +150,7 @@ refuse '--nodes, --splits and --normals smooth are for meshes' "$render" box.tra
 
 # The picture does not depend on how the tree is stored; the file does.
 refuse '--splits=0.5: expected auto or a number from 1 to 8' "$render" "$box" -o x.png --splits=0.5
-for nodes in binary quantised quantised8 auto; do
+for nodes in binary quantised quantised8 wide wide-quantised wide-quantised8 auto; do
   accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
   accept "$bin/trax-scene" "$box" -o "split-$nodes.trax" --nodes "$nodes" --splits=4
   for input in "$nodes.trax" "$box --nodes $nodes" "split-$nodes.trax" "$box --nodes $nodes --splits"; do

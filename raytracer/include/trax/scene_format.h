@@ -39,7 +39,11 @@ enum trax_node_layout {
   TRAX_NODES_BINARY = 0,     /* struct trax_bvh_node: two boxes in binary32 */
   TRAX_NODES_QUANTISED = 1,  /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
   TRAX_NODES_QUANTISED8 = 2, /* struct trax_quantised8_node: two boxes on a grid of the node's own */
-  TRAX_NODE_LAYOUTS = 3
+  /* The same of up to four boxes. */
+  TRAX_NODES_WIDE = 3,            /* struct trax_wide_node: two lines */
+  TRAX_NODES_WIDE_QUANTISED = 4,  /* struct trax_wide_quantised_node: a line */
+  TRAX_NODES_WIDE_QUANTISED8 = 5, /* struct trax_wide_quantised8_node: a line */
+  TRAX_NODE_LAYOUTS = 6
 };
 
 /* The grid of quantised nodes: along each axis 2^16 planes at equal distances, of which the first is at bounds_min and
@@ -73,8 +77,9 @@ struct trax_scene_header {
   uint32_t file_size;      /* bytes, header included, a multiple of 64 */
   uint32_t checksum;       /* CRC-32 (ISO 3309, as in zlib) of the whole file with this field zero */
   trax_scene_ref root;     /* an inner node; a leaf if that holds all triangles; 0 if there are none */
-  uint32_t max_depth;      /* most inner nodes on a path from the root; a traversal that pushes one child per inner
-                              node never has more entries on its stack, and may have room for fewer */
+  uint32_t max_depth;      /* of all paths from the root the greatest sum of the inner nodes' children but one each: of
+                              binary nodes how many are on it. A traversal that pushes the other children never has
+                              more entries on its stack, and may have room for fewer */
   uint32_t max_leaf;       /* most triangles in one leaf */
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
   float bounds_min[3];     /* of all triangles; zeros if there are none */
@@ -118,6 +123,35 @@ struct trax_quantised8_node {
     uint8_t min[3], max[3];
   } box[2];
   trax_scene_ref child[2]; /* never 0 */
+};
+
+/* Wide nodes: two pairs of children, one behind the other as two binary nodes are, so that a traversal goes through one
+   pair and then, by the same instructions, through the other. Children that are not there have the reference 0 and
+   stand behind the others, which are two at least; the box of such a one is that around the others' turned inside out,
+   its least planes the greatest and the reverse, so that hardly a ray enters it. */
+struct trax_wide_node {
+  struct {
+    struct {
+      float min[3], max[3];
+    } box[2];
+    trax_scene_ref child[2];
+  } pair[2];
+  uint32_t reserved[4]; /* zero */
+};
+
+struct trax_wide_quantised_node {
+  struct trax_quantised_node pair[2];
+};
+
+struct trax_wide_quantised8_node {
+  uint32_t frame[3];
+  struct {
+    struct {
+      uint8_t min[3], max[3];
+    } box[2];
+    trax_scene_ref child[2];
+  } pair[2];
+  uint32_t reserved[3]; /* zero */
 };
 
 #define TRAX_FRAME_BIAS 65540.0f /* p is -4 at least, in steps of 4 */
@@ -192,6 +226,9 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
 TRAX_SCENE_ASSERT_SIZE(struct trax_quantised8_node, 32);
+TRAX_SCENE_ASSERT_SIZE(struct trax_wide_node, 128);
+TRAX_SCENE_ASSERT_SIZE(struct trax_wide_quantised_node, 64);
+TRAX_SCENE_ASSERT_SIZE(struct trax_wide_quantised8_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));
