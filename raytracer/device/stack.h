@@ -20,9 +20,8 @@ struct stack_entry {
   int32_t enter; /* where the ray enters its box */
 };
 
-#define STACK_IS_SHORT (TRAX_STACK_ENTRIES < TRAX_TREE_DEPTH)
-#if defined TRAX_NODE_LAYOUT
-_Static_assert(!NODES_ARE_WIDE(TRAX_NODE_LAYOUT) || !STACK_IS_SHORT, "the trail is of binary nodes");
+#ifdef TRAX_NODE_LAYOUT
+_Static_assert(PROGRAM_HAS_LAYOUT(TRAX_NODE_LAYOUT), "the trail is of binary nodes");
 #endif
 
 /* Of a stack that is not short nothing of it is left. A word has 31 levels, the highest first; where the tree is
@@ -95,14 +94,15 @@ static inline __attribute__((always_inline)) void stack_push(struct stack_entry 
 }
 
 /* Among those above `bottom`, of which the last is entered first; of equals the first put there is the last. */
-static inline __attribute__((always_inline)) void stack_insert(const struct stack_entry *bottom,
-                                                               struct stack_entry **top, trax_scene_ref reference,
-                                                               int32_t enter) {
+static inline __attribute__((always_inline)) void
+stack_insert(const struct stack_entry *bottom, struct stack_entry **top, trax_scene_ref reference, int32_t enter) {
   struct stack_entry *at = (*top)++;
   KEEP_ROLLED
-  while (at != bottom && at[-1].enter <= enter) {
-    at[0] = at[-1];
-    at--;
+  for (; at != bottom; at--) {
+    int32_t below = at[-1].enter;
+    if (below > enter)
+      break;
+    *at = (struct stack_entry){at[-1].reference, below};
   }
   *at = (struct stack_entry){reference, enter};
 }

@@ -109,35 +109,37 @@ neither:
 }
 
 /* Puts the children of a wide node that the ray enters on the stack, the nearest last. */
-#define VISIT_CHILD(NUMBER)                                                                                            \
-  do {                                                                                                                 \
-    int32_t enter;                                                                                                     \
-    ENTER_BOX(first_box + (NUMBER) * 6 * plane, enter, missed##NUMBER);                                                \
-    trax_scene_ref reference = load_word(node + children + (NUMBER) * 4);                                              \
-    if ((NUMBER) >= 2 && reference == 0)                                                                               \
-      return;                                                                                                          \
-    stack_insert(bottom, top, reference, enter);                                                                       \
-  } while (0)
-
-static inline __attribute__((always_inline)) void visit_wide_node(uint32_t layout, const char *node,
-                                                                  const struct ray *ray, int32_t limit,
-                                                                  struct stack_entry **top) {
-  const int plane = NODE_PLANE_BYTES(layout), first_box = FIRST_BOX(layout), children = first_box + 24 * plane;
-  struct box_ray way = ray->box;
+static inline __attribute__((always_inline)) void
+visit_wide_node(uint32_t layout, const char *whole, const struct ray *ray, int32_t limit, struct stack_entry **top) {
+  const int plane = NODE_PLANE_BYTES(layout), first_box = FIRST_BOX(layout), second_box = first_box + 6 * plane;
+  const int children = second_box + 6 * plane;
   const struct stack_entry *bottom = *top;
+  const char *node = whole;
+  struct box_ray way = ray->box;
   if (NODES_HAVE_FRAMES(layout)) {
     ENTER_FRAME(x, 0);
     ENTER_FRAME(y, 1);
     ENTER_FRAME(z, 2);
   }
-  VISIT_CHILD(0);
-missed0:
-  VISIT_CHILD(1);
-missed1:
-  VISIT_CHILD(2);
-missed2:
-  VISIT_CHILD(3);
-missed3:;
+  KEEP_ROLLED
+  for (;; node += 12 * plane + 8) {
+    int32_t enter0, enter1;
+    trax_scene_ref first, second;
+    ENTER_BOX(first_box, enter0, first_missed);
+    first = load_word(node + children);
+    if (first == 0)
+      return;
+    stack_insert(bottom, top, first, enter0);
+  first_missed:
+    ENTER_BOX(second_box, enter1, second_missed);
+    second = load_word(node + children + 4);
+    if (second == 0)
+      return;
+    stack_insert(bottom, top, second, enter1);
+  second_missed:
+    if (node != whole)
+      return;
+  }
 }
 
 /* From the root to the child that the trail leads to, whose entry the stack has lost. It may be behind the nearest hit,

@@ -258,7 +258,7 @@ struct scene_tree {
     };
   } *nodes; /* depth first, the root first */
   uint32_t node_count, inner_count, max_leaf;
-  uint32_t max_depth; /* as in the file's header */
+  uint32_t max_depth;      /* as in the file's header */
   uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
   struct scene_box bounds; /* of all triangles */
   bool split;              /* triangles at one place are in the order of their numbers in every leaf */

@@ -377,8 +377,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     chosen.nodes = scene_grid_suits(&tree) ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
   options = &chosen;
   if (trax_node_formats[chosen.nodes].width > 2)
-    result =
-        scene_widen_tree(&tree, options->max_depth ? options->max_depth : TRAX_SCENE_DEFAULT_DEPTH, error);
+    result = scene_widen_tree(&tree, options->max_depth ? options->max_depth : TRAX_SCENE_DEFAULT_DEPTH, error);
   struct palette palette = {0};
   struct scene_order order = {0};
   if (!tree.split && result == TRAX_OK)

@@ -9,7 +9,6 @@
   {.name = (NAME),                                                                                                     \
    .bytes = sizeof(struct STRUCT),                                                                                     \
    .width = (WIDTH),                                                                                                   \
-   .first_child = offsetof(struct STRUCT, child),                                                                      \
    .quantised = (PLANE_BYTES) != sizeof(float),                                                                        \
    .reserved_bytes = (RESERVED),                                                                                       \
    .first_box = (FIRST_BOX),                                                                                           \
@@ -196,13 +195,14 @@ static void read_node(struct scene_box boxes[], trax_scene_ref children[], const
                       const unsigned char *node) {
   struct axis_frame frames[3];
   read_frames(frames, format, node);
-  const unsigned char *plane = node + format->first_box;
-  for (uint32_t i = 0; i < format->width; i++)
+  for (uint32_t i = 0; i < format->width; i++) {
+    const unsigned char *plane = node + trax_node_box(format, i);
     for (int side = 0; side < 2; side++)
       for (int axis = 0; axis < 3; axis++, plane += format->plane_bytes)
         (side ? boxes[i].max : boxes[i].min)[axis] =
             frames[axis].first + read_plane(plane, format->plane_bytes) * frames[axis].step;
-  memcpy(children, node + format->first_child, format->width * sizeof *children);
+    memcpy(&children[i], node + trax_node_child(format, i), sizeof *children);
+  }
 }
 
 struct scene_box scene_box_around(enum trax_node_layout layout, const struct scene_box boxes[], uint32_t count) {
@@ -240,7 +240,6 @@ void scene_node_write(void *node, enum trax_node_layout layout, const struct sce
                       const trax_scene_ref children[], uint32_t count, struct scene_box *box) {
   const struct trax_node_format *format = &trax_node_formats[layout];
   unsigned char *bytes = node;
-  const uint32_t box_bytes = 6 * format->plane_bytes;
   struct axis_frame frames[3];
   if (format->plane_bytes == 1) {
     const struct scene_box all = scene_box_around(layout, boxes, count);
@@ -249,17 +248,18 @@ void scene_node_write(void *node, enum trax_node_layout layout, const struct sce
       memcpy(bytes + sizeof word * (size_t)axis, &word, sizeof word);
     }
   }
-  memcpy(bytes + format->first_child, children, count * sizeof *children);
   read_frames(frames, format, bytes);
-  for (uint32_t i = 0; i < count; i++)
-    write_box(bytes + format->first_box + i * box_bytes, format, frames, &boxes[i]);
+  for (uint32_t i = 0; i < count; i++) {
+    write_box(bytes + trax_node_box(format, i), format, frames, &boxes[i]);
+    memcpy(bytes + trax_node_child(format, i), &children[i], sizeof *children);
+  }
   struct scene_box stored[TRAX_MAX_WIDTH];
   trax_scene_ref same[TRAX_MAX_WIDTH];
   read_node(stored, same, format, bytes);
   *box = scene_box_around(layout, stored, count);
   const struct scene_box none = scene_box_inside_out(box);
   for (uint32_t i = count; i < format->width; i++)
-    write_box(bytes + format->first_box + i * box_bytes, format, frames, &none);
+    write_box(bytes + trax_node_box(format, i), format, frames, &none);
 }
 
 uint32_t scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,

@@ -32,9 +32,10 @@ static void scale_scene(struct trax_scene *scene, int exponent) {
   scale_floats(scene->grid.origin, 3, exponent);
   scale_floats(scene->grid.cell, 3, exponent);
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
-  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++)
-    scale_floats((float *)scene->nodes + ((size_t)i * format->bytes + format->first_box) / sizeof(float), 6 * format->width,
-                 exponent);
+  unsigned char *node = (unsigned char *)scene->nodes;
+  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes)
+    for (uint32_t child = 0; child < format->width; child++)
+      scale_floats((float *)(void *)(node + trax_node_box(format, child)), 6, exponent);
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
   for (uint32_t i = 0; i < scene->triangle_count; i++) {
     scale_floats(triangles[i].v0, 3, exponent);

@@ -215,16 +215,25 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
 }
 
 int main(void) {
-  enum trax_node_layout binary = TRAX_NODES_BINARY, quantised = TRAX_NODES_QUANTISED, bytes = TRAX_NODES_QUANTISED8;
+  enum trax_node_layout layouts[TRAX_NODE_LAYOUTS];
+  for (unsigned i = 0; i < TRAX_NODE_LAYOUTS; i++)
+    layouts[i] = (enum trax_node_layout)i;
+#define OF_LAYOUT(TEST, LAYOUT) {#TEST ", " #LAYOUT, TEST, NULL, NULL, &layouts[TRAX_NODES_##LAYOUT]}
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_slots_are_pixels),
       cmocka_unit_test(test_slots_of_large_pictures),
-      {"rays in a closed surface, binary nodes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &binary},
-      {"rays in a closed surface, quantised nodes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &quantised},
-      {"nearest hits, binary nodes", test_nearest_hit, NULL, NULL, &binary},
-      {"nearest hits, quantised nodes", test_nearest_hit, NULL, NULL, &quantised},
-      {"rays in a closed surface, nodes of bytes", test_no_ray_leaves_a_closed_surface, NULL, NULL, &bytes},
-      {"nearest hits, nodes of bytes", test_nearest_hit, NULL, NULL, &bytes},
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, BINARY),
+      OF_LAYOUT(test_nearest_hit, BINARY),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, QUANTISED),
+      OF_LAYOUT(test_nearest_hit, QUANTISED),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, QUANTISED8),
+      OF_LAYOUT(test_nearest_hit, QUANTISED8),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE),
+      OF_LAYOUT(test_nearest_hit, WIDE),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE_QUANTISED),
+      OF_LAYOUT(test_nearest_hit, WIDE_QUANTISED),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE_QUANTISED8),
+      OF_LAYOUT(test_nearest_hit, WIDE_QUANTISED8),
       cmocka_unit_test(test_shadow_rays_start_off_the_surface),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

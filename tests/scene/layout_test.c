@@ -133,7 +133,8 @@ static void test_changed_nodes(void **state) {
     header->node_layout = TRAX_NODES_BINARY;
     seal(scene.bytes, scene.size);
     assert_int_equal(trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error), TRAX_ERROR);
-    assert_contains(error.message, "records of");
+    if (trax_node_formats[layout].bytes != trax_node_formats[TRAX_NODES_BINARY].bytes)
+      assert_contains(error.message, "records of");
     trax_scene_release(&scene);
     trax_mesh_release(&mesh);
   }

@@ -156,18 +156,27 @@ struct trax_scene {
   struct trax_scene_grid grid;
 };
 
-/* What there is to know of a layout without its nodes. */
+/* What there is to know of a layout without its nodes. Children stand in pairs: two boxes, of six planes each, and
+   behind them two references, of which 0 is none, as all behind it are. */
 struct trax_node_format {
   const char *name;        /* as trax-scene --nodes has it */
   uint32_t bytes;          /* of a node */
   uint32_t width;          /* children, at most */
-  uint32_t first_child;    /* where in the node the references are, one behind the other; 0: none, behind the last */
   bool quantised;          /* boxes are in cells of the scene's grid */
   uint32_t reserved_bytes; /* at its end; zero */
   uint32_t first_box;      /* where the boxes are; a frame is before them */
   uint32_t plane_bytes;    /* 4: binary32; 2: a number on the scene's grid; 1: in the node's frame */
 };
 extern const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS];
+
+/* Where in a node a child's box is, and its reference. */
+static inline uint32_t trax_node_box(const struct trax_node_format *format, uint32_t child) {
+  const uint32_t box_bytes = 6 * format->plane_bytes, pair_bytes = 2 * box_bytes + 2 * (uint32_t)sizeof(trax_scene_ref);
+  return format->first_box + child / 2 * pair_bytes + child % 2 * box_bytes;
+}
+static inline uint32_t trax_node_child(const struct trax_node_format *format, uint32_t child) {
+  return trax_node_box(format, child & ~1u) + 12 * format->plane_bytes + child % 2 * (uint32_t)sizeof(trax_scene_ref);
+}
 
 struct trax_scene_grid trax_scene_grid_of(const float bounds_min[3], const float bounds_max[3]);
 

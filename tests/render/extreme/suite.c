@@ -103,6 +103,9 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
     if (prepared->setup.mesh.triangle_count == 0 || prepared->setup.turned)
       continue;
     build.nodes = i / 2;
+    if (i % 2 && build.nodes != TRAX_NODES_BINARY && build.nodes != TRAX_NODES_QUANTISED &&
+        build.nodes != TRAX_NODES_WIDE_QUANTISED)
+      continue; /* splits are the same in all */
     build.splits = i % 2 ? 3 : 0;
     build.passes = i & 2;
     if (trax_scene_build(&prepared->variants[i], &prepared->setup.mesh, &build, &error) != TRAX_OK ||
@@ -316,7 +319,8 @@ static void compare_variants(struct row *row, const struct prepared *prepared, c
     snprintf(program, sizeof program, "query-nodes-%u.elf", scene->header->node_layout);
     if (scene->header->node_layout > TRAX_NODES_QUANTISED)
       emulated.program = program;
-    if (first)
+    if (first && !(trax_node_formats[scene->header->node_layout].width > 2 &&
+                   scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH)) /* a TP has no room for their stack */
       emulate(row, &cycles, prepared, scene, &emulated, directory, others);
     for (uint32_t i = 0; i < prepared->params.count; i++) {
       row->variant_differs += source_of(scene, others[i].triangle) != source_of(&prepared->scene, answers[i].triangle);
