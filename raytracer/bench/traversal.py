@@ -5,7 +5,8 @@
                                  [--choices | --stacks 2,4,8,12,16,62] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. Every way renders the same picture, which is checked. For each chip: million rays a second, bytes
-from and to memory a ray, instructions a ray. With --choices: one choice of the builder's at a time, and the cycles as parts of those of the default.
+from and to memory a ray, instructions a ray; before, bytes of the
+program's code and stack on the last chip. With --choices: one choice of the builder's at a time, and the cycles as parts of those of the default.
 With --stacks: how many entries the traversal's stack has, instead of how scenes are stored.
 """
 
@@ -13,6 +14,7 @@ import argparse
 import json
 import math
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -23,6 +25,10 @@ from lean import SCENES, figures, find
 WAYS = [
     ("binary", ["--nodes", "binary", "--splits=1"], []),
     ("quantised", ["--nodes", "quantised", "--splits=1"], []),
+    ("quantised8", ["--nodes", "quantised8"], []),
+    ("wide", ["--nodes", "wide"], []),
+    ("wide-quantised", ["--nodes", "wide-quantised"], []),
+    ("wide-quantised8", ["--nodes", "wide-quantised8"], []),
     ("binary, splits", ["--nodes", "binary", "--splits"], []),
     ("quantised, splits", ["--nodes", "quantised", "--splits"], []),
     ("quantised, splits 3", ["--nodes", "quantised", "--splits=3"], []),
@@ -74,6 +80,29 @@ def choices(options, configs):
         print(f"| {choice} | " + " | ".join(", ".join(f"{part:.3f}" for part in row) for row in parts.values())
               + f" | {math.exp(sum(map(math.log, every)) / len(every)):.3f} |")
     return sum(len(seen) - 1 for seen in pictures.values())
+
+
+def program_bytes(cache):
+    """Of the program that was used last: bytes of code and of main's frame, which is its only one."""
+    elf = max(cache.glob("*.elf"), key=lambda path: path.stat().st_mtime_ns).read_bytes()
+    table, = struct.unpack_from("<I", elf, 32)
+    entry, count, names = struct.unpack_from("<HHH", elf, 46)
+    sections = [struct.unpack_from("<10I", elf, table + number * entry) for number in range(count)]
+    code = sum(size for _, kind, flags, _, _, size, *_ in sections if kind == 1 and flags & 4)
+    stack = 0
+    for name, _, _, _, offset, size, *_ in sections:
+        start = sections[names][4] + name
+        if elf[start:elf.index(b"\0", start)] == b".stack_sizes":
+            at, end = offset, offset + size
+            while at < end:
+                at, shift, frame = at + 4, 0, 0
+                while True:
+                    frame |= (elf[at] & 127) << shift
+                    at, shift = at + 1, shift + 7
+                    if not elf[at - 1] & 128:
+                        break
+                stack = max(stack, frame)
+    return code, stack
 
 
 def stacks(options, configs):
@@ -130,8 +159,8 @@ def main():
         return 1 if different else 0
 
     print(f"{options.size}")
-    print("| scene | stored | bytes | " + " | ".join(f"{config}: MRPS | bytes/ray | instructions/ray" for config in configs) + " |")
-    print("| --- | --- |" + " --- |" * (1 + 3 * len(configs)))
+    print("| scene | stored | bytes | code | stack | " + " | ".join(f"{config}: MRPS | bytes/ray | instructions/ray" for config in configs) + " |")
+    print("| --- | --- |" + " --- |" * (3 + 3 * len(configs)))
     different = 0
     with tempfile.TemporaryDirectory() as name:
         scratch = pathlib.Path(name)
@@ -152,7 +181,8 @@ def main():
                     picture = (scratch / "picture.png").read_bytes()
                     first = first or picture
                     different += picture != first
-                print(f"| {scene} | {way} | {stored.stat().st_size:,} | {' | '.join(cells)} |", flush=True)
+                code, stack = program_bytes(scratch / "cache")
+                print(f"| {scene} | {way} | {stored.stat().st_size:,} | {code:,} | {stack} | {' | '.join(cells)} |", flush=True)
     print(f"pictures {'different: ' + str(different) if different else 'identical in every bit'}")
     return 1 if different else 0
 

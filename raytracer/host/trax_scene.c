@@ -33,7 +33,8 @@ static const char usage[] =
     "      --allow-empty            write a scene without triangles if the mesh has none\n"
     "      --nodes KIND             binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an "
     "axis;\n"
-    "                               quantised8: four, of 256 planes an axis around each node;\n"
+    "                               quantised8: four, of 256 planes an axis around each node; wide, wide-quantised,\n"
+    "                               wide-quantised8: the same, up to four boxes a node;\n"
     "                               auto (default): quantised, if the grid is fine enough for each large part of the "
     "tree\n"
     "      --leaf N                 at most N triangles in a leaf, 1 to %u\n"
@@ -169,7 +170,7 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
                                  trax_node_formats[f->scene->header->node_layout].bytes};
   list[n++] = (struct statistic){"bvh.nodes", "", "inner nodes", f->scene->node_count};
   list[n++] = (struct statistic){"bvh.leaves", "", "", f->tree.leaves};
-  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path", f->scene->header->max_depth};
+  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path; of wide ones, their children but one", f->scene->header->max_depth};
   list[n++] = (struct statistic){"bvh.mean_depth", "", "nodes above a leaf", f->tree.mean_leaf_depth};
   list[n++] = (struct statistic){"bvh.sah_nodes", "", "expected visits of a random ray", f->tree.sah_nodes};
   list[n++] = (struct statistic){"bvh.sah_triangles", "", "expected tests of a random ray", f->tree.sah_triangles};

@@ -226,8 +226,12 @@ grep -q 'no specialised program' .err || fail "a report without a compiler: $(ca
 "$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise --nodes quantised8 -o y.png >.out 2>.err && fail "--nodes quantised8 --no-specialise"
 grep -q 'the general program has no quantised8 nodes: it takes binary and quantised ones' .err || fail "no reason: $(cat .err)"
-"$bin/trax-render" "$source/box.obj" $view --size 64x36 --nodes quantised8 -o x.png >.out 2>.err || fail "--nodes quantised8: $(cat .err)"
-"$bin/trax-compare" -q x.png box.png || fail "--nodes quantised8: another picture"
+for nodes in quantised8 wide wide-quantised wide-quantised8; do
+  "$bin/trax-render" "$source/box.obj" $view --size 64x36 --nodes $nodes -o x.png >.out 2>.err || fail "--nodes $nodes: $(cat .err)"
+  "$bin/trax-compare" -q x.png box.png || fail "--nodes $nodes: another picture"
+done
+"$bin/trax-render" "$source/box.obj" $view --size 64x36 --nodes wide --stack 4 -o y.png >.out 2>.err && fail "--nodes wide --stack 4"
+grep -q -e '--stack: a traversal of wide nodes has a whole stack' .err || fail "no reason: $(cat .err)"
 
 # What --keep writes runs by itself to the same picture.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept

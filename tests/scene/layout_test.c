@@ -226,7 +226,7 @@ static void test_splits(void **state) {
     const struct trax_scene_section *section = &scene.header->sections[TRAX_SCENE_NODES];
     uint16_t *halves = (uint16_t *)(void *)((unsigned char *)scene.bytes + section->offset);
     unsigned accepted = 0, refused = 0;
-    for (uint32_t i = 0; i < section->size / 2; i += layout == TRAX_NODES_BINARY ? 7 : 3)
+    for (uint32_t i = 0; i < section->size / 2; i += layout == TRAX_NODES_QUANTISED ? 3 : 7)
       for (int step = -1; step <= 1; step += 2) {
         const uint16_t old = halves[i];
         halves[i] = (uint16_t)(old + step);
