@@ -16,7 +16,7 @@
 #include <string.h>
 
 enum {
-  LEAST_DRAWS = 12,
+  LEAST_DRAWS = 16,
   PILOT_DRAWS = 24, /* after which it is known how many an interval takes */
   LEAST_UNIT = 256,
   UNIT_ROUNDS = 2, /* slots of each thread, unless it is asked for otherwise */

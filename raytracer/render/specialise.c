@@ -22,6 +22,7 @@
 
 static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
 enum { FLAG_COUNT = sizeof flags / sizeof *flags, MOST_FLAGS = FLAG_COUNT + 3 };
+enum { CACHED_CODE = 4096 }; /* bytes: the paper's instruction cache */
 
 /* The flags above and those that were chosen. What is recorded takes more stack than a TP has memory for. */
 static size_t chosen_flags(const char *chosen[MOST_FLAGS], const struct trax_method *method, bool record) {
@@ -262,10 +263,11 @@ static void first_line(char line[160], int descriptor, int status) {
     snprintf(line, 160, "exit status %d", WEXITSTATUS(status));
 }
 
-/* Where things are; the stack has room for some of these ways. */
+/* Where things are, since the stack has room for some of these ways, and how large the code may become. */
 struct places {
   bool params_in_memory; /* instead of constants, which may take registers */
   bool paths_local;      /* what a path remembers in registers and on the stack, instead of in global memory */
+  bool small;            /* -O2 */
 };
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
@@ -286,6 +288,8 @@ static trax_status compile(const char *root, const char *constants, const char *
     *next++ = "-DTRAX_PARAMS_IN_MEMORY";
   if (places->paths_local)
     *next++ = "-DTRAX_PATHS_LOCAL";
+  if (places->small)
+    *next++ = "-O2";
   *next++ = "-include";
   *next++ = constants;
   *next++ = source;
@@ -334,7 +338,14 @@ static trax_status compile(const char *root, const char *constants, const char *
   return result;
 }
 
-/* Into the cache, aside and renamed: the first of the ways for which there is stack enough. */
+static bool fits_cache(const char *program) {
+  struct trax_program_size size;
+  trax_error ignored;
+  return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= CACHED_CODE;
+}
+
+/* Into the cache, aside and renamed: the first of the ways for which there is stack enough. What is larger than the
+   instruction cache, but for paths, which are anyway, is compiled for less code. */
 static trax_status build(const char *root, const char *constants, const char *program, const char *const *chosen,
                          size_t chosen_count, bool paths, const volatile int *interrupt, trax_error *error) {
   char temporary[TRAX_PATH_SIZE];
@@ -345,10 +356,19 @@ static trax_status build(const char *root, const char *constants, const char *pr
   if (descriptor < 0)
     return trax_fail(error, "%s: %s", temporary, strerror(errno));
   close(descriptor);
-  static const struct places ways[] = {{false, true}, {true, true}, {false, false}, {true, false}};
+  static const struct places ways[] = {
+      {false, true, false}, {true, true, false}, {false, false, false}, {true, false, false}};
   trax_status status = TRAX_ERROR;
-  for (size_t i = paths ? 0 : 2; i < sizeof ways / sizeof *ways && status == TRAX_ERROR; i++)
-    status = compile(root, constants, temporary, chosen, chosen_count, &ways[i], interrupt, error);
+  for (size_t i = paths ? 0 : 2; i < sizeof ways / sizeof *ways && status == TRAX_ERROR; i++) {
+    struct places way = ways[i];
+    status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
+    if (status != TRAX_OK || paths || fits_cache(temporary))
+      continue;
+    way.small = true;
+    status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
+    if (status == TRAX_ERROR)
+      status = compile(root, constants, temporary, chosen, chosen_count, &ways[i], interrupt, error);
+  }
   if (status == TRAX_OK && rename(temporary, program) != 0)
     status = trax_fail(error, "%s: %s", program, strerror(errno));
   if (status != TRAX_OK)

@@ -75,9 +75,9 @@ grep -q '^sampled .* cycles with 95 % confidence, .* of the slots in [0-9]* rang
 render longer --size 320x180 --sampled --sample-unit 1000 --sample-warm-up 100 # whole blocks of 32
 [ "$(number longer.json unit) $(number longer.json warm_up)" = "1024 128" ] || fail "--sample-unit, --sample-warm-up"
 render rough --size 320x180 --config 1x32 --sampled --sample-error 10
-render fine --size 320x180 --config 1x32 --sampled --sample-error 3
+render fine --size 320x180 --config 1x32 --sampled --sample-error 2
 is "$(number fine.json windows) > $(number rough.json windows)" || fail "--sample-error: no more ranges"
-is "$(number fine.json cycles_high) < 1.045 * $(number fine.json cycles)" || fail "--sample-error 3: the interval"
+is "$(number fine.json cycles_high) < 1.035 * $(number fine.json cycles)" || fail "--sample-error 2: the interval"
 
 # --- another order of pixels; a program that counts them nowhere
 if [ -e "$bin/../lib/trax/trax-era.elf" ]; then
