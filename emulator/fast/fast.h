@@ -42,7 +42,7 @@
 #include "fast/masks.h"
 
 enum {
-  TRAX_BURST = 160,      /* most instructions of a burst; fits in trax_fast_heads.at */
+  TRAX_BURST = 224,      /* most instructions of a burst; fits in trax_fast_heads.at */
   TRAX_STRETCH = 32,     /* instructions of the program whose steps are noted at once: those from a multiple of it on */
   TRAX_FAST_LINES = 1024 /* lines of the program that `resident` knows; the last entry stands for all others */
 };
