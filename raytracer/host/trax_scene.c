@@ -42,7 +42,7 @@ static const char usage[] =
     "                               as many, 1 (none) to 8, without FACTOR 1.5; =auto (default): so, if many are "
     "askew\n"
     "      --passes N               N times over the tree after it was built, to move its parts to where they cost\n"
-    "                               less, 0 to 16 (default 0)\n"
+    "                               less, 0 to 16 (default 2)\n"
     "      --depth N                at most N nodes from the root to a leaf, 1 to %u\n"
     "      --traversal-cost X       of a node in the surface-area heuristic\n"
     "      --intersection-cost X    of a triangle\n"

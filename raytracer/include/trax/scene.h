@@ -220,7 +220,7 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 
 #define TRAX_DEFAULT_SPLITS 1.5f
 #define TRAX_SCENE_MAX_SPLITS 8.0f
-#define TRAX_DEFAULT_PASSES 0u /* of trax-scene and trax-render; 2 are worth their time (docs/raytracer.md) */
+#define TRAX_DEFAULT_PASSES 2u /* of trax-scene and trax-render (docs/raytracer.md has what they gain) */
 #define TRAX_SCENE_MAX_PASSES 16u
 #define TRAX_DEFAULT_CREASE 60 /* degrees */
 
