@@ -15,10 +15,18 @@ void kernel_setup(void) {
   image.data = pixels;
 }
 
+/* As render_layout does, which does not return on the TP. */
 struct result kernel_run(void) {
+  const struct trax_render_params *run = params.data;
+  uint32_t checksum = 0, sum = 0, slot, queue = first_queue();
   next_slot[0] = 0;
-  ray_tracer_main();
-  uint32_t checksum = 0, sum = 0;
+  while (take_slot(run, next_slot, &queue, &slot)) {
+    struct pixel pixel;
+    if (!slot_pixel(run, slot, &pixel))
+      continue;
+    uint32_t word = render_pixel(run, TRAX_NODES_BINARY, pixel);
+    trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
+  }
   for (int i = 0; i < WIDTH * HEIGHT; i++) {
     checksum = mix(checksum, pixels[i]);
     sum += pixels[i] & 255;

@@ -6,6 +6,11 @@
 #include "trax/render_params.h"
 #include "trax/scene_format.h"
 
+/* What raytracer/device/run.h asks for, of this scene: twelve levels, binary nodes, a whole stack. */
+#define TRAX_TREE_DEPTH 12
+#define TRAX_STACK_ENTRIES 12
+#define TRAX_NODE_LAYOUT TRAX_NODES_BINARY
+
 #include <stddef.h>
 
 enum { SIDE = 32, SQUARES = SIDE * SIDE, TRIANGLES = 2 * SQUARES, WIDTH = 64, HEIGHT = 48 };
@@ -109,6 +114,8 @@ static void make_frame(void) {
                                                    .ambient = 0.2f,
                                                    .fill = {0.05f, 0.08f, 0.02f},
                                                    .box_margin = 0x1p-12f,
+                                                   .features = TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS),
+                                                   .samples = 1,
                                                    .background = 0xFF804020u};
   frame.params = params;
   for (int i = 0; i < 4; i++)
