@@ -50,7 +50,7 @@ CHOICES = [
     ("no triangle split", ["--splits=1"]),
     ("room for 3 times the triangles", ["--splits=3"]),
     ("nodes depth first", ["--cache-lines", "1"]),
-    *[(f"tree improved, {count} pass{'es' if count > 1 else ''}", ["--passes", str(count)]) for count in (1, 2, 4, 8)],
+    *[(f"tree improved, {count} pass{'es' if count != 1 else ''}", ["--passes", str(count)]) for count in (0, 1, 4, 8)],
 ]
 
 

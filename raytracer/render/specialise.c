@@ -154,12 +154,16 @@ static void hash_library(XXH3_state_t *state, const char *path) {
   XXH3_128bits_update(state, identity, sizeof identity);
 }
 
+/* Another number whenever programs are compiled in other ways from the same ingredients. */
+#define WAYS_TO_COMPILE "2"
+
 static trax_status make_key(char key[33], const char *root, const char *constants, const char *const *chosen,
                             size_t chosen_count, trax_error *error) {
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
   XXH3_128bits_reset(state);
+  XXH3_128bits_update(state, WAYS_TO_COMPILE, sizeof WAYS_TO_COMPILE);
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients && status == TRAX_OK; i++)
     status = hash_file(state, root, ingredients[i], error);
