@@ -2,11 +2,11 @@
 """How fast the engines are on the ray tracer: a row for each scene and chip.
 
     emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
-                            [--max-cycles 400000] [--repeats 3] [--build build]
+                            [--whole | --max-cycles 400000] [--repeats 3] [--build build]
 
 SCENES_DIRECTORY holds the scenes as for raytracer/bench/lean.py. Prints what engine-bench prints (emulator/bench/engines.c):
 million simulated instructions per second of wall time for each engine, and ratios, all of one run. The timed engines run
-the same first cycles of the picture, the functional mode the whole picture.
+the same first cycles of the picture, the functional mode the whole picture; with --whole all but the reference engine, which is left out, run all of it.
 """
 
 import argparse
@@ -61,6 +61,7 @@ def main():
     parser.add_argument("--chips", default="4x32,8x64")
     parser.add_argument("--size", default="320x180")
     parser.add_argument("--max-cycles", default="400000")
+    parser.add_argument("--whole", action="store_true")
     parser.add_argument("--repeats", default="3")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build")
     options = parser.parse_args()
@@ -69,8 +70,9 @@ def main():
     for scene in options.names.split(","):
         with tempfile.TemporaryDirectory() as scratch:
             words = render(options.build, options.scenes, scene, ["--size", options.size], scratch)
-            run = subprocess.run([(options.build / "bin/engine-bench").resolve(), "--chips", options.chips, "--max-cycles",
-                                  options.max_cycles, "--repeats", options.repeats, *engine_arguments(words)],
+            how_far = ["--no-reference"] if options.whole else ["--max-cycles", options.max_cycles]
+            run = subprocess.run([(options.build / "bin/engine-bench").resolve(), "--chips", options.chips, *how_far,
+                                  "--repeats", options.repeats, *engine_arguments(words)],
                                  cwd=scratch, text=True, stdout=subprocess.PIPE)
         rows = run.stdout.splitlines()
         if header and rows:

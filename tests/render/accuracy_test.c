@@ -52,7 +52,7 @@ static int set_up(void **state) {
   (void)state;
   trax_error error;
   mesh_soup(&common.mesh, 2000, 5);
-  build(&common.scene, &common.mesh, NULL);
+  build(&common.scene, &common.mesh, &(struct trax_build_options){.passes = TRAX_DEFAULT_PASSES});
   common.view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
   render_exact(&common.exact, 1);
   render_exact(&common.converged, 64);
