@@ -1,7 +1,8 @@
-/* The names that the instructions' semantics are written in (isa/TraxFormats.td), before trax/semantics.inc is included;
-   core/semantics_end.h, behind it, takes them away. What executes has `reg`, the TP's registers, `inst`, a pointer to the
-   decoded instruction, and `next_pc`, and defines the rest itself: PC, LOAD(ADDRESS, BYTES), STORE(ADDRESS, VALUE, BYTES),
-   ATOMIC_INC, SPECIAL_REGISTER, TRAP, HALT, and PRECISION, of the special unit in bits. */
+/* The names that the instructions' semantics are written in (isa/TraxFormats.td), before trax/semantics.inc is
+   included; core/semantics_end.h, behind it, takes them away. What executes has `reg`, the TP's registers, `inst`, a
+   pointer to the decoded instruction, and `next_pc`, and defines the rest itself: PC, LOAD(ADDRESS, BYTES),
+   STORE(ADDRESS, VALUE, BYTES), ATOMIC_INC, SPECIAL_REGISTER, TRAP, HALT, and PRECISION, of the special unit in bits.
+ */
 #define RD reg[inst->rd]
 #define RA reg[inst->ra]
 #define RB reg[inst->rb]

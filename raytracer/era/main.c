@@ -10,8 +10,9 @@
 #include <trax.h>
 
 struct trax_buffer plain_nodes, plain_triangles, params, image;
-unsigned next_pixel; /* shared by all threads */
-__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not guess */
+unsigned next_pixel;                                    /* shared by all threads */
+__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
+                                                           guess */
 
 #define EPSILON 1e-4f /* of the distance: how far a shadow ray's origin is off the surface */
 

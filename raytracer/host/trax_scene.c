@@ -170,7 +170,8 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
                                  trax_node_formats[f->scene->header->node_layout].bytes};
   list[n++] = (struct statistic){"bvh.nodes", "", "inner nodes", f->scene->node_count};
   list[n++] = (struct statistic){"bvh.leaves", "", "", f->tree.leaves};
-  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path; of wide ones, their children but one", f->scene->header->max_depth};
+  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path; of wide ones, their children but one",
+                                 f->scene->header->max_depth};
   list[n++] = (struct statistic){"bvh.mean_depth", "", "nodes above a leaf", f->tree.mean_leaf_depth};
   list[n++] = (struct statistic){"bvh.sah_nodes", "", "expected visits of a random ray", f->tree.sah_nodes};
   list[n++] = (struct statistic){"bvh.sah_triangles", "", "expected tests of a random ray", f->tree.sah_triangles};
@@ -370,7 +371,9 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     case nodes:
       good = trax_node_layout_choose(optarg, &arguments->build);
       if (!good)
-        complain("--nodes: '%s' is none of auto, binary, quantised, quantised8, wide, wide-quantised and wide-quantised8", optarg);
+        complain(
+            "--nodes: '%s' is none of auto, binary, quantised, quantised8, wide, wide-quantised and wide-quantised8",
+            optarg);
       break;
     case splits:
       good = trax_splits_choose(optarg, &arguments->build);

@@ -414,7 +414,9 @@ static trax_status take_option(struct options *options, int which, const char *v
   case OPT_NODES: {
     struct trax_build_options build;
     if (!trax_node_layout_choose(value, &build))
-      return trax_fail(error, "--nodes %s: expected auto, binary, quantised, quantised8, wide, wide-quantised or wide-quantised8", value);
+      return trax_fail(
+          error, "--nodes %s: expected auto, binary, quantised, quantised8, wide, wide-quantised or wide-quantised8",
+          value);
     options->nodes = value;
     return TRAX_OK;
   }

@@ -30,7 +30,7 @@ struct options {
   const char *config;
   unsigned queues;    /* of pixels; 0: one for each TM */
   bool choose_queues; /* --queues was given */
-  const char *view;  /* NULL: framed automatically */
+  const char *view;   /* NULL: framed automatically */
   struct camera_options camera;
   unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */

@@ -113,7 +113,7 @@ typedef struct trax_slot_sampling {
   /* What is known or guessed of the slots' costs: [slots / block rounded up + 1], sums of all before each block and of
      all, in any unit. NULL: all are alike. A bad guess makes intervals wide, not wrong. */
   const double *costs;
-  uint32_t block;       /* slots of a block; the unit is a multiple of it */
+  uint32_t block; /* slots of a block; the unit is a multiple of it */
   /* [as costs, times queues]: how many slots each queue is thought to have handed out where a block begins. NULL: they
      keep step. */
   const uint32_t *handed_out;
