@@ -18,7 +18,11 @@ static void print_time_left(FILE *out, const trax_progress *status) {
 
 void trax_progress_show(void *context, const trax_progress *status) {
   struct trax_progress_line *line = context;
-  FILE *out = line->terminal;
+  /* One write: an interrupt may end any, and would else leave a line without its beginning. */
+  char text[256];
+  FILE *out = fmemopen(text, sizeof text, "w");
+  if (!out)
+    return;
   double seconds = status->host_seconds - line->last.host_seconds;
   uint64_t before = line->shown ? line->last.instructions : status->instructions_before;
   double rate = seconds > 0 ? (double)(status->instructions - before) / seconds / 1e6 : 0;
@@ -30,7 +34,9 @@ void trax_progress_show(void *context, const trax_progress *status) {
     fprintf(out, ", %" PRIu64 " items", status->items);
   print_time_left(out, status);
   fprintf(out, "\033[K"); /* what the line before had more */
-  fflush(out);
+  fclose(out);
+  fputs(text, line->terminal);
+  fflush(line->terminal);
   line->shown = true;
   line->last = *status;
 }
