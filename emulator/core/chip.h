@@ -19,6 +19,11 @@ struct trax_watch {
   struct trax_watch *others; /* the next one of the machine's list */
 };
 
+/* From now on the watch, which must outlive that, looks at the machine: before those that came earlier. */
+void trax_machine_watch(struct trax_machine *machine, struct trax_watch *watch);
+/* No longer; a watch that is not of the machine's list stays as it is. */
+void trax_machine_unwatch(struct trax_machine *machine, const struct trax_watch *watch);
+
 /* With the reference engine, which has structures of its own, only machine, tms and reference are set: a watch may read
    the machine's statistics and memory. */
 struct trax_chip {

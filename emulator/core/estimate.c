@@ -48,3 +48,14 @@ size_t trax_estimate_draws(const double *ratios, size_t count, double relative) 
   const double needed = pow(trax_student_95(count - 1) * spread_of(ratios, count, mean) / (mean * relative), 2);
   return needed > (double)count ? (size_t)ceil(fmin(needed, 1e9)) : count;
 }
+
+void trax_estimate_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles) {
+  unsigned largest = 0;
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+    stats->cycles[cause] = (uint64_t)llround(charges[cause]);
+    sum += stats->cycles[cause];
+    largest = charges[cause] > charges[largest] ? cause : largest;
+  }
+  stats->cycles[largest] += cycles - sum;
+}

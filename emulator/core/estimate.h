@@ -2,6 +2,8 @@
 #ifndef TRAX_CORE_ESTIMATE_H
 #define TRAX_CORE_ESTIMATE_H
 
+#include "core/stats.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,5 +27,8 @@ struct trax_estimate trax_estimate_total(const double *ratios, size_t count, dou
 
 /* How many draws of that spread give an interval of plus and minus `relative` times the estimate; at least `count`. */
 size_t trax_estimate_draws(const double *ratios, size_t count, double relative);
+
+/* A TP's estimated charges, [TRAX_CAUSE_COUNT], as whole numbers whose sum is `cycles`. */
+void trax_estimate_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles);
 
 #endif

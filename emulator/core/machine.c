@@ -203,6 +203,19 @@ static trax_status report_outcome(const struct trax_machine *machine, const trax
   return machine->status;
 }
 
+void trax_machine_watch(struct trax_machine *machine, struct trax_watch *watch) {
+  watch->others = machine->watches;
+  machine->watches = watch;
+}
+
+void trax_machine_unwatch(struct trax_machine *machine, const struct trax_watch *watch) {
+  struct trax_watch **link = &machine->watches;
+  while (*link && *link != watch)
+    link = &(*link)->others;
+  if (*link)
+    *link = watch->others;
+}
+
 static trax_status run_chip(struct trax_machine *machine, const trax_run_options *options, trax_error *error) {
   struct trax_chip chip;
   machine->chip = &chip;

@@ -426,38 +426,21 @@ struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sam
   slots->now = slots->before + slots->words;
   slots->exact = slots->now + slots->words;
   slots->target = slots->first;
-  slots->watch = (struct trax_watch){
-      .next = slots->units ? LEAST_STEP : TRAX_NEVER, .look = look, .context = slots, .others = chip->machine->watches};
-  chip->machine->watches = &slots->watch;
+  slots->watch = (struct trax_watch){.next = slots->units ? LEAST_STEP : TRAX_NEVER, .look = look, .context = slots};
+  trax_machine_watch(chip->machine, &slots->watch);
   return slots;
 }
 
 void trax_slots_destroy(struct trax_slots *slots) {
   if (!slots)
     return;
-  struct trax_watch **watch = &slots->chip->machine->watches;
-  while (*watch && *watch != &slots->watch)
-    watch = &(*watch)->others;
-  if (*watch)
-    *watch = slots->watch.others;
+  trax_machine_unwatch(slots->chip->machine, &slots->watch);
   free(slots->sizes);
   free(slots->draws);
   free(slots->ratios);
   free(slots->counts);
   free(slots->measured);
   free(slots);
-}
-
-/* A TP's charges as whole numbers whose sum is `cycles`. */
-static void round_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles) {
-  unsigned largest = 0;
-  uint64_t sum = 0;
-  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
-    stats->cycles[cause] = (uint64_t)llround(charges[cause]);
-    sum += stats->cycles[cause];
-    largest = charges[cause] > charges[largest] ? cause : largest;
-  }
-  stats->cycles[largest] += cycles - sum;
 }
 
 /* The counts of the whole run: those of beginning and end, and of the units as many times as these stand for. */
@@ -477,7 +460,7 @@ static void estimate_counts(struct trax_slots *slots, double cycles) {
   for (uint64_t thread = 0; thread < machine->stats.threads; thread++) {
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       charges[cause] = ESTIMATE(slots->tp_words + thread * TRAX_CAUSE_COUNT + cause);
-    round_charges(&machine->tp_stats[thread], charges, machine->stats.cycles);
+    trax_estimate_charges(&machine->tp_stats[thread], charges, machine->stats.cycles);
   }
 #undef ESTIMATE
 }

@@ -120,9 +120,8 @@ trax_status trax_series_create(struct trax_explain *explain, trax_error *error) 
   if (trax_output_open(&series->output, explain->options.series, error) != TRAX_OK)
     return TRAX_ERROR;
   put_head(series->output.file);
-  series->watch = (struct trax_watch){
-      .next = explain->options.series_interval, .look = look, .context = series, .others = explain->machine->watches};
-  explain->machine->watches = &series->watch;
+  series->watch = (struct trax_watch){.next = explain->options.series_interval, .look = look, .context = series};
+  trax_machine_watch(explain->machine, &series->watch);
   return TRAX_OK;
 }
 
@@ -139,11 +138,7 @@ void trax_series_destroy(struct trax_explain *explain) {
   struct series *series = (struct series *)explain->series;
   if (!series)
     return;
-  for (struct trax_watch **link = &explain->machine->watches; *link; link = &(*link)->others)
-    if (*link == &series->watch) {
-      *link = series->watch.others;
-      break;
-    }
+  trax_machine_unwatch(explain->machine, &series->watch);
   trax_output_discard(&series->output);
   free(series->previous);
   free(series);

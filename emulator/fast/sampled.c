@@ -16,6 +16,7 @@
    were. Only what an increment under way would do to registers and memory is done at once. */
 #include "fast/sampled.h"
 
+#include "core/estimate.h"
 #include "fast/functional.h"
 
 #include <math.h>
@@ -362,38 +363,20 @@ struct trax_sampled *trax_sampled_create(struct trax_chip *chip, const trax_run_
   sampled->measured = sampled->now + sampled->words;
   sampled->windows = sampled->measured + sampled->words;
   sampled->running = trax_chip_running(chip);
-  sampled->watch = (struct trax_watch){.next = sampled->sampling.hold / BEGINNING + 1,
-                                       .look = look,
-                                       .context = sampled,
-                                       .others = chip->machine->watches};
-  chip->machine->watches = &sampled->watch;
+  sampled->watch =
+      (struct trax_watch){.next = sampled->sampling.hold / BEGINNING + 1, .look = look, .context = sampled};
+  trax_machine_watch(chip->machine, &sampled->watch);
   return sampled;
 }
 
 void trax_sampled_destroy(struct trax_sampled *sampled) {
   if (!sampled)
     return;
-  struct trax_watch **watch = &sampled->chip->machine->watches;
-  while (*watch && *watch != &sampled->watch)
-    watch = &(*watch)->others;
-  if (*watch)
-    *watch = sampled->watch.others;
+  trax_machine_unwatch(sampled->chip->machine, &sampled->watch);
   trax_functional_destroy(sampled->functional);
   free(sampled->counts);
   free(sampled->estimated);
   free(sampled);
-}
-
-/* A TP's charges as whole numbers whose sum is `cycles`. */
-static void round_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles) {
-  unsigned largest = 0;
-  uint64_t sum = 0;
-  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
-    stats->cycles[cause] = (uint64_t)llround(charges[cause]);
-    sum += stats->cycles[cause];
-    largest = charges[cause] > charges[largest] ? cause : largest;
-  }
-  stats->cycles[largest] += cycles - sum;
 }
 
 void trax_sampled_finish(struct trax_sampled *sampled, uint64_t t) {
@@ -431,5 +414,5 @@ void trax_sampled_finish(struct trax_sampled *sampled, uint64_t t) {
     ((uint64_t *)&machine->stats.memory)[i] = (uint64_t)llround(sampled->estimated[sampled->memory_words + i]);
   const double *charges = sampled->estimated + sampled->tp_words;
   for (uint64_t thread = 0; thread < machine->stats.threads; thread++)
-    round_charges(&machine->tp_stats[thread], charges + thread * TRAX_CAUSE_COUNT, machine->stats.cycles);
+    trax_estimate_charges(&machine->tp_stats[thread], charges + thread * TRAX_CAUSE_COUNT, machine->stats.cycles);
 }

@@ -393,17 +393,13 @@ struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_li
   gdb->observed_before = machine->observer;
   gdb->observer = (struct trax_observer){gdb, on_issue, on_charge, on_arrival};
   machine->observer = &gdb->observer;
-  gdb->watch = (struct trax_watch){.look = look, .end = end, .context = gdb, .others = machine->watches};
-  machine->watches = &gdb->watch;
+  gdb->watch = (struct trax_watch){.look = look, .end = end, .context = gdb};
+  trax_machine_watch(machine, &gdb->watch);
   return gdb;
 }
 
 static void leave(struct trax_gdb *gdb) {
-  for (struct trax_watch **watch = &gdb->machine->watches; *watch; watch = &(*watch)->others)
-    if (*watch == &gdb->watch) {
-      *watch = gdb->watch.others;
-      break;
-    }
+  trax_machine_unwatch(gdb->machine, &gdb->watch);
   if (gdb->machine->observer == &gdb->observer)
     gdb->machine->observer = gdb->observed_before;
 }

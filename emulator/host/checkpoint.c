@@ -350,12 +350,9 @@ trax_status trax_checkpoint_begin(struct trax_checkpoint **result, trax_machine 
     machine->prepare_context = checkpoint;
   }
   if (options->write) {
-    checkpoint->watch = (struct trax_watch){.next = next_time(options, checkpoint->header.cycle),
-                                            .look = look,
-                                            .end = end,
-                                            .context = checkpoint,
-                                            .others = machine->watches};
-    machine->watches = &checkpoint->watch;
+    checkpoint->watch = (struct trax_watch){
+        .next = next_time(options, checkpoint->header.cycle), .look = look, .end = end, .context = checkpoint};
+    trax_machine_watch(machine, &checkpoint->watch);
   }
   *result = checkpoint;
   return TRAX_OK;
@@ -364,11 +361,7 @@ trax_status trax_checkpoint_begin(struct trax_checkpoint **result, trax_machine 
 trax_status trax_checkpoint_end(struct trax_checkpoint *checkpoint, trax_error *error) {
   if (!checkpoint)
     return TRAX_OK;
-  struct trax_watch **link = &checkpoint->machine->watches;
-  while (*link && *link != &checkpoint->watch)
-    link = &(*link)->others;
-  if (*link)
-    *link = checkpoint->watch.others;
+  trax_machine_unwatch(checkpoint->machine, &checkpoint->watch);
   checkpoint->machine->prepare = NULL;
   const trax_status status = checkpoint->failed ? trax_fail(error, "%s", checkpoint->error.message) : TRAX_OK;
   free(checkpoint->content);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 struct trax_post_mortem {
+  trax_machine *machine;
   struct trax_watch watch;
   const volatile int *interrupt;
   bool always;
@@ -41,9 +42,9 @@ struct trax_post_mortem *trax_post_mortem_create(trax_machine *machine, const vo
   }
   post_mortem->interrupt = interrupt;
   post_mortem->always = always;
-  post_mortem->watch =
-      (struct trax_watch){.look = look, .end = end, .context = post_mortem, .others = machine->watches};
-  machine->watches = &post_mortem->watch;
+  post_mortem->machine = machine;
+  post_mortem->watch = (struct trax_watch){.look = look, .end = end, .context = post_mortem};
+  trax_machine_watch(machine, &post_mortem->watch);
   return post_mortem;
 }
 
@@ -52,7 +53,9 @@ const char *trax_post_mortem_text(const struct trax_post_mortem *post_mortem) {
 }
 
 void trax_post_mortem_destroy(struct trax_post_mortem *post_mortem) {
-  if (post_mortem)
-    free(post_mortem->text);
+  if (!post_mortem)
+    return;
+  trax_machine_unwatch(post_mortem->machine, &post_mortem->watch);
+  free(post_mortem->text);
   free(post_mortem);
 }

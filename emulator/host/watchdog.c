@@ -67,8 +67,8 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
   watchdog->cycles = cycles;
   watchdog->charges = calloc(machine->stats.threads, sizeof *watchdog->charges);
   watchdog->pc = calloc(machine->stats.threads, sizeof *watchdog->pc);
-  watchdog->watch = (struct trax_watch){.look = look, .context = watchdog, .others = machine->watches};
-  machine->watches = &watchdog->watch;
+  watchdog->watch = (struct trax_watch){.look = look, .context = watchdog};
+  trax_machine_watch(machine, &watchdog->watch);
   if (watchdog->charges && watchdog->pc)
     return watchdog;
   trax_watchdog_end(watchdog);
@@ -146,11 +146,7 @@ void trax_watchdog_print(const struct trax_watchdog *watchdog, FILE *out) {
 void trax_watchdog_end(struct trax_watchdog *watchdog) {
   if (!watchdog)
     return;
-  struct trax_watch **link = &watchdog->machine->watches;
-  while (*link && *link != &watchdog->watch)
-    link = &(*link)->others;
-  if (*link)
-    *link = watchdog->watch.others;
+  trax_machine_unwatch(watchdog->machine, &watchdog->watch);
   free(watchdog->charges);
   free(watchdog->pc);
   free(watchdog);
