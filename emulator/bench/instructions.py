@@ -2,7 +2,7 @@
 """Where the fast engine's host instructions go: a row for each function, by callgrind.
 
     emulator/bench/instructions.py SCENES_DIRECTORY [--scene conference] [--chip 4x32] [--size 320x180]
-                                   [--cycles 60000:160000] [--build build]
+                                   [--cycles 60000:160000] [--bin build/bin]
 
 SCENES_DIRECTORY holds the scenes as for speed.py. Counts what the host executes in user mode while trax-sim simulates the
 cycles of the picture from the first number of --cycles on to the second, on one thread of the host: the difference of two
@@ -10,7 +10,6 @@ runs, so loading and ends are not in it. Inlined functions count where they are 
 AVX-512, so it is the variant for AVX2 that is counted; another run gives the same figures.
 """
 
-import argparse
 import json
 import pathlib
 import re
@@ -24,10 +23,10 @@ import speed
 ROWS = 12  # of functions; the rest is one row
 
 
-def count(build, words, cycles, scratch):
+def count(programs, words, cycles, scratch):
     """Host instructions by function, and the statistics of the run."""
     out, stats = scratch / "callgrind.out", scratch / "stats.json"
-    run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", build / "bin/trax-sim", *words, "--host-threads",
+    run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", programs / "trax-sim", *words, "--host-threads",
                           "1", "--max-cycles", str(cycles), "--stats", stats], cwd=scratch, capture_output=True, text=True)
     if run.returncode != 124 or not stats.exists():
         sys.exit(f"instructions.py: error: {cycles} cycles are not what the run was to stop at:\n{run.stderr}")
@@ -40,13 +39,10 @@ def count(build, words, cycles, scratch):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
+    parser = speed.arguments(__doc__, "320x180")
     parser.add_argument("--scene", default="conference")
     parser.add_argument("--chip", default="4x32")
-    parser.add_argument("--size", default="320x180")
     parser.add_argument("--cycles", default="60000:160000")
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build")
     options = parser.parse_args()
     first, last = map(int, options.cycles.split(":"))
     if not shutil.which("valgrind"):
@@ -54,9 +50,9 @@ def main():
 
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        words = speed.render(options.build, options.scenes, options.scene, ["--size", options.size, "--config", options.chip], scratch)
-        before, stats_before = count(options.build.resolve(), words, first, scratch)
-        after, stats_after = count(options.build.resolve(), words, last, scratch)
+        words = speed.render(options, options.scene, ["--config", options.chip], scratch)
+        before, stats_before = count(options.bin.resolve(), words, first, scratch)
+        after, stats_after = count(options.bin.resolve(), words, last, scratch)
     difference = sorted(((after[name] - before.get(name, 0), name) for name in after), reverse=True)
     total = sum(number for number, _ in difference)
     cycles = (stats_after["cycles"] - stats_before["cycles"]) * stats_after["configuration"]["chip"]["tms"]

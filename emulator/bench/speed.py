@@ -2,35 +2,26 @@
 """How fast the engines are on the ray tracer: a row for each scene and chip.
 
     emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
-                            [--whole | --max-cycles 400000] [--repeats 3] [--build build]
+                            [--whole | --max-cycles 400000] [--repeats 3] [--bin build/bin]
 
 SCENES_DIRECTORY holds the scenes as for raytracer/bench/lean.py. Prints what engine-bench prints (emulator/bench/engines.c):
 million simulated instructions per second of wall time for each engine, and ratios, all of one run. The timed engines run
 the same first cycles of the picture, the functional mode the whole picture; with --whole all but the reference engine, which is left out, run all of it.
 """
 
-import argparse
 import pathlib
 import shlex
 import subprocess
 import sys
 import tempfile
 
-FILES = {"conference": ["conference.ply"], "crytek-sponza": ["crytek-sponza.ply"], "dragon": ["dragon.ply", "dragon_box.obj"],
-         "sibenik": ["sibenik.ply"]}
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "raytracer/bench"))
+from scenes import arguments, files_of  # noqa: E402
 
 
-def find(directory, name):
-    for candidate in (directory / name, directory / (name + ".xz")):
-        if candidate.exists():
-            return str(candidate)
-    sys.exit(f"speed.py: error: {directory}: neither {name} nor {name}.xz is there")
-
-
-def render(build, directory, scene, options, scratch):
+def render(options, scene, more, scratch):
     """Renders the scene and keeps in scratch what its trax-sim was given; gives the arguments of that command line."""
-    files = [find(directory, name) for name in FILES[scene]]
-    subprocess.run([build / "bin/trax-render", *files, "--view", scene, *options, "--quiet", "--keep", scratch,
+    subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene, "--size", options.size, *more, "--quiet", "--keep", scratch,
                     "-o", pathlib.Path(scratch) / "picture.png"], check=True)
     lines = (pathlib.Path(scratch) / "run.sh").read_text().replace("\\\n", " ").splitlines()
     words = shlex.split(next(line for line in lines if "--bind" in line))[1:]
@@ -55,23 +46,20 @@ def engine_arguments(words):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
+    parser = arguments(__doc__, "320x180")
     parser.add_argument("--scenes", dest="names", default="conference,dragon,sibenik")
     parser.add_argument("--chips", default="4x32,8x64")
-    parser.add_argument("--size", default="320x180")
     parser.add_argument("--max-cycles", default="400000")
     parser.add_argument("--whole", action="store_true")
     parser.add_argument("--repeats", default="3")
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build")
     options = parser.parse_args()
 
     header = True
     for scene in options.names.split(","):
         with tempfile.TemporaryDirectory() as scratch:
-            words = render(options.build, options.scenes, scene, ["--size", options.size], scratch)
+            words = render(options, scene, [], scratch)
             how_far = ["--no-reference"] if options.whole else ["--max-cycles", options.max_cycles]
-            run = subprocess.run([(options.build / "bin/engine-bench").resolve(), "--chips", options.chips, *how_far,
+            run = subprocess.run([(options.bin / "engine-bench").resolve(), "--chips", options.chips, *how_far,
                                   "--repeats", options.repeats, *engine_arguments(words)],
                                  cwd=scratch, text=True, stdout=subprocess.PIPE)
         rows = run.stdout.splitlines()

@@ -2,29 +2,20 @@
 """Error against run time (trax-render --bench-accuracy) of the conference and of the generated forest, and their tables and diagrams
 in docs/accuracy.md.
 
-    raytracer/bench/accuracy.py SCENES_DIRECTORY --output DIR [--size 320x180] [--page docs/accuracy.md]
+    raytracer/bench/accuracy.py SCENES_DIRECTORY --output DIR [--size 320x180] [--page docs/accuracy.md] [--bin build/bin]
 
-SCENES_DIRECTORY holds conference.ply, also as .xz. What was measured stays in DIR, so that a run that was stopped goes on. With --page
+SCENES_DIRECTORY is lean.py's. What was measured stays in DIR, so that a run that was stopped goes on. With --page
 the tables stand between the page's marks, and the diagrams beside it.
 """
 
-import argparse
 import pathlib
 import shutil
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from scenes import arguments, files_of
+
 SCENES = ["conference", "forest"]
-
-
-def mesh(directory, name):
-    if name == "forest":
-        return "generate:forest"
-    for path in (directory / f"{name}.ply", directory / f"{name}.ply.xz"):
-        if path.exists():
-            return path
-    sys.exit(f"accuracy.py: error: {directory}: neither {name}.ply nor {name}.ply.xz is there")
 
 
 def marks(name):
@@ -46,17 +37,14 @@ def into_page(page, name, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
+    parser = arguments(__doc__, "320x180")
     parser.add_argument("--output", type=pathlib.Path, required=True)
-    parser.add_argument("--size", default="320x180")
     parser.add_argument("--page", type=pathlib.Path)
-    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
     for name in SCENES:
         folder = options.output / name
-        command = [options.bin / "trax-render", "--bench-accuracy", mesh(options.scenes, name), "--view", name, "--size", options.size, "-o", folder]
+        command = [options.bin / "trax-render", "--bench-accuracy", *files_of(options.scenes, name), "--view", name, "--size", options.size, "-o", folder]
         if subprocess.run(command, check=False).returncode != 0:
             sys.exit(1)
         if options.page:

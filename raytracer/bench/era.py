@@ -7,7 +7,6 @@ SCENES_DIRECTORY is lean.py's. Each choice changes a line or two of raytracer/er
 scene and choice: million rays a second on the first chip, its speed-up to the last one, adds and multiplications and bytes a ray there. A
 choice whose picture is another one than the era program's is marked; those by which a ray may meet another one of two surfaces at one place are."""
 
-import argparse
 import array
 import concurrent.futures
 import json
@@ -19,10 +18,9 @@ import subprocess
 import sys
 import tempfile
 
-from lean import find
+from scenes import ROOT, arguments, files_of
 
-SCENES = {"conference": ["conference.ply"], "crytek-sponza": ["crytek-sponza.ply"], "dragon": ["dragon.ply", "dragon_box.obj"], "forest": ["generate:forest"]}
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = ["conference", "crytek-sponza", "dragon", "forest"]
 NODE_WORDS, TRIANGLE_WORDS = 8, 10  # of trax/plain_scene.h
 COUNT, FIRST = 6, 7
 
@@ -149,14 +147,11 @@ def measure(options, scratch, scene, choice, stored):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
-    parser.add_argument("--size", default="640x360")
+    parser = arguments(__doc__, "640x360")
     parser.add_argument("--configs", default="1x32,8x64")
     parser.add_argument("--only", help="choices, separated by ';'")
-    parser.add_argument("--scene", choices=list(SCENES))
+    parser.add_argument("--scene", choices=SCENES)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     options = parser.parse_args()
     options.bin, options.configs = options.bin.resolve(), options.configs.split(",")
     chosen = [choice for choice in CHOICES if not options.only or choice.name in [CHOICES[0].name, *options.only.split(";")]]
@@ -173,7 +168,7 @@ def main():
                     stored[choice.tree] = scratch / f"{scene}-{len(stored)}.trax"
                     subprocess.run([options.bin / "trax-scene", "--quiet", "--nodes", "binary", "--passes", "0",
                                     *([] if "--splits" in choice.tree else ["--splits=1"]), *choice.tree,
-                                    *[find(options.scenes, file) for file in SCENES[scene]], "-o", stored[choice.tree]], check=True)
+                                    *files_of(options.scenes, scene), "-o", stored[choice.tree]], check=True)
             runs = [pool.submit(measure, options, scratch, scene, choice, stored[choice.tree]) for choice in chosen]
             for choice, run in zip(chosen, runs):
                 (one, *_, many), pictures = run.result()[0] if len(options.configs) > 1 else run.result()[0] * 2, run.result()[1]

@@ -1,31 +1,25 @@
 #!/usr/bin/env python3
 """Which triangles the device program hits, against Embree's: a table with a row for each scene.
 
-    raytracer/bench/hits.py SCENES_DIRECTORY [--size 1280x720] [--render build/bin/trax-render]
+    raytracer/bench/hits.py SCENES_DIRECTORY [--size 1280x720] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. Pixels count as tied where the error bound of the watertight test explains both answers
 (raytracer/render/hits.h). Exit status 1 if there is a pixel that it does not explain.
 """
 
-import argparse
 import os
-import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
-from lean import SCENES, find
+from scenes import SCENES, arguments, find
 
 LINE = re.compile(r"^hits +(\d+) of (\d+) pixels .* Embree hits, (\d+) another within the error bound, (\d+) beyond it", re.M)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
-    parser.add_argument("--size", default="1280x720")
-    parser.add_argument("--render", default=str(pathlib.Path(__file__).resolve().parents[2] / "build/bin/trax-render"))
-    options = parser.parse_args()
+    options = arguments(__doc__, "1280x720").parse_args()
 
     scenes = [(name, [find(options.scenes, file) for file in files]) for name, files in SCENES]
     if (options.scenes / "CornellBox.obj").exists():
@@ -35,7 +29,7 @@ def main():
     print("| --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as scratch:
         for scene, files in scenes:
-            run = subprocess.run([options.render, *files, "--view", scene, "--size", options.size, "--engine", "native", "--compare",
+            run = subprocess.run([options.bin / "trax-render", *files, "--view", scene, "--size", options.size, "--engine", "native", "--compare",
                                   "-o", os.path.join(scratch, "picture.png")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                  check=False)
             found = LINE.search(run.stdout)

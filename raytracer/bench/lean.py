@@ -1,36 +1,18 @@
 #!/usr/bin/env python3
 """What it brings to compile the device program for one picture: a table of both programs, a row for each scene.
 
-    raytracer/bench/lean.py SCENES_DIRECTORY [--size 320x180] [--config 4x32] [--render build/bin/trax-render]
+    raytracer/bench/lean.py SCENES_DIRECTORY [--size 320x180] [--config 4x32] [--bin build/bin]
 
 SCENES_DIRECTORY holds conference.ply.xz, crytek-sponza.ply.xz, dragon.ply.xz with dragon_box.obj, and sibenik.ply.xz (also
 without .xz). Every cell has the general program's figure and the specialised one's. Exit status 1 if a picture is not the same bit for bit.
 """
 
-import argparse
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-# Scene and its files.
-SCENES = [
-    ("conference", ["conference.ply"]),
-    ("crytek-sponza", ["crytek-sponza.ply"]),
-    ("dragon", ["dragon.ply", "dragon_box.obj"]),
-    ("sibenik", ["sibenik.ply"]),
-    ("forest", ["generate:forest"]),
-]
-
-
-def find(directory, name):
-    if name.startswith("generate:"):
-        return name
-    for candidate in (directory / name, directory / (name + ".xz")):
-        if candidate.exists():
-            return str(candidate)
-    sys.exit(f"lean.py: error: {directory}: neither {name} nor {name}.xz is there")
-
+from scenes import SCENES, arguments, find
 
 ROWS = ["bytes of code", "bytes of stack", "bytes of scene", "instructions run", "cycles", "bytes from and to memory"]
 
@@ -50,11 +32,8 @@ def figures(output):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
-    parser.add_argument("--size", default="320x180")
+    parser = arguments(__doc__, "320x180")
     parser.add_argument("--config", default="4x32")
-    parser.add_argument("--render", default=str(pathlib.Path(__file__).resolve().parents[2] / "build/bin/trax-render"))
     options = parser.parse_args()
 
     different = 0
@@ -64,7 +43,7 @@ def main():
     scenes = [(name, [find(options.scenes, file) for file in files]) for name, files in SCENES]
     with tempfile.TemporaryDirectory() as scratch:
         for scene, files in scenes:
-            run = subprocess.run([options.render, *files, "--view", scene, "--config", options.config, "--size", options.size, "--report",
+            run = subprocess.run([options.bin / "trax-render", *files, "--view", scene, "--config", options.config, "--size", options.size, "--report",
                                   "--cache", scratch, "-o", str(pathlib.Path(scratch) / "picture.png")], stdout=subprocess.PIPE, text=True,
                                  check=False)
             if run.returncode not in (0, 1) or not run.stdout:

@@ -2,9 +2,9 @@
 """What sampled simulation of a picture costs and how far off it is, beside exact runs and the simpler ways to be quick.
 
     raytracer/bench/sampled.py SCENES_DIRECTORY [--chips 4x32,8x64] [--scenes conference,dragon] [--size 1280x720] [--seeds 1]
-                               [--exact DIRECTORY] [--build build] [--fractions 0.05]
+                               [--exact DIRECTORY] [--bin build/bin] [--fractions 0.05]
 
-SCENES_DIRECTORY holds meshes as trax-eval wants them, or NAME.trax. For each scene and chip a row for the exact run, for
+SCENES_DIRECTORY is lean.py's, or holds NAME.trax. For each scene and chip a row for the exact run, for
 trax-render --sampled of each fraction and seed, for the prediction alone, for a picture of a quarter of the width and height
 whose cycles are scaled by the number of pixels, and, with --windows, for trax-sim --engine sampled, which samples time. Times are
 of the host's processor, for one thread, without reading the scene; ratios are of one run of this program, so that other
@@ -12,37 +12,22 @@ work on the host counts for both. --exact keeps the statistics of exact runs for
 them, with their time. The last line counts the intervals that hold the exact cycles.
 """
 
-import argparse
 import hashlib
 import json
 import pathlib
 import resource
 import subprocess
-import sys
 import tempfile
 
-MESHES = {
-    "conference": ["conference.ply"],
-    "crytek-sponza": ["crytek-sponza.ply"],
-    "dragon": ["dragon.ply", "dragon_box.obj"],
-    "forest": ["generate:forest"],
-    "sibenik": ["sibenik.ply"],
-}
-
-
-def find(directory, name):
-    for candidate in (directory / name, directory / (name + ".xz")):
-        if candidate.exists():
-            return str(candidate)
-    return name if name.startswith("generate:") else sys.exit(f"sampled.py: error: {directory}: neither {name} nor {name}.xz is there")
+from scenes import arguments, files_of
 
 
 def scene_file(options, name, scratch):
-    built = options.directory / f"{name}.trax"
+    built = options.scenes / f"{name}.trax"
     if built.exists():
         return built
     path = scratch / f"{name}.trax"
-    subprocess.run([options.build / "bin/trax-scene", "--quiet", *(find(options.directory, mesh) for mesh in MESHES[name]), "-o", path], check=True)
+    subprocess.run([options.bin / "trax-scene", "--quiet", *files_of(options.scenes, name), "-o", path], check=True)
     return path
 
 
@@ -57,9 +42,9 @@ def timed(command):
 class Case:
     def __init__(self, options, scratch, scene, chip, size):
         self.options, self.scratch = options, scratch
-        self.command = [options.build / "bin/trax-render", scene, "--view", scene.stem, "--config", chip, "--size", size, "--threads", "1", "--quiet"]
+        self.command = [options.bin / "trax-render", scene, "--view", scene.stem, "--config", chip, "--size", size, "--threads", "1", "--quiet"]
         self.identity = "|".join([str(word) for word in self.command[2:]] + [hashlib.sha256(path.read_bytes()).hexdigest() for path in
-                                 (scene, options.build / "bin/trax-render", options.build / "bin/clang")])
+                                 (scene, options.bin / "trax-render", options.bin / "clang")])
         self.overhead = timed([*self.command, "--prepare", scratch / "inputs"])  # reading, compiling, loading
 
     def run(self, *more):
@@ -81,22 +66,19 @@ class Case:
 
     def windows(self):
         stats = self.scratch / "windows.json"
-        seconds = timed(["env", f"TRAX_SIM={self.options.build.resolve()}/bin/trax-sim", "sh", self.scratch / "inputs/run.sh", "--engine", "sampled", "--quiet", "--stats", stats])
+        seconds = timed(["env", f"TRAX_SIM={self.options.bin.resolve()}/trax-sim", "sh", self.scratch / "inputs/run.sh", "--engine", "sampled", "--quiet", "--stats", stats])
         return json.loads(stats.read_text()), seconds
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("directory", metavar="SCENES_DIRECTORY", type=pathlib.Path)
+    parser = arguments(__doc__, "1280x720")
     parser.add_argument("--chips", default="4x32,8x64")
     parser.add_argument("--scenes", dest="names", default="conference,crytek-sponza,dragon,forest")
-    parser.add_argument("--size", default="1280x720")
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--fractions", default="0.05")
     parser.add_argument("--warm-ups", default="", help="slots before a range, a row for each; default: what trax-render takes")
     parser.add_argument("--exact", type=pathlib.Path)
     parser.add_argument("--windows", action="store_true")
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build")
     options = parser.parse_args()
 
     counts = {}

@@ -10,7 +10,6 @@ program's code and stack on the last chip. With --choices: one choice of the bui
 With --stacks: how many entries the traversal's stack has, instead of how scenes are stored.
 """
 
-import argparse
 import json
 import math
 import pathlib
@@ -19,7 +18,8 @@ import subprocess
 import sys
 import tempfile
 
-from lean import SCENES, figures, find
+from lean import figures
+from scenes import SCENES, arguments, find
 
 # Name, options of trax-scene, options of trax-render.
 WAYS = [
@@ -138,15 +138,12 @@ def stacks(options, configs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scenes", type=pathlib.Path)
-    parser.add_argument("--size", default="320x180")
+    parser = arguments(__doc__, "320x180")
     parser.add_argument("--configs", default="4x32,8x64")
     parser.add_argument("--only", help="ways, separated by ';'")
     parser.add_argument("--scene")
     parser.add_argument("--choices", action="store_true", help="one choice of the builder's at a time")
     parser.add_argument("--stacks", help="numbers of entries, separated by ','")
-    parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/bin")
     options = parser.parse_args()
     configs = options.configs.split(",")
     ways = [way for way in WAYS if not options.only or way[0] in options.only.split(";")]

@@ -18,26 +18,18 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "timing"))
+sys.path[:0] = [str(HERE.parent / "timing"), str(HERE.parents[1] / "raytracer/bench")]
 import engines  # noqa: E402
+from scenes import SCENES, find  # noqa: E402
 
 CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()
-SCENES = [("conference", ["conference.ply"]), ("crytek-sponza", ["crytek-sponza.ply"]), ("dragon", ["dragon.ply", "dragon_box.obj"]),
-          ("sibenik", ["sibenik.ply"])]
-
-
-def find(directory, name):
-    for candidate in (directory / name, directory / (name + ".xz")):
-        if candidate.exists():
-            return str(candidate)
-    sys.exit(f"chips.py: error: {directory}: neither {name} nor {name}.xz is there")
 
 
 def scenes_of(options, folder):
     """Import what the command line names; return names and arguments of trax-render."""
     if options.scenes.is_dir():
         chosen = [(name, [find(options.scenes, file) for file in files], ["--view", name]) for name, files in SCENES
-                  if not options.only or name in options.only.split(",")]
+                  if name in options.only.split(",")]
     else:
         chosen = [(options.scenes.stem, [str(options.scenes)], [])]
     made = []
@@ -56,7 +48,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("scenes", type=pathlib.Path, metavar="SCENES_DIRECTORY|MESH")
     parser.add_argument("--bin", default=str(HERE.parents[1] / "build/bin"), help="the folder of trax-render and trax-scene")
-    parser.add_argument("--only", help="scenes of the directory, with commas between")
+    parser.add_argument("--only", default="conference,crytek-sponza,dragon,sibenik", help="scenes of the directory, with commas between")
     parser.add_argument("--chips", default=",".join(CHIPS), help="with commas between (default: all fifteen)")
     parser.add_argument("--size", default="160x90")
     parser.add_argument("--work", help="a folder that keeps scenes, pictures and statistics")
