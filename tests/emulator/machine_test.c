@@ -1,4 +1,5 @@
 /* Programs through the public interface: buffers, statistics, faults. */
+#include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,8 +17,9 @@
 #include "core/machine.h"
 #include "host/statistics.h"
 #include "programs.h"
+#include "temporary.h"
 
-static char file_name[] = "/tmp/trax-machine-test.XXXXXX";
+static const char *file_name;
 
 static void expect_message(const trax_error *error, const char *part) {
   if (!strstr(error->message, part))
@@ -123,8 +125,8 @@ static void test_files_as_buffers(void **state) {
   (void)state;
   trax_machine *machine = load("copy");
   trax_error error;
-  char path[] = "/tmp/trax-machine-test-data.XXXXXX";
-  int descriptor = mkstemp(path);
+  const char *path = test_path("data");
+  int descriptor = open(path, O_RDWR | O_CREAT, 0600);
   assert_true(descriptor >= 0);
   assert_int_equal(ftruncate(descriptor, 4 << 20), 0);
   assert_int_equal(trax_machine_bind_file(machine, "input", path, &error), TRAX_ERROR);
@@ -143,7 +145,6 @@ static void test_files_as_buffers(void **state) {
   assert_int_equal(trax_machine_read_buffer(machine, "output", &bytes, &size, &error), TRAX_OK);
   assert_memory_equal(bytes, "abcdefgh", 8);
   close(descriptor);
-  unlink(path);
   trax_machine_destroy(machine);
 }
 
@@ -500,11 +501,6 @@ int main(void) {
       cmocka_unit_test(test_reports_of_other_faults),
       cmocka_unit_test(test_no_fault_no_report),
   };
-  int descriptor = mkstemp(file_name);
-  if (descriptor < 0)
-    return 1;
-  close(descriptor);
-  int failures = cmocka_run_group_tests(tests, NULL, NULL);
-  unlink(file_name);
-  return failures;
+  file_name = test_path("program");
+  return cmocka_run_group_tests(tests, NULL, NULL);
 }

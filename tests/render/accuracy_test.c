@@ -3,6 +3,7 @@
 #include "meshes.h"
 
 #include "accuracy.h"
+#include "temporary.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -289,9 +290,7 @@ static void test_fronts(void **state) {
 
 static void test_rows_in_files(void **state) {
   (void)state;
-  char path[] = "row-XXXXXX";
-  const int descriptor = mkstemp(path);
-  assert_true(descriptor >= 0);
+  const char *path = test_path("row");
   struct trax_accuracy_row row = {0}, again = {0};
   trax_error error;
   for (int i = 0; i < TRAX_ACCURACY_FIGURE_COUNT; i++)
@@ -302,7 +301,6 @@ static void test_rows_in_files(void **state) {
   assert_int_equal(truncate(path, 40), 0);
   assert_false(trax_accuracy_read_row(&again, path));
   unlink(path);
-  close(descriptor);
   assert_false(trax_accuracy_read_row(&again, path));
 }
 

@@ -1,62 +1,8 @@
 #include "support.h"
 
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
-
-static char directory[] = "/tmp/trax-scene-test.XXXXXX";
-
-static unsigned for_each_file(void (*visit)(const char *)) {
-  DIR *stream = opendir(directory);
-  assert_non_null(stream);
-  unsigned count = 0;
-  for (struct dirent *entry; (entry = readdir(stream));) {
-    if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, ".."))
-      continue;
-    count++;
-    if (visit)
-      visit(entry->d_name);
-  }
-  closedir(stream);
-  return count;
-}
-
-static void remove_file(const char *name) {
-  char path[512];
-  snprintf(path, sizeof path, "%s/%s", directory, name);
-  remove(path);
-}
-
-static void remove_directory(void) {
-  for_each_file(remove_file);
-  rmdir(directory);
-}
-
-const char *test_directory(void) {
-  static bool made;
-  if (!made) {
-    assert_non_null(mkdtemp(directory));
-    made = true;
-    atexit(remove_directory);
-  }
-  return directory;
-}
-
-unsigned count_files(void) {
-  test_directory();
-  return for_each_file(NULL);
-}
-
-const char *test_path(const char *name) {
-  static char paths[64][512];
-  static unsigned next;
-  char *path = paths[next++ % 64];
-  snprintf(path, sizeof paths[0], "%s/%s", test_directory(), name);
-  return path;
-}
 
 const char *test_file(const char *name, const void *bytes, size_t size) {
   const char *path = test_path(name);

@@ -9,16 +9,12 @@
 
 #include <cmocka.h>
 
+#include "temporary.h"
 #include "trax/scene.h"
 
-/* A directory of this test's own, made at the first call and removed at exit. */
-const char *test_directory(void);
-/* directory/name, valid until the program ends. */
-const char *test_path(const char *name);
-/* Writes a file there and returns its path. */
+/* Writes a file into the test's directory and returns its path. */
 const char *test_file(const char *name, const void *bytes, size_t size);
 const char *test_text(const char *name, const char *text);
-unsigned count_files(void);
 
 /* Uniform in [0, 1). */
 float random_unit(uint32_t *state);

@@ -3,6 +3,7 @@
 
    TRAX_RANDOM_ROUNDS and TRAX_RANDOM_SEED make it longer and different. */
 #include "compare.h"
+#include "temporary.h"
 
 #include "host/checkpoint.h"
 
@@ -10,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static char path[] = "/tmp/trax-checkpoint-XXXXXX";
+static const char *path;
 
 struct asked {
   struct trax_checkpoint_options options;
@@ -151,11 +152,7 @@ static void damaged_files(void **state) {
 }
 
 int main(void) {
-  const int descriptor = mkstemp(path);
-  if (descriptor < 0)
-    return EXIT_FAILURE;
-  close(descriptor);
-  unlink(path);
+  path = test_path("checkpoint");
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(own_words),
       cmocka_unit_test(races),

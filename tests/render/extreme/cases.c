@@ -1,11 +1,10 @@
 /* Cases of geometry: what is hit? */
-#define _GNU_SOURCE /* mkstemps */
 #include "cases.h"
+#include "temporary.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const float nowhere[3];
 
@@ -456,9 +455,8 @@ static void make_nonfinite(struct setup *setup, uint32_t rays) {
   static const char *const bad[] = {"nan", "inf", "-inf", "1e20", "-nan"};
   struct setup good = {0};
   add_globe(&good, 4, &(struct globe){{0, 0, 0}, 1, 0});
-  char path[] = "/tmp/render-extreme-XXXXXX.ply";
-  int descriptor = mkstemps(path, 4);
-  FILE *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
+  const char *path = test_path("nonfinite.ply");
+  FILE *file = fopen(path, "w");
   if (!file)
     fail("no temporary file");
   const uint32_t count = good.mesh.triangle_count, bad_count = sizeof bad / sizeof *bad;
@@ -491,7 +489,6 @@ static void make_nonfinite(struct setup *setup, uint32_t rays) {
     fail(error.message);
   if (report.nonfinite != bad_count || setup->mesh.triangle_count != count)
     fail("not all of them are left out");
-  unlink(path);
   setup_release(&good);
   aim_from_within(setup, nowhere, 0.4f, rays);
 }
