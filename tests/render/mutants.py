@@ -6,16 +6,15 @@
 Needs a finished build, which is not changed. The reference stays as it is. Exit status 0 if every mutant is noticed.
 """
 
-import argparse
-import pathlib
-import shlex
-import shutil
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from mutation import ROOT, command, main
+
 INCLUDE = [f"-I{ROOT / folder}" for folder in ("raytracer/include", "raytracer/render", "emulator", "emulator/include", "isa/include",
                                                "runtime/include", "tests/render")]
+TESTS = [("render-light-test", "tests/render/light_test.c", []),
+         ("render-shading-test", "raytracer/device/main.c", ["-Dmain=trax_twin_watertight", "-DTRAX_TRIANGLE=TRAX_WATERTIGHT"])]
 COMPILE = ["cc", "-std=gnu17", "-O1", "-ffp-contract=off", "-fcommon", "-w", *INCLUDE]
 
 # Name, file of raytracer/device, text, what it becomes.
@@ -65,63 +64,32 @@ MUTANTS = [
 ]
 
 
-def link(test, objects, build, output):
-    """As ninja links the test, with the objects before the archives, so that they take the place of what is in these."""
-    commands = subprocess.run(["ninja", "-C", str(build), "-t", "commands", f"bin/{test}"], check=True, capture_output=True,
-                              text=True).stdout.splitlines()
-    words = shlex.split(commands[-1].split(" && ")[1])
-    if test == "render-light-test":
-        words = [word for word in words if not word.endswith("light_test.c.o")]
-    words[words.index("-o") + 1] = str(output)
-    at = next(i for i, word in enumerate(words) if word.endswith(".a"))
-    subprocess.run(words[:at] + objects + words[at:], check=True, cwd=build)
-
-
-def noticed(mutant, folder, build):
-    """What the tests that fail say first; empty if none does."""
-    _, file, text, other = mutant
-    shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(ROOT / "raytracer/device", folder / "raytracer/device")
-    (folder / "tests/render").mkdir(parents=True)
-    shutil.copy(ROOT / "tests/render/light_test.c", folder / "tests/render")
-    source = folder / "raytracer/device" / file
-    if source.read_text().count(text) != 1:
-        sys.exit(f"mutants.py: error: {file}: not exactly once there: {text}")
-    source.write_text(source.read_text().replace(text, other))
-    said = []
-    for test, program, macros in (("render-light-test", "tests/render/light_test.c", []),
-                                  ("render-shading-test", "raytracer/device/main.c",
-                                   ["-Dmain=trax_twin_watertight", "-DTRAX_TRIANGLE=TRAX_WATERTIGHT"])):
-        compiled, output = folder / f"{test}.o", folder / test
+def make(folder, build):
+    """As ninja links the tests, with what is compiled before the archives, so that it takes the place of what is in these."""
+    for test, program, macros in TESTS:
+        compiled = folder / f"{test}.o"
         subprocess.run([*COMPILE, *macros, "-c", folder / program, "-o", compiled], check=True)
-        link(test, [str(compiled)], build, output)
+        words = command(build, f"bin/{test}")
+        if test == "render-light-test":
+            words = [word for word in words if not word.endswith("light_test.c.o")]
+        words[words.index("-o") + 1] = folder / test
+        at = next(i for i, word in enumerate(words) if str(word).endswith(".a"))
+        subprocess.run([*words[:at], compiled, *words[at:]], check=True, cwd=build)
+
+
+def said(folder):
+    """Which tests fail."""
+    failed = []
+    for test, _, _ in TESTS:
         try:
-            run = subprocess.run([output], capture_output=True, text=True, timeout=120)
-            said += [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
+            run = subprocess.run([folder / test], capture_output=True, text=True, timeout=120)
+            failed += [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
             if run.returncode < 0:
-                said.append(f"{test} ends by signal {-run.returncode}")
+                failed.append(f"{test} ends by signal {-run.returncode}")
         except subprocess.TimeoutExpired:
-            said.append(f"{test} does not end")
-    return said
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scratch", type=pathlib.Path)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
-    parser.add_argument("--only", help="the mutant of this name")
-    options = parser.parse_args()
-    chosen = [mutant for mutant in MUTANTS if options.only in (None, mutant[0])]
-    if not chosen:
-        sys.exit(f"mutants.py: error: no mutant is called {options.only}")
-    missed = 0
-    for mutant in chosen:
-        said = noticed(mutant, (options.scratch / mutant[0]).resolve(), options.build.resolve())
-        missed += not said
-        print(f"{mutant[0]}: {', '.join(said) if said else 'NOT NOTICED'}", flush=True)
-    print(f"{len(chosen) - missed} of {len(chosen)} noticed")
-    sys.exit(missed > 0)
+            failed.append(f"{test} does not end")
+    return failed
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main(__doc__, "tests/render", MUTANTS, make, said))

@@ -6,15 +6,15 @@
 Needs a finished build, which is not changed. Exit status 0 if every mutant fails in the case that is there for it.
 """
 
-import argparse
 import pathlib
-import shlex
 import shutil
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-METHODS = ["watertight", "moller-trumbore", "stack-1", "stack-2", "stack-4"]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from mutation import ROOT, command, main  # noqa: E402
+
+TESTS = "tests/render/extreme"
 
 # Name, file of raytracer/device, text, what it becomes, the case that must fail.
 MUTANTS = [
@@ -38,62 +38,34 @@ MUTANTS = [
 ]
 
 
-def link_command(build):
-    """How ninja links render-extreme, as words."""
-    commands = subprocess.run(["ninja", "-C", str(build), "-t", "commands", "bin/render-extreme"], check=True,
-                              capture_output=True, text=True).stdout.splitlines()
-    return shlex.split(commands[-1].split(" && ")[1])
+def compile_query(build, output, folder, made):
+    """As ninja makes the output of query.c, of the copy of query.c."""
+    words = command(build, output)
+    words[words.index(str(ROOT / TESTS / "query.c"))] = folder / TESTS / "query.c"
+    words[words.index("-MF") + 1] = "/dev/null"
+    words[words.index("-o") + 1] = made
+    subprocess.run([*words, "-w"], check=True, cwd=build)
 
 
-def make(mutant, folder, build):
-    """Compile the mutant's query programs and the suite with them; the suite's path."""
-    _, file, text, other, _ = mutant
-    shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(ROOT / "raytracer/device", folder / "raytracer/device")
-    shutil.copytree(ROOT / "tests/render/extreme", folder / "tests/render/extreme")
-    source = folder / "raytracer/device" / file
-    if source.read_text().count(text) != 1:
-        sys.exit(f"mutants.py: error: {file}: not exactly once there: {text}")
-    source.write_text(source.read_text().replace(text, other))
-    query = str(folder / "tests/render/extreme/query.c")
-    include = ["-I", str(ROOT / "raytracer/include")]
-    link = link_command(build)
-    for method in METHODS:
-        macro = "-DTRAX_TRIANGLE=TRAX_" + method.upper().replace("-", "_")
-        if method.startswith("stack-"):
-            macro = "-DTRAX_STACK_ENTRIES=" + method.removeprefix("stack-")
-        subprocess.run([build / "bin/clang", "--target=trax", "-std=c17", "-O3", macro, *include, query, "-o",
-                        folder / f"query-{method}.elf"], check=True)
-        subprocess.run(["cc", "-std=gnu17", "-O3", "-ffp-contract=off", macro, *include, "-I", str(ROOT / "runtime/include"),
-                        "-DQUERY_FUNCTION=query_" + method.replace("-", "_"), "-c", query, "-o", folder / f"{method}.o"], check=True)
-        link = [str(folder / f"{method}.o") if f"extreme-{method}.dir" in word else word for word in link]
+def make(folder, build):
+    """Compiles the query programs and the suite with them."""
+    for program in (build / "lib/trax").glob("query-*.elf"):
+        compile_query(build, f"lib/trax/{program.name}", folder, folder / program.name)
     shutil.copy(build / "lib/trax/trax-raytracer.elf", folder)
-    link[link.index("-o") + 1] = str(folder / "render-extreme")
+    link = command(build, "bin/render-extreme")
+    for i, word in enumerate(link):
+        if word.endswith("/query.c.o"):
+            link[i] = folder / f"{i}.o"
+            compile_query(build, word, folder, link[i])
+    link[link.index("-o") + 1] = folder / "render-extreme"
     subprocess.run(link, check=True, cwd=build)
-    return folder / "render-extreme"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("scratch", type=pathlib.Path)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
-    parser.add_argument("--only", help="the mutant of this name")
-    options = parser.parse_args()
-    chosen = [mutant for mutant in MUTANTS if options.only in (None, mutant[0])]
-    if not chosen:
-        sys.exit(f"mutants.py: error: no mutant is called {options.only}")
-    missed = 0
-    for mutant in chosen:
-        name, case = mutant[0], mutant[-1]
-        folder = (options.scratch / name).resolve()
-        suite = make(mutant, folder, options.build.resolve())
-        run = subprocess.run([suite, "--program-directory", folder, "--case", case], capture_output=True, text=True, timeout=600)
-        said = sorted({line.split(": ", 2)[2] for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
-        missed += not said
-        print(f"{name}: {case}: {'; '.join(said) if said else 'NOT NOTICED'}", flush=True)
-    print(f"{len(chosen) - missed} of {len(chosen)} noticed")
-    sys.exit(missed > 0)
+def said(folder, case):
+    """What the suite says of the case."""
+    run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", case], capture_output=True, text=True, timeout=600)
+    return sorted({line.split(": ", 2)[2] for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main(__doc__, TESTS, MUTANTS, make, said))
