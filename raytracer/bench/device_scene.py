@@ -1,0 +1,96 @@
+"""What a specialised program reads (trax/scene_format.h), to be changed before it runs, and how its source is changed."""
+
+import array
+import struct
+
+LINE, TRIANGLE = 16, 10  # words
+
+
+class Variant:
+    """Of nothing changed: the program as it is. source: (file, what is there, what takes its place). scene: changes one. other: its picture may be another one."""
+
+    def __init__(self, name, source=(), scene=None, other=False):
+        self.name, self.source, self.scene, self.other = name, source, scene, other
+
+
+def cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def minus(a, b):
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+class Scene:
+    """What the device reads (trax/scene_format.h): its words, little endian as is the host (x86-64), and where things are in them."""
+
+    def __init__(self, path):
+        self.words = array.array("I")
+        self.words.frombytes(path.read_bytes())
+        words = self.words
+        self.base, layout = words[14:16]
+        self.nodes, node_bytes, self.node_count, self.node_size = words[16] // 4, *words[17:19], words[19] // 4
+        self.triangles, self.triangle_count = words[20] // 4, words[22]
+        self.plane_format = {0: "f", 1: "H"}[layout]  # the default's layouts
+        self.children = 2 * 6 * (4 if layout == 0 else 2) // 4
+        self.end = self.nodes + node_bytes // 4
+        lows, highs = (struct.unpack("<3f", words[at:at + 3].tobytes()) for at in (8, 11))
+        self.units = [1.0] * 3 if layout == 0 else [high - low for low, high in zip(lows, highs)]
+
+    def references(self, change):
+        """change(list of references) for each node's first children, and their second ones."""
+        for child in range(2):
+            place = slice(self.nodes + self.children + child, self.end, self.node_size)
+            self.words[place] = array.array("I", change(self.words[place]))
+
+    def numbers(self):
+        """Pairs of lists: the references of each node's children."""
+        return [list(self.words[self.nodes + self.children + child:self.end:self.node_size]) for child in range(2)]
+
+    def node_of(self, reference):
+        return (reference - self.base - self.nodes * 4) // (self.node_size * 4)
+
+    def boxes(self, node):
+        """Of a node's children: lows and highs along each axis, those in planes in proportion to lengths."""
+        at = self.nodes + node * self.node_size
+        planes = memoryview(self.words)[at:at + self.children].cast("B").cast(self.plane_format)
+        return [[[plane * unit for plane, unit in zip(planes[first:first + 3], self.units)] for first in (box, box + 3)] for box in (0, 6)]
+
+    def swap(self, node):
+        at, half, last = self.nodes + node * self.node_size, self.children // 2, self.nodes + node * self.node_size + self.children
+        words = self.words
+        words[at:at + half], words[at + half:last] = words[at + half:last], words[at:at + half]
+        words[last], words[last + 1] = words[last + 1], words[last]
+
+    def floats(self, number):
+        """A triangle's corners."""
+        at = self.triangles + number * TRIANGLE
+        values = struct.unpack("<9f", self.words[at:at + 9].tobytes())
+        return values[:3], values[3:6], values[6:]
+
+    def move(self, base):
+        """For a program that has the scene at the address `base`."""
+        by, self.base = base - self.base, base
+        self.references(lambda references: [reference + by for reference in references])
+        self.words[4] += by
+        self.words[14] = base
+
+    def replace_triangles(self, place, words, behind=()):
+        """place: maps a leaf's first triangle to a place in `words`, in words; `behind` becomes the section of materials."""
+        start = self.base + self.triangles * 4
+
+        def moved(references):
+            return [start + 4 * place((reference - start) // (TRIANGLE * 4)) + (reference & 7) if reference & 7 else reference for reference in references]
+
+        self.references(moved)
+        del self.words[self.triangles:]
+        self.words[21] = 4 * len(words)
+        self.words += words + array.array("I", [0] * (-len(words) % LINE))
+        self.words[24] = 4 * len(self.words)
+        self.words += array.array("I", behind) + array.array("I", [0] * (-len(behind) % LINE))
+        self.words[2] = 4 * len(self.words)
+
+    def leaves(self):
+        """First triangle and number of triangles of each leaf, in order."""
+        start = self.base + self.triangles * 4
+        return sorted(((reference - start) // (TRIANGLE * 4), reference & 7) for references in self.numbers() for reference in references if reference & 7)
