@@ -186,19 +186,44 @@ static bool is_free(const struct trax_memory *memory, const struct trax_channel 
   return channel->free_from < (t + 1) * memory->units_per_cycle;
 }
 
-/* A single channel, straight from the queues. */
+/* The single channel takes the oldest waiting request of a TM, straight from its queue. */
+static void serve_ring(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t) {
+  trax_arbiter_to_back(&memory->turn, tm->number);
+  struct trax_request *request = trax_queue_first_waiting(&tm->queue);
+  if (++tm->queue.started == tm->queue.shown)
+    memory->tms &= ~((uint64_t)1 << tm->number);
+  request->completion = transfer(memory, 0, request, space, t);
+  if (request->completion < tm->next_cycle)
+    tm->next_cycle = request->completion;
+}
+
 static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
-  while (memory->tms && is_free(memory, &memory->channel[0], t)) {
-    const unsigned number = trax_arbiter_look(memory->turn, memory->tms);
-    trax_arbiter_to_back(&memory->turn, number);
-    struct trax_tm *tm = &tms[number];
-    struct trax_request *request = trax_queue_first_waiting(&tm->queue);
-    if (++tm->queue.started == tm->queue.shown)
-      memory->tms &= ~((uint64_t)1 << number);
-    request->completion = transfer(memory, 0, request, space, t);
-    if (request->completion < tm->next_cycle)
-      tm->next_cycle = request->completion;
+  while (memory->tms && is_free(memory, &memory->channel[0], t))
+    serve_ring(memory, &tms[trax_arbiter_look(memory->turn, memory->tms)], space, t);
+}
+
+/* Whether a TM that has no request waiting, and whose turn is before the next one's who has, may have made one by
+   cycle t. */
+static bool may_be_overtaken(const struct trax_memory *memory, const struct trax_tm *tms, unsigned count, uint64_t t) {
+  const unsigned next = trax_arbiter_look(memory->turn, memory->tms);
+  for (unsigned number = memory->turn < count ? memory->turn : 0; number != next;
+       number = number + 1 < count ? number + 1 : 0)
+    if (tms[number].next_cycle <= t)
+      return true;
+  return false;
+}
+
+uint64_t trax_memory_run_ahead(struct trax_memory *memory, struct trax_tm *tms, unsigned count,
+                               struct trax_space *space, uint64_t t, uint64_t end) {
+  while (memory->keeps_order) {
+    const uint64_t free_cycle = memory->channel[0].free_from / memory->units_per_cycle; /* the bus frees during it */
+    if (free_cycle > t)
+      t = free_cycle;
+    if (t >= end || !memory->tms || may_be_overtaken(memory, tms, count, t))
+      break;
+    serve_ring(memory, &tms[trax_arbiter_look(memory->turn, memory->tms)], space, t);
   }
+  return t;
 }
 
 static bool has_waiting(const struct trax_channel *channel) {

@@ -76,6 +76,12 @@ void trax_memory_visit_state(struct trax_memory *memory, void (*visit)(void *con
 /* Step 3 of cycle t: takes requests and starts transfers. Lowers tm[].next_cycle where a completion comes sooner. */
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t);
 
+/* Before cycle t: starts all transfers of t and the cycles behind it, up to `end`, that are the same whatever the
+   `count` TMs request from now on, if each does nothing before its next_cycle. Returns the first cycle, `end` or a
+   later one if they all are, in which a transfer may start that was not. */
+uint64_t trax_memory_run_ahead(struct trax_memory *memory, struct trax_tm *tm, unsigned count, struct trax_space *space,
+                               uint64_t t, uint64_t end);
+
 /* First cycle after t in which something can start if no request is added; UINT64_MAX if nothing waits. */
 uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t);
 

@@ -11,7 +11,8 @@
 
 enum {
   LEAST_WINDOW = 16,       /* cycles; shorter ones are not worth it */
-  MOST_WINDOWS = 64,       /* between two states to which the run can go back; after these it keeps another one */
+  MOST_AHEAD = 1024,       /* cycles for which the controller serves requests before a window */
+  KEEP_EVERY = 64,         /* shortest windows after which another state is kept to which the run can go back */
   FIRST_PAUSE = 64,        /* cycles that are run one by one after a conflict, besides those that contain it */
   LONGEST_PAUSE = 1 << 20, /* it doubles with each conflict that follows soon */
   REGIONS_OF_A_TM = 32,
@@ -35,7 +36,8 @@ enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 struct writer {
   uint64_t round;
   uint32_t address;
-  uint32_t tm; /* or BY_... */
+  uint16_t tm; /* or BY_... */
+  bool early;  /* incremented before the window, in which this was to happen */
 };
 
 struct trax_windows {
@@ -43,13 +45,13 @@ struct trax_windows {
   struct trax_pool *pool;
   uint32_t abreast;         /* TMs that one thread runs together */
   struct trax_ahead *ahead; /* [tms] */
-  uint64_t length;          /* cycles of a window */
+  uint64_t length;          /* cycles of the shortest window: from a request to its completion */
   uint64_t end;             /* of the current one */
+  bool early;               /* what the controller does now is to happen in the window's course */
 
   /* The state to which the run can go back. */
   bool kept;
   uint64_t kept_cycle;
-  unsigned windows_since;
   struct region *regions; /* [region_count] */
   size_t region_count, kept_size;
   uint8_t *kept_bytes; /* all regions, one behind the other */
@@ -122,7 +124,6 @@ static void keep_state(struct trax_windows *windows, uint64_t t) {
     memcpy(to, windows->regions[i].bytes, windows->regions[i].size);
   windows->kept = true;
   windows->kept_cycle = t;
-  windows->windows_since = 0;
   windows->undo_count = 0;
 }
 
@@ -180,25 +181,25 @@ static bool grow_writers(struct trax_windows *windows) {
   return true;
 }
 
-/* The word at `address` is about to be written by a TM or the controller. False: out of memory. */
-static bool note_writer(struct trax_windows *windows, uint32_t address, uint32_t tm) {
+/* The word at `address` is about to be written by a TM or the controller. NULL: out of memory. */
+static const struct writer *note_writer(struct trax_windows *windows, uint32_t address, uint32_t tm) {
   if (!grow((void **)&windows->undo, windows->undo_count, &windows->undo_capacity, sizeof *windows->undo) ||
       !grow_writers(windows))
-    return false;
+    return NULL;
   struct undo *undo = &windows->undo[windows->undo_count++];
   undo->address = address & ~3u;
   memcpy(&undo->word, windows->chip->machine->space.bytes + undo->address, sizeof undo->word);
   struct writer *writer = find_writer(windows, undo->address);
   if (writer->round != windows->round) {
-    *writer = (struct writer){windows->round, undo->address, tm};
+    *writer = (struct writer){windows->round, undo->address, (uint16_t)tm, windows->early};
     windows->writer_count++;
   } else if (writer->tm != tm) {
     writer->tm = BY_SEVERAL;
   }
-  return true;
+  return writer;
 }
 
-/* False: what was loaded before it is written must be loaded again. */
+/* False: what was loaded before it is written must be loaded again, or what was incremented before, incremented. */
 static bool perform(struct trax_windows *windows, const struct trax_ahead_write *write, uint32_t tm) {
   struct trax_fast *fast = windows->chip->fast;
   uint8_t *state = &fast->blocks.state[write->address >> TRAX_BLOCK_SHIFT];
@@ -207,7 +208,8 @@ static bool perform(struct trax_windows *windows, const struct trax_ahead_write 
   *state = TRAX_BLOCK_WRITTEN;
   if (!write->bytes)
     return true;
-  if (!note_writer(windows, write->address, tm))
+  const struct writer *writer = note_writer(windows, write->address, tm);
+  if (!writer || writer->early)
     return false;
   memcpy(windows->chip->machine->space.bytes + write->address, &write->value, write->bytes);
   return true;
@@ -253,7 +255,7 @@ static void note_increment(void *context, uint32_t address) {
   windows->failed |= !note_writer(windows, address, BY_CONTROLLER);
 }
 
-/* Step 3 of all cycles of the window. */
+/* Step 3 of all cycles of the window, but for what has been done before it. */
 static bool run_controller(struct trax_windows *windows, uint64_t t) {
   struct trax_chip *chip = windows->chip;
   struct trax_memory *memory = &chip->memory;
@@ -288,11 +290,8 @@ static bool end_window(struct trax_windows *windows, uint64_t begin) {
       return false;
   if (!trax_chip_running(chip))
     return false; /* the run's end is found cycle by cycle */
-  windows->round++;
-  windows->writer_count = 0;
   memset(windows->next_write, 0, chip->tms * sizeof *windows->next_write);
   memset(windows->next_request, 0, chip->tms * sizeof *windows->next_request);
-  windows->failed = false;
   return run_controller(windows, begin) && !windows->failed && !has_read_too_early(windows);
 }
 
@@ -305,30 +304,44 @@ static void run_tms(void *context, uint32_t group) {
   chip->engine->run_ahead(chip->fast, first, left < windows->abreast ? left : windows->abreast, windows->end);
 }
 
+/* Begins a window: whatever waits for memory and is served in the same cycles whatever the TMs request in them is
+   served now, and the window ends when what is requested in it might come back. */
+static void begin_window(struct trax_windows *windows, uint64_t t, uint64_t until) {
+  const struct trax_chip *chip = windows->chip;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (chip->tm[i].next_cycle < t)
+      chip->tm[i].next_cycle = t;
+  windows->round++;
+  windows->writer_count = 0;
+  windows->failed = false;
+  windows->early = true;
+  const uint64_t ahead = trax_memory_run_ahead(&windows->chip->memory, chip->tm, chip->tms, &chip->machine->space, t,
+                                               until - t < MOST_AHEAD ? until : t + MOST_AHEAD);
+  windows->early = false;
+  windows->end = until - t < ahead - t + windows->length ? until : ahead + windows->length;
+}
+
 bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t until) {
   struct trax_chip *chip = windows->chip;
   if (*t < windows->cautious_until || until - *t < LEAST_WINDOW) {
     windows->kept = false; /* what is written in that cycle is not noted */
     return false;
   }
-  if (!windows->kept || windows->windows_since == MOST_WINDOWS) {
+  if (!windows->kept || *t - windows->kept_cycle >= KEEP_EVERY * windows->length) {
     if (windows->kept)
       windows->pause = FIRST_PAUSE;
     keep_state(windows, *t);
   }
-  windows->windows_since++;
-  windows->end = until - *t < windows->length ? until : *t + windows->length;
+  chip->memory.before_increment = note_increment;
+  chip->memory.context = windows;
+  begin_window(windows, *t, until);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_ahead_begin(&windows->ahead[i]);
     chip->tm[i].ahead = &windows->ahead[i];
-    if (chip->tm[i].next_cycle < *t)
-      chip->tm[i].next_cycle = *t;
   }
   trax_pool_run(windows->pool);
   for (uint32_t i = 0; i < chip->tms; i++)
     chip->tm[i].ahead = NULL;
-  chip->memory.before_increment = note_increment;
-  chip->memory.context = windows;
   const bool ended = end_window(windows, *t);
   chip->memory.before_increment = NULL;
   if (ended) {

@@ -12,6 +12,8 @@ enum {
   AFTERWARDS = 800, /* so many that no state is kept from before when the run ends, which is found cycle by cycle */
   OTHER = 8,        /* of the same small block as the word at DATA, which this makes one that has been written */
   RESULTS = 0x100,  /* results of TM i are at DATA + RESULTS + 64 i */
+  TRAFFIC = 0x200,  /* from a TM's results to what it writes so that requests wait */
+  WRITES = 12,
   WORD = 0,
 };
 
@@ -140,7 +142,18 @@ static const struct scenario scenarios[] = {
     {"an end, and stores after it", false, {end_thread, store_for_long, load_word}},
 };
 
-static void write_program(struct program *program, const struct scenario *scenario, const unsigned delay[3]) {
+/* Many cycles go by in a loop. */
+static void emit_delay(struct program *program, unsigned delay) {
+  if (delay > 128) {
+    emit_loop(program, delay / 2, 0);
+    delay %= 2;
+  }
+  for (unsigned i = 0; i < delay; i++)
+    emit(program, NOP);
+}
+
+static void write_program(struct program *program, const struct scenario *scenario, const unsigned delay[3],
+                          bool busy) {
   static const unsigned numbers[3] = {0x1234567, 0x55AA, 0x7F};
   program->count = 0;
   emit(program, R(RDSR, 1, 0, 0));
@@ -161,8 +174,9 @@ static void write_program(struct program *program, const struct scenario *scenar
       emit_loop(program, QUIET, I(LW, 5, 10, WORD));
     else
       emit_loop(program, QUIET, NOP);
-    for (unsigned i = 0; i < delay[tm]; i++)
-      emit(program, NOP);
+    for (unsigned i = 0; i < WRITES && busy; i++)
+      emit(program, S(SW, 4, 11, (int32_t)(TRAFFIC + 256 * i)));
+    emit_delay(program, delay[tm]);
     if (scenario->of[tm])
       scenario->of[tm](program);
     emit_loop(program, AFTERWARDS, 0);
@@ -174,20 +188,25 @@ static void write_program(struct program *program, const struct scenario *scenar
   emit(program, HALT);
 }
 
-static void check(const struct scenario *scenario, const unsigned delay[3], unsigned window) {
+static const double PLENTY = 100000; /* GB/s: all have their instructions in the same cycle */
+
+/* `bandwidth`: GB/s; if it is little, requests wait for the bus all the time, and windows are long. */
+static void check(const struct scenario *scenario, const unsigned delay[3], unsigned window, double bandwidth) {
   struct trax_config config = bench_far(3, 1);
   config.icache.line_bytes = config.icache.bytes = 4096;
   config.memory.latency_cycles = window;
-  config.memory.bandwidth_gbps = 100000; /* all have their instructions in the same cycle */
+  config.memory.bandwidth_gbps = bandwidth;
+  if (bandwidth < PLENTY)
+    config.memory.min_transfer_bytes = 4096; /* as an instruction line, so that those do not come far apart */
   config.memory.size_mib = 1;
   struct program program;
-  write_program(&program, scenario, delay);
+  write_program(&program, scenario, delay, bandwidth < PLENTY);
   struct run reference = run_alone(&config, program.words, program.count, TRAX_ENGINE_REFERENCE, 0, 1);
   struct run fast = run_alone(&config, program.words, program.count, TRAX_ENGINE_FAST, 0, 2);
   struct difference difference;
   if (different_runs(&difference, &reference, &fast))
-    fail_msg("%s, after %u, %u and %u cycles more, latency %u: %s", scenario->name, delay[0], delay[1], delay[2],
-             window, difference.text);
+    fail_msg("%s, after %u, %u and %u cycles more, latency %u, %g GB/s: %s", scenario->name, delay[0], delay[1],
+             delay[2], window, bandwidth, difference.text);
   end(&reference);
   end(&fast);
 }
@@ -197,7 +216,7 @@ static void in_any_order(void **state) {
   for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
     for (unsigned first = 0; first < 10; first += 3)
       for (unsigned second = 0; second < 14; second++)
-        check(&scenarios[i], (unsigned[]){first, second, 5 + second % 3}, LATENCY);
+        check(&scenarios[i], (unsigned[]){first, second, 5 + second % 3}, LATENCY, PLENTY);
 }
 
 /* Far apart: the other's window may be over, and increments happen late. */
@@ -205,12 +224,23 @@ static void at_any_distance(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
     for (unsigned distance = 0; distance < 110; distance += 11) {
-      check(&scenarios[i], (unsigned[]){distance, 3, distance / 2}, 16 + distance % 50);
-      check(&scenarios[i], (unsigned[]){3, distance, distance / 2}, 16 + distance % 50);
+      check(&scenarios[i], (unsigned[]){distance, 3, distance / 2}, 16 + distance % 50, PLENTY);
+      check(&scenarios[i], (unsigned[]){3, distance, distance / 2}, 16 + distance % 50, PLENTY);
+    }
+}
+
+/* The controller has served what waits, increments among it, before the cycles in which others write and read. */
+static void while_requests_wait(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
+    for (unsigned distance = 0; distance < 500; distance += 61) {
+      check(&scenarios[i], (unsigned[]){0, distance, distance / 2}, 16 + distance % 50, 128);
+      check(&scenarios[i], (unsigned[]){distance, 0, distance / 2}, 16 + distance % 50, 128);
     }
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(in_any_order), cmocka_unit_test(at_any_distance)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(in_any_order), cmocka_unit_test(at_any_distance),
+                                     cmocka_unit_test(while_requests_wait)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
