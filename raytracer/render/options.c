@@ -80,7 +80,7 @@ static const char usage[] =
     "      --fast-math         compiles the program with -ffast-math: its picture is not the twin's in every bit\n"
     "      --stack N           compiles the program with N entries on the stack of the traversal, 1 to 62; what it has "
     "no\n"
-    "                          room for it finds again (default: as many as the tree is deep, 16 if deeper than 32)\n"
+    "                          room for it finds again (default: as many as the tree is deep, 8 if deeper than 32)\n"
     "      --bench-accuracy    renders by each method and precision and prints what each costs and how wrong it is;\n"
     "                          -o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
     "                          so that a run that was stopped goes on\n"
