@@ -1,8 +1,9 @@
 /* render-gallery DIRECTORY [PARTS]: gallery.trax with those parts, a sum of gallery.h's (63: all), and gallery.view
-   with all lights. For tests of programs, and to look at. */
+   with all lights. The directory is made if it is not there. For tests of programs, and to look at. */
 #include "gallery.h"
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 static const char view_text[] =
     "eye = [0.05, 1.05, 3.9];\ndirection = [0.0, -0.03, -1.0];\nup = [0.0, 1.0, 0.0];\nfov = 38.0;\n"
@@ -22,6 +23,7 @@ int main(int argc, char **argv) {
     return 2;
   gallery_mesh(&mesh, argc > 2 ? (unsigned)atoi(argv[2]) : GALLERY_ALL);
   build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
+  mkdir(argv[1], 0777); /* what went wrong is told where it is written to */
   snprintf(path, sizeof path, "%s/gallery.trax", argv[1]);
   trax_status status = trax_scene_write(&scene, path, &error);
   snprintf(path, sizeof path, "%s/gallery.view", argv[1]);
