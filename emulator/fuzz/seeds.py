@@ -11,6 +11,8 @@ import subprocess
 import sys
 import tempfile
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 build, directory = sys.argv[1:]
 bindir = os.path.join(build, "bin")
 

@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 build, directory = sys.argv[1:]
 bindir = os.path.join(build, "bin")
 LARGEST = 6000  # bytes; what is larger is mutated slower and finds no more

@@ -15,6 +15,8 @@ import sys
 import tempfile
 import zlib
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 build, directory = sys.argv[1:]
 here = os.path.dirname(os.path.abspath(__file__))
 
