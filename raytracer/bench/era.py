@@ -27,9 +27,12 @@ COUNT, FIRST = 6, 7
 # --- changes of the source: (what is there, what takes its place)
 
 TILES = [("render(frame, pixel % frame->width, pixel / frame->width)", "render(frame, x, y)"),
+         ("frame->width * frame->height;", "frame->width * ((frame->height + 7) & ~7u);"),
          ("    trax_store_nt((unsigned *)image.data + pixel,",
           """    unsigned column = pixel / 64 % (frame->width / 8), row = pixel / 64 / (frame->width / 8);
     unsigned x = column * 8 + pixel % 8, y = row * 8 + pixel / 8 % 8;
+    if (y >= frame->height)
+      continue;
     trax_store_nt((unsigned *)image.data + y * frame->width + x,""")]
 EVERY_HIT = [("  if (cosine > 0) {\n    ray", "  {\n    ray"), ("    if (!hit.triangle)\n      light +=", "    if (!hit.triangle && cosine > 0)\n      light +=")]
 ANY_HIT = [("  const struct trax_plain_triangle *triangle; /* NULL", "  bool any;\n  const struct trax_plain_triangle *triangle; /* NULL"),
