@@ -37,7 +37,7 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   }
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
   const unsigned issued = ftm->heads.at[number];
-  const uint32_t head = trax_fast_head(ftm, number), address = ftp->address[issued];
+  const uint32_t head = trax_fast_head(ftm, number);
   const uint16_t asks = ftp->asks[issued];                       /* what it asks for stays */
   trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, 0); /* as if nothing had happened */
   ftp->resume = ftp->begin;
@@ -48,7 +48,7 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   trax_fast_close(ftm, number, issued, issued);
   tp->inst = ftp->resume->decoded;
   tp->pc = ftp->resume_pc;
-  tp->address = tp->inst->bytes ? address : 0;
+  tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
   trax_fast_defer(ftm, number, asks, head, tp->address);
 }
 

@@ -24,6 +24,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   uint8_t *const blocks = fast->blocks.state;
   const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
   uint32_t address, word, jumps = 0;
+  unsigned loads = 0;
   uint64_t resume_pc = ftp->resume_pc; /* of the outside */
   int64_t *const changes = ftm->changes;
   uint64_t lines = 0;
@@ -43,7 +44,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     address = (ADDRESS);                                                                                               \
     at = AT;                                                                                                           \
     word = 0;                                                                                                          \
-    ftp->address[at] = address;                                                                                        \
+    ftp->address[loads] = address;                                                                                     \
     if (address & (BYTES - 1))                                                                                         \
       goto stop;                                                                                                       \
     if (LIKELY(address - TRAX_NULL_END < accessible)) {                                                                \
@@ -55,6 +56,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
         __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                                  \
       }                                                                                                                \
       memcpy(&word, global + address, BYTES);                                                                          \
+      loads++;                                                                                                         \
       ftp->asks[at] |= (uint16_t)(TRAX_ASKS_BANK | data_bank(banks, bank_mask, address) << TRAX_ASKS_BANK_SHIFT);      \
     } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
       memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
@@ -66,7 +68,9 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   }))
 #define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
   do {                                                                                                                 \
-    ftp->address[AT] = address = (ADDRESS);                                                                            \
+    address = (ADDRESS);                                                                                               \
+    if (EXACTLY)                                                                                                       \
+      ftp->address[loads] = address; /* for an observer */                                                             \
     if (address < TRAX_LOCAL_BASE || (address & (BYTES - 1)))                                                          \
       goto stop;                                                                                                       \
     struct trax_fast_undo *const undo = &ftp->undo[ftp->undo_count++];                                                 \

@@ -199,7 +199,7 @@ static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_
 #pragma GCC unroll 4
   for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
     const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
-    const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.at[number]]);
+    const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.load[number]]);
     const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
     *there |= winner[i] & -(uint64_t)is_there;
   }
@@ -237,7 +237,7 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool w
 
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  const uint32_t address = ftm->tp[number].address[ftm->heads.at[number]];
+  const uint32_t address = ftm->tp[number].address[ftm->heads.load[number]];
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
@@ -281,9 +281,10 @@ static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers
   return roots;
 }
 
-/* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do. */
+/* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do, and `banks`
+   those who ask for a data bank. */
 static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_lost *lost,
-                                    uint64_t *slow, uint64_t t) {
+                                    uint64_t *slow, uint64_t *banks, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   uint64_t bit[TRAX_ASKS_BANK_SHIFT + TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&ftm->heads, wide, 0, TRAX_ASKS_BANK_SHIFT + 3, bit);
@@ -306,7 +307,8 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
     lost->special = askers & ~won;
   }
   uint64_t queue_askers = ready_high & bit[2];
-  if ((askers = ready_high & ~(bit[1] | bit[2]))) {
+  *banks = askers = ready_high & ~(bit[1] | bit[2]);
+  if (askers) {
     uint64_t hits;
     won = grant_banks(ftm, wide, askers, bit + TRAX_ASKS_BANK_SHIFT, &hits);
     lost->bank = askers & ~won;
@@ -360,7 +362,7 @@ void trax_fast_count_log(struct trax_fast_tally *tally) {
 /* A TM's cycle under way. */
 struct turn {
   struct trax_fast_tm *ftm;
-  uint64_t t, woken, granted, slow;
+  uint64_t t, woken, granted, slow, banks;
   struct trax_fast_lost lost;
 };
 
@@ -371,6 +373,7 @@ static ALWAYS_INLINE void begin(struct turn *turn) {
 
 static ALWAYS_INLINE void issue(const struct turn *turn, const bool wide) {
   const uint64_t quick = turn->granted & ~turn->slow, slow = turn->granted & turn->slow;
+  trax_fast_pass_loads(&turn->ftm->heads, quick & turn->banks);
   if (slow)
     trax_fast_issue(turn->ftm, quick, slow, turn->t);
   else
@@ -394,9 +397,9 @@ static ALWAYS_INLINE void take_turns(struct turn one, struct turn other, const b
   fetch_and_check(one.ftm, wide, one.woken, &one.lost, one.t);
   if (two)
     fetch_and_check(other.ftm, wide, other.woken, &other.lost, other.t);
-  one.granted = grant(one.ftm, wide, &one.lost, &one.slow, one.t);
+  one.granted = grant(one.ftm, wide, &one.lost, &one.slow, &one.banks, one.t);
   if (two)
-    other.granted = grant(other.ftm, wide, &other.lost, &other.slow, other.t);
+    other.granted = grant(other.ftm, wide, &other.lost, &other.slow, &other.banks, other.t);
   issue(&one, wide);
   if (two)
     issue(&other, wide);

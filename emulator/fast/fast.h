@@ -94,7 +94,7 @@ struct trax_fast_tp {
      Behind the last one there may be more. */
   _Alignas(64) uint16_t asks[TRAX_BURST + TRAX_STRETCH];
   uint32_t index[TRAX_BURST + TRAX_STRETCH]; /* of the instruction, in trax_fast_program.inst */
-  uint32_t address[TRAX_BURST];              /* of a memory access */
+  uint32_t address[TRAX_BURST];              /* of the loads of global memory, one after the other */
 
   /* How to get back to the burst's beginning (blocks.c). */
   const struct trax_fast_inst *begin;

@@ -38,6 +38,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     ftm->uncertain = (ftm->uncertain & ~bit) | (all_resident(ftm, number, count) ? 0 : bit);
     ftp->asks[count - 1] |= TRAX_ASKS_SLOWLY;
     ftm->heads.last[number] = (uint8_t)(count - 1);
+    ftm->heads.load[number] = 0;
     trax_fast_set_head(&ftm->heads, number, 0);
   } else {
     const uint32_t index = (uint32_t)(ftp->resume - ftm->fast->program.inst);
@@ -50,10 +51,12 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
 
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
-  if (ftm->heads.at[number] == ftm->heads.last[number])
+  if (ftm->heads.at[number] == ftm->heads.last[number]) {
     trax_fast_refill(ftm, number);
-  else
+  } else {
+    ftm->heads.load[number] += (ftm->heads.asks[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK;
     trax_fast_set_head(&ftm->heads, number, ftm->heads.at[number] + 1u);
+  }
   return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[trax_fast_head(ftm, number)];
 }
 
@@ -64,7 +67,7 @@ void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
     return; /* set when it became the head, and its address since */
   tp->inst = ftm->fast->program.inst[index].decoded;
   tp->pc = ftm->fast->program.pc[index];
-  tp->address = tp->inst->bytes ? ftm->tp[number].address[ftm->heads.at[number]] : 0;
+  tp->address = tp->inst->bytes ? ftm->tp[number].address[ftm->heads.load[number]] : 0;
 }
 
 void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned executed, unsigned issued) {

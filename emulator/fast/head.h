@@ -29,7 +29,7 @@ static inline void trax_fast_defer(struct trax_fast_tm *ftm, unsigned number, ui
   ftp->asks[0] = asks | TRAX_ASKS_SLOWLY;
   ftp->index[0] = index;
   ftp->address[0] = address;
-  ftm->heads.last[number] = 0;
+  ftm->heads.last[number] = ftm->heads.load[number] = 0;
   trax_fast_set_head(&ftm->heads, number, 0);
 }
 

@@ -31,6 +31,7 @@ enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
 
 struct trax_fast_heads {
   _Alignas(64) uint8_t at[64]; /* the head's number in its burst */
+  uint8_t load[64];            /* how many loads of global memory its burst has before it */
   uint16_t asks[64];           /* of the heads */
   uint8_t last[64];            /* the last number of its burst */
   uint32_t begin[64];          /* of the TP's steps in `steps`; of TPs that do not exist, TP 0's */
@@ -107,6 +108,17 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
     const unsigned tp = (unsigned)__builtin_ctzll(who);
     trax_fast_set_head(heads, tp, heads->at[tp] + 1u);
   }
+#endif
+}
+
+/* The heads of `who`, loads of global memory, are issued. */
+static inline __attribute__((always_inline)) void trax_fast_pass_loads(struct trax_fast_heads *heads, uint64_t who) {
+#ifdef __AVX512BW__
+  const __m512i load = _mm512_load_si512(heads->load);
+  _mm512_store_si512(heads->load, _mm512_mask_add_epi8(load, who, load, _mm512_set1_epi8(1)));
+#else
+  for (; who; who &= who - 1)
+    heads->load[__builtin_ctzll(who)]++;
 #endif
 }
 
