@@ -12,7 +12,9 @@
 enum {
   LEAST_WINDOW = 16,       /* cycles; shorter ones are not worth it */
   MOST_AHEAD = 1024,       /* cycles for which the controller serves requests before a window */
-  KEEP_EVERY = 64,         /* shortest windows after which another state is kept to which the run can go back */
+  FIRST_KEEP = 64,         /* shortest windows after which another state is kept to which the run can go back; */
+  RAREST_KEEP = 1024,      /* it doubles as long as it does not */
+  MOST_UNDO = 1 << 18,     /* words written to global memory, after which a state is kept in any case */
   FIRST_PAUSE = 64,        /* cycles that are run one by one after a conflict, besides those that contain it */
   LONGEST_PAUSE = 1 << 20, /* it doubles with each conflict that follows soon */
   REGIONS_OF_A_TM = 32,
@@ -52,13 +54,14 @@ struct trax_windows {
   /* The state to which the run can go back. */
   bool kept;
   uint64_t kept_cycle;
+  unsigned keep_every;    /* shortest windows */
   struct region *regions; /* [region_count] */
   size_t region_count, kept_size;
   uint8_t *kept_bytes; /* all regions, one behind the other */
   struct undo *undo;   /* [undo_count]: writes to global memory since then */
   size_t undo_count, undo_capacity;
 
-  uint64_t cautious_until; /* the cycles before this one are run one by one */
+  uint64_t cautious_from, cautious_until; /* the cycles between these are run one by one */
   uint64_t pause;
 
   struct writer *writers; /* [writer_capacity], a power of two; open addressing */
@@ -136,7 +139,6 @@ static void restore_state(struct trax_windows *windows) {
     const struct undo *undo = &windows->undo[--windows->undo_count];
     memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
   }
-  windows->kept = false;
 }
 
 void trax_windows_forget(struct trax_windows *windows) {
@@ -323,13 +325,19 @@ static void begin_window(struct trax_windows *windows, uint64_t t, uint64_t unti
 
 bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t until) {
   struct trax_chip *chip = windows->chip;
-  if (*t < windows->cautious_until || until - *t < LEAST_WINDOW) {
+  if (*t < windows->cautious_from && windows->cautious_from < until)
+    until = windows->cautious_from;
+  if ((*t >= windows->cautious_from && *t < windows->cautious_until) || until - *t < LEAST_WINDOW) {
     windows->kept = false; /* what is written in that cycle is not noted */
     return false;
   }
-  if (!windows->kept || *t - windows->kept_cycle >= KEEP_EVERY * windows->length) {
-    if (windows->kept)
-      windows->pause = FIRST_PAUSE;
+  if (!windows->kept) {
+    windows->keep_every = FIRST_KEEP;
+    keep_state(windows, *t);
+  } else if (*t - windows->kept_cycle >= windows->keep_every * windows->length || windows->undo_count >= MOST_UNDO) {
+    if (windows->keep_every < RAREST_KEEP)
+      windows->keep_every *= 2;
+    windows->pause = FIRST_PAUSE;
     keep_state(windows, *t);
   }
   chip->memory.before_increment = note_increment;
@@ -349,6 +357,7 @@ bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t un
     return true;
   }
   restore_state(windows);
+  windows->cautious_from = *t; /* the windows up to this one are the same again */
   windows->cautious_until = windows->end + windows->pause;
   if (windows->pause < LONGEST_PAUSE)
     windows->pause *= 2;

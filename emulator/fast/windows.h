@@ -3,8 +3,8 @@
    in it; what it does to memory meanwhile it keeps to itself (core/ahead.h). At the window's end the stores take effect
    in the order of cycles and TMs, and the controller serves the requests of the window cycle by cycle. So everything is
    as if the TMs had gone from cycle to cycle together, unless one of them has read what another one wrote in the same
-   window, or did something that cannot be kept: then all go back to where they were some windows before and go on from
-   there cycle by cycle until that is past.
+   window, or did something that cannot be kept: then all go back to where they were some windows before, do the windows
+   up to this one again, which gives the same, and go on from there cycle by cycle until that is past.
  */
 #ifndef TRAX_FAST_WINDOWS_H
 #define TRAX_FAST_WINDOWS_H
