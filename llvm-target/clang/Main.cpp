@@ -103,7 +103,7 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
 }
 
 /// Runs the jobs. A compiler that crashed leaves what is needed to reproduce it, as clang does.
-int execute(Driver &TheDriver, Compilation &C) {
+int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {
@@ -111,6 +111,7 @@ int execute(Driver &TheDriver, Compilation &C) {
       Result = Status;
     constexpr int FatalError = 70; // EX_SOFTWARE, which -cc1 exits with after an internal error
     if (Status < 0 || Status == FatalError || Status > 128) {
+      Crashed = true;
       TheDriver.maybeGenerateCompilationDiagnostics(Driver::CommandStatus::Crash, Driver::ReproLevel::OnCrash, C,
                                                     *Failed);
       break;
@@ -156,7 +157,7 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
     llvm::CrashRecoveryContext::Enable(); // a crash within this process must not end the driver
   }
 
-  const std::unique_ptr<Compilation> C(TheDriver.BuildCompilation(Args));
+  std::unique_ptr<Compilation> C(TheDriver.BuildCompilation(Args));
   if (hasArgument(Args, "--version"))
     llvm::outs() << "TRaX " TRAX_VERSION ", with the target trax\n";
   // A configuration file may have named the target: once more, with the defaults before all else.
@@ -173,9 +174,16 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
     Linker->replaceJobs(*C);
   }
   int Result = 1;
+  bool Crashed = false;
   if (C && !C->containsError() && !Diags.hasErrorOccurred())
-    Result = execute(TheDriver, *C);
+    Result = execute(TheDriver, *C, Crashed);
   Diags.getClient()->finish();
+  // LLVM's lists still have the timers that were on the stack of what crashed: going through them may never end.
+  if (Crashed) {
+    C.reset(); // and its temporary files
+    llvm::outs().flush();
+    llvm::sys::Process::Exit(Result, /*NoCleanup=*/true);
+  }
   llvm::TimerGroup::printAll(llvm::errs());
   return Result;
 }
