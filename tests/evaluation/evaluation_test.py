@@ -112,7 +112,7 @@ def test_sweep(evaluation, scratch):
         check(one["mode"] == "sampled" and one["values"]["mrps_low"] < one["stats"]["mrps"] < one["values"]["mrps_high"], "an interval")
     # Quick runs stand beside the exact ones of the same sweep, with rays that were counted and no picture of the machine's.
     for mode in (["--mode", "exact"], ["--quick"]):
-        run = evaluation.run(dict(SMALL, series=0, set={}, size="256x144"), "quick", *mode)
+        run = evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", *mode)
         check(run.returncode == 0, f"{mode}: {run.stderr}")
     found = {}
     for one in evaluation.results("quick")["runs"]:
@@ -123,7 +123,11 @@ def test_sweep(evaluation, scratch):
         check(quick["stats"]["items"] == exact["stats"]["items"] and abs(quick["stats"]["mrps"] / exact["stats"]["mrps"] - 1) < 0.15, "a quick run's figures")
         check(quick["values"]["mrps_low"] <= quick["stats"]["mrps"] <= quick["values"]["mrps_high"], "a quick run's interval")
         check(quick["stats"]["sampled"]["detailed_slots"] < 256 * 144 and "--sampled" in quick["command"], "a quick run is sampled")
-    check(found and evaluation.run(dict(SMALL, series=0, set={}, size="256x144"), "quick", "--quick", "--dry-run").stdout.startswith("0 of"), "quick runs are kept")
+    check(found and evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", "--quick", "--dry-run").stdout.startswith("0 of"), "quick runs are kept")
+    # A picture that is small by the sweep gets smaller instead, and stands beside the larger one.
+    for mode in ([], ["--quick"]):
+        check(evaluation.run(dict(SMALL, series=0, set={}), "smaller", *mode).returncode == 0, f"a small picture, {mode}")
+    check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(20, 12, "exact"), (40, 24, "exact")], "sizes of small pictures")
     run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "sampled")
     for one in evaluation.results("lockstep")["runs"]:
         check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")

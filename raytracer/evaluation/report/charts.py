@@ -1,5 +1,7 @@
 """Which figures the report has, made of the runs."""
 
+import math
+
 from .claims import speedup
 from .plots import Bars, Lines, Series, log_ticks
 from .results import SCENES, number, ratio
@@ -126,12 +128,13 @@ def is_plotted(results, sweep):
 def _sweep(results, sweep, identity):
     key, unit = str(sweep.get("x") or ""), sweep.get("y") or "mrps"
     groups = {}
+    sizes = {run.size for run in sweep_runs(results, sweep)}
     for run in sweep_runs(results, sweep):
         x, y = run.setting(key), sweep_value(run, sweep)
         if x is None or y is None:
             continue
         others = ", ".join(f"{name}={value}" for name, value in sorted(run.set.items()) if name != key)
-        variant = ", ".join(part for part in (run.config if key != "threads" else "", others, run.mode if run.mode != "exact" else "") if part)
+        variant = ", ".join(part for part in (run.config if key != "threads" else "", others, run.mode if run.mode != "exact" else "", "{}x{}".format(*run.size) if len(sizes) > 1 and run.size else "") if part)
         groups.setdefault((run.scene, run.program, variant), []).append((x, y, f"{run.name()}: {y:.4g}"))
     # A colour for each scene, a mark for each chip; lines of the era program are dashed.
     scenes, variants = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 2))
@@ -149,19 +152,37 @@ def _sweep(results, sweep, identity):
     return Lines(identity, f"{unit}{per} against {key}", key, unit + per, series, log_x=doubling, base=2, x_ticks=ticks)
 
 
+def _joined(columns, rows):
+    """Intervals of a time series joined so that each decade of cycles has at most 40: more cannot be told apart, and made the page four times as large.
+    A share of the joined interval is the mean by the intervals' cycles; of the fetches refused, by the fetches."""
+    groups, begin = {}, 0
+    for row in rows:
+        groups.setdefault(math.floor(40 * math.log10(max(1, row[0]))), []).append((row, row[0] - begin))
+        begin = row[0]
+    fetches = [columns.index(name) for name in ("issued", "icache_bank_conflict") if name in columns]
+    for group in groups.values():
+        joined = [group[-1][0][0]]
+        for place, column in enumerate(columns[1:], 1):
+            weights = [(row[place], cycles * (sum(number(row[other]) or 0 for other in fetches) if column == "fetch_refused" and len(fetches) == 2 else 1))
+                       for row, cycles in group if number(row[place]) is not None]
+            joined.append(ratio(sum(value * weight for value, weight in weights), sum(weight for _, weight in weights)))
+        yield joined
+
+
 def _over_time(record, identity):
     columns = record.get("columns") if isinstance(record.get("columns"), list) else []
-    rows = [row for row in record.get("rows") or [] if isinstance(row, list) and len(row) == len(columns)]
+    rows = [row for row in record.get("rows") or [] if isinstance(row, list) and len(row) == len(columns) and number(row[0]) is not None]
+    rows = list(_joined(columns, rows))
     series, used = [], set()
     for place, column in enumerate(columns[1:], 1):
-        points = [(number(row[0]), None if number(row[place]) is None else 100 * number(row[place]),
-                   f"to cycle {row[0]}: {column} {100 * number(row[place]):.1f} %" if number(row[place]) is not None else "") for row in rows]
+        points = [(row[0], None if row[place] is None else 100 * row[place], f"to cycle {row[0]:,}: {column} {100 * row[place]:.1f} %" if row[place] is not None else "") for row in rows]
         style = next((style for style, _, causes in CAUSES if column in causes), 1 + place % 6)
         style = 4 if style in used else style  # the second of a group
         series.append(Series(str(column), style, points))
         used.add(style)
     title = ": ".join(str(part) for part in (record.get("name"), record.get("title")) if part)
-    return Lines(identity, title or "series", "cycle", "share of thread-cycles (%)", series, x_format="%.0s%c")
+    ticks = [(10.0 ** power, f"{10 ** power:,}") for power in range(1, 10) if rows and rows[0][0] / 10 < 10 ** power < 10 * rows[-1][0]]
+    return Lines(identity, title or "series", "cycle", "share of thread-cycles (%)", series, log_x=True, x_ticks=ticks)
 
 
 def _lockstep(results):

@@ -37,9 +37,9 @@ class Series:
 class Lines:
     """Marks and lines over two axes; x_ticks: (value, text) where the axis is to have them."""
 
-    def __init__(self, identity, title, x, y, series, log_x=False, x_ticks=None, from_zero=True, base=10, x_format="%g"):
+    def __init__(self, identity, title, x, y, series, log_x=False, x_ticks=None, from_zero=True, base=10):
         self.identity, self.title, self.x, self.y, self.series = identity, title, x, y, series
-        self.log_x, self.x_ticks, self.from_zero, self.base, self.x_format = log_x, x_ticks, from_zero, base, x_format
+        self.log_x, self.x_ticks, self.from_zero, self.base = log_x, x_ticks, from_zero, base
         self.height = HEIGHT
 
     def tips(self):
@@ -56,7 +56,7 @@ class Lines:
 
     def script(self):
         points = [point for series in self.series for point in self._drawn(series)]
-        lines = [f"set xlabel {_quoted(self.x)}", f"set ylabel {_quoted(self.y)}", f"set format x {_quoted(self.x_format)}"]
+        lines = [f"set xlabel {_quoted(self.x)}", f"set ylabel {_quoted(self.y)}"]
         for axis, log, place in (("x", self.log_x, 0), ("y", False, 1)):
             low, high = min(p[place] for p in points), max(p[place] for p in points)
             if log:

@@ -141,8 +141,8 @@ class Results:
         self.sweeps = document.get("sweeps") or []
         self.series = document.get("series") or []
         self.by_key = {run.key: run for run in self.runs}
-        # The plain cells: the chip as the paper has it, or with another bandwidth. An exact run goes before a sampled one, a finished one
-        # before any other, and a larger picture before a smaller one.
+        # The plain cells: the chip as the paper has it, or with another bandwidth. A finished run goes before any other, a larger
+        # picture before a smaller one, and an exact run before a sampled one.
         self._cells = {}
         for run in self.runs:
             others = {key: value for key, value in run.set.items() if key != "memory.bandwidth_gbps"}
@@ -150,7 +150,7 @@ class Results:
                 continue
             bandwidth = number(run.set.get("memory.bandwidth_gbps", 8.0))
             place = (run.program, run.scene, run.config, bandwidth)
-            rank = (run.done, run.mode == "exact", run.size or (0, 0))
+            rank = (run.done, run.size or (0, 0), run.mode == "exact")
             best = self._cells.get(place)
             if best is None or rank > best[0]:
                 self._cells[place] = (rank, run)

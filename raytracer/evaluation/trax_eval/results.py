@@ -34,8 +34,8 @@ def write_plan(out, sweep, keys, tools):
         points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, "config": point.chip,
                        "set": effective(point, tools), "machine": dict(point.machine()), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
                        "error": reason})
-    modes = {point.mode for point in sweep.points}  # exact runs stay in the results beside estimates of the same sweep
-    file = f"{sweep.name}.json" if modes <= {"exact"} else f"{sweep.name}.{'.'.join(sorted(modes))}.json"
+    modes = {"quick"} if sweep.quick else {point.mode for point in sweep.points} - {"exact"}
+    file = ".".join([sweep.name, *sorted(modes), "json"])  # exact runs stay in the results beside estimates of the same sweep
     write_json(out / "sweeps" / file, {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
                                                        "claim": sweep.claim, "file": sweep.file, "points": points})
 

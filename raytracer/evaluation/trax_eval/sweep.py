@@ -3,6 +3,7 @@
 import dataclasses
 import difflib
 import itertools
+import math
 import re
 
 from .scenes import CATALOGUE, SETS
@@ -13,6 +14,8 @@ CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8
 # did that too cannot be, with the paper's figures (docs/evaluation.md, "The era program").
 PROGRAMS = {"ours": (), "era": (("fpu.compare_units", True),)}
 MODES = ("exact", "sampled", "quick")
+# Of pictures with fewer pixels than this so many slots must be simulated that little is saved (docs/sampling.md): --quick makes them smaller instead.
+QUICK_PIXELS = 640 * 360
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,6 +49,7 @@ class Sweep:
     file: str
     scenes: dict  # name -> what CATALOGUE has for it
     points: list
+    quick: bool  # made for --quick
 
 
 def quoted(names):
@@ -139,7 +143,8 @@ def parse_size(text):
 
 
 def read_sweep(path, *, size=None, mode=None, programs=None):
-    """The sweep in a file. size, mode and programs: what the command line says instead of the file."""
+    """The sweep in a file. size, mode and programs: what the command line says instead of the file. With the mode "quick" a small picture, whose size
+    the command line does not say, has a quarter of its pixels, and is simulated exactly."""
     value = read_json(path)
     reader = Reader(path, value)
     if not isinstance(value, dict):
@@ -165,6 +170,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
         if "mode" in value and chosen_mode != "exact" and not mode:
             reader.fail("mode", 'series and lockstep need "exact"')
         chosen_mode = "exact"
+    elif mode == "quick" and not size and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
+        chosen_mode = "exact"
+        chosen_size = "x".join(str(max(1, side // 2)) for side in parse_size(chosen_size))
     scenes = reader.scenes()
     chips = reader.strings("chips", "4x32", None)
     chips = CHIPS if chips == ["paper"] else chips
@@ -176,4 +184,4 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
         for scene, program, chip, settings in itertools.product(scenes, chosen_programs, chips, reader.settings())
     ]
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"),
-                 reader.text("y_per", ""), str(path), scenes, points)
+                 reader.text("y_per", ""), str(path), scenes, points, mode == "quick")
