@@ -161,4 +161,7 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except subprocess.CalledProcessError as failed:  # it said why
+        sys.exit(f"variants.py: error: {pathlib.Path(failed.cmd[0]).name} failed")
