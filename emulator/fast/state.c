@@ -88,12 +88,15 @@ static void find_resident_lines(struct trax_fast_tm *ftm) {
   }
 }
 
+/* Registers that wait for increments; and nobody may load ahead what those have not incremented yet. */
 static void find_atomics(struct trax_fast_tm *ftm) {
   const struct trax_queue *queue = &ftm->tm->queue;
   for (uint32_t i = 0; i < queue->depth; i++) {
     const struct trax_request *request = &queue->requests[i];
-    if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC)
+    if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC) {
       ftm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
+      ftm->fast->blocks.state[request->address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_WRITTEN;
+    }
   }
 }
 
@@ -115,6 +118,11 @@ static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 
 void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
+      fast->tm[i].tp[tp].atomics = 0;
+    find_atomics(&fast->tm[i]);
+  }
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
     struct trax_tm *tm = ftm->tm;
     scatter_arbiters(ftm);
@@ -122,9 +130,6 @@ void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
     ftm->ready = ftm->outside = 0;
     ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
     ftm->taken_up = tm->awake & tm->holding;
-    for (unsigned tp = 0; tp < tm->tps; tp++)
-      ftm->tp[tp].atomics = 0;
-    find_atomics(ftm);
     for (unsigned tp = 0; tp < tm->tps; tp++)
       if (!(tm->ended >> tp & 1))
         take_up(ftm, tp, t);

@@ -7,6 +7,7 @@
 
 #include "host/checkpoint.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -117,6 +118,44 @@ static void relay(void **state) {
   end(&whole);
 }
 
+/* An increment waits for the bus at the checkpoint, behind stores; another thread loads the word after it, in
+   instructions that may run ahead before. */
+static void pending_increment(void **state) {
+  (void)state;
+  struct trax_config config = bench_far(1, 2);
+  config.icache.line_bytes = config.icache.bytes = 4096; /* all instructions are there before the first one */
+  config.memory.bandwidth_gbps = 0.1;
+  uint32_t program[64];
+  size_t count = 0;
+  program[count++] = trax_encode((trax_inst){TRAX_OP_RDSR, 1, 0, 0, TRAX_SR_TP});
+  program[count++] = U(LUI, 10, DATA >> 16);
+  const size_t branch = count++;
+  for (int32_t i = 1; i <= 10; i++)
+    program[count++] = S(SWNT, 10, 10, 64 * i);
+  program[count++] = I(AINC, 5, 10, 0);
+  program[count++] = HALT;
+  program[branch] = B(BNE, 1, 0, ((int32_t)count - (int32_t)branch) * 4);
+  for (unsigned i = 0; i < 40; i++)
+    program[count++] = R(FDIV, 2, 2, 2);
+  program[count++] = I(LW, 6, 10, 0);
+  program[count++] = S(SW, 6, 10, 128);
+  program[count++] = HALT;
+  struct run whole = run_alone(&config, program, count, TRAX_ENGINE_REFERENCE, 0, 1);
+  const uint64_t cycles = whole.bench.machine->stats.cycles;
+  for (uint64_t at = cycles - 900; at < cycles; at += 31) {
+    struct run writing =
+        run_asked(&config, program, count, (struct trax_checkpoint_options){.write = path, .at = at}, 0);
+    end(&writing);
+    struct run resumed = run_asked(&config, program, count, (struct trax_checkpoint_options){.resume = path}, 0);
+    struct difference difference;
+    if (different_runs(&difference, &whole, &resumed))
+      fail_msg("checkpoint at %" PRIu64 " of %" PRIu64 ": %s", at, cycles, difference.text);
+    end(&resumed);
+    unlink(path);
+  }
+  end(&whole);
+}
+
 static void damaged_files(void **state) {
   (void)state;
   random_state = 11;
@@ -157,6 +196,7 @@ int main(void) {
       cmocka_unit_test(own_words),
       cmocka_unit_test(races),
       cmocka_unit_test(relay),
+      cmocka_unit_test(pending_increment),
       cmocka_unit_test(damaged_files),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
