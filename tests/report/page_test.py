@@ -7,6 +7,7 @@ import copy
 import csv
 import html.parser
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -171,7 +172,9 @@ class ReportTest(unittest.TestCase):
                 self.assertAlmostEqual(left, right, delta=0.2)
         sweep = page.figures["sweep-2"]
         self.assertEqual(len(sweep), 10)
-        self.assertEqual(len(page.figures["series-0"]), 200)
+        over_time = [title for _, title in page.figures["series-0"]]  # of 100 intervals those of a 40th of a decade are one
+        self.assertEqual(len(over_time), 2 * len({math.floor(40 * math.log10(10_000 * n)) for n in range(1, 101)}))
+        self.assertEqual([title for title in over_time if "issued" in title][-2:], ["to cycle 990,000: issued 49.2 %", "to cycle 1,000,000: issued 49.8 %"])
         self.assertEqual([title.split(": ")[1] for _, title in page.figures["lockstep"]], ["80 % of 8 lanes", "40 % of 32 lanes"])
         for identity in ("memory-era", "memory-ours", "error-time", "sweep-3"):
             self.assertTrue(page.figures[identity], identity)
