@@ -193,11 +193,8 @@ static void damaged_files(void **state) {
 int main(void) {
   path = test_path("checkpoint");
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(own_words),
-      cmocka_unit_test(races),
-      cmocka_unit_test(relay),
-      cmocka_unit_test(pending_increment),
-      cmocka_unit_test(damaged_files),
+      cmocka_unit_test(own_words),         cmocka_unit_test(races),         cmocka_unit_test(relay),
+      cmocka_unit_test(pending_increment), cmocka_unit_test(damaged_files),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
