@@ -127,7 +127,7 @@ def test_sweep(evaluation, scratch):
     # A picture that is small by the sweep gets smaller instead, and stands beside the larger one.
     for mode in ([], ["--quick"]):
         check(evaluation.run(dict(SMALL, series=0, set={}), "smaller", *mode).returncode == 0, f"a small picture, {mode}")
-    check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(20, 12, "exact"), (40, 24, "exact")], "sizes of small pictures")
+    check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(16, 10, "exact"), (40, 24, "exact")], "sizes of small pictures")
     run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "sampled")
     for one in evaluation.results("lockstep")["runs"]:
         check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")

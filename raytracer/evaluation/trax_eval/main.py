@@ -42,7 +42,7 @@ variable TRAX_SCENES, or else ./scenes).
       --mode WHICH      exact, sampled or quick, instead of what the sweep says
       --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
                         with intervals (trax-render --sampled); pictures of less than 640x360, if --size is not
-                        given, have a quarter of their pixels instead, all of which are simulated
+                        given, have a sixth of their pixels instead, all of which are simulated
       --dry-run         prints the runs that are missing, and ends
       --all             every experiment, and the report
   -q, --quiet           neither progress nor tables

@@ -14,8 +14,9 @@ CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8
 # did that too cannot be, with the paper's figures (docs/evaluation.md, "The era program").
 PROGRAMS = {"ours": (), "era": (("fpu.compare_units", True),)}
 MODES = ("exact", "sampled", "quick")
-# Of pictures with fewer pixels than this so many slots must be simulated that little is saved (docs/sampling.md): --quick makes them smaller instead.
-QUICK_PIXELS = 640 * 360
+# Of pictures with fewer pixels than this so many slots must be simulated that little is saved (docs/sampling.md): --quick makes them smaller instead,
+# by so much that all experiments take less than ten minutes on two cores.
+QUICK_PIXELS, QUICK_SIDE = 640 * 360, 0.4
 
 
 @dataclasses.dataclass(frozen=True)
@@ -144,7 +145,7 @@ def parse_size(text):
 
 def read_sweep(path, *, size=None, mode=None, programs=None):
     """The sweep in a file. size, mode and programs: what the command line says instead of the file. With the mode "quick" a small picture, whose size
-    the command line does not say, has a quarter of its pixels, and is simulated exactly."""
+    the command line does not say, has a sixth of its pixels, and is simulated exactly."""
     value = read_json(path)
     reader = Reader(path, value)
     if not isinstance(value, dict):
@@ -170,9 +171,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
         if "mode" in value and chosen_mode != "exact" and not mode:
             reader.fail("mode", 'series and lockstep need "exact"')
         chosen_mode = "exact"
-    elif mode == "quick" and not size and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
+    if mode == "quick" and not size and not lockstep and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
         chosen_mode = "exact"
-        chosen_size = "x".join(str(max(1, side // 2)) for side in parse_size(chosen_size))
+        chosen_size = "x".join(str(max(1, round(QUICK_SIDE * side))) for side in parse_size(chosen_size))
     scenes = reader.scenes()
     chips = reader.strings("chips", "4x32", None)
     chips = CHIPS if chips == ["paper"] else chips
