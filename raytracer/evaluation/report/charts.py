@@ -176,7 +176,7 @@ def _over_time(record, identity):
     series, used = [], set()
     for place, column in enumerate(columns[1:], 1):
         points = [(row[0], None if row[place] is None else 100 * row[place], f"to cycle {row[0]:,}: {column} {100 * row[place]:.1f} %" if row[place] is not None else "") for row in rows]
-        style = next((style for style, _, causes in CAUSES if column in causes), 1 + place % 6)
+        style = next((style for style, _, causes in CAUSES if column in causes), 0)
         style = 4 if style in used else style  # the second of a group
         series.append(Series(str(column), style, points))
         used.add(style)

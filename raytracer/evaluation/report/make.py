@@ -109,7 +109,7 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
                 ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper), tables.described(results, paper)])),
                 ("error", "Error and run time", join([figures("error-"), tables.sampled(results)]))]
     if results.series:
-        sections.append(("time", "Over time", join([el("p", "Shares of the thread-cycles of each interval."), figures("series-")])))
+        sections.append(("time", "Over time", join([el("p", "Shares of the thread-cycles of each interval; fetch_refused: of the instructions that threads asked their cache for, those that a conflict refused."), figures("series-")])))
     shown = []
     for index, sweep in enumerate(results.sweeps):
         if sweep.get("name") in ("table1", "table2", "table3"):
