@@ -25,6 +25,7 @@ struct trax_space {
   struct trax_segment *segments;
   size_t segment_count;
   size_t mapped_bytes, restriction_bytes;
+  uint32_t input, input_bytes; /* the largest buffer that the host has filled, in whole granules: programs read it */
 };
 
 enum { TRAX_RESTRICT_WRITE = 1, TRAX_MAPPED = 2, TRAX_STACK_END = 4 };

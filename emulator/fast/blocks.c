@@ -2,15 +2,19 @@
 /* Values that ran ahead are right as long as nobody writes where they came from. So before a block that anyone has
    loaded ahead is written for the first time, every TP goes back to what it has issued and is deferred: its head will
    execute at issue, and from then on loads from the block end bursts. A block costs this once at most; what is only
-   written, like a picture, never. Blocks are small because what is written often lies beside what is only read. */
+   written, like a picture, never. Blocks are small because what is written often lies beside what is only read. Input,
+   like a scene, is hardly ever written: nothing is noted of it until it is. */
 #include "fast/head.h"
 
 #include <assert.h>
 #include <string.h>
 #include <sys/mman.h>
 
-trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error) {
-  blocks->bytes = memory_bytes >> TRAX_BLOCK_SHIFT; /* the host provides what is touched */
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space,
+                                    trax_error *error) {
+  blocks->bytes = space->size >> TRAX_BLOCK_SHIFT; /* the host provides what is touched */
+  blocks->input = space->input;
+  blocks->input_bytes = space->input_bytes;
   void *state = mmap(NULL, blocks->bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (state == MAP_FAILED)
     return trax_fail(error, "cannot reserve %zu bytes of host memory", blocks->bytes);
@@ -59,8 +63,7 @@ void trax_fast_come_back(struct trax_fast *fast) {
 }
 
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {
-  uint8_t *state = &fast->blocks.state[address >> TRAX_BLOCK_SHIFT];
-  if (*state == TRAX_BLOCK_LOADED)
+  if (trax_fast_is_loaded(&fast->blocks, address))
     trax_fast_come_back(fast);
-  *state = TRAX_BLOCK_WRITTEN;
+  trax_fast_set_written(&fast->blocks, address);
 }

@@ -23,6 +23,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const uint32_t banks = ftm->data_banks, bank_mask = banks & (banks - 1) ? 0 : banks - 1;
   uint8_t *const blocks = fast->blocks.state;
   const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
+  const uint32_t input = fast->blocks.input, input_bytes = fast->blocks.input_bytes;
   uint32_t address, word, jumps = 0;
   unsigned loads = 0;
   uint64_t resume_pc = ftp->resume_pc; /* of the outside */
@@ -47,13 +48,15 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     ftp->address[loads] = address;                                                                                     \
     if (address & (BYTES - 1))                                                                                         \
       goto stop;                                                                                                       \
-    if (LIKELY(address - TRAX_NULL_END < accessible)) {                                                                \
-      uint8_t *const block = &blocks[address >> TRAX_BLOCK_SHIFT];                                                     \
-      const uint8_t state = __atomic_load_n(block, __ATOMIC_RELAXED);                                                  \
-      if (!LIKELY(state == TRAX_BLOCK_LOADED)) {                                                                       \
-        if (state == TRAX_BLOCK_WRITTEN)                                                                               \
-          goto stop;                                                                                                   \
-        __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                                  \
+    if (LIKELY(address - input < input_bytes) || address - TRAX_NULL_END < accessible) {                               \
+      if (!LIKELY(address - input < input_bytes)) {                                                                    \
+        uint8_t *const block = &blocks[address >> TRAX_BLOCK_SHIFT];                                                   \
+        const uint8_t state = __atomic_load_n(block, __ATOMIC_RELAXED);                                                \
+        if (state != TRAX_BLOCK_LOADED) {                                                                              \
+          if (state == TRAX_BLOCK_WRITTEN)                                                                             \
+            goto stop;                                                                                                 \
+          __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                                \
+        }                                                                                                              \
       }                                                                                                                \
       memcpy(&word, global + address, BYTES);                                                                          \
       loads++;                                                                                                         \

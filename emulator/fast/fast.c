@@ -77,7 +77,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
   if (!fast->tm)
     return trax_fail(error, "out of memory");
   memset(fast->tm, 0, bytes);
-  if (trax_fast_blocks_create(&fast->blocks, machine->space.size, error) ||
+  if (trax_fast_blocks_create(&fast->blocks, &machine->space, error) ||
       trax_fast_program_create(&fast->program, &chip->text, &machine->config, error))
     return TRAX_ERROR;
   for (uint32_t i = 0; i < chip->tms; i++)

@@ -151,7 +151,20 @@ struct trax_fast_blocks {
      the same time; what is written is noted when none of them runs. */
   uint8_t *state;
   size_t bytes;
+  uint32_t input, input_bytes; /* trax_space.input while nobody has written there: all of it counts as loaded */
 };
+
+static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, uint32_t address) {
+  return blocks->state[address >> TRAX_BLOCK_SHIFT] == TRAX_BLOCK_LOADED ||
+         address - blocks->input < blocks->input_bytes;
+}
+
+/* Nobody has loaded the block, or everybody has come back. */
+static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32_t address) {
+  blocks->state[address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_WRITTEN;
+  if (address - blocks->input < blocks->input_bytes)
+    blocks->input_bytes = 0;
+}
 
 struct trax_fast {
   struct trax_chip *chip;
@@ -230,7 +243,8 @@ void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count,
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
-trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, uint64_t memory_bytes, trax_error *error);
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space,
+                                    trax_error *error);
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);

@@ -204,10 +204,9 @@ static const struct writer *note_writer(struct trax_windows *windows, uint32_t a
 /* False: what was loaded before it is written must be loaded again, or what was incremented before, incremented. */
 static bool perform(struct trax_windows *windows, const struct trax_ahead_write *write, uint32_t tm) {
   struct trax_fast *fast = windows->chip->fast;
-  uint8_t *state = &fast->blocks.state[write->address >> TRAX_BLOCK_SHIFT];
-  if (*state == TRAX_BLOCK_LOADED)
+  if (trax_fast_is_loaded(&fast->blocks, write->address))
     return false;
-  *state = TRAX_BLOCK_WRITTEN;
+  trax_fast_set_written(&fast->blocks, write->address);
   if (!write->bytes)
     return true;
   const struct writer *writer = note_writer(windows, write->address, tm);

@@ -191,7 +191,8 @@ static trax_status too_large(const struct trax_machine *machine, const char *sym
 }
 
 /* The buffer's bytes are in place at free_address. */
-static trax_status finish_bind(struct trax_machine *machine, const char *symbol, uint32_t bytes, trax_error *error) {
+static trax_status finish_bind(struct trax_machine *machine, const char *symbol, uint32_t bytes, bool filled,
+                               trax_error *error) {
   struct trax_host *host = trax_host_of(machine);
   char *name = strdup(symbol);
   if (!name)
@@ -202,6 +203,10 @@ static trax_status finish_bind(struct trax_machine *machine, const char *symbol,
   store_word(machine, object->address + 4, bytes);
   host->buffers[host->buffer_count++] = (struct trax_bound_buffer){name, address, bytes};
   host->free_address = align_up(host->free_address + bytes, TRAX_GRANULE);
+  if (filled && host->free_address - address > machine->space.input_bytes) {
+    machine->space.input = address;
+    machine->space.input_bytes = (uint32_t)host->free_address - address;
+  }
   return place_heap(machine, error);
 }
 
@@ -214,7 +219,7 @@ trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const v
     return too_large(machine, symbol, error);
   if (bytes && size)
     memcpy(machine->space.bytes + address, bytes, size);
-  return finish_bind(machine, symbol, size, error);
+  return finish_bind(machine, symbol, size, bytes != NULL, error);
 }
 
 trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, const char *path, trax_error *error) {
@@ -235,7 +240,7 @@ trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, co
     return failure ? trax_fail(error, "%s: cannot be read for buffer %s: %s", path, symbol, strerror(failure))
                    : too_large(machine, symbol, error);
   }
-  return finish_bind(machine, symbol, (uint32_t)got, error);
+  return finish_bind(machine, symbol, (uint32_t)got, true, error);
 }
 
 trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
