@@ -15,14 +15,12 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
   return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
-/* Notes the rest of a stretch from one of its instructions on, as steps `at`... */
-static inline void note_stretch(struct trax_fast_tp *ftp, unsigned at, const uint16_t *asks, uint32_t index) {
-  typedef uint32_t indices __attribute__((vector_size(32), aligned(4), may_alias));
-  memcpy(ftp->asks + at, asks, TRAX_STRETCH * sizeof *asks);
-  indices of = (indices){0, 1, 2, 3, 4, 5, 6, 7} + index;
-#pragma GCC unroll 4
-  for (unsigned i = 0; i < TRAX_STRETCH; i += 8, of += 8)
-    *(indices *)(ftp->index + at + i) = of;
+/* Notes `count` instructions from index on as steps `at`..., a part of the burst. */
+static inline void note_part(struct trax_fast_tp *ftp, unsigned part, unsigned at, const uint16_t *asks, uint32_t index,
+                             const unsigned count) {
+  memcpy(ftp->asks + at, asks, count * sizeof *asks);
+  memset(ftp->part + at, (int)part, count);
+  ftp->origin[part] = index - at;
 }
 
 #define BURST burst_whole

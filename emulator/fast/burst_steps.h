@@ -25,7 +25,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
   const uint32_t input = fast->blocks.input, input_bytes = fast->blocks.input_bytes;
   uint32_t address, word, jumps = 0;
-  unsigned loads = 0;
+  unsigned loads = 0, part = 0;
   uint64_t resume_pc = ftp->resume_pc; /* of the outside */
   int64_t *const changes = ftm->changes;
   uint64_t lines = 0;
@@ -134,12 +134,11 @@ stretch:
 #if EXACTLY
   if (at == limit)
     goto stop;
-  ftp->asks[at] = program->asks[index];
-  ftp->index[at] = index;
+  note_part(ftp, part++, at, program->asks + index, index, 1);
 #else
   if (at + TRAX_STRETCH - index % TRAX_STRETCH > limit)
     goto stop;
-  note_stretch(ftp, at, program->asks + index, index);
+  note_part(ftp, part++, at, program->asks + index, index, TRAX_STRETCH); /* or what is left of it */
 #endif
   __extension__({ goto *places[inst->op]; });
 

@@ -155,7 +155,7 @@ static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
   const unsigned issued = issued_of_burst(ftm, tp);
   uint64_t jumps = 0;
   for (unsigned i = 0; i < issued; i++)
-    jumps += ftp->index[i + 1] != ftp->index[i] + 1;
+    jumps += trax_fast_index(ftp, i + 1) != trax_fast_index(ftp, i) + 1;
   ftm->tm->tp_stats[tp].cycles[TRAX_CAUSE_ISSUED] += ftp->issued + issued;
   ftm->tm->stats->taken_branches += ftp->jumps + jumps;
   ftp->issued = -(uint64_t)issued;
@@ -167,8 +167,9 @@ static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
     if (!((ftm->deferred | ftm->tm->ended) >> tp & 1))
       for (unsigned i = ftm->heads.at[tp]; i <= ftm->heads.last[tp]; i++) {
-        ftm->changes[ftm->tp[tp].index[i]] += sign;
-        ftm->changes[ftm->tp[tp].index[i] + 1] -= sign;
+        const uint32_t index = trax_fast_index(&ftm->tp[tp], i);
+        ftm->changes[index] += sign;
+        ftm->changes[index + 1] -= sign;
       }
 }
 

@@ -93,8 +93,9 @@ struct trax_fast_tp {
   /* The steps of the burst, what timing needs of instructions that have been executed; or only the deferred head.
      Behind the last one there may be more. */
   _Alignas(64) uint16_t asks[TRAX_BURST + TRAX_STRETCH];
-  uint32_t index[TRAX_BURST + TRAX_STRETCH]; /* of the instruction, in trax_fast_program.inst */
-  uint32_t address[TRAX_BURST];              /* of the loads of global memory, one after the other */
+  uint8_t part[TRAX_BURST + TRAX_STRETCH]; /* of the burst, of instructions in a row: trax_fast_index */
+  uint32_t address[TRAX_BURST];            /* of the loads of global memory, one after the other */
+  uint32_t origin[TRAX_BURST + 1];         /* [part]: the index of its first instruction minus the number of its step */
 
   /* How to get back to the burst's beginning (blocks.c). */
   const struct trax_fast_inst *begin;
@@ -174,9 +175,14 @@ struct trax_fast {
   struct trax_fast_blocks blocks;
 };
 
-/* The index of the TP's head, in trax_fast_program.inst. */
+/* The index of a step's instruction, in trax_fast_program.inst. */
+static inline uint32_t trax_fast_index(const struct trax_fast_tp *ftp, unsigned step) {
+  return ftp->origin[ftp->part[step]] + step;
+}
+
+/* Of the TP's head. */
 static inline uint32_t trax_fast_head(const struct trax_fast_tm *ftm, unsigned tp) {
-  return ftm->tp[tp].index[ftm->heads.at[tp]];
+  return trax_fast_index(&ftm->tp[tp], ftm->heads.at[tp]);
 }
 
 static inline const struct trax_fast_inst *trax_fast_head_inst(const struct trax_fast_tm *ftm, unsigned tp) {

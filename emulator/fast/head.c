@@ -18,7 +18,7 @@ static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsign
     return !missing;
   uint64_t found = 0;
   for (unsigned i = 0; i < count; i++)
-    found |= (uint64_t)1 << ftm->fast->program.inst[ftp->index[i]].line % 64;
+    found |= (uint64_t)1 << ftm->fast->program.inst[trax_fast_index(ftp, i)].line % 64;
   return !(missing & found);
 }
 
@@ -75,8 +75,8 @@ void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned execute
   ftp->issued += issued;
   ftp->jumps += ftp->burst_jumps;
   for (unsigned i = issued; i < executed; i++) { /* takes back what did not happen */
-    const uint32_t index = ftp->index[i];
-    const uint32_t next = i + 1 < executed ? ftp->index[i + 1] : (uint32_t)(ftp->resume - ftm->fast->program.inst);
+    const uint32_t index = trax_fast_index(ftp, i);
+    const uint32_t next = i + 1 < executed ? trax_fast_index(ftp, i + 1) : (uint32_t)(ftp->resume - ftm->fast->program.inst);
     ftm->changes[index]--;
     ftm->changes[index + 1]++;
     ftp->jumps -= next != index + 1;

@@ -27,7 +27,8 @@ static inline void trax_fast_defer(struct trax_fast_tm *ftm, unsigned number, ui
   struct trax_fast_tp *ftp = &ftm->tp[number];
   ftm->deferred |= (uint64_t)1 << number;
   ftp->asks[0] = asks | TRAX_ASKS_SLOWLY;
-  ftp->index[0] = index;
+  ftp->part[0] = 0;
+  ftp->origin[0] = index;
   ftp->address[0] = address;
   ftm->heads.last[number] = ftm->heads.load[number] = 0;
   trax_fast_set_head(&ftm->heads, number, 0);
