@@ -142,7 +142,7 @@ struct trax_fast_lost {
 
 /* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
    charged to all TPs at once; several cycles together, since carries cost most. */
-enum { TRAX_FAST_LOG_BITS = 6, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */, TRAX_FAST_LOSSES = 8 };
+enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */, TRAX_FAST_LOSSES = 8 };
 typedef uint64_t trax_fast_losses __attribute__((vector_size(8 * TRAX_FAST_LOSSES), may_alias)); /* as trax_fast_lost */
 
 struct trax_fast_tally {
@@ -212,6 +212,12 @@ static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_unit
                             trax_fast_grant_unevenly(units, 1, askers[1])};
   if (units->group_size == 1)
     return askers;
+  if (units->group_size == 8) {
+    typedef uint8_t groups __attribute__((vector_size(16)));
+    groups winners;
+    TRAX_FAST_ARBITRATE(groups, (groups *)&units->behind, (groups)askers, &winners);
+    return (trax_fast_pair)winners;
+  }
   const int to_first = (int)units->group_size - 1;
   const trax_fast_pair preferred = askers & units->behind;
   const trax_fast_pair have = trax_fast_groups_of(units, preferred);
