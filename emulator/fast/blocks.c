@@ -45,12 +45,12 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const uint16_t asks = ftp->asks[issued];                       /* what it asks for stays */
   trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, 0); /* as if nothing had happened */
   ftp->resume = ftp->begin;
-  ftp->resume_pc = fast->program.pc[ftp->begin - fast->program.inst];
+  ftp->resume_pc = fast->program.note[ftp->begin - fast->program.inst].pc;
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);
   assert(again == issued && ftp->resume == &fast->program.inst[head]);
   (void)again;
   trax_fast_close(ftm, number, issued, issued);
-  tp->inst = ftp->resume->decoded;
+  tp->inst = fast->program.note[ftp->resume - fast->program.inst].decoded;
   tp->pc = ftp->resume_pc;
   tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
   trax_fast_defer(ftm, number, asks, head, tp->address);

@@ -39,7 +39,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 #define AT ((unsigned)(((uintptr_t)inst - begin) / sizeof *inst))
 #include "core/semantics_begin.h"
 #define PRECISION config->special.precision_bits
-#define PC (program->pc[inst - program->inst])
+#define PC (program->note[inst - program->inst].pc)
 #define LOAD(ADDRESS, BYTES)                                                                                           \
   (__extension__({                                                                                                     \
     address = (ADDRESS);                                                                                               \
@@ -145,7 +145,7 @@ stretch:
 stop:
   changes[inst - program->inst]--;
   ftp->resume = inst;
-  ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->pc[inst - program->inst];
+  ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->note[inst - program->inst].pc;
   ftp->burst_jumps = jumps;
   ftp->burst_lines = lines;
   return AT;

@@ -93,7 +93,7 @@ static ALWAYS_INLINE uint64_t lose_fetches(struct trax_fast_tm *ftm, const bool 
 static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
-  if (ftm->resident[ftm->icache_of[number]][trax_fast_head_inst(ftm, number)->line])
+  if (ftm->resident[ftm->icache_of[number]][ftm->fast->program.line[trax_fast_head(ftm, number)]])
     return true;
   trax_fast_show(ftm, number);
   if (trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc)))
@@ -140,8 +140,8 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const struct trax_tp *tp = &tm->tp[number];
-  const struct trax_fast_inst *inst = trax_fast_head_inst(ftm, number);
-  for (uint32_t rest = inst->waits & ftm->busy_registers[number]; rest; rest &= rest - 1)
+  const uint32_t waits = trax_fast_head_note(ftm, number)->waits;
+  for (uint32_t rest = waits & ftm->busy_registers[number]; rest; rest &= rest - 1)
     if (tp->usable[trax_first(rest)] > t) {
       uint64_t until = 0;
       trax_fast_show(ftm, number);
@@ -154,7 +154,7 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
       }
       return false;
     }
-  ftm->busy_registers[number] &= ~inst->waits;
+  ftm->busy_registers[number] &= ~waits;
   ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
   return true;
 }
@@ -243,7 +243,7 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   tm->stats->dcache_hits++;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
-    const unsigned rd = trax_fast_head_inst(ftm, number)->rd;
+    const unsigned rd = trax_fast_head_note(ftm, number)->decoded->rd;
     trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
     trax_fast_set_busy(ftm, number, rd);
   }
@@ -276,7 +276,7 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
 static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers) {
   uint64_t roots = 0;
   for (uint64_t rest = askers; rest; rest &= rest - 1)
-    if (trax_fast_head_inst(ftm, trax_first(rest))->decoded->op == TRAX_OP_FRSQRT)
+    if (trax_fast_head_note(ftm, trax_first(rest))->decoded->op == TRAX_OP_FRSQRT)
       roots |= rest & -rest;
   return roots;
 }

@@ -108,7 +108,7 @@ static void collect(struct trax_fast *fast) {
     int64_t count = 0;
     for (size_t index = 0; index < fast->program.inst_count; index++) {
       count += ftm->changes[index];
-      ftm->tm->stats->instructions[fast->program.inst[index].decoded->op] += (uint64_t)count;
+      ftm->tm->stats->instructions[fast->program.note[index].decoded->op] += (uint64_t)count;
       ftm->changes[index] = 0;
     }
     ftm->changes[fast->program.inst_count] = 0;

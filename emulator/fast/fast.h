@@ -47,15 +47,19 @@ enum {
   TRAX_FAST_LINES = 1024 /* lines of the program that `resident` knows; the last entry stands for all others */
 };
 
-/* An instruction, for both function and timing. */
+/* An instruction, what its function needs: four to a line of the host's cache. */
 struct trax_fast_inst {
   const void *operation; /* where burst.c executes it; for the first of a stretch, where the stretch is noted */
   int32_t imm;
   uint8_t op; /* trax_op; TRAX_OP_ILLEGAL where a burst must stop: then only `decoded` knows */
   uint8_t rd, ra, rb;
-  uint32_t waits; /* mask of registers that must be usable */
-  uint16_t line;  /* of the program, for `resident` */
+};
+
+/* What its timing needs. */
+struct trax_fast_note {
   const struct trax_decoded *decoded;
+  uint32_t waits; /* mask of registers that must be usable */
+  uint32_t pc;
 };
 
 struct trax_fast_section {
@@ -69,9 +73,10 @@ struct trax_fast_program {
   struct trax_fast_section *sections; /* [count], in one array of instructions */
   size_t count, inst_count;
   uint32_t lines; /* that `resident` knows */
-  struct trax_fast_inst *inst;
+  struct trax_fast_inst *inst;    /* [inst_count] */
+  struct trax_fast_note *note;    /* [inst_count] */
+  uint16_t *line;                 /* [inst_count]: of the program, for `resident` */
   uint16_t *asks;                 /* [inst_count + TRAX_STRETCH]: of a step, unless its address says more */
-  uint32_t *pc;                   /* [inst_count] */
   uint64_t *lines_ahead;          /* [inst_count]: bit line % 64 of the lines from here to the end of the stretch */
   struct trax_fast_inst *outside; /* the last */
 };
@@ -185,8 +190,8 @@ static inline uint32_t trax_fast_head(const struct trax_fast_tm *ftm, unsigned t
   return trax_fast_index(&ftm->tp[tp], ftm->heads.at[tp]);
 }
 
-static inline const struct trax_fast_inst *trax_fast_head_inst(const struct trax_fast_tm *ftm, unsigned tp) {
-  return &ftm->fast->program.inst[trax_fast_head(ftm, tp)];
+static inline const struct trax_fast_note *trax_fast_head_note(const struct trax_fast_tm *ftm, unsigned tp) {
+  return &ftm->fast->program.note[trax_fast_head(ftm, tp)];
 }
 
 /* In busy_registers. */

@@ -18,7 +18,7 @@ static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsign
     return !missing;
   uint64_t found = 0;
   for (unsigned i = 0; i < count; i++)
-    found |= (uint64_t)1 << ftm->fast->program.inst[trax_fast_index(ftp, i)].line % 64;
+    found |= (uint64_t)1 << ftm->fast->program.line[trax_fast_index(ftp, i)] % 64;
   return !(missing & found);
 }
 
@@ -43,7 +43,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   } else {
     const uint32_t index = (uint32_t)(ftp->resume - ftm->fast->program.inst);
     trax_fast_defer(ftm, number, ftm->fast->program.asks[index] & TRAX_ASKS_FETCH, index, 0);
-    tp->inst = ftp->resume->decoded;
+    tp->inst = ftm->fast->program.note[index].decoded;
     tp->pc = ftp->resume_pc;
     ftm->outside |= tp->inst->ask == TRAX_ASK_OUTSIDE ? bit : 0;
   }
@@ -57,7 +57,7 @@ uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
     ftm->heads.load[number] += (ftm->heads.asks[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK;
     trax_fast_set_head(&ftm->heads, number, ftm->heads.at[number] + 1u);
   }
-  return ftm->deferred & bit ? ftm->tm->tp[number].pc : ftm->fast->program.pc[trax_fast_head(ftm, number)];
+  return ftm->deferred & bit ? ftm->tm->tp[number].pc : trax_fast_head_note(ftm, number)->pc;
 }
 
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
@@ -65,8 +65,8 @@ void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred >> number & 1)
     return; /* set when it became the head, and its address since */
-  tp->inst = ftm->fast->program.inst[index].decoded;
-  tp->pc = ftm->fast->program.pc[index];
+  tp->inst = ftm->fast->program.note[index].decoded;
+  tp->pc = ftm->fast->program.note[index].pc;
   tp->address = tp->inst->bytes ? ftm->tp[number].address[ftm->heads.load[number]] : 0;
 }
 

@@ -33,7 +33,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 
 /* When the result can be used, if that is not in the next cycle and memory does not decide. */
 static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
-  const struct trax_decoded *inst = trax_fast_head_inst(ftm, number)->decoded;
+  const struct trax_decoded *inst = trax_fast_head_note(ftm, number)->decoded;
   uint32_t latency = inst->latency;
   trax_cause cause = (trax_cause)inst->cause;
   if (inst->ask == TRAX_ASK_MEMORY) {

@@ -34,23 +34,25 @@ static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint3
   return trax_fast_is_relative(decoded->op) && (decoded->imm % 4 || decoded->imm == 4 || target < 0 || target >= words);
 }
 
-_Static_assert(sizeof(struct trax_fast_inst) == 32, "two to a line of the host's cache");
+_Static_assert(sizeof(struct trax_fast_inst) == 16, "four to a line of the host's cache");
 
 static void predecode(struct trax_fast_program *program, const struct trax_decoded *decoded, uint32_t index,
-                      uint32_t line, bool stops) {
+                      uint32_t pc, uint32_t line, bool stops) {
   const void *const *const operations = trax_fast_operations();
   const bool slow = decoded->ask != TRAX_ASK_MEMORY && decoded->latency > 1;
   const uint8_t op = stops || stops_burst(decoded) ? TRAX_OP_ILLEGAL : decoded->op;
   program->inst[index] =
       (struct trax_fast_inst){.operation = operations[index % TRAX_STRETCH ? op : TRAX_OP_COUNT],
-                              .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
-                              .line = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1),
                               .op = op,
                               .rd = decoded->rd,
                               .ra = decoded->ra,
                               .rb = decoded->rb,
-                              .imm = decoded->imm,
-                              .decoded = decoded};
+                              .imm = decoded->imm};
+  program->note[index] = (struct trax_fast_note){
+      .decoded = decoded,
+      .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
+      .pc = pc};
+  program->line[index] = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1);
   program->asks[index] =
       (uint16_t)(asks_of(decoded) | (slow ? TRAX_ASKS_SLOWLY : 0) | decoded->bank << TRAX_ASKS_FETCH_SHIFT);
 }
@@ -67,9 +69,11 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   program->sections = calloc(text->count ? text->count : 1, sizeof *program->sections);
   program->inst = malloc(total * sizeof *program->inst);
   program->asks = calloc(total + TRAX_STRETCH, sizeof *program->asks);
-  program->pc = malloc(total * sizeof *program->pc);
+  program->note = malloc(total * sizeof *program->note);
+  program->line = malloc(total * sizeof *program->line);
   program->lines_ahead = calloc(total + 1, sizeof *program->lines_ahead);
-  if (!program->sections || !program->inst || !program->asks || !program->pc || !program->lines_ahead)
+  if (!program->sections || !program->inst || !program->note || !program->line || !program->asks ||
+      !program->lines_ahead)
     return trax_fail(error, "out of memory for %zu instructions", total);
   uint32_t index = 0, lines = 0;
   for (size_t i = 0; i < text->count; i++) {
@@ -79,20 +83,18 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
         (struct trax_fast_section){section->begin, words * 4, first_line, (uint16_t)lines, program->inst + index};
     for (uint32_t word = 0; word <= words; word++, index++) {
       const uint32_t pc = section->begin + word * 4;
-      predecode(program, &section->decoded[word], index, lines + pc / line_bytes - first_line,
+      predecode(program, &section->decoded[word], index, pc, lines + pc / line_bytes - first_line,
                 jumps_oddly(&section->decoded[word], word, words));
-      program->pc[index] = pc;
     }
     lines += section->end / line_bytes - first_line + 1;
     lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES - 1;
   }
   program->lines = lines;
   program->outside = &program->inst[index];
-  predecode(program, trax_text_at(text, 1), index, TRAX_FAST_LINES, true); /* none is at an odd address */
-  program->pc[index] = 0;
+  predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* none is at an odd address */
   for (size_t i = total; i-- > 0;)
     program->lines_ahead[i] =
-        (uint64_t)1 << program->inst[i].line % 64 | ((i + 1) % TRAX_STRETCH ? program->lines_ahead[i + 1] : 0);
+        (uint64_t)1 << program->line[i] % 64 | ((i + 1) % TRAX_STRETCH ? program->lines_ahead[i + 1] : 0);
   return TRAX_OK;
 }
 
@@ -100,6 +102,7 @@ void trax_fast_program_destroy(struct trax_fast_program *program) {
   free(program->sections);
   free(program->inst);
   free(program->asks);
-  free(program->pc);
+  free(program->note);
+  free(program->line);
   free(program->lines_ahead);
 }
