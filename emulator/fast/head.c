@@ -54,7 +54,7 @@ uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   if (ftm->heads.at[number] == ftm->heads.last[number]) {
     trax_fast_refill(ftm, number);
   } else {
-    ftm->heads.load[number] += (ftm->heads.asks[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK;
+    ftm->heads.load[number] += (ftm->heads.low[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK;
     trax_fast_set_head(&ftm->heads, number, ftm->heads.at[number] + 1u);
   }
   return ftm->deferred & bit ? ftm->tm->tp[number].pc : trax_fast_head_note(ftm, number)->pc;

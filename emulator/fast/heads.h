@@ -32,7 +32,7 @@ enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
 struct trax_fast_heads {
   _Alignas(64) uint8_t at[64]; /* the head's number in its burst */
   uint8_t load[64];            /* how many loads of global memory its burst has before it */
-  uint16_t asks[64];           /* of the heads */
+  uint8_t low[64], high[64];   /* what the heads ask for: the bytes of it */
   uint8_t last[64];            /* the last number of its burst */
   uint32_t begin[64];          /* of the TP's steps in `steps`; of TPs that do not exist, TP 0's */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
@@ -50,7 +50,8 @@ static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned
 static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
   const uint16_t *const step = heads->steps + heads->begin[tp] + at;
   heads->at[tp] = (uint8_t)at;
-  heads->asks[tp] = *step;
+  heads->low[tp] = (uint8_t)*step;
+  heads->high[tp] = (uint8_t)(*step >> 8);
 #ifdef __AVX512BW__
   memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
 #endif
@@ -67,8 +68,23 @@ static inline __m512i trax_fast_join_rows(const __m512i *row) {
   return asks;
 }
 
+/* Notes what the heads ask for; of each 32 TPs, asks[...]. Stored as it is going to be loaded. */
+static inline void trax_fast_set_asks(struct trax_fast_heads *heads, const bool wide, const __m512i *asks) {
+#pragma GCC unroll 2
+  for (unsigned i = 0; i < 2; i++) {
+    uint8_t *const bytes = i ? heads->high : heads->low;
+    const __m256i first = _mm512_cvtepi16_epi8(_mm512_srli_epi16(asks[0], 8 * i));
+    if (wide)
+      _mm512_store_si512(bytes, _mm512_inserti64x4(_mm512_castsi256_si512(first),
+                                                   _mm512_cvtepi16_epi8(_mm512_srli_epi16(asks[1], 8 * i)), 1));
+    else
+      _mm256_store_si256((__m256i *)bytes, first);
+  }
+}
+
 /* Fills the lanes of all TPs from their heads on. */
 static __attribute__((noinline, unused)) void trax_fast_fill_rows(struct trax_fast_heads *heads, bool wide) {
+  __m512i asks[2];
   for (unsigned half = 0; half < 1u + wide; half++) {
     __m512i *const next = (__m512i *)heads->next[4 * half];
     const __m256i *const begin = (const __m256i *)heads->row_begin[4 * half];
@@ -76,8 +92,9 @@ static __attribute__((noinline, unused)) void trax_fast_fill_rows(struct trax_fa
     for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8))
       next[i] = _mm512_i32gather_epi64(_mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)), begin[i]),
                                        heads->steps, sizeof *heads->steps);
-    _mm512_store_si512(heads->asks + 32 * half, trax_fast_join_rows(next));
+    asks[half] = trax_fast_join_rows(next);
   }
+  trax_fast_set_asks(heads, wide, asks);
 }
 #endif
 
@@ -91,6 +108,7 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
     trax_fast_fill_rows(heads, wide);
     return;
   }
+  __m512i asks[2];
 #pragma GCC unroll 2
   for (unsigned half = 0; half < 1u + wide; half++) {
     __m512i *const next = (__m512i *)heads->next[4 * half];
@@ -100,8 +118,9 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
       const __mmask8 moves = (__mmask8)_pext_u64(who, (uint64_t)0x11111111 << (32 * half + i));
       next[i] = row[i] = _mm512_mask_srli_epi64(next[i], moves, next[i], 16);
     }
-    _mm512_store_si512(heads->asks + 32 * half, trax_fast_join_rows(row));
+    asks[half] = trax_fast_join_rows(row);
   }
+  trax_fast_set_asks(heads, wide, asks);
 #else
   (void)wide;
   for (; who; who &= who - 1) {
@@ -122,40 +141,34 @@ static inline __attribute__((always_inline)) void trax_fast_pass_loads(struct tr
 #endif
 }
 
-/* Into plane[k], bit `first` + k of heads->asks, for all k < `count`: constants, and all bits in the same byte. */
+/* Into plane[k], bit `first` + k of what the heads ask for, for all k < `count`: constants, and all bits in the same
+   byte. */
 static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads,
                                                                       const bool wide, const unsigned first,
                                                                       const unsigned count, uint64_t *plane) {
+  const uint8_t *const bytes = first < 8 ? heads->low : heads->high;
 #ifdef __AVX512BW__
-  const __m512i low = _mm512_load_si512(heads->asks), high = _mm512_load_si512(heads->asks + 32);
 #pragma GCC unroll 8
   for (unsigned k = 0; k < count; k++) {
-    const __m512i bit = _mm512_set1_epi16((short)(1 << (first + k)));
-    const __mmask32 of_low = _mm512_test_epi16_mask(low, bit);
-    plane[k] = wide ? _mm512_kunpackd(_mm512_test_epi16_mask(high, bit), of_low) : of_low;
+    const char bit = (char)(1 << (first + k) % 8);
+    plane[k] = wide ? _mm512_test_epi8_mask(_mm512_load_si512(bytes), _mm512_set1_epi8(bit))
+                    : _mm256_test_epi8_mask(_mm256_load_si256((const __m256i *)bytes), _mm256_set1_epi8(bit));
   }
 #elif defined(__AVX2__)
   for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
-    __m256i half[2] = {*(const __m256i *)(heads->asks + i), *(const __m256i *)(heads->asks + i + 16)};
-#pragma GCC unroll 2
-    for (unsigned j = 0; j < 2; j++)
-      half[j] = first < 8 ? _mm256_and_si256(half[j], _mm256_set1_epi16(0xFF)) : _mm256_srli_epi16(half[j], 8);
-    const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packus_epi16(half[0], half[1]), 0xD8);
+    const __m256i some = _mm256_load_si256((const __m256i *)(bytes + i));
 #pragma GCC unroll 8
     for (unsigned k = 0; k < count; k++) {
-      const int mask = _mm256_movemask_epi8(_mm256_slli_epi16(bytes, 7 - (int)((first + k) % 8)));
+      const int mask = _mm256_movemask_epi8(_mm256_slli_epi16(some, 7 - (int)((first + k) % 8)));
       plane[k] = (i ? plane[k] : 0) | (uint64_t)(uint32_t)mask << i;
     }
   }
 #elif defined(__SSE2__)
   for (unsigned i = 0; i < 32u + 32 * wide; i += 16) {
-    __m128i half[2] = {*(const __m128i *)(heads->asks + i), *(const __m128i *)(heads->asks + i + 8)};
-    for (unsigned j = 0; j < 2; j++)
-      half[j] = first < 8 ? _mm_and_si128(half[j], _mm_set1_epi16(0xFF)) : _mm_srli_epi16(half[j], 8);
-    const __m128i bytes = _mm_packus_epi16(half[0], half[1]);
+    const __m128i some = _mm_load_si128((const __m128i *)(bytes + i));
 #pragma GCC unroll 8
     for (unsigned k = 0; k < count; k++) {
-      const int mask = _mm_movemask_epi8(_mm_slli_epi16(bytes, 7 - (int)((first + k) % 8)));
+      const int mask = _mm_movemask_epi8(_mm_slli_epi16(some, 7 - (int)((first + k) % 8)));
       plane[k] = (i ? plane[k] : 0) | (uint64_t)(uint32_t)mask << i;
     }
   }
@@ -164,7 +177,7 @@ static inline __attribute__((always_inline)) void trax_fast_transpose(const stru
     plane[k] = 0;
   for (unsigned i = 0; i < 32u + 32 * wide; i++)
     for (unsigned k = 0; k < count; k++)
-      plane[k] |= (uint64_t)(heads->asks[i] >> (first + k) & 1) << i;
+      plane[k] |= (uint64_t)(bytes[i] >> (first + k) % 8 & 1) << i;
 #endif
 }
 

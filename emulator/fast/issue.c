@@ -37,7 +37,7 @@ static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   uint32_t latency = inst->latency;
   trax_cause cause = (trax_cause)inst->cause;
   if (inst->ask == TRAX_ASK_MEMORY) {
-    if (inst->is_store || (ftm->heads.asks[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK)
+    if (inst->is_store || (ftm->heads.low[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK)
       return;
     latency = ftm->tm->config->tp.local_latency_cycles;
     cause = TRAX_CAUSE_DATA_LOCAL;
