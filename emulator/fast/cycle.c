@@ -156,6 +156,8 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
     }
   ftm->busy_registers[number] &= ~waits;
   ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
+  if ((ftm->busy | ftm->uncertain) >> number & 1)
+    trax_fast_plan(ftm, number);
   return true;
 }
 
@@ -172,8 +174,9 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool w
     lost->fetch = losers;
     hits = askers & ~losers;
   }
-  const uint64_t maybe_missing = ftm->uncertain | ftm->deferred;
-  uint64_t passed = hits & ~(ftm->busy | maybe_missing);
+  const uint64_t due = trax_fast_due(&ftm->heads, wide);
+  const uint64_t maybe_missing = (ftm->uncertain & due) | ftm->deferred;
+  uint64_t passed = hits & ~((ftm->busy & due) | maybe_missing);
   for (uint64_t rest = (hits & ~passed) | woken; rest; rest &= rest - 1) {
     const uint64_t bit = rest & -rest;
     const unsigned number = trax_first(rest);

@@ -32,6 +32,7 @@
 #define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
 #define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
 #define trax_fast_come_back TRAX_FAST_NAME(trax_fast_come_back, TRAX_FAST_VARIANT)
+#define trax_fast_plan TRAX_FAST_NAME(trax_fast_plan, TRAX_FAST_VARIANT)
 #define trax_fast_gather TRAX_FAST_NAME(trax_fast_gather, TRAX_FAST_VARIANT)
 #define trax_fast_scatter TRAX_FAST_NAME(trax_fast_scatter, TRAX_FAST_VARIANT)
 #endif
@@ -199,9 +200,15 @@ static inline uint32_t trax_fast_register_bit(unsigned rd) {
   return (uint32_t)((uint64_t)1 << rd); /* 0 of TRAX_NO_REGISTER */
 }
 
+/* --- head.c --- */
+/* Finds the next head that needs a register of busy_registers or, if the TP is among `uncertain`, lies in another line
+   than this one, which has been fetched: those between need not be looked at. */
+void trax_fast_plan(struct trax_fast_tm *ftm, unsigned tp);
+
 static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
   ftm->busy_registers[tp] |= trax_fast_register_bit(rd);
   ftm->busy |= (uint64_t)1 << tp;
+  trax_fast_plan(ftm, tp);
 }
 
 /* --- program.c --- */

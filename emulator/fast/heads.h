@@ -33,6 +33,7 @@ struct trax_fast_heads {
   _Alignas(64) uint8_t at[64]; /* the head's number in its burst */
   uint8_t load[64];            /* how many loads of global memory its burst has before it */
   uint8_t low[64], high[64];   /* what the heads ask for: the bytes of it */
+  uint8_t look[64];            /* the first number of its burst at which trax_fast_plan wants the head looked at */
   uint8_t last[64];            /* the last number of its burst */
   uint32_t begin[64];          /* of the TP's steps in `steps`; of TPs that do not exist, TP 0's */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
@@ -127,6 +128,27 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
     const unsigned tp = (unsigned)__builtin_ctzll(who);
     trax_fast_set_head(heads, tp, heads->at[tp] + 1u);
   }
+#endif
+}
+
+/* The TPs whose heads must be looked at, if there is anything to look for. */
+static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct trax_fast_heads *heads,
+                                                                    const bool wide) {
+#ifdef __AVX512BW__
+  (void)wide;
+  return _mm512_cmpge_epu8_mask(_mm512_load_si512(heads->at), _mm512_load_si512(heads->look));
+#elif defined(__SSE2__)
+  uint64_t due = 0;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 16) {
+    const __m128i at = _mm_load_si128((const __m128i *)(heads->at + i));
+    const __m128i later = _mm_max_epu8(at, _mm_load_si128((const __m128i *)(heads->look + i)));
+    due |= (uint64_t)(uint32_t)_mm_movemask_epi8(_mm_cmpeq_epi8(at, later)) << i;
+  }
+  return due;
+#else
+  (void)heads;
+  (void)wide;
+  return ~(uint64_t)0;
 #endif
 }
 
