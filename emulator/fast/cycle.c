@@ -137,7 +137,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   return true;
 }
 
-static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, bool fetched, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const struct trax_tp *tp = &tm->tp[number];
   const uint32_t waits = trax_fast_head_note(ftm, number)->waits;
@@ -157,7 +157,7 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t 
   ftm->busy_registers[number] &= ~waits;
   ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
   if ((ftm->busy | ftm->uncertain) >> number & 1)
-    trax_fast_plan(ftm, number);
+    trax_fast_plan(ftm, number, fetched);
   return true;
 }
 
@@ -182,7 +182,7 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool w
     const unsigned number = trax_first(rest);
     if ((hits & maybe_missing & bit) && !look_up(ftm, number, t))
       hits ^= bit;
-    else if (operands_usable(ftm, number, t) && (!(ftm->deferred & bit) || classify(ftm, number, t)))
+    else if (operands_usable(ftm, number, hits & bit, t) && (!(ftm->deferred & bit) || classify(ftm, number, t)))
       passed |= bit;
   }
   tm->stats->icache_hits += count_bits(hits);

@@ -201,14 +201,15 @@ static inline uint32_t trax_fast_register_bit(unsigned rd) {
 }
 
 /* --- head.c --- */
-/* Finds the next head that needs a register of busy_registers or, if the TP is among `uncertain`, lies in another line
-   than this one, which has been fetched: those between need not be looked at. */
-void trax_fast_plan(struct trax_fast_tm *ftm, unsigned tp);
+/* Finds the next head that must be looked at: it needs a register of busy_registers or, if the TP is among `uncertain`,
+   lies in another line than this one. `fetched`: this one has been looked at and fetched in this cycle; else a head that
+   was to be looked at before stays so, since lines may have gone. */
+void trax_fast_plan(struct trax_fast_tm *ftm, unsigned tp, bool fetched);
 
 static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
   ftm->busy_registers[tp] |= trax_fast_register_bit(rd);
   ftm->busy |= (uint64_t)1 << tp;
-  trax_fast_plan(ftm, tp);
+  trax_fast_plan(ftm, tp, false);
 }
 
 /* --- program.c --- */

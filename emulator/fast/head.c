@@ -22,22 +22,23 @@ static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsign
   return !(missing & found);
 }
 
-enum { FARTHEST_LOOK = 16 };
+enum { FARTHEST_LOOK = 16, NO_LOOK = 255 };
 
-void trax_fast_plan(struct trax_fast_tm *ftm, unsigned number) {
+void trax_fast_plan(struct trax_fast_tm *ftm, unsigned number, bool fetched) {
   const struct trax_fast_program *program = &ftm->fast->program;
   const struct trax_fast_tp *ftp = &ftm->tp[number];
   const uint32_t busy = ftm->busy_registers[number];
   const unsigned at = ftm->heads.at[number], last = ftm->heads.last[number];
-  const bool uncertain = ftm->uncertain >> number & 1;
   const uint16_t line = program->line[trax_fast_index(ftp, at)];
+  const bool uncertain = ftm->uncertain >> number & 1;
   unsigned next = at + 1;
   for (; next <= last && next <= at + FARTHEST_LOOK; next++) {
     const uint32_t index = trax_fast_index(ftp, next);
-    if ((program->note[index].waits & busy) || (uncertain && program->line[index] != line))
+    if ((program->note[index].waits & busy) || (uncertain && (program->line[index] != line || line == TRAX_FAST_LINES - 1)))
       break;
   }
-  ftm->heads.look[number] = (uint8_t)next;
+  if (fetched || !uncertain || next < ftm->heads.look[number])
+    ftm->heads.look[number] = (uint8_t)next;
 }
 
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
@@ -56,7 +57,8 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     ftm->uncertain = (ftm->uncertain & ~bit) | (all_resident(ftm, number, count) ? 0 : bit);
     ftp->asks[count - 1] |= TRAX_ASKS_SLOWLY;
     ftm->heads.last[number] = (uint8_t)(count - 1);
-    ftm->heads.load[number] = ftm->heads.look[number] = 0;
+    ftm->heads.load[number] = 0;
+    ftm->heads.look[number] = (ftm->busy | ftm->uncertain) & bit ? 0 : NO_LOOK;
     trax_fast_set_head(&ftm->heads, number, 0);
   } else {
     const uint32_t index = (uint32_t)(ftp->resume - ftm->fast->program.inst);
