@@ -10,10 +10,14 @@ static inline unsigned count_bits(uint64_t mask) {
 
 /* --- arrivals and alarms --- */
 
+static ALWAYS_INLINE bool has_arrival(const struct trax_tm *tm, uint64_t t) {
+  return tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t;
+}
+
 /* Arrivals; lines of instructions are noted. */
 static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  while (tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t) {
+  while (has_arrival(tm, t)) {
     const struct trax_request request = *trax_queue_oldest(&tm->queue);
     if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
       trax_fast_line_arrives(ftm, request.icache, request.line);
@@ -26,7 +30,8 @@ static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
 static ALWAYS_INLINE uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const uint64_t awake = tm->awake;
-  arrive(ftm, t);
+  if (has_arrival(tm, t))
+    arrive(ftm, t);
   if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
     trax_tm_wake_sleepers(tm, t);
   const uint64_t woken = tm->awake & ~awake;

@@ -84,12 +84,13 @@ static inline void trax_fast_set_asks(struct trax_fast_heads *heads, const bool 
 }
 
 /* Fills the lanes of all TPs from their heads on. */
-static __attribute__((noinline, unused)) void trax_fast_fill_rows(struct trax_fast_heads *heads, bool wide) {
+static inline __attribute__((always_inline)) void trax_fast_fill_rows(struct trax_fast_heads *heads, const bool wide) {
   __m512i asks[2];
   for (unsigned half = 0; half < 1u + wide; half++) {
     __m512i *const next = (__m512i *)heads->next[4 * half];
     const __m256i *const begin = (const __m256i *)heads->row_begin[4 * half];
     __m256i at = _mm256_load_si256((const __m256i *)heads->at + half);
+#pragma GCC unroll 4
     for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8))
       next[i] = _mm512_i32gather_epi64(_mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)), begin[i]),
                                        heads->steps, sizeof *heads->steps);
