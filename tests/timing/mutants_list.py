@@ -84,7 +84,7 @@ MUTANTS = [
     # --- steps 1 and 2 ---
     ("fast/cycle.c", "return (woken & tm->holding) | taken_up;", "return (woken & tm->holding) | (taken_up & 0);"),
     ("fast/cycle.c", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
-    ("fast/cycle.c", "ftm->busy_registers[number] &= ~inst->waits;", "ftm->busy_registers[number] = 0;"),
+    ("fast/cycle.c", "ftm->busy_registers[number] &= ~waits;", "ftm->busy_registers[number] = 0;"),
     ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END)\n    asks |= TRAX_ASKS_QUEUE;", "if (inst->ask == TRAX_ASK_END)\n    asks |= 0;"),
     # --- steps 3 and 4 ---
     ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
@@ -94,8 +94,10 @@ MUTANTS = [
     ("fast/issue.c", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/issue.c", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
     ("fast/head.c", "if (!ftp->atomics) {", "if (1) {"),
-    ("fast/blocks.c", "if (*state == TRAX_BLOCK_LOADED)", "if (*state == TRAX_BLOCK_LOADED && 0)"),
-    ("fast/blocks.c", "*state = TRAX_BLOCK_WRITTEN;", "*state = 0;"),
+    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))", "if (0)"),
+    ("fast/fast.h", "= TRAX_BLOCK_WRITTEN;", "= 0;"),
+    ("fast/fast.h", "    blocks->input_bytes = 0;", "    (void)blocks;"),
+    ("fast/fast.h", "address - blocks->input < blocks->input_bytes;\n}", "false;\n}"),
     # --- the core, for the fast engine ---
     ("core/tm.c", "if (!trax_queue_has_place(&tm->queue))", "if (0)"),
     ("core/tm.c", "trax_arbiter_to_back(&tm->queue_turn, tp);", "trax_arbiter_to_back(&tm->queue_turn, tp - 1);"),
@@ -259,9 +261,30 @@ MUTANTS = [
     # Heads whose line has gone are looked at again.
     ("fast/head.c", "        ftm->uncertain |= (uint64_t)1 << tp;",
      "        ftm->uncertain |= 0;"),
+    # And from then on.
+    ("fast/head.c", "        ftm->heads.look[tp] = 0;\n",
+     ""),
+    # A head in another line is looked at,
+    ("fast/head.c", "program->line[index] != line ||",
+     "false ||"),
+    # one that needs a register,
+    ("fast/head.c", "(program->note[index].waits & busy) ||",
+     "(program->note[index].waits & busy & 0xFFFF) ||"),
+    # and one behind a head that was not fetched in this cycle.
+    ("fast/head.c", "if (fetched || !uncertain || next < ftm->heads.look[number])",
+     "if (true)"),
+    # A new burst may begin with any of these.
+    ("fast/head.c", "(ftm->busy | ftm->uncertain) & bit ? 0 : NO_LOOK;",
+     "NO_LOOK;"),
+    # Which instruction a step is.
+    ("fast/burst.c", "ftp->origin[part] = index - at;",
+     "ftp->origin[part] = index - (at & 127);"),
+    # Round robin of units by bytes.
+    ("fast/masks.h", "TRAX_FAST_ARBITRATE(groups, (groups *)&units->behind, (groups)askers, &winners);",
+     "trax_fast_pair all = {-1, -1};\n    TRAX_FAST_ARBITRATE(groups, (groups *)&all, (groups)askers, &winners);"),
     # A write calls back those who have run ahead.
-    ("fast/blocks.c", "if (*state == TRAX_BLOCK_LOADED)\n    trax_fast_come_back",
-     "if (*state == TRAX_BLOCK_LOADED && address % 16)\n    trax_fast_come_back"),
+    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))\n    trax_fast_come_back",
+     "if (trax_fast_is_loaded(&fast->blocks, address) && address % 16)\n    trax_fast_come_back"),
     # Local memory is as it was.
     ("fast/blocks.c", "memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);",
      "memcpy(tp->local + undo->offset, &undo->word, 2);"),
@@ -284,8 +307,8 @@ MUTANTS = [
     ("fast/windows.c", "writer->tm = BY_SEVERAL;",
      "writer->tm = tm;"),
     # What was loaded ahead and is written is loaded again.
-    ("fast/windows.c", "  if (*state == TRAX_BLOCK_LOADED)\n    return false;",
-     "  if (*state == TRAX_BLOCK_LOADED && write->bytes)\n    return false;"),
+    ("fast/windows.c", "  if (trax_fast_is_loaded(&fast->blocks, write->address))\n    return false;",
+     "  if (trax_fast_is_loaded(&fast->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
     ("fast/windows.c", "for (uint32_t i = windows->chip->tms; i-- > 0;) {",
      "for (uint32_t i = 0; i < windows->chip->tms; i++) {"),
