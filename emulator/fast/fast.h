@@ -73,7 +73,7 @@ struct trax_fast_section {
 struct trax_fast_program {
   struct trax_fast_section *sections; /* [count], in one array of instructions */
   size_t count, inst_count;
-  uint32_t lines; /* that `resident` knows */
+  uint32_t lines;                 /* that `resident` knows */
   struct trax_fast_inst *inst;    /* [inst_count] */
   struct trax_fast_note *note;    /* [inst_count] */
   uint16_t *line;                 /* [inst_count]: of the program, for `resident` */
@@ -202,8 +202,8 @@ static inline uint32_t trax_fast_register_bit(unsigned rd) {
 
 /* --- head.c --- */
 /* Finds the next head that must be looked at: it needs a register of busy_registers or, if the TP is among `uncertain`,
-   lies in another line than this one. `fetched`: this one has been looked at and fetched in this cycle; else a head that
-   was to be looked at before stays so, since lines may have gone. */
+   lies in another line than this one. `fetched`: this one has been looked at and fetched in this cycle; else a head
+   that was to be looked at before stays so, since lines may have gone. */
 void trax_fast_plan(struct trax_fast_tm *ftm, unsigned tp, bool fetched);
 
 static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
@@ -262,8 +262,7 @@ void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count,
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
-trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space,
-                                    trax_error *error);
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);

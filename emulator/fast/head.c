@@ -34,7 +34,8 @@ void trax_fast_plan(struct trax_fast_tm *ftm, unsigned number, bool fetched) {
   unsigned next = at + 1;
   for (; next <= last && next <= at + FARTHEST_LOOK; next++) {
     const uint32_t index = trax_fast_index(ftp, next);
-    if ((program->note[index].waits & busy) || (uncertain && (program->line[index] != line || line == TRAX_FAST_LINES - 1)))
+    if ((program->note[index].waits & busy) ||
+        (uncertain && (program->line[index] != line || line == TRAX_FAST_LINES - 1)))
       break;
   }
   if (fetched || !uncertain || next < ftm->heads.look[number])
@@ -96,7 +97,8 @@ void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned execute
   ftp->jumps += ftp->burst_jumps;
   for (unsigned i = issued; i < executed; i++) { /* takes back what did not happen */
     const uint32_t index = trax_fast_index(ftp, i);
-    const uint32_t next = i + 1 < executed ? trax_fast_index(ftp, i + 1) : (uint32_t)(ftp->resume - ftm->fast->program.inst);
+    const uint32_t next =
+        i + 1 < executed ? trax_fast_index(ftp, i + 1) : (uint32_t)(ftp->resume - ftm->fast->program.inst);
     ftm->changes[index]--;
     ftm->changes[index + 1]++;
     ftp->jumps -= next != index + 1;

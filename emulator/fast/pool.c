@@ -9,8 +9,13 @@
 #include <stdlib.h>
 
 /* A round lasts some 10 microseconds: who waits looks again for about as long before it lets others have the processor,
-   and sleeps if nothing comes for long. */
-enum { LOOKS = 2000, YIELDS = 200 };
+   and sleeps if nothing comes for long. Before it has waited for a while it does not look for the work of those who are
+   late: what it looks at is taken from their caches. */
+enum { PATIENCE = 200, LOOKS = 2000, YIELDS = 200 };
+
+struct item {
+  _Alignas(64) atomic_uint taken; /* the round that took it */
+};
 
 struct worker {
   struct trax_pool *pool;
@@ -29,9 +34,9 @@ struct trax_pool {
 
   _Alignas(64) atomic_uint round; /* even numbers; odd: the end */
   _Alignas(64) atomic_uint done;  /* items of all rounds */
-  _Atomic(unsigned) *taken;       /* [items]: the round that took it */
+  struct item *item;              /* [items] */
 
-  atomic_uint sleepers;
+  _Alignas(64) atomic_uint sleepers;
   pthread_mutex_t mutex;
   pthread_cond_t wakened;
 };
@@ -42,17 +47,20 @@ static void pause_briefly(void) {
 #endif
 }
 
-static void take_part(struct trax_pool *pool, unsigned number, unsigned round) {
-  const uint32_t first = (uint32_t)((uint64_t)pool->items * number / pool->threads);
-  for (uint32_t i = 0; i < pool->items; i++) {
-    const uint32_t item = first + i < pool->items ? first + i : first + i - pool->items;
+static void take_items(struct trax_pool *pool, uint32_t first, uint32_t end, unsigned round) {
+  for (uint32_t i = first; i < end; i++) {
     unsigned before = round - 2;
-    if (atomic_load_explicit(&pool->taken[item], memory_order_relaxed) == before &&
-        atomic_compare_exchange_strong(&pool->taken[item], &before, round)) {
-      pool->work(pool->context, item);
+    if (atomic_load_explicit(&pool->item[i].taken, memory_order_relaxed) == before &&
+        atomic_compare_exchange_strong(&pool->item[i].taken, &before, round)) {
+      pool->work(pool->context, i);
       atomic_fetch_add(&pool->done, 1);
     }
   }
+}
+
+static void take_part(struct trax_pool *pool, unsigned number, unsigned round) {
+  take_items(pool, (uint32_t)((uint64_t)pool->items * number / pool->threads),
+             (uint32_t)((uint64_t)pool->items * (number + 1) / pool->threads), round);
 }
 
 static unsigned wait_for_round(struct trax_pool *pool, unsigned last) {
@@ -60,6 +68,8 @@ static unsigned wait_for_round(struct trax_pool *pool, unsigned last) {
   for (unsigned i = 0; i < LOOKS + YIELDS; i++) {
     if ((round = atomic_load(&pool->round)) != last)
       return round;
+    if (i == PATIENCE)
+      take_items(pool, 0, pool->items, last);
     if (i < LOOKS)
       pause_briefly();
     else
@@ -96,11 +106,14 @@ void trax_pool_run(struct trax_pool *pool) {
   pool->target += pool->items;
   begin_round(pool, round);
   take_part(pool, 0, round);
-  for (unsigned i = 0; atomic_load(&pool->done) != pool->target; i++)
+  for (unsigned i = 0; atomic_load(&pool->done) != pool->target; i++) {
+    if (i == PATIENCE)
+      take_items(pool, 0, pool->items, round);
     if (i < LOOKS)
       pause_briefly();
     else
       sched_yield();
+  }
 }
 
 struct trax_pool *trax_pool_create(unsigned threads, uint32_t items, void (*work)(void *context, uint32_t item),
@@ -109,13 +122,15 @@ struct trax_pool *trax_pool_create(unsigned threads, uint32_t items, void (*work
   if (pool)
     *pool = (struct trax_pool){.work = work, .context = context, .items = items, .threads = threads};
   if (!pool || !(pool->worker = calloc(threads, sizeof *pool->worker)) ||
-      !(pool->taken = calloc(items, sizeof *pool->taken))) {
+      !(pool->item = aligned_alloc(_Alignof(struct item), items * sizeof *pool->item))) {
     trax_fail(error, "out of memory");
     if (pool)
       free(pool->worker);
     free(pool);
     return NULL;
   }
+  for (uint32_t i = 0; i < items; i++)
+    atomic_init(&pool->item[i].taken, 0);
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->wakened, NULL);
   for (; pool->running + 1 < threads; pool->running++) {
@@ -138,7 +153,7 @@ void trax_pool_destroy(struct trax_pool *pool) {
     pthread_join(pool->worker[i].thread, NULL);
   pthread_cond_destroy(&pool->wakened);
   pthread_mutex_destroy(&pool->mutex);
-  free((void *)pool->taken);
+  free(pool->item);
   free(pool->worker);
   free(pool);
 }

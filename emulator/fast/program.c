@@ -41,17 +41,16 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
   const void *const *const operations = trax_fast_operations();
   const bool slow = decoded->ask != TRAX_ASK_MEMORY && decoded->latency > 1;
   const uint8_t op = stops || stops_burst(decoded) ? TRAX_OP_ILLEGAL : decoded->op;
-  program->inst[index] =
-      (struct trax_fast_inst){.operation = operations[index % TRAX_STRETCH ? op : TRAX_OP_COUNT],
-                              .op = op,
-                              .rd = decoded->rd,
-                              .ra = decoded->ra,
-                              .rb = decoded->rb,
-                              .imm = decoded->imm};
-  program->note[index] = (struct trax_fast_note){
-      .decoded = decoded,
-      .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
-      .pc = pc};
+  program->inst[index] = (struct trax_fast_inst){.operation = operations[index % TRAX_STRETCH ? op : TRAX_OP_COUNT],
+                                                 .op = op,
+                                                 .rd = decoded->rd,
+                                                 .ra = decoded->ra,
+                                                 .rb = decoded->rb,
+                                                 .imm = decoded->imm};
+  program->note[index] =
+      (struct trax_fast_note){.decoded = decoded,
+                              .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
+                              .pc = pc};
   program->line[index] = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1);
   program->asks[index] =
       (uint16_t)(asks_of(decoded) | (slow ? TRAX_ASKS_SLOWLY : 0) | decoded->bank << TRAX_ASKS_FETCH_SHIFT);
