@@ -73,12 +73,12 @@ struct trax_fast_section {
 struct trax_fast_program {
   struct trax_fast_section *sections; /* [count], in one array of instructions */
   size_t count, inst_count;
-  uint32_t lines;                 /* that `resident` knows */
-  struct trax_fast_inst *inst;    /* [inst_count] */
-  struct trax_fast_note *note;    /* [inst_count] */
-  uint16_t *line;                 /* [inst_count]: of the program, for `resident` */
-  uint16_t *asks;                 /* [inst_count + TRAX_STRETCH]: of a step, unless its address says more */
-  uint64_t *lines_ahead;          /* [inst_count]: bit line % 64 of the lines from here to the end of the stretch */
+  uint32_t lines;              /* that `resident` knows */
+  struct trax_fast_inst *inst; /* [inst_count] */
+  struct trax_fast_note *note; /* [inst_count] */
+  uint16_t *line;              /* [inst_count]: of the program, for `resident` */
+  uint16_t *asks;              /* [inst_count + TRAX_STRETCH]: of a step, unless its address says more */
+  uint64_t *lines_ahead;       /* [inst_count]: bit line % 64 of the lines from here to a jump or the stretch's end */
   struct trax_fast_inst *outside; /* the last */
 };
 

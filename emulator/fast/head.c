@@ -16,10 +16,15 @@ static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsign
   const uint64_t missing = ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]];
   if (!missing || ftm->fast->program.lines > 64)
     return !missing;
-  uint64_t found = 0;
-  for (unsigned i = 0; i < count; i++)
-    found |= (uint64_t)1 << ftm->fast->program.line[trax_fast_index(ftp, i)] % 64;
-  return !(missing & found);
+  for (unsigned i = 0; i < count;) {
+    const uint8_t part = ftp->part[i];
+    const uint32_t origin = ftp->origin[part]; /* as trax_fast_index, which wraps around */
+    do
+      if (missing >> ftm->fast->program.line[origin + i] % 64 & 1)
+        return false;
+    while (++i < count && ftp->part[i] == part);
+  }
+  return true;
 }
 
 enum { FARTHEST_LOOK = 16, NO_LOOK = 255 };

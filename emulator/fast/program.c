@@ -91,9 +91,10 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   program->lines = lines;
   program->outside = &program->inst[index];
   predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* none is at an odd address */
-  for (size_t i = total; i-- > 0;)
-    program->lines_ahead[i] =
-        (uint64_t)1 << program->line[i] % 64 | ((i + 1) % TRAX_STRETCH ? program->lines_ahead[i + 1] : 0);
+  for (size_t i = total; i-- > 0;) {
+    const bool goes_on = (i + 1) % TRAX_STRETCH && program->inst[i].op != TRAX_OP_JAL; /* jalr may, too */
+    program->lines_ahead[i] = (uint64_t)1 << program->line[i] % 64 | (goes_on ? program->lines_ahead[i + 1] : 0);
+  }
   return TRAX_OK;
 }
 
