@@ -216,11 +216,11 @@ static bool perform(struct trax_windows *windows, const struct trax_ahead_write 
   return true;
 }
 
-/* The stores of the cycles up to t, in the order of cycles and TMs. */
-static bool write_up_to(struct trax_windows *windows, uint64_t t) {
+/* The stores of the cycles up to t, in the order of cycles and TMs. *next receives the cycle of the next one. */
+static bool write_up_to(struct trax_windows *windows, uint64_t t, uint64_t *next) {
   while (true) {
-    uint32_t first = TRAX_MAX_TMS;
-    uint64_t cycle = t;
+    uint32_t first = 0;
+    uint64_t cycle = TRAX_NEVER;
     for (uint32_t i = windows->chip->tms; i-- > 0;) {
       const struct trax_ahead *ahead = &windows->ahead[i];
       if (windows->next_write[i] < ahead->write_count && ahead->writes[windows->next_write[i]].cycle <= cycle) {
@@ -228,7 +228,8 @@ static bool write_up_to(struct trax_windows *windows, uint64_t t) {
         first = i;
       }
     }
-    if (first == TRAX_MAX_TMS)
+    *next = cycle;
+    if (cycle > t)
       return true;
     if (!perform(windows, &windows->ahead[first].writes[windows->next_write[first]++], first))
       return false;
@@ -260,15 +261,17 @@ static void note_increment(void *context, uint32_t address) {
 static bool run_controller(struct trax_windows *windows, uint64_t t) {
   struct trax_chip *chip = windows->chip;
   struct trax_memory *memory = &chip->memory;
+  uint64_t next_request = 0, next_write = 0;
   while (t < windows->end) {
-    const uint64_t next_request = show_requests(windows, t);
-    if (!write_up_to(windows, t))
+    if (next_request <= t)
+      next_request = show_requests(windows, t);
+    if (next_write <= t && !write_up_to(windows, t, &next_write))
       return false;
     trax_memory_cycle(memory, chip->tm, &chip->machine->space, t);
     const uint64_t next = trax_memory_next_cycle(memory, t);
     t = next < next_request ? next : next_request;
   }
-  return write_up_to(windows, windows->end);
+  return write_up_to(windows, windows->end, &next_write);
 }
 
 /* Whether a TM has read what somebody else wrote in this window. */
