@@ -157,8 +157,8 @@ MUTANTS = [
     ("core/icache.c", "tm->holding |= icache->pending[i].waiting;",
      "tm->holding |= icache->pending[i].waiting & -icache->pending[i].waiting;"),
     # Round robin over the TMs.
-    ("core/memory.c", "trax_arbiter_to_back(&memory->turn, number);",
-     "(void)number;"),
+    ("core/memory.c", "trax_arbiter_to_back(&memory->turn, tm->number);",
+     "(void)0;"),
     # A transfer takes bytes / B cycles.
     ("core/memory.c", "begin + request->bytes * memory->units_per_byte",
      "begin + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
@@ -211,8 +211,8 @@ MUTANTS = [
     ("core/chip.c", "idle_from > t ? idle_from : t;",
      "idle_from > t ? t : t;"),
     # What arrives in t is used in t.
-    ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t)",
-     "trax_queue_oldest(&tm->queue)->completion < t)"),
+    ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t;",
+     "trax_queue_oldest(&tm->queue)->completion < t;"),
     # Losers of a fetch are charged.
     ("fast/cycle.c", "lost->fetch = losers;",
      "lost->fetch = losers & ~tm->awaiting & ~(losers >> 63 << 63);"),
@@ -272,7 +272,7 @@ MUTANTS = [
      "(program->note[index].waits & busy & 0xFFFF) ||"),
     # and one behind a head that was not fetched in this cycle.
     ("fast/head.c", "if (fetched || !uncertain || next < ftm->heads.look[number])",
-     "if (true)"),
+     "if (fetched || true)"),
     # A new burst may begin with any of these.
     ("fast/head.c", "(ftm->busy | ftm->uncertain) & bit ? 0 : NO_LOOK;",
      "NO_LOOK;"),
