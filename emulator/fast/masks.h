@@ -213,7 +213,7 @@ static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_unit
   if (units->group_size == 1)
     return askers;
   if (units->group_size == 8) {
-    typedef uint8_t groups __attribute__((vector_size(16)));
+    typedef uint8_t groups __attribute__((vector_size(16), may_alias));
     groups winners;
     TRAX_FAST_ARBITRATE(groups, (groups *)&units->behind, (groups)askers, &winners);
     return (trax_fast_pair)winners;
