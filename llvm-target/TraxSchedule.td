@@ -14,13 +14,12 @@ def TraxModel : SchedMachineModel {
 
 let SchedModel = TraxModel in {
 
-multiclass TraxUnitModel<TraxUnit unit, int latency = unit.DefaultLatency, int busy = 1> {
+multiclass TraxUnitModel<TraxUnit unit, int latency = unit.DefaultLatency> {
   def Resource : ProcResource<1> {
     let BufferSize = 0;
   }
   def : WriteRes<unit, [!cast<ProcResource>(NAME#"Resource")]> {
     let Latency = latency;
-    let ReleaseAtCycles = [busy];
   }
 }
 
@@ -28,7 +27,7 @@ defm Int     : TraxUnitModel<UnitInt>;
 defm IntMul  : TraxUnitModel<UnitIntMul>;
 defm FPAdd   : TraxUnitModel<UnitFPAdd>;
 defm FPMul   : TraxUnitModel<UnitFPMul>;
-defm Special : TraxUnitModel<UnitSpecial, UnitSpecial.DefaultLatency, UnitSpecial.DefaultLatency>; // not pipelined
+defm Special : TraxUnitModel<UnitSpecial>;
 // A hit takes the unit's one cycle, but banks conflict and lines miss: a little distance to the first use pays.
 defm Memory  : TraxUnitModel<UnitMemory, 3>;
 defm Control : TraxUnitModel<UnitControl>;

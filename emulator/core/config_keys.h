@@ -55,7 +55,7 @@
   COUNT(special, units_per_tm, 1, 1, 64, "units", PAPER, "FPDIV/iSQRT units of a TM")                                                      \
   COUNT(special, latency_cycles, 8, 1, 1000, "cycles", PAPER, "latency of FPDIV, and of iSQRT (but see special.rsqrt_latency_cycles)")     \
   COUNT(special, rsqrt_latency_cycles, 0, 0, 1000, "cycles", OURS, "latency of iSQRT; 0: as special.latency_cycles")                       \
-  FLAG(special, pipelined, false, 0, 1, "", OURS, "a unit accepts an operation every cycle; false: it is busy for its latency")            \
+  FLAG(special, pipelined, true, 0, 1, "", PAPER, "a unit accepts an operation every cycle; false: it is busy for its latency")            \
   COUNT(special, precision_bits, 24, 1, 24, "bits", OURS, "significant bits of a result, the leading one included; 24 is exact")           \
   END(special)                                                                                                                             \
   BEGIN(dcache)                                                                                                                            \

@@ -90,7 +90,7 @@ def assertions():
                     runs.append(made)
             for units in (1, 2):
                 made = run(program, scene, "1x32", {"chip.tps_per_tm": 64} | ({"special.units_per_tm": 2} if units == 2 else {}), experiments=("special-unit",), value=10 - lost * 10 * (units == 1))
-                made["stats"]["configuration"]["special"] = {"units_per_tm": units}
+                made["stats"]["configuration"]["special"] = {"units_per_tm": units, "pipelined": True}
                 runs.append(made)
             for size, moved in ((16384, 700), (32768, 700 * (1.3 - lost * 10))):
                 made = run(program, scene, "8x32", {"dcache.bytes": size} if size > 16384 else {}, experiments=("dcache-bytes",))

@@ -201,7 +201,7 @@ class ReportTest(unittest.TestCase):
             record["stats"].update(instructions=1000, instructions_by_unit={"special": 10 * rare[record["program"]]})
             fpu = record["stats"]["configuration"]["fpu"]
             fpu.update(adders_per_cluster=1 if record["program"] == "ours" else 2, multipliers_per_cluster=1)
-            record["stats"]["configuration"].setdefault("special", {"units_per_tm": 1})
+            record["stats"]["configuration"].setdefault("special", {"units_per_tm": 1, "pipelined": True})
         page = self.make(made)
         rows = {row[0][0]: row for row in page.tables["claims"]["rows"]}
         for name in ("A TM's operations per cycle", "Eight TPs share an FPU", "FPDIV/iSQRT are rarely used", "One FPDIV/iSQRT unit serves up to 64 TPs", "16 banks for the instructions of 16 TPs",

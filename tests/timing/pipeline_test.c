@@ -82,6 +82,7 @@ static void first_register_is_blamed(void **state) {
 static void special_unit_is_busy(void **state) {
   (void)state;
   struct trax_config config = bench_near(1, 1);
+  config.special.pipelined = false;
   /* The unit is taken in 1..8. */
   struct bench bench = BENCH(config, R(FDIV, 1, 0, 0), R(FDIV, 2, 0, 0), HALT);
   ISSUES(&bench, 0, 1, 9, 10);

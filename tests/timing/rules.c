@@ -56,9 +56,10 @@ const struct rule *timing_rules(size_t *count) {
        NOP, HALT);
   /* One bank. TPs fetch by turns: TP 0 rdsr 1, bne 2, fdiv 4; TP 1 rdsr 1, bne 3, nop 5. TP 0 fetches its second fdiv
      in 6 and keeps it to 12, when the unit is free; TP 1 has the bank from 7 on. */
-  RULE("A cycle", "an instruction that was refused is not fetched again", NEAR, "chip.tps_per_tm=2 icache.banks=1", 14,
-       NONE, "1 2 4 12 13 / 1 3 5 7 8 9 10", "icache_miss=1 icache_bank_conflict=6 special_conflict=6",
-       U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 16), R(FDIV, 2, 0, 0), R(FDIV, 3, 0, 0), HALT, NOP, NOP, NOP, NOP, HALT);
+  RULE("A cycle", "an instruction that was refused is not fetched again", NEAR,
+       "chip.tps_per_tm=2 icache.banks=1 special.pipelined=false", 14, NONE, "1 2 4 12 13 / 1 3 5 7 8 9 10",
+       "icache_miss=1 icache_bank_conflict=6 special_conflict=6", U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 16),
+       R(FDIV, 2, 0, 0), R(FDIV, 3, 0, 0), HALT, NOP, NOP, NOP, NOP, HALT);
 
   /* --- Fetch --- */
   /* Cycle 0: TP 0 wins bank 0. 1: TP 0 by the line, TP 1 by the bank. 2: both want bank 1. Then TP 1 follows. */
@@ -166,14 +167,13 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Units", "or, with fpu.compare_units, on the TP's own units, but additions do not", NEAR,
        "chip.tps_per_tm=2 fpu.compare_units=true " LOCKSTEP, 6, NONE, "1 2 3 4 / 1 2 4 5",
        "icache_miss=2 fp_add_conflict=1", R(FMIN, 1, 0, 0), R1(FCVT_W_S, 2, 0), R(FADD, 3, 0, 0), HALT);
-  RULE("Units", "the TM's FPDIV/iSQRT unit is taken for its latency", NEAR, "chip.tps_per_tm=4 " LOCKSTEP, 27, NONE,
+  RULE("Units", "the TM's FPDIV/iSQRT unit accepts an instruction a cycle", NEAR, "chip.tps_per_tm=4 " LOCKSTEP, 6,
+       NONE, "1 2 / 2 3 / 3 4 / 4 5", "icache_miss=4 special_conflict=6", R(FDIV, 1, 0, 0), HALT);
+  RULE("Units", "or is taken for its latency", NEAR, "chip.tps_per_tm=4 special.pipelined=false " LOCKSTEP, 27, NONE,
        "1 2 / 9 10 / 17 18 / 25 26", "icache_miss=4 special_conflict=48", R(FDIV, 1, 0, 0), HALT);
   RULE("Units", "as many are served as there are free units", NEAR,
-       "chip.tps_per_tm=4 special.units_per_tm=2 " LOCKSTEP, 11, NONE, "1 2 / 1 2 / 9 10 / 9 10",
-       "icache_miss=4 special_conflict=16", R1(FRSQRT, 1, 0), HALT);
-  RULE("Units", "a pipelined unit is free in the next cycle", NEAR,
-       "chip.tps_per_tm=4 special.pipelined=true " LOCKSTEP, 6, NONE, "1 2 / 2 3 / 3 4 / 4 5",
-       "icache_miss=4 special_conflict=6", R(FDIV, 1, 0, 0), HALT);
+       "chip.tps_per_tm=4 special.units_per_tm=2 special.pipelined=false " LOCKSTEP, 11, NONE,
+       "1 2 / 1 2 / 9 10 / 9 10", "icache_miss=4 special_conflict=16", R1(FRSQRT, 1, 0), HALT);
   RULE("Units", "a group may have several adders", NEAR, "chip.tps_per_tm=4 fpu.adders_per_cluster=2 " LOCKSTEP, 4,
        NONE, "1 2 / 1 2 / 2 3 / 2 3", "icache_miss=4 fp_add_conflict=2", R(FADD, 1, 0, 0), HALT);
   RULE("Units", "multipliers may have groups of their own", NEAR,
@@ -185,9 +185,10 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Units", "conversions have their latency", NEAR, "fpu.convert_latency_cycles=4", 7, NONE, "1 5 6",
        "icache_miss=1 wait_other=3", R1(FCVT_S_W, 1, 0), R(ADD, 2, 1, 1), HALT);
   /* The unit is taken in 1..3, 4..11 and 12..14. */
-  RULE("Units", "the unit is taken for the latency of its instruction", NEAR, "special.rsqrt_latency_cycles=3", 17,
-       NONE, "1 4 12 15 16", "icache_miss=1 special_conflict=9 wait_special=2", R1(FRSQRT, 1, 0), R(FDIV, 2, 0, 0),
-       R1(FRSQRT, 3, 0), R(ADD, 4, 3, 3), HALT);
+  RULE("Units", "then for the latency of the instruction", NEAR,
+       "special.pipelined=false special.rsqrt_latency_cycles=3", 17, NONE, "1 4 12 15 16",
+       "icache_miss=1 special_conflict=9 wait_special=2", R1(FRSQRT, 1, 0), R(FDIV, 2, 0, 0), R1(FRSQRT, 3, 0),
+       R(ADD, 4, 3, 3), HALT);
   RULE("Units", "local memory is the TP's own", NEAR, "chip.tps_per_tm=3 " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3 / 1 2 3",
        "icache_miss=3", S(SW, 0, 0, -4), I(LW, 1, 0, -4), HALT);
   RULE("Units", "a bubble follows an instruction whose next pc is not pc + 4", NEAR, "tp.branch_bubble_cycles=3", 11,

@@ -117,6 +117,7 @@ static void integer_multiplier_of_sixteen(void **state) {
 static void special_unit_queues(void **state) {
   (void)state;
   struct trax_config config = lockstep(4);
+  config.special.pipelined = false;
   /* One unit, 8 cycles each: TP k in 1 + 8k. */
   struct bench bench = BENCH(config, R(FDIV, 1, 0, 0), HALT);
   for (unsigned tp = 0; tp < 4; tp++) {
@@ -141,7 +142,8 @@ static void special_unit_queues(void **state) {
 
 static void special_unit_serves_64_in_turn(void **state) {
   (void)state;
-  const struct trax_config config = lockstep(64);
+  struct trax_config config = lockstep(64);
+  config.special.pipelined = false;
   const uint32_t forever[] = {R(FDIV, 0, 0, 0), J(0, -4)};
   struct bench bench = bench_begin(&config, forever, 2);
   bench_run(&bench, 1 + 64 * 8 * 5);

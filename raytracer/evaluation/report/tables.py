@@ -132,6 +132,7 @@ _DESCRIBED = [
     ("clock", "500 MHz", "chip.clock_mhz", 500), ("TPs that share an FPU, one adder and one multiplier", "8", "fpu.tps_per_cluster", 8),
     ("adders of a cluster", "1", "fpu.adders_per_cluster", 1), ("multipliers of a cluster", "1", "fpu.multipliers_per_cluster", 1),
     ("FPDIV/iSQRT units of a TM", "1", "special.units_per_tm", 1), ("latency of FPDIV/iSQRT", "8 cycles", "special.latency_cycles", 8),
+    ("the unit accepts an operation every cycle", "9, 13 and 17 FLOP per cycle", "special.pipelined", True),
     ("latency of additions", "1 cycle", "fpu.add_latency_cycles", 1), ("latency of multiplications", "1 cycle", "fpu.mul_latency_cycles", 1),
     ("instruction cache", "4 kB", "icache.bytes", 4096), ("its banks", "16", "icache.banks", 16), ("TPs that share it", "16", "icache.tps_per_cache", 16),
     ("data cache of a TM", "16 kB", "dcache.bytes", 16384), ("TPs for each of its banks", "8", "dcache.tps_per_bank", 8),
