@@ -200,6 +200,37 @@ def test_refusals(evaluation, scratch):
     check(sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"], "the other scene was not run")
 
 
+def test_names(evaluation, scratch):
+    """A run belongs to every experiment whose machine it is, whatever a sweep calls the machine: 1x32 with 48 TPs in a TM is 1x48."""
+    folder, out = scratch / "named-scenes", scratch / "named"
+    folder.mkdir()
+    check(subprocess.run([evaluation.program.replace("trax-eval", "trax-scene"), "-q", BUNNY, "-o", folder / "conference.trax"]).returncode == 0, "a scene file")
+    for name in ("crytek-sponza", "dragon", "forest"):
+        (folder / f"{name}.trax").symlink_to("conference.trax")
+    sweeps = {"a-sweep": {"chips": "1x32", "set": {"chip.tps_per_tm": [48, 64, 16]}, "x": "chip.tps_per_tm"}, "table1": {"chips": ["1x48", "1x64"]},
+              "table2": {"chips": ["1x32", "1x48", "1x64"]}, "table3": {"chips": "8x32", "set": {"memory.bandwidth_gbps": 16}},
+              "wide": {"chips": "4x32", "set": {"chip.tms": 8, "memory.bandwidth_gbps": 16}, "x": "chip.tms"}}
+    files = []
+    for name, sweep in sweeps.items():
+        files.append(scratch / f"{name}.json")
+        files[-1].write_text(json.dumps({"name": name, "scenes": "paper", "programs": "ours", "size": "8x8"} | sweep))
+    run = subprocess.run([evaluation.program, *files, folder, "-o", out], capture_output=True, text=True)
+    check(run.returncode == 0, f"machines with two names: {run.stderr}")
+    results = json.loads((out / "results.json").read_text())
+    found = {(one["config"], tuple(one["set"])): sorted(one["experiments"]) for one in results["runs"]}
+    check(found == {("1x32", ()): ["table2"], ("1x48", ()): ["a-sweep", "table1", "table2"], ("1x64", ()): ["a-sweep", "table1", "table2"],
+                    ("1x32", ("chip.tps_per_tm",)): ["a-sweep"], ("8x32", ("memory.bandwidth_gbps",)): ["table3", "wide"]}, f"the runs are of {found}")
+    for chip in ("1x48", "1x64"):
+        check(sum(line.split()[:2] == ["|", chip] for line in run.stdout.splitlines()) == 3, f"Tables 1 and 2 and the speed-ups have {chip}: {run.stdout}")
+    rows = [[cell.strip() for cell in line.split("|")[1:4]] for line in run.stdout.split("a-sweep: mrps")[1].split("|\n\n")[0].splitlines() if line.startswith("| ours")]
+    check(rows == [["ours", "1x32", number] for number in ("16", "48", "64")], f"the sweep has its own names: {rows}")
+    check(subprocess.run([evaluation.program, "report", out / "results.json", "-o", out / "report.html"]).returncode == 0, "the report")
+    page = (out / "report.html").read_text()
+    cells = {row.split("<td")[1].split(">")[1].split("<")[0]: row.count("not run") + row.count("missing") for row in page.split('id="table2-ours"')[1].split("</table>")[0].split("<tr>")
+             if row.startswith("<td")}
+    check([chip for chip, missing in cells.items() if not missing] == ["1x32", "1x48", "1x64"], f"the report's Table 2 has {cells}")
+
+
 def test_experiments(evaluation, scratch):
     """The sweeps that come with trax ask for machines that there are; without its meshes a scene is left out."""
     empty = scratch / "no-scenes"
@@ -335,13 +366,13 @@ def test_slurm(evaluation, scratch):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=("sweep", "refusals", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
+    parser.add_argument("--only", choices=("sweep", "refusals", "names", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
     parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch = pathlib.Path(temporary).resolve()
         evaluation = Evaluation(options.bin.resolve(), scratch)
-        wanted = [options.only] if options.only else ["sweep", "refusals", "experiments", "kill", "interrupt", "parallel"]
+        wanted = [options.only] if options.only else ["sweep", "refusals", "names", "experiments", "kill", "interrupt", "parallel"]
         if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "hosts", "slurm"}:
             evaluation.run(SMALL, "undisturbed", "--jobs", "2")
         for name in wanted:

@@ -9,7 +9,7 @@ def swept(results, sweep, program, chip, settings, figure):
     """The mean over the scenes of a figure in a sweep's runs with these settings, or None. Large pictures go before small ones, exact runs before estimates."""
     values = []
     for scene in SCENES.values():
-        runs = [run for run in results.runs if sweep in run.experiments and (run.program, run.scene, run.config) == (program, scene, chip) and run.done and
+        runs = [run for run in results.of_sweep(sweep) if (run.program, run.scene, run.config) == (program, scene, chip) and run.done and
                 set(run.set) <= set(settings) and all(run.setting(key) == value for key, value in settings.items())]
         best = max(runs, key=lambda run: (run.size or (0, 0), run.mode == "exact"), default=None)
         values.append(best.get(figure) if best else None)

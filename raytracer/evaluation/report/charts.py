@@ -110,7 +110,7 @@ def _error_time(results, paper):
 
 
 def sweep_runs(results, sweep):
-    return [run for run in results.runs if sweep.get("name") in run.experiments]
+    return results.of_sweep(sweep.get("name"))
 
 
 def sweep_value(run, sweep):

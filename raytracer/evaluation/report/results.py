@@ -1,6 +1,7 @@
 """What trax-eval measured (results.json) and what the paper published, as the report asks for it. Nothing here is invented: a figure that a
 file does not have, or that is no finite number, is None, and arithmetic on None gives None."""
 
+import copy
 import csv
 import json
 import math
@@ -74,6 +75,12 @@ class Run:
         if not isinstance(experiments, list):
             raise ResultsError(f"runs[{index}].experiments is not a list")
         self.experiments = [name for name in experiments if isinstance(name, str)]
+        self.points = record.get("points") or [{"experiment": name, "config": self.config, "set": self.set} for name in self.experiments]
+        if not isinstance(self.points, list):
+            raise ResultsError(f"runs[{index}].points is not a list")
+        for place, point in enumerate(self.points):
+            if not isinstance(point, dict) or not isinstance(point.get("config"), str) or not isinstance(point.get("set"), dict):
+                raise ResultsError(f"runs[{index}].points[{place}] has no config and set")
 
     @property
     def done(self):
@@ -100,6 +107,14 @@ class Run:
             for part in (section, key):
                 value = value.get(part) if isinstance(value, dict) else None
         return float(value) if isinstance(value, bool) else number(value)
+
+    def within(self, experiment):
+        """The run by each name that a sweep has for its machine."""
+        for point in self.points:
+            if point.get("experiment") == experiment:
+                named = copy.copy(self)
+                named.config, named.set = point["config"], point["set"]
+                yield named
 
     def interval(self):
         """MRPS between which an estimate lies, or None. Of a sampled run cycles_low is the fast end."""
@@ -163,6 +178,10 @@ class Results:
         """The run of a program and scene on one of the paper's chips, or None."""
         found = self._cells.get((program, scene, chip, bandwidth))
         return found[1] if found else None
+
+    def of_sweep(self, name):
+        """The runs that a sweep asks for, with its names of their machines."""
+        return [named for run in self.runs for named in run.within(name)]
 
     def figure(self, name, program, scene, chip, bandwidth=8.0):
         run = self.cell(program, scene, chip, bandwidth)

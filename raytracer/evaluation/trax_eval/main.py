@@ -147,7 +147,7 @@ class Planner:
         path = self.once(("scene", tuple(scene["meshes"]), point.program),
                          lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, point.program))
         quick = point.mode == "quick"
-        queues = self.tools.tms(point.chip, point.machine()) if point.program == "ours" else None  # as trax-render has it
+        queues = self.tools.shape(point.chip, point.machine())[0] if point.program == "ours" else None  # as trax-render has it
         return self.once((path, scene["view"], point.size, point.program, queues, quick),
                          lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, queues, quick))
 

@@ -1,11 +1,12 @@
 """results.json: every run of every sweep in a folder of results, in the form that ../README.md describes."""
 
+import dataclasses
 import datetime
 import os
 import shlex
 
 from .jobs import error_of, read_csv, result_of
-from .sweep import PROGRAMS
+from .sweep import CHIPS, PROGRAMS
 from .util import read_json, write_json
 from .values import ratio, values_of
 
@@ -26,13 +27,25 @@ def effective(point, tools):
     return dict(kept)
 
 
+def preset_of(point, tools):
+    """The point by the name that the paper's tables have for its machine, or as it is: 1x32 with chip.tps_per_tm=48 is 1x48."""
+    name = "x".join(map(str, tools.shape(point.chip, point.machine())))
+    other = dataclasses.replace(point, chip=name, settings=tuple(pair for pair in point.settings if pair[0] not in ("chip.tms", "chip.tps_per_tm")))
+    same = name in CHIPS and tools.configuration(name, other.machine()) == tools.configuration(point.chip, point.machine())
+    return other if same else point
+
+
+def machine_of(point, tools):
+    return {"config": point.chip, "set": effective(point, tools), "machine": dict(point.machine())}
+
+
 def write_plan(out, sweep, keys, tools):
     """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the reason why there is none."""
     points = []
     for point in sweep.points:
         key, reason = keys[point]
-        points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, "config": point.chip,
-                       "set": effective(point, tools), "machine": dict(point.machine()), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
+        points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, **machine_of(point, tools),
+                       "preset": machine_of(preset_of(point, tools), tools), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
                        "error": reason})
     modes = {"quick"} if sweep.quick else {point.mode for point in sweep.points} - {"exact"}
     file = ".".join([sweep.name, *sorted(modes), "json"])  # exact runs stay in the results beside estimates of the same sweep
@@ -72,9 +85,10 @@ def thin_series(path, threads):
 
 
 def run_of(out, tools, areas, point):
-    """What is known of a run, from its files."""
+    """What is known of a run, from its files. Its machine has the paper's name, whatever the sweep calls it."""
+    point = point | point.get("preset", {})
     run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")}
-    run |= {"experiments": [], "status": "missing", "command": repeat_command(point, tools)}
+    run |= {"experiments": [], "points": [], "status": "missing", "command": repeat_command(point, tools)}
     found = result_of(out, point["key"]) if point["key"] else None
     error = point["error"] or (error_of(out, point["key"]) if point["key"] else None)
     if found:
@@ -100,8 +114,11 @@ def collect(out, tools, areas, command, seconds):
             label = point["key"] or f"{plan['name']}-{number}"
             if label not in runs:
                 runs[label] = run_of(out, tools, areas, point)
-            if plan["name"] not in runs[label]["experiments"]:
-                runs[label]["experiments"].append(plan["name"])
+            run, named = runs[label], {"experiment": plan["name"], **{name: point[name] for name in ("config", "set", "machine")}}
+            if plan["name"] not in run["experiments"]:
+                run["experiments"].append(plan["name"])
+            if named not in run["points"]:
+                run["points"].append(named)
     for run in runs.values():
         if run.get("csv"):
             columns, rows = thin_series(out / run["csv"], run["stats"]["threads"])

@@ -89,8 +89,8 @@ def print_table2(index, paper, out):
 
 
 def print_sweep(index, sweep, results, out):
-    """Any sweep: a row for each value, a column for each scene."""
-    runs = [run for run in results["runs"] if sweep["name"] in run["experiments"]]
+    """Any sweep: a row for each value, a column for each scene. Machines have the names that the sweep gives them."""
+    runs = [run | point for run in results["runs"] for point in run["points"] if point["experiment"] == sweep["name"]]
     scenes = list(dict.fromkeys(run["scene"] for run in runs))
     rows = {}
 

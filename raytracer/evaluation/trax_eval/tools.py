@@ -39,6 +39,7 @@ class Tools:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
         return run.stdout
 
-    def tms(self, chip, settings):
-        """How many TMs that chip has."""
-        return int(re.search(r"^ *tms = (\d+);", self.configuration(chip, settings), re.MULTILINE).group(1))
+    def shape(self, chip, settings):
+        """(TMs, TPs of each) of that chip."""
+        text = self.configuration(chip, settings)
+        return tuple(int(re.search(rf"^ *{key} = (\d+);", text, re.MULTILINE).group(1)) for key in ("tms", "tps_per_tm"))
