@@ -8,6 +8,7 @@
 #include "fast/windows.h"
 #include "reference/run.h"
 
+#include <assert.h>
 #include <string.h>
 
 trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
@@ -108,8 +109,10 @@ trax_status trax_chip_look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
   trax_status status = TRAX_OK;
   *next = TRAX_NEVER;
   for (struct trax_watch *watch = chip->machine->watches; watch && !status; watch = watch->others) {
-    if (watch->next <= t)
-      status = watch->look(watch, chip);
+    if (watch->next <= t) {
+      status = watch->look(watch, chip, t);
+      assert(status || watch->next > t);
+    }
     if (watch->next < *next)
       *next = watch->next;
   }

@@ -7,12 +7,12 @@
 
 struct trax_chip;
 
-/* Somebody who looks at the machine between cycles: called when all cycles before `next` are over and nothing of `next`
-   has happened, for all TMs alike. Sets `next` anew, to a later cycle or TRAX_NEVER. Anything but TRAX_OK ends the run
-   with that status. */
+/* Somebody who looks at the machine between cycles: called when all cycles before t are over and nothing of t has
+   happened, for all TMs alike. t is `next`, or the first cycle of a run that begins later. Sets `next` anew, to a cycle
+   after t or TRAX_NEVER. Anything but TRAX_OK ends the run with that status. */
 struct trax_watch {
   uint64_t next;
-  trax_status (*look)(struct trax_watch *watch, struct trax_chip *chip);
+  trax_status (*look)(struct trax_watch *watch, struct trax_chip *chip, uint64_t t);
   /* If not NULL: the run has ended before cycle t, with this status; the chip is as it was then. */
   void (*end)(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t);
   void *context;

@@ -16,6 +16,10 @@ static uint64_t divide_up(uint64_t a, uint64_t b) {
   return (a + b - 1) / b;
 }
 
+static uint64_t ceiling(struct trax_instant instant) {
+  return instant.cycle + (instant.units > 0);
+}
+
 bool trax_memory_keeps_order(const struct trax_config *config) {
   return config->memory.channels == 1 && !config->l2.bytes && !config->memory.atomic_latency_cycles;
 }
@@ -161,16 +165,17 @@ static void increment(const struct trax_memory *memory, struct trax_request *req
 static uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request,
                          struct trax_space *space, uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
-  const uint64_t now = t * memory->units_per_cycle;
-  const uint64_t begin = channel->free_from > now ? channel->free_from : now;
-  channel->free_from = begin + request->bytes * memory->units_per_byte;
+  const struct trax_instant begin = channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0};
+  const uint64_t units = begin.units + request->bytes * memory->units_per_byte;
+  channel->free_from =
+      (struct trax_instant){begin.cycle + units / memory->units_per_cycle, units % memory->units_per_cycle};
   memory->stats->transfers++;
   memory->stats->bytes += request->bytes;
   memory->stats->channel[number].transfers++;
   memory->stats->channel[number].bytes += request->bytes;
   if (request->kind == TRAX_REQUEST_ATOMIC)
     increment(memory, request, space);
-  return divide_up(channel->free_from, memory->units_per_cycle) + memory->latency;
+  return ceiling(channel->free_from) + memory->latency;
 }
 
 void trax_memory_complete(struct trax_tm *tms, trax_request_id id, uint64_t completion) {
@@ -182,8 +187,9 @@ void trax_memory_complete(struct trax_tm *tms, trax_request_id id, uint64_t comp
     tm->next_cycle = completion;
 }
 
-static bool is_free(const struct trax_memory *memory, const struct trax_channel *channel, uint64_t t) {
-  return channel->free_from < (t + 1) * memory->units_per_cycle;
+/* Whether it is before cycle t ends. */
+static bool is_free(const struct trax_channel *channel, uint64_t t) {
+  return channel->free_from.cycle <= t;
 }
 
 /* The single channel takes the oldest waiting request of a TM, straight from its queue. */
@@ -198,7 +204,7 @@ static void serve_ring(struct trax_memory *memory, struct trax_tm *tm, struct tr
 }
 
 static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
-  while (memory->tms && is_free(memory, &memory->channel[0], t))
+  while (memory->tms && is_free(&memory->channel[0], t))
     serve_ring(memory, &tms[trax_arbiter_look(memory->turn, memory->tms)], space, t);
 }
 
@@ -216,7 +222,7 @@ static bool may_be_overtaken(const struct trax_memory *memory, const struct trax
 uint64_t trax_memory_run_ahead(struct trax_memory *memory, struct trax_tm *tms, unsigned count,
                                struct trax_space *space, uint64_t t, uint64_t end) {
   while (memory->keeps_order) {
-    const uint64_t free_cycle = memory->channel[0].free_from / memory->units_per_cycle; /* the bus frees during it */
+    const uint64_t free_cycle = memory->channel[0].free_from.cycle; /* the bus frees during it */
     if (free_cycle > t)
       t = free_cycle;
     if (t >= end || !memory->tms || may_be_overtaken(memory, tms, count, t))
@@ -233,7 +239,7 @@ static bool has_waiting(const struct trax_channel *channel) {
 static void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
                           uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
-  while (has_waiting(channel) && is_free(memory, channel, t)) {
+  while (has_waiting(channel) && is_free(channel, t)) {
     struct trax_waiting *waiting = channel->waiting;
     const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_turn(waiting))
                                        : trax_memory_take_first(memory, tms, &channel->passed);
@@ -272,7 +278,7 @@ uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t) {
   uint64_t next = UINT64_MAX;
   for (unsigned i = 0; i < memory->channels; i++) {
     const struct trax_channel *channel = &memory->channel[i];
-    const uint64_t free_cycle = channel->free_from / memory->units_per_cycle; /* the bus frees during it */
+    const uint64_t free_cycle = channel->free_from.cycle; /* the bus frees during it */
     if ((memory->keeps_order || has_waiting(channel)) && free_cycle < next)
       next = free_cycle;
   }
@@ -282,7 +288,7 @@ uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t) {
 uint64_t trax_memory_idle_from(const struct trax_memory *memory) {
   uint64_t idle_from = 0;
   for (unsigned i = 0; i < memory->channels; i++) {
-    const uint64_t idle = divide_up(memory->channel[i].free_from, memory->units_per_cycle);
+    const uint64_t idle = ceiling(memory->channel[i].free_from);
     idle_from = idle > idle_from ? idle : idle_from;
   }
   return idle_from;

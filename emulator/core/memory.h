@@ -32,8 +32,14 @@ struct trax_waiting {
   struct trax_request_list of[TRAX_MAX_TMS];
 };
 
+/* An instant: whole cycles, and units of the next one, fewer than units_per_cycle. In units alone it would not fit in
+   64 bits after some 10^10 cycles. */
+struct trax_instant {
+  uint64_t cycle, units;
+};
+
 struct trax_channel {
-  uint64_t free_from;              /* f, in units */
+  struct trax_instant free_from;   /* f */
   struct trax_request_list passed; /* by the second-level cache */
   struct trax_waiting *waiting;    /* without one, unless the TMs' queues are rings; else NULL */
 };

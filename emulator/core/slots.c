@@ -335,9 +335,8 @@ static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
   }
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct trax_slots *slots = watch->context;
-  const uint64_t t = watch->next;
   uint32_t n = read_counters(slots);
   (void)chip;
   while (n >= slots->target) { /* it was passed between the last look and this one, at an even pace */

@@ -55,6 +55,7 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT(tm->wheel);
   VISIT(tm->wheel_occupied);
   VISIT(tm->next_cycle);
+  VISIT(tm->progressed);
   VISIT(tm->fp_add.turn);
   VISIT(tm->fp_mul.turn);
   VISIT(tm->int_mul.turn);

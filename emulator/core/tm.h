@@ -30,6 +30,7 @@ struct trax_tm {
   uint64_t wheel[TRAX_WHEEL]; /* [cycle % 64]: who wakes */
   uint64_t wheel_occupied;    /* slots that are not empty */
   uint64_t next_cycle;        /* no earlier cycle changes anything in this TM */
+  uint64_t progressed;        /* the cycle after the latest trap or halt; 0: there was none */
 
   struct trax_icache *icache; /* [icaches] */
   uint32_t icaches;

@@ -87,8 +87,8 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
 #define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
 #define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, t)
-#define TRAP(VALUE, CODE) alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t)
-#define HALT() trax_tm_end_thread(tm, number, t + 1, 0)
+#define TRAP(VALUE, CODE) (tm->progressed = t + 1, alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t))
+#define HALT() (tm->progressed = t + 1, trax_tm_end_thread(tm, number, t + 1, 0))
   switch ((trax_op)inst->op) {
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
   case TRAX_OP_##NAME:                                                                                                 \

@@ -98,11 +98,11 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
   free(rows);
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct series *series = watch->context;
-  trax_chip_settle(chip, watch->next);
-  put_rows(series, chip, watch->next);
-  watch->next += series->explain->options.series_interval;
+  trax_chip_settle(chip, t);
+  put_rows(series, chip, t);
+  watch->next = t + series->explain->options.series_interval;
   return TRAX_OK;
 }
 

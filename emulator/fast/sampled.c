@@ -281,9 +281,8 @@ static void close_phase(struct trax_sampled *sampled, uint64_t t) {
   }
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct trax_sampled *sampled = watch->context;
-  const uint64_t t = watch->next;
   trax_status status = TRAX_OK;
   trax_chip_settle(chip, t);
   close_phase(sampled, t);

@@ -6,6 +6,7 @@
 #include "fast/fast.h"
 #include "fast/pool.h"
 
+#include <assert.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -327,6 +328,7 @@ static void begin_window(struct trax_windows *windows, uint64_t t, uint64_t unti
 
 bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t until) {
   struct trax_chip *chip = windows->chip;
+  assert(until > *t);
   if (*t < windows->cautious_from && windows->cautious_from < until)
     until = windows->cautious_from;
   if ((*t >= windows->cautious_from && *t < windows->cautious_until) || until - *t < LEAST_WINDOW) {

@@ -287,9 +287,8 @@ static void stop_if_due(struct trax_gdb *gdb, uint64_t t) {
   serve_at(gdb, t);
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct trax_gdb *gdb = watch->context;
-  const uint64_t t = gdb->begun ? watch->next : chip->begin;
   gdb->chip = chip;
   gdb->cycle = t;
   if (!gdb->begun) {

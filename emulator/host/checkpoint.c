@@ -206,9 +206,8 @@ static uint64_t next_time(const struct trax_checkpoint_options *options, uint64_
   return next;
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
-  const uint64_t t = watch->next;
   watch->next = next_time(&checkpoint->options, t);
   if (t == chip->begin || write_checkpoint(checkpoint, chip, t, &checkpoint->error) == TRAX_OK)
     return TRAX_OK;

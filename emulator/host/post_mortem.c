@@ -12,8 +12,9 @@ struct trax_post_mortem {
   char *text;
 };
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   (void)chip;
+  (void)t;
   watch->next = TRAX_NEVER; /* only the end matters */
   return TRAX_OK;
 }

@@ -11,8 +11,9 @@
 struct trax_watchdog {
   struct trax_machine *machine;
   struct trax_watch watch;
-  uint64_t cycles; /* from one look to the next */
-  uint64_t looked; /* cycle of the last look */
+  uint64_t cycles; /* looks are before the multiples of it */
+  uint64_t looked; /* cycle of the last look, or, of a run that was ended, the one before that */
+  uint64_t ended;  /* cycle before which the run was */
   uint64_t progress, issued;
   struct trax_tp_stats *charges; /* [threads]: as of the last look; then what has been charged since */
   uint32_t *pc;                  /* [threads]: when the run was ended */
@@ -38,19 +39,29 @@ static void note_places(struct trax_watchdog *watchdog, struct trax_chip *chip) 
       watchdog->pc[tm * tps + tp] = chip->tm ? chip->tm[tm].tp[tp].pc : chip->reference->tm[tm].tp[tp].pc;
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+/* A resumed run has not counted what came before it, but the chip knows when that was. */
+static bool progressed_since(const struct trax_chip *chip, uint64_t t) {
+  for (uint32_t tm = 0; chip->tm && tm < chip->tms; tm++)
+    if (chip->tm[tm].progressed > t)
+      return true;
+  return false;
+}
+
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct trax_watchdog *watchdog = watch->context;
   const struct trax_machine *machine = chip->machine;
-  const uint64_t t = watch->next, progress = watchdog->progress, issued = watchdog->issued;
+  const uint64_t cycles = watchdog->cycles, progress = watchdog->progress, issued = watchdog->issued;
   trax_chip_settle(chip, t);
   count(machine, &watchdog->progress, &watchdog->issued);
-  watchdog->barked = watchdog->progress == progress && t > chip->begin + watchdog->cycles;
+  watchdog->barked =
+      watchdog->progress == progress && t > chip->begin && t > cycles && !progressed_since(chip, t - cycles);
   if (!watchdog->barked) {
     memcpy(watchdog->charges, machine->tp_stats, machine->stats.threads * sizeof *watchdog->charges);
     watchdog->looked = t;
-    watch->next = t + watchdog->cycles;
+    watch->next = t - t % cycles + cycles;
     return TRAX_OK;
   }
+  watchdog->ended = t;
   watchdog->asleep = watchdog->issued == issued;
   for (uint64_t i = 0; i < machine->stats.threads; i++)
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -133,7 +144,7 @@ void trax_watchdog_print(const struct trax_watchdog *watchdog, FILE *out) {
   fprintf(out,
           "no thread has ended, and no ray, item or output was seen, between the cycles %" PRIu64 " and %" PRIu64
           "%s\n",
-          watchdog->looked, watchdog->watch.next, watchdog->asleep ? "; no instruction was issued" : "");
+          watchdog->looked, watchdog->ended, watchdog->asleep ? "; no instruction was issued" : "");
   for (uint64_t i = 0; i < watchdog->machine->stats.threads; i++) {
     uint64_t before = 0;
     while (before < i && !alike(watchdog, before, i))

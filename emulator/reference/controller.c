@@ -24,7 +24,7 @@ uint32_t trax_ref_channel_of(const struct trax_config *config, uint32_t address)
 
 bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t) {
   for (uint32_t i = 0; i < chip->config->memory.channels; i++)
-    if (chip->controller.channel[i].free_from > t * chip->controller.units_per_cycle)
+    if (chip->controller.channel[i].free_from > (trax_ref_units)t * chip->controller.units_per_cycle)
       return false;
   return true;
 }
@@ -32,14 +32,14 @@ bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t) {
 /* Begins a transfer; gives the cycle ceil(f). */
 static uint64_t transfer(struct trax_ref_chip *chip, uint32_t number, uint32_t bytes, uint64_t t) {
   struct trax_ref_channel *channel = &chip->controller.channel[number];
-  const uint64_t cycle = chip->controller.units_per_cycle;
-  const uint64_t begin = channel->free_from > t * cycle ? channel->free_from : t * cycle;
+  const trax_ref_units cycle = chip->controller.units_per_cycle;
+  const trax_ref_units begin = channel->free_from > t * cycle ? channel->free_from : t * cycle;
   channel->free_from = begin + bytes * chip->controller.units_per_byte;
   chip->stats->transfers++;
   chip->stats->bytes += bytes;
   chip->stats->channel[number].transfers++;
   chip->stats->channel[number].bytes += bytes;
-  return (channel->free_from + cycle - 1) / cycle;
+  return (uint64_t)((channel->free_from + cycle - 1) / cycle);
 }
 
 static void increment(struct trax_ref_request *request, struct trax_machine *machine) {
@@ -106,7 +106,7 @@ static bool serve_first(struct trax_ref_chip *chip, uint32_t channel, uint64_t t
 }
 
 void trax_ref_controller_cycle(struct trax_ref_chip *chip, uint64_t t) {
-  const uint64_t next = (t + 1) * chip->controller.units_per_cycle;
+  const trax_ref_units next = ((trax_ref_units)t + 1) * chip->controller.units_per_cycle;
   for (uint32_t channel = 0; channel < chip->config->memory.channels; channel++)
     while (chip->controller.channel[channel].free_from < next)
       if (!(chip->config->l2.bytes ? serve_first : serve_next)(chip, channel, t))

@@ -114,12 +114,15 @@ struct trax_ref_l2 {
   uint32_t misses;
 };
 
-/* Bus time is counted in units: a cycle has units_per_cycle of them, a byte takes units_per_byte. */
+/* Bus time is counted in units: a cycle has units_per_cycle of them, a byte takes units_per_byte. A cycle may have 10^9
+   units, so 64 bits would end after some 10^10 cycles. */
+__extension__ typedef unsigned __int128 trax_ref_units;
+
 struct trax_ref_controller {
   uint64_t units_per_cycle, units_per_byte;
   struct trax_ref_channel {
-    uint64_t free_from; /* f, in units */
-    trax_ref_turn turn; /* over the TMs */
+    trax_ref_units free_from; /* f */
+    trax_ref_turn turn;       /* over the TMs */
   } channel[MOST];
   uint64_t came; /* requests that have come from the second-level cache so far, to any channel */
 };

@@ -5,22 +5,22 @@
 #include <string.h>
 
 /* The counts between two cycles are complete: every thread is charged for all cycles before. */
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct run *run = watch->context;
   const struct trax_machine *machine = chip->machine;
-  trax_chip_settle(chip, watch->next);
+  trax_chip_settle(chip, t);
   for (uint64_t thread = 0; thread < machine->stats.threads; thread++) {
     uint64_t charged = 0;
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
       charged += machine->tp_stats[thread].cycles[cause];
       run->looks[run->look_count].cycles[cause] += machine->tp_stats[thread].cycles[cause];
     }
-    assert_int_equal(charged, watch->next);
+    assert_int_equal(charged, t);
   }
   for (uint32_t tm = 0; tm < chip->tms; tm++)
     for (size_t i = TRAX_CAUSE_COUNT; i < sizeof *run->looks / sizeof(uint64_t); i++)
       ((uint64_t *)&run->looks[run->look_count])[i] += ((const uint64_t *)&machine->tm_stats[tm])[i];
-  watch->next = ++run->look_count < LOOKS ? watch->next + LOOK_EVERY : TRAX_NEVER;
+  watch->next = ++run->look_count < LOOKS ? t + LOOK_EVERY : TRAX_NEVER;
   return TRAX_OK;
 }
 

@@ -106,8 +106,8 @@ MUTANTS = [
     ("core/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
     ("core/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "(winner & roots ? unit->interval : unit->root_interval)"),
     ("core/unit.c", "if (unit->free_from[i] <= t)", "if (unit->free_from[i] <= t + 1)"),
-    ("core/memory.c", "channel->free_from > now ? channel->free_from : now", "now"),
-    ("core/memory.c", "return channel->free_from < (t + 1) * memory->units_per_cycle;", "return channel->free_from <= t * memory->units_per_cycle;"),
+    ("core/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}", "(struct trax_instant){t, 0}"),
+    ("core/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
     ("core/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
     ("core/cache_tags.h", "(tags->next[set] + 1) & (tags->ways - 1)", "tags->next[set] & (tags->ways - 1)"),
     # --- More of the fast engine, by rule ---

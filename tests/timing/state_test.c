@@ -13,9 +13,9 @@ struct disturbance {
   bool take_up;
 };
 
-static trax_status disturb(struct trax_watch *watch, struct trax_chip *chip) {
+static trax_status disturb(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
   struct disturbance *it = watch->context;
-  it->t = watch->next;
+  it->t = t;
   trax_chip_gather(chip);
   if (it->take_up)
     trax_chip_scatter(chip, it->t);
