@@ -64,14 +64,19 @@ static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t li
   return false;
 }
 
-static inline void trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
+/* Returns the number of the line whose place it takes, plus 1; 0 if the place was empty. */
+static inline uint64_t trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
   const uint32_t set = line & tags->set_mask;
+  uint64_t *lines = tags->lines + (size_t)set * tags->ways;
+  const uint32_t way = tags->lru ? tags->ways - 1 : tags->next[set];
+  const uint64_t gone = lines[way];
   if (tags->lru) {
-    trax_cache_tags_to_front(tags->lines + (size_t)set * tags->ways, tags->ways - 1, (uint64_t)line + 1);
-    return;
+    trax_cache_tags_to_front(lines, way, (uint64_t)line + 1);
+  } else {
+    lines[way] = (uint64_t)line + 1;
+    tags->next[set] = (way + 1) & (tags->ways - 1);
   }
-  tags->lines[(size_t)set * tags->ways + tags->next[set]] = (uint64_t)line + 1;
-  tags->next[set] = (tags->next[set] + 1) & (tags->ways - 1);
+  return gone;
 }
 
 #endif

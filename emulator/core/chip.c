@@ -179,6 +179,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       next = watched > t + 1 ? watched : t + 1;
     if (next > limit)
       next = limit;
+    chip->machine->fast_path.single_cycles += chip->tms > 1 ? next - t : 0;
     t = next; /* never TRAX_NEVER: whoever has not ended is awake, in a wheel, or waits for a request */
   }
   const uint64_t idle_from = trax_memory_idle_from(&chip->memory), end = idle_from > t ? idle_from : t;

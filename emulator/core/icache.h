@@ -18,6 +18,7 @@ struct trax_icache {
   trax_arbiter bank[64];
   struct trax_icache_pending *pending; /* [pending_count], at most one per TP */
   uint32_t pending_count;
+  uint64_t gone; /* the number of the line whose place the latest arrival took, plus 1; 0: the place was empty */
 };
 
 bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);

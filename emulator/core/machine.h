@@ -5,6 +5,7 @@
 
 #include "core/address_space.h"
 #include "core/config.h"
+#include "core/fast_path.h"
 #include "core/fault.h"
 #include "core/observer.h"
 #include "core/stats.h"
@@ -41,6 +42,8 @@ struct trax_machine {
   struct trax_tm_stats *tm_stats; /* [tms] */
   struct trax_tp_stats *tp_stats; /* [threads], by thread number */
   int32_t *exit_statuses;         /* [threads] */
+
+  struct trax_fast_path fast_path; /* no result: how the fast engine came by them */
 
   struct trax_chip *chip; /* while it runs */
 };

@@ -19,10 +19,10 @@ static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   while (has_arrival(tm, t)) {
     const struct trax_request request = *trax_queue_oldest(&tm->queue);
-    if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
-      trax_fast_line_arrives(ftm, request.icache, request.line);
     trax_queue_pop(&tm->queue);
     trax_tm_complete(tm, &request, t);
+    if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
+      trax_fast_line_has_come(ftm, request.icache, request.line);
   }
 }
 
@@ -98,6 +98,7 @@ static ALWAYS_INLINE uint64_t lose_fetches(struct trax_fast_tm *ftm, const bool 
 static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
+  ftm->looked_up += !(ftm->deferred >> number & 1);
   if (ftm->resident[ftm->icache_of[number]][ftm->fast->program.line[trax_fast_head(ftm, number)]])
     return true;
   trax_fast_show(ftm, number);
@@ -249,6 +250,7 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
+  ftm->single_hits++;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
     const unsigned rd = trax_fast_head_note(ftm, number)->decoded->rd;

@@ -173,6 +173,25 @@ static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
       }
 }
 
+/* For the report. */
+static void tell_slow_ways(const struct trax_fast *fast) {
+  struct trax_fast_path *path = &fast->chip->machine->fast_path;
+  const struct trax_fast_tm *first = &fast->tm[0]; /* all are alike */
+  path->known = true;
+  path->text_lines = fast->program.lines;
+  path->observed = fast->burst == 1;
+  path->general_fetch = !first->simple_fetch;
+  path->uneven_units = !first->fp.even;
+  path->many_data_banks = first->data_banks > 2 * TRAX_FAST_LANES;
+  path->hits_in_turn = first->hits_in_turn;
+  path->looked_up = path->single_hits = path->at_issue = 0;
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    path->looked_up += fast->tm[i].looked_up;
+    path->single_hits += fast->tm[i].single_hits;
+    path->at_issue += fast->tm[i].at_issue;
+  }
+}
+
 static void settle(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
@@ -182,6 +201,7 @@ static void settle(struct trax_fast *fast) {
     count_ahead(ftm, -1);
   }
   collect(fast);
+  tell_slow_ways(fast);
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     count_local(fast->tm[i].tm->stats);
     count_ahead(&fast->tm[i], 1);

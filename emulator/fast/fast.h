@@ -22,7 +22,7 @@
 #define trax_fast_refill TRAX_FAST_NAME(trax_fast_refill, TRAX_FAST_VARIANT)
 #define trax_fast_show TRAX_FAST_NAME(trax_fast_show, TRAX_FAST_VARIANT)
 #define trax_fast_close TRAX_FAST_NAME(trax_fast_close, TRAX_FAST_VARIANT)
-#define trax_fast_line_arrives TRAX_FAST_NAME(trax_fast_line_arrives, TRAX_FAST_VARIANT)
+#define trax_fast_line_has_come TRAX_FAST_NAME(trax_fast_line_has_come, TRAX_FAST_VARIANT)
 #define trax_fast_tell TRAX_FAST_NAME(trax_fast_tell, TRAX_FAST_VARIANT)
 #define trax_fast_run_ahead TRAX_FAST_NAME(trax_fast_run_ahead, TRAX_FAST_VARIANT)
 #define trax_fast_cycle TRAX_FAST_NAME(trax_fast_cycle, TRAX_FAST_VARIANT)
@@ -148,6 +148,10 @@ struct trax_fast_tm {
   struct trax_fast_units int_mul; /* integer multipliers, nothing */
   trax_fast_lanes data_bank_behind[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_fast_tally tally;
+
+  /* What took a slow way (core/fast_path.h): fetches that were looked up, hits of the data cache that were served one by
+     one, instructions that executed at issue. */
+  uint64_t looked_up, single_hits, at_issue;
 };
 
 /* What has happened to each small block of global memory during the run (blocks.c). */
@@ -246,8 +250,8 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
 /* The first `issued` of the `executed` steps of the TP's burst are over, and no others will be. */
 void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned executed, unsigned issued);
-/* A line arrives in an instruction cache. */
-void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
+/* A line has arrived in an instruction cache, and perhaps another one has gone. */
+void trax_fast_line_has_come(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
 
 /* --- fast.c --- */
 /* Tells an observer who was refused something in the current cycle. */

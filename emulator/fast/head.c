@@ -110,11 +110,10 @@ void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned execute
   }
 }
 
-void trax_fast_line_arrives(struct trax_fast_tm *ftm, unsigned number, uint32_t line) {
+void trax_fast_line_has_come(struct trax_fast_tm *ftm, unsigned number, uint32_t line) {
   const struct trax_fast_program *program = &ftm->fast->program;
   const struct trax_cache_tags *tags = &ftm->tm->icache[number].tags;
-  const uint32_t set = line & tags->set_mask;
-  const uint64_t gone = tags->lines[(size_t)set * tags->ways + tags->next[set]]; /* its number + 1 */
+  const uint64_t gone = ftm->tm->icache[number].gone; /* its number + 1 */
   for (size_t i = 0; i < program->count; i++) {
     const struct trax_fast_section *section = &program->sections[i];
     const uint64_t last_line = (section->begin + section->bytes) >> tags->line_shift;

@@ -26,6 +26,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   ftp->resume_pc = tp->pc;
   ftp->jumps += !goes_on;
   ftp->issued++;
+  ftm->at_issue++;
   ftm->changes[index]++;
   ftm->changes[index + 1]--;
   return true;

@@ -361,6 +361,7 @@ bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t un
     return true;
   }
   restore_state(windows);
+  chip->machine->fast_path.conflicts++;
   windows->cautious_from = *t; /* the windows up to this one are the same again */
   windows->cautious_until = windows->end + windows->pause;
   if (windows->pause < LONGEST_PAUSE)
@@ -376,6 +377,7 @@ trax_status trax_windows_create(struct trax_chip *chip, unsigned threads, trax_e
     threads = processors > 1 ? (unsigned)processors : 1;
   if (threads > chip->tms)
     threads = chip->tms;
+  chip->machine->fast_path.no_windows = length < LEAST_WINDOW;
   if (chip->tms < 2 || length < LEAST_WINDOW || chip->machine->observer)
     return TRAX_OK;
   struct trax_windows *windows = chip->windows = calloc(1, sizeof *windows);

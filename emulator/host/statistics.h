@@ -47,4 +47,7 @@ const char *trax_status_name(trax_status status);
 /* Share of the cycles in which a channel's bus was taken. */
 double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel);
 
+/* Which parts of a run of the fast engine took a slow way, and why. */
+void trax_fast_path_print(const struct trax_machine *machine, FILE *out);
+
 #endif

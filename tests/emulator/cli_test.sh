@@ -93,6 +93,27 @@ grep -q '"status": "finished"' stats.json || fail "stats.json"
 grep -q '"rays": 3200' stats.json || fail "stats.json: rays"
 grep -q 'threads x cycles, as it must be' report.txt || fail "report.txt"
 grep -q 'tps_per_tm = 32;' report.txt || fail "report.txt: configuration"
+run 0 --report quick.txt --config 2x32 --quiet mix.elf
+# slow ROW REASON OPTIONS...: the report has the row with the reason, and that of the plain machine does not; the
+# reference engine, which has no such ways, has the same statistics.
+slow() {
+  row=$1 reason=$2
+  shift 2
+  run 0 --config 2x32 --report report.txt --stats fast.json "$@" mix.elf
+  grep "^  $row" report.txt | grep -q "$reason" || fail "report.txt with $*: no '$row' because of '$reason': $(sed -n '/^Slow/,/^$/p' report.txt)"
+  ! grep "^  $row" quick.txt | grep -q "$reason" || fail "quick.txt: '$row' because of '$reason'"
+  run 0 --config 2x32 --engine reference --report reference.txt --stats reference.json "$@" mix.elf
+  ! grep -q '^Slow ways' reference.txt || fail "reference.txt"
+  grep -v host_second fast.json >fast.txt
+  grep -v host_second reference.json | cmp -s - fast.txt || fail "the engines differ with $*"
+}
+grep -q '^Slow ways' quick.txt || fail "quick.txt"
+slow "fetches bank by bank .* 100.00 % of the cycles" "icache.tps_per_cache is not 16" --set icache.tps_per_cache=8
+slow "fetches bank by bank .* 100.00 % of the cycles" "icache.ports_per_bank is above 1" --set icache.ports_per_bank=2
+slow "fetches bank by bank .* 100.00 % of the cycles" "icache.banks is above 16" --set icache.banks=32
+slow "adders group by group .* 100.00 % of the cycles" "not one to each group alike" --set fpu.adders_per_cluster=2
+slow "data banks by fours .* 100.00 % of the cycles" "more than 8 banks" --set dcache.tps_per_bank=2
+slow "TMs cycle by cycle .* 100.00 % of the cycles" "memory answers too soon" --set memory.latency_cycles=1
 run 0 --stats - hello.elf
 prints hello
 prints '"cycles": '

@@ -457,6 +457,18 @@ def main():
     objects = {row["object"]: int(row["stores"]) for row in rows(directory / "deep", "heat")}
     check(objects["(stacks)"] > 1500 * 2, "stores to the stacks", objects)
 
+    # The report says which slow ways the fast engine took, and why; those of loads and of long programs, which the tests of the command line lack.
+    def slow(row, reason, *options):
+        run(directory / "slow", "fast", *machine, *options, files=["report"])
+        report = read(directory / "slow", "report")
+        check(re.search(f"^  {row}: .*{reason}", report, re.MULTILINE), f"no '{row}' because of '{reason}' with {options}:", report[report.find("\nSlow ways"):])
+
+    slow("lines looked up .* of the fetches", "the line was not there yet")
+    slow("lines looked up .* of the fetches", "lines of instructions, more than 64", "--set", "icache.line_bytes=4")
+    slow("hits one by one .* of the hits", "another way than the first", "--set", "dcache.bytes=256", "--set", "dcache.ways=4")
+    slow("hits one by one .* of the hits", "dcache.hit_latency_cycles", "--set", "dcache.hit_latency_cycles=2")
+    slow("hits one by one .* of the hits", "dcache.lru", "--set", "dcache.ways=2", "--set", "dcache.lru=true")
+
     # What cannot be.
     def refuse(message, *options, files=()):
         said = run(directory / "refused", "fast", *machine, *options, files=list(files), expected=1)

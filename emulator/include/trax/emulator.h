@@ -27,7 +27,7 @@ extern "C" {
 typedef enum trax_status {
   TRAX_OK = 0,
   TRAX_ERROR,       /* bad input: the message names the place */
-  TRAX_FAULT,       /* the guest did what it must not; trax_machine_fault tells */
+  TRAX_FAULT,       /* the guest did what it must not; trax_machine_print_fault tells */
   TRAX_INTERRUPTED, /* options.interrupt became true; statistics are partial */
   TRAX_STUCK        /* the watchdog: max_cycles passed; statistics are partial */
 } trax_status;
@@ -146,7 +146,7 @@ trax_status trax_machine_write_signature(const trax_machine *machine, const char
 void trax_machine_print_fault(const trax_machine *machine, FILE *out);
 
 /* --- statistics: declared once in emulator/core/stats.h; names are stable --- */
-/* A single figure by its JSON name ("cycles", "mrps", "l1.hits"); false if there is none of that name. */
+/* A single figure by its JSON name ("cycles", "mrps", "dcache.hits"); false if there is none of that name. */
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value);
 void trax_stats_print(const trax_machine *machine, FILE *out);
 /* path "-" is standard output; a file appears only when it is complete. */

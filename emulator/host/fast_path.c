@@ -1,0 +1,70 @@
+#include "statistics.h"
+
+#include "core/machine.h"
+
+#include <inttypes.h>
+
+enum { CERTAIN_LINES = 64 /* of which the engine knows at once whether they are there: a word's bits */ };
+
+struct table {
+  FILE *out;
+  bool any;
+};
+
+/* `part` of `whole` took the slow way, because of `reason`. */
+static void row(struct table *table, const char *name, uint64_t part, uint64_t whole, const char *of,
+                const char *reason) {
+  if (!part)
+    return;
+  table->any = true;
+  fprintf(table->out, "  %-30s%20" PRIu64 " %6.2f %% of the %s: %s\n", name, part,
+          whole ? 100 * (double)part / (double)whole : 0, of, reason);
+}
+
+static const char *fetch_reason(const struct trax_config *config) {
+  return config->icache.ports_per_bank > 1    ? "icache.ports_per_bank is above 1"
+         : config->icache.banks > 16          ? "icache.banks is above 16"
+         : config->icache.tps_per_cache != 16 ? "icache.tps_per_cache is not 16"
+                                              : "";
+}
+
+static const char *hit_reason(const struct trax_config *config, bool in_turn) {
+  return !in_turn                                ? "the line was in another way than the first (dcache.ways)"
+         : config->dcache.hit_latency_cycles > 1 ? "dcache.hit_latency_cycles is above 1"
+                                                 : "dcache.lru";
+}
+
+void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
+  const struct trax_fast_path *path = &machine->fast_path;
+  const struct trax_config *config = &machine->config;
+  const struct trax_tm_stats *total = &machine->stats.total;
+  const uint64_t cycles = machine->stats.cycles, instructions = machine->stats.instructions;
+  struct table table = {.out = out};
+  if (!path->known || machine->stats.sampling.is_sampled)
+    return;
+  char lines[96];
+  if (path->text_lines > CERTAIN_LINES)
+    snprintf(lines, sizeof lines, "the program has %" PRIu32 " lines of instructions, more than %d", path->text_lines,
+             CERTAIN_LINES);
+  else
+    snprintf(lines, sizeof lines, "the line was not there yet, or lines had gone since");
+  char conflicts[96];
+  snprintf(conflicts, sizeof conflicts, "conflicts of TMs in memory (%" PRIu64 "), and ends of runs", path->conflicts);
+  fprintf(out, "\nSlow ways of the fast engine, which take more of the host's time and change no result\n");
+  row(&table, "observed", path->observed ? cycles : 0, cycles, "cycles", "every instruction is told of");
+  row(&table, "TMs cycle by cycle", path->single_cycles, cycles, "cycles",
+      path->observed     ? "every instruction is told of"
+      : path->no_windows ? "memory answers too soon (memory.latency_cycles)"
+                         : conflicts);
+  row(&table, "fetches bank by bank", path->general_fetch ? cycles : 0, cycles, "cycles", fetch_reason(config));
+  row(&table, "adders group by group", path->uneven_units ? cycles : 0, cycles, "cycles",
+      "adders and multipliers are not one to each group alike");
+  row(&table, "data banks by fours", path->many_data_banks ? cycles : 0, cycles, "cycles",
+      "dcache.tps_per_bank makes more than 8 banks");
+  row(&table, "lines looked up", path->looked_up, total->icache_hits, "fetches", lines);
+  row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config, path->hits_in_turn));
+  row(&table, "executed at issue", path->at_issue, instructions, "instructions",
+      "stores, increments, traps, loads past the cache or of what is written");
+  if (!table.any)
+    fprintf(out, "  none\n");
+}
