@@ -43,6 +43,12 @@ def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; 
   let PrintMethod = "printTrapCode";
   let DecoderMethod = "decodeTrapCode";
 }
+def fencekind : Operand<i32>, ImmLeaf<i32, [{ return Imm >= 1 && Imm < 4; }]> {
+  let ParserMatchClass = TraxImmAsmOperand<"FenceKind",
+      "fence must be r, w, rw or a number in the range [1, 3]", "parseFenceKind">;
+  let PrintMethod = "printFenceKind";
+  let DecoderMethod = "decodeFenceKind";
+}
 def brtarget : Operand<OtherVT> {
   let ParserMatchClass = TraxImmAsmOperand<"BrTarget",
       "branch target must be a symbol or a multiple of 4 in the range [-131072, 131068]">;
@@ -75,6 +81,7 @@ def FormatS  : TraxFormat<"S", "store">;
 def FormatB  : TraxFormat<"B", "conditional branch">;
 def FormatJ  : TraxFormat<"J", "jump and link">;
 def FormatT  : TraxFormat<"T", "trap">;
+def FormatF  : TraxFormat<"F", "fence">;
 def FormatN  : TraxFormat<"N", "no operand">;
 
 // The root of every real instruction. Semantics is a C statement over RD (an lvalue), RA, RB, IMM (sign extended where
@@ -102,6 +109,7 @@ class TraxInst<TraxFormat format, bits<6> opcode, dag outs, dag ins, string asm,
   code Semantics = semantics;
   string Manual = manual;
   bit IsFlop = false;       // counts in the paper's GFLOPS (adds and multiplies)
+  int ImmFirst = 0;         // immediates below are illegal
   int ImmLimit = -1;        // immediates from here on are illegal; -1: no limit
   int AccessBytes = 0;      // memory access size
   bit IsNontemporal = false;

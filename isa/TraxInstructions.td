@@ -78,14 +78,14 @@ def LH  : InstLoad<22, 2, "lh", [{ RD = trax_sext16(LOAD16(RA + IMM)); }],
 def LHU : InstLoad<23, 2, "lhu", [{ RD = LOAD16(RA + IMM); }], "Load a half word, zero extended; the address must be a multiple of 2.">;
 def LW  : InstLoad<24, 4, "lw", [{ RD = LOAD32(RA + IMM); }], "Load a word; the address must be a multiple of 4.">;
 let IsNontemporal = true in
-def LWNT : InstLoad<25, 4, "lwnt", [{ RD = LOAD32_GLOBAL(RA + IMM); }],
-                    "Load a word past the data cache, from global memory only; the address must be a multiple of 4.">;
+def LWNT : InstLoad<25, 4, "lwnt", [{ RD = LOAD32_NONTEMPORAL(RA + IMM); }],
+                    "Load a word past the data cache; the address must be a multiple of 4.">;
 def SB  : InstStore<26, 1, "sb", [{ STORE8(RA + IMM, RB); }], "Store the low byte.">;
 def SH  : InstStore<27, 2, "sh", [{ STORE16(RA + IMM, RB); }], "Store the low half word; the address must be a multiple of 2.">;
 def SW  : InstStore<28, 4, "sw", [{ STORE32(RA + IMM, RB); }], "Store a word; the address must be a multiple of 4.">;
 let IsNontemporal = true in
-def SWNT : InstStore<29, 4, "swnt", [{ STORE32_GLOBAL(RA + IMM, RB); }],
-                     "Store a word past the data cache, to global memory only; the address must be a multiple of 4.">;
+def SWNT : InstStore<29, 4, "swnt", [{ STORE32_NONTEMPORAL(RA + IMM, RB); }],
+                     "Store a word past the data cache; the address must be a multiple of 4.">;
 let IsAtomic = true, mayStore = true, hasSideEffects = true in
 def AINC : InstLoad<30, 4, "ainc", [{ RD = ATOMIC_INC(RA + IMM); }],
                     "Atomic increment of a word of global memory: rd receives the value before it; the address must be a multiple of 4.">;
@@ -124,6 +124,13 @@ def TRAP : TraxInst<FormatT, 41, (outs), (ins GPR:$ra, trapcode:$imm), "trap\t$r
   bits<5> ra; bits<16> imm;
   let Inst{25-21} = 0; let Inst{20-16} = ra; let Inst{15-0} = imm;
 }
+}
+// To the compiler an access to all of memory; the machine accesses none.
+let ImmFirst = 1, ImmLimit = 4, mayLoad = true, mayStore = true in
+def FENCE : TraxInst<FormatF, 43, (outs), (ins fencekind:$imm), "fence\t$imm", UnitControl, [{ FENCE(IMM); }],
+                     "Order memory accesses: r waits for earlier loads and empties the TM's data cache, w waits until earlier stores are performed, rw does both; another number is an illegal instruction."> {
+  bits<16> imm;
+  let Inst{25-16} = 0; let Inst{15-0} = imm;
 }
 let isTerminator = true, isBarrier = true in
 def HALT : TraxInst<FormatN, 42, (outs), (ins), "halt", UnitControl, [{ HALT(); }], "End the thread with status 0."> {

@@ -28,7 +28,7 @@ bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes
 
 trax_fault_kind trax_tp_check_access(const struct trax_tp *tp, const struct trax_space *space, uint32_t address) {
   const struct trax_decoded *inst = tp->inst;
-  if (address >= TRAX_LOCAL_BASE && !inst->is_nontemporal && !inst->is_atomic)
+  if (address >= TRAX_LOCAL_BASE && !inst->is_atomic)
     return address & (inst->bytes - 1u) ? TRAX_FAULT_MISALIGNED : TRAX_FAULT_NONE;
   return trax_space_check(space, address, inst->bytes, inst->is_store || inst->is_atomic);
 }

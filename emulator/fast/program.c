@@ -23,6 +23,7 @@ static bool stops_burst(const struct trax_decoded *decoded) {
     return decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH;
   case TRAX_OP_TRAP:
   case TRAX_OP_HALT:
+  case TRAX_OP_FENCE:
     return true;
   }
   return decoded->is_nontemporal || decoded->is_atomic;

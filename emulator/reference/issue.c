@@ -112,7 +112,7 @@ static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t
 
 static void count(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   tm->stats->instructions[tp->inst.op]++;
-  if (trax_ref_accesses_local(tp))
+  if (trax_ref_accesses_local(tp) && !trax_ref_is(tp, TRAX_IS_NONTEMPORAL))
     ++*(trax_ref_is(tp, TRAX_IS_STORE) ? &tm->stats->local_stores : &tm->stats->local_loads);
 }
 

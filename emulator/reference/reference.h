@@ -32,7 +32,7 @@ struct trax_ref_lines {
     bool present;
     uint32_t number;
     uint64_t used;   /* latest use: a number from `uses` */
-  } *line;           /* [sets][ways] */
+  } * line;          /* [sets][ways] */
   uint32_t *pointer; /* [sets]: the place of the next line, unless lru */
   uint64_t uses;     /* of any line so far */
 };
@@ -110,7 +110,7 @@ struct trax_ref_l2 {
     uint32_t line, channel;
     uint64_t came;    /* as of requests */
     uint64_t arrival; /* UNKNOWN while it waits for its channel */
-  } *miss;            /* [misses]: the miss registers that hold a line */
+  } * miss;           /* [misses]: the miss registers that hold a line */
   uint32_t misses;
 };
 
@@ -158,8 +158,7 @@ static inline bool trax_ref_accesses_memory(const struct trax_ref_tp *tp) {
 
 /* An access to local memory; its address is known. lwnt, swnt and ainc have no business there. */
 static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
-  return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE &&
-         !trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);
+  return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE && !trax_ref_is(tp, TRAX_IS_ATOMIC);
 }
 
 /* halt and the exit trap. */

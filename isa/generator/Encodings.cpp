@@ -109,7 +109,7 @@ void emitOpcodes(raw_ostream &OS, const Isa &Isa) {
   for (const Instruction &I : Isa.Instructions) {
     uint64_t Words = 1;
     for (const Field &F : I.Fields)
-      Words *= F.Name == "imm" && I.ImmLimit >= 0 ? I.ImmLimit : uint64_t(1) << F.Width;
+      Words *= F.Name == "imm" && I.ImmLimit >= 0 ? I.ImmLimit - I.ImmFirst : uint64_t(1) << F.Width;
     Legal += Words;
   }
   OS << "\nOf the 2^32 words " << Legal << " are instructions.\n";

@@ -59,6 +59,8 @@ static char readOperandKind(const Record *R, StringRef Type, StringRef Name, Ins
     return 's';
   if (Type == "trapcode")
     return 't';
+  if (Type == "fencekind")
+    return 'f';
   PrintFatalError(R->getLoc(), "operand type " + Type + " is unknown to the generator");
 }
 
@@ -111,14 +113,15 @@ static Instruction readInstruction(const Record *R) {
   I.Semantics = R->getValueAsString("Semantics").trim().str();
   I.Manual = R->getValueAsString("Manual").str();
   I.AccessBytes = R->getValueAsInt("AccessBytes");
+  I.ImmFirst = R->getValueAsInt("ImmFirst");
   I.ImmLimit = R->getValueAsInt("ImmLimit");
   I.ReadsRD = flag(R, "ReadsRD");
   I.IsAtomic = flag(R, "IsAtomic");
   I.IsNontemporal = flag(R, "IsNontemporal");
   I.IsFlop = flag(R, "IsFlop");
   I.IsBranch = flag(R, "isBranch");
-  I.IsLoad = flag(R, "mayLoad");
-  I.IsStore = flag(R, "mayStore") && !I.IsAtomic;
+  I.IsLoad = flag(R, "mayLoad") && I.AccessBytes;
+  I.IsStore = flag(R, "mayStore") && I.AccessBytes && !I.IsAtomic;
   if (I.Manual.empty() || I.Semantics.empty())
     PrintFatalError(R->getLoc(), "an instruction needs semantics and a sentence for the manual");
   return I;

@@ -26,7 +26,7 @@ struct Instruction {
   std::vector<Field> Fields; // most significant first
   bool ImmSigned = false;
   unsigned ImmScale = 1;
-  int64_t ImmLimit = -1;
+  int64_t ImmFirst = 0, ImmLimit = -1;
   unsigned AccessBytes = 0;
   bool ReadsRA = false, ReadsRB = false, ReadsRD = false, WritesRD = false;
   bool IsLoad = false, IsStore = false, IsAtomic = false, IsNontemporal = false, IsBranch = false, IsFlop = false;

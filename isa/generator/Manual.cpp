@@ -36,6 +36,8 @@ static void describeImmediate(raw_ostream &OS, const Instruction &I) {
     OS << ".";
     if (I.ImmLimit >= 0)
       OS << " Values of " << I.ImmLimit << " and above are illegal.";
+    if (I.ImmFirst)
+      OS << " Values below " << I.ImmFirst << " are illegal.";
     OS << "\n";
   }
 }
@@ -88,6 +90,7 @@ static void checkTemplate(StringRef Text, const std::string &Path, const Isa &Is
 #define ROW(CONSTANT, NAME, NUMBER) Require(Twine(NUMBER) + " | `" NAME "` |");
   TRAX_SPECIAL_REGISTERS(ROW)
   TRAX_TRAPS(ROW)
+  TRAX_FENCES(ROW)
 #undef ROW
   for (const Instruction &I : Isa.Instructions) {
     StringRef Rest = I.Semantics;

@@ -71,7 +71,7 @@ static std::map<std::string, const Instruction *> formats(const Isa &Isa) {
 void emitCodec(raw_ostream &OS, const Isa &Isa) {
   OS << Notice;
 
-  OS << "\n/* Which instruction a word is, its immediate's limit aside. */\n"
+  OS << "\n/* Which instruction a word is, its immediate's value aside. */\n"
         "static trax_op trax_classify(uint32_t word) {\n  switch (word >> 26) {\n";
   std::set<unsigned> Opcodes;
   for (const Instruction &I : Isa.Instructions)
@@ -92,12 +92,13 @@ void emitCodec(raw_ostream &OS, const Isa &Isa) {
   }
   OS << "  }\n  return TRAX_OP_ILLEGAL;\n}\n";
 
-  OS << "\n/* Immediates from here on are illegal; 0: no limit. */\n"
-        "static uint32_t trax_imm_limit(trax_op op) {\n  switch (op) {\n";
+  OS << "\n/* Some instructions take only some values of their immediate's field. */\n"
+        "static bool trax_imm_is_legal(trax_op op, uint32_t imm) {\n  switch (op) {\n";
   for (const Instruction &I : Isa.Instructions)
     if (I.ImmLimit >= 0)
-      OS << "  case TRAX_OP_" << I.Name << ":\n    return " << I.ImmLimit << ";\n";
-  OS << "  default:\n    return 0;\n  }\n}\n";
+      OS << "  case TRAX_OP_" << I.Name << ":\n    return imm - " << I.ImmFirst << "u < " << I.ImmLimit - I.ImmFirst
+         << "u;\n";
+  OS << "  default:\n    return true;\n  }\n}\n";
 
   OS << "\n/* Is the immediate sign extended? Are its units words? */\n"
         "static bool trax_imm_signed(trax_op op) {\n  switch (op) {\n";

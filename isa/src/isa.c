@@ -36,8 +36,7 @@ trax_inst trax_decode(uint32_t word) {
   if (inst.op == TRAX_OP_ILLEGAL)
     return inst;
   trax_get_fields(trax_op_table[inst.op].format, word, trax_imm_signed(inst.op), &inst);
-  uint32_t limit = trax_imm_limit(inst.op);
-  if (limit && (uint32_t)inst.imm >= limit)
+  if (!trax_imm_is_legal(inst.op, (uint32_t)inst.imm))
     return (trax_inst){.op = TRAX_OP_ILLEGAL};
   return inst;
 }
@@ -59,6 +58,11 @@ static const char *special_register_name(int32_t number) {
 
 static const char *trap_name(int32_t code) {
   switch (code) { TRAX_TRAPS(NAME) }
+  return "?";
+}
+
+static const char *fence_name(int32_t kind) {
+  switch (kind) { TRAX_FENCES(NAME) }
 #undef NAME
   return "?";
 }
@@ -95,6 +99,9 @@ int trax_disassemble(uint32_t word, uint32_t pc, char *text, size_t size) {
       break;
     case 't':
       wrote = snprintf(at, room, "%s", trap_name(inst.imm));
+      break;
+    case 'f':
+      wrote = snprintf(at, room, "%s", fence_name(inst.imm));
       break;
     case ',':
       wrote = snprintf(at, room, ", ");

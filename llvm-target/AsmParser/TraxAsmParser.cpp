@@ -97,6 +97,10 @@ public:
     std::optional<int64_t> Value = getConstant();
     return Value && !TraxII::getTrapName(unsigned(*Value)).empty();
   }
+  bool isFenceKind() const {
+    std::optional<int64_t> Value = getConstant();
+    return Value && !TraxII::getFenceName(unsigned(*Value)).empty();
+  }
   bool isImm32() const { return getConstant().has_value(); }
   bool isSymbol() const {
     int64_t Value; // whatever its size, a number is no symbol
@@ -146,7 +150,9 @@ class TraxAsmParser : public MCTargetAsmParser {
   bool ParseInstruction(ParseInstructionInfo &Info, StringRef Name, SMLoc NameLoc, OperandVector &Operands) override;
   bool MatchAndEmitInstruction(SMLoc IDLoc, unsigned &Opcode, OperandVector &Operands, MCStreamer &Out,
                                uint64_t &ErrorInfo, bool MatchingInlineAsm) override;
-  ParseStatus parseDirective(AsmToken) override { return ParseStatus::NoMatch; }
+  ParseStatus parseDirective(AsmToken) override {
+    return ParseStatus::NoMatch;
+  }
 
   bool parseOperand(OperandVector &Operands, StringRef Mnemonic);
   bool parseMemoryBase(OperandVector &Operands);
@@ -155,7 +161,12 @@ class TraxAsmParser : public MCTargetAsmParser {
   ParseStatus parseSpecialRegister(OperandVector &Operands) {
     return parseNamed(Operands, TraxII::findSpecialRegister);
   }
-  ParseStatus parseTrapCode(OperandVector &Operands) { return parseNamed(Operands, TraxII::findTrap); }
+  ParseStatus parseTrapCode(OperandVector &Operands) {
+    return parseNamed(Operands, TraxII::findTrap);
+  }
+  ParseStatus parseFenceKind(OperandVector &Operands) {
+    return parseNamed(Operands, TraxII::findFence);
+  }
 
   void emit(MCInst Inst, SMLoc Loc, MCStreamer &Out);
   void emitLoadImmediate(const MCInst &Inst, SMLoc Loc, MCStreamer &Out);

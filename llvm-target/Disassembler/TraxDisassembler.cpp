@@ -74,6 +74,10 @@ static DecodeStatus decodeTrapCode(MCInst &Inst, uint64_t Field, uint64_t, const
   return decodeAssigned(Inst, Field, TraxII::getTrapName(Field));
 }
 
+static DecodeStatus decodeFenceKind(MCInst &Inst, uint64_t Field, uint64_t, const MCDisassembler *) {
+  return decodeAssigned(Inst, Field, TraxII::getFenceName(Field));
+}
+
 #include "TraxGenDisassemblerTables.inc"
 
 DecodeStatus TraxDisassembler::getInstruction(MCInst &Instr, uint64_t &Size, ArrayRef<uint8_t> Bytes, uint64_t Address,

@@ -10,11 +10,13 @@ namespace llvm::TraxII {
 /// Target flags of symbolic machine operands: which part of the address the instruction takes.
 enum TargetFlag : unsigned { MO_None = 0, MO_HI, MO_LO, MO_ABS };
 
-/// Names of special registers (rdsr) and of traps, by number; empty beyond the last one.
+/// Names of special registers (rdsr), of traps and of fences, by number; empty where nothing has that number.
 StringRef getSpecialRegisterName(unsigned Number);
 StringRef getTrapName(unsigned Code);
+StringRef getFenceName(unsigned Kind);
 std::optional<unsigned> findSpecialRegister(StringRef Name);
 std::optional<unsigned> findTrap(StringRef Name);
+std::optional<unsigned> findFence(StringRef Name);
 
 } // namespace llvm::TraxII
 

@@ -68,3 +68,8 @@ void TraxInstPrinter::printTrapCode(const MCInst *MI, unsigned OpNo, const MCSub
   const MCOperand &MO = MI->getOperand(OpNo);
   printNamed(TraxII::getTrapName(MO.getImm()), MO, O);
 }
+
+void TraxInstPrinter::printFenceKind(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &, raw_ostream &O) {
+  const MCOperand &MO = MI->getOperand(OpNo);
+  printNamed(TraxII::getFenceName(MO.getImm()), MO, O);
+}

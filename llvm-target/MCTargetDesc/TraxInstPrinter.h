@@ -19,6 +19,7 @@ public:
 
   void printOperand(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
   void printPCRelOperand(const MCInst *MI, uint64_t Address, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
+  void printFenceKind(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
   void printSpecialRegister(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
   void printTrapCode(const MCInst *MI, unsigned OpNo, const MCSubtargetInfo &STI, raw_ostream &O);
 

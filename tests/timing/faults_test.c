@@ -47,8 +47,6 @@ static void data_addresses(void **state) {
   FAULT(READ_ONLY, RODATA + 63, 1, 2, U(LUI, 1, 3), S(SB, 2, 1, 63), HALT);
   FAULT(READ_ONLY, RODATA, 1, 2, U(LUI, 1, 3), I(AINC, 2, 1, 0), HALT);
   FAULT(READ_ONLY, TEXT, 0, 1, S(SW, 2, 0, TEXT), HALT);
-  FAULT(NOT_GLOBAL, 0xFFFFFFFC, 0, 1, S(SWNT, 2, 0, -4), HALT);
-  FAULT(NOT_GLOBAL, 0xFFFFFFFC, 0, 1, I(LWNT, 2, 0, -4), HALT);
   FAULT(NOT_GLOBAL, 0xFFFFFFFC, 0, 1, I(AINC, 2, 0, -4), HALT);
   /* The operand is waited for first: fdiv 1, usable 9. 0 / 0 is a NaN: 0x7FC00000. */
   FAULT(UNMAPPED, 0x7FC00000, 1, 9, R(FDIV, 1, 0, 0), I(LW, 2, 1, 0), HALT);

@@ -179,7 +179,7 @@ static bool seldom(unsigned times) { /* one in so many */
 /* An address of `bytes` bytes that `inst` may access, mostly. */
 static trax_inst with_address(trax_inst inst, int32_t bytes) {
   const unsigned flags = trax_op_table[inst.op].flags;
-  const bool local = !(flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC));
+  const bool local = !(flags & TRAX_IS_ATOMIC);
   const int32_t within = bytes == 1 ? (int32_t)any(0, 3) : bytes == 2 ? 2 * (int32_t)any(0, 1) : 0;
   switch (any(0, 9)) {
   case 0:
@@ -252,6 +252,8 @@ static uint32_t any_instruction(unsigned at, unsigned end) {
     inst.imm &= 31;
   if (info->format == TRAX_FORMAT_U)
     inst.imm &= 0xFFFF;
+  if (inst.op == TRAX_OP_FENCE)
+    inst.imm = (int32_t)any(TRAX_FENCE_R, TRAX_FENCE_RW);
   return trax_encode(inst);
 }
 

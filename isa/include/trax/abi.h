@@ -59,4 +59,14 @@
 #define TRAX_TRAP_PUTS 5
 #define TRAX_TRAP_COUNT 6
 
+/* Kinds of fences: constant, assembler name, number; RW is both. */
+#define TRAX_FENCES(X)                                                                                                 \
+  X(TRAX_FENCE_R, "r", 1)                                                                                              \
+  X(TRAX_FENCE_W, "w", 2)                                                                                              \
+  X(TRAX_FENCE_RW, "rw", 3)
+
+#define TRAX_FENCE_R 1
+#define TRAX_FENCE_W 2
+#define TRAX_FENCE_RW 3
+
 #endif

@@ -35,6 +35,7 @@ typedef enum trax_format {
   TRAX_FORMAT_B,
   TRAX_FORMAT_J,
   TRAX_FORMAT_T,
+  TRAX_FORMAT_F,
   TRAX_FORMAT_N
 } trax_format;
 
@@ -54,7 +55,7 @@ enum {
 typedef struct trax_op_info {
   const char *name;     /* "ADD" */
   const char *mnemonic; /* "add"; "illegal" for TRAX_OP_ILLEGAL */
-  const char *syntax;   /* operands in assembler order: d, a, b registers; i u immediates; p target; s t names */
+  const char *syntax;   /* operands in assembler order: d, a, b registers; i u immediates; p target; s t f names */
   trax_format format;
   trax_unit unit;
   uint32_t mask;  /* bits that are fixed */
