@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct trax_cache_tags {
   uint32_t ways, set_mask;
@@ -62,6 +63,16 @@ static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t li
       return true;
     }
   return false;
+}
+
+/* All places are empty from now on. Returns how many were not. */
+static inline uint32_t trax_cache_tags_drop(struct trax_cache_tags *tags) {
+  const size_t places = ((size_t)tags->set_mask + 1) * tags->ways;
+  uint32_t dropped = 0;
+  for (size_t i = 0; i < places; i++)
+    dropped += tags->lines[i] != 0;
+  memset(tags->lines, 0, places * sizeof *tags->lines);
+  return dropped;
 }
 
 /* Returns the number of the line whose place it takes, plus 1; 0 if the place was empty. */

@@ -41,6 +41,8 @@ bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned n
   }
   for (uint32_t i = 0; i < dcache->mshr_count; i++)
     if (dcache->mshr[i].line == line) {
+      if (dcache->mshr[i].passing)
+        return false;
       tm->stats->dcache_merged++;
       tp->outcome = TRAX_OUTCOME_MERGED;
       wait_for_line(dcache, &dcache->mshr[i], tp, number);
@@ -55,17 +57,24 @@ bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned n
                                             .address = line << dcache->tags.line_shift,
                                             .bytes = tm->config->dcache.line_bytes});
   struct trax_mshr *mshr = &dcache->mshr[dcache->mshr_count++];
-  *mshr = (struct trax_mshr){line, NO_WAITER};
+  *mshr = (struct trax_mshr){.line = line, .first_waiter = NO_WAITER};
   wait_for_line(dcache, mshr, tp, number);
   trax_arbiter_to_back(&tm->queue_turn, number);
   return true;
 }
 
+uint32_t trax_dcache_drop(struct trax_dcache *dcache) {
+  for (uint32_t i = 0; i < dcache->mshr_count; i++)
+    dcache->mshr[i].passing = 1;
+  return trax_cache_tags_drop(&dcache->tags);
+}
+
 void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t) {
-  trax_cache_tags_install(&dcache->tags, line);
   uint32_t i = 0;
   while (dcache->mshr[i].line != line) /* it is there: the request came from it */
     i++;
+  if (!dcache->mshr[i].passing)
+    trax_cache_tags_install(&dcache->tags, line);
   for (uint16_t waiter = dcache->mshr[i].first_waiter; waiter != NO_WAITER; waiter = dcache->next_waiter[waiter])
     trax_tm_data_arrival(tm, waiter / TRAX_NUM_REGISTERS, waiter % TRAX_NUM_REGISTERS, t);
   dcache->mshr[i] = dcache->mshr[--dcache->mshr_count];

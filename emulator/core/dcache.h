@@ -12,6 +12,7 @@ struct trax_tm;
 struct trax_mshr {
   uint32_t line;
   uint16_t first_waiter;
+  uint16_t passing; /* 1: the line does not enter the cache */
 };
 
 struct trax_dcache {
@@ -29,6 +30,9 @@ void trax_dcache_destroy(struct trax_dcache *dcache);
 /* Step 4 of a load in cycle t: a hit, merged, a miss (true), or refused for want of a place or a miss register (false).
  */
 bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned tp, uint64_t t);
+
+/* A fence drops all lines, which are counted, and those on their way will pass. */
+uint32_t trax_dcache_drop(struct trax_dcache *dcache);
 
 /* A line arrives in cycle t: all who wait for it can use it. */
 void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t);

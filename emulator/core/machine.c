@@ -114,6 +114,7 @@ int trax_machine_exit_status(const trax_machine *machine) {
 
 /* What is known from the operations issued need not be counted while they are. */
 static void count_by_operation(struct trax_tm_stats *stats) {
+  stats->fences += stats->instructions[TRAX_OP_FENCE];
   for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
     const trax_op_info *info = &trax_op_table[op];
     const uint64_t count = stats->instructions[op];
@@ -121,8 +122,6 @@ static void count_by_operation(struct trax_tm_stats *stats) {
       stats->flops += count;
     if (info->flags & TRAX_IS_ATOMIC)
       stats->atomics += count;
-    if (info->flags & TRAX_IS_NONTEMPORAL)
-      *(info->flags & TRAX_IS_STORE ? &stats->nontemporal_stores : &stats->nontemporal_loads) += count;
     if (info->unit == TRAX_UNIT_FP_MUL)
       stats->fp_mul_ops += count;
     else if (info->unit == TRAX_UNIT_INT_MUL)

@@ -16,6 +16,5 @@
 #define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
 #define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
 #define STORE32_NONTEMPORAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
-#define FENCE(KIND) ((void)(KIND))
 #define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), PRECISION)
 #define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), PRECISION)

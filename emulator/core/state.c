@@ -40,6 +40,8 @@ static void visit_tp(const struct visitor *visitor, struct trax_tp *tp) {
   VISIT(tp->usable_cause);
   VISIT(tp->run_begin);
   VISIT(tp->run_end);
+  VISIT(tp->writes);
+  VISIT(tp->increments);
   VISIT(tp->asleep_since);
   VISIT(tp->asleep_until);
   VISIT(tp->asleep_cause);

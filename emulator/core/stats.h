@@ -54,12 +54,14 @@ typedef enum trax_cause {
   X(dcache_merged, "dcache.merged", "lookups", "cached loads whose line was already on its way")                       \
   X(store_hits, "dcache.store_hits", "stores", "cached stores that updated a line in place")                           \
   X(store_misses, "dcache.store_misses", "stores", "cached stores that found no line to update")                       \
+  X(dropped_lines, "dcache.dropped", "lines", "lines in the data cache that fences dropped")                           \
   X(local_loads, "local.loads", "instructions", "loads from local memory")                                             \
   X(local_stores, "local.stores", "instructions", "stores to local memory")                                            \
   X(nontemporal_loads, "nontemporal.loads", "instructions", "loads past the data cache")                               \
   X(nontemporal_stores, "nontemporal.stores", "instructions", "stores past the data cache")                            \
   X(combined_stores, "stores.combined", "stores", "stores that joined the TP's earlier one, at no cost of their own")  \
   X(atomics, "atomics", "instructions", "atomic increments")                                                           \
+  X(fences, "fences", "instructions", "fences")                                                                        \
   X(data_read_bytes, "memory.data_read_bytes", "bytes", "lines read into the data cache")                              \
   X(instruction_read_bytes, "memory.instruction_read_bytes", "bytes", "lines read into the instruction caches")        \
   X(nontemporal_read_bytes, "memory.nontemporal_read_bytes", "bytes", "transfers of loads past the data cache")        \
@@ -155,7 +157,7 @@ struct trax_stats {
     (double)(TRAX_ADDERS(C) + TRAX_MULTIPLIERS(C)) * C->chip.tms * C->chip.clock_mhz / 1e3)                            \
   X(area_mm2, "area_mm2", "mm2 at 65 nm",                                                                              \
     "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs; no second-level cache, the paper's units",    \
-    C->chip.tms * (0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                           \
+    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                            \
   X(fp_add_utilisation, "fp_add.utilisation", "fraction", "share of cycles in which an adder accepted an operation",   \
     (double)S->total.fp_add_ops / S->cycles / (TRAX_ADDERS(C) * C->chip.tms))                                          \
   X(fp_mul_utilisation, "fp_mul.utilisation", "fraction",                                                              \
@@ -204,7 +206,7 @@ struct trax_stats {
 
 #define TRAX_SECONDS(S, C) ((double)(S)->cycles / ((C)->chip.clock_mhz * 1e6))
 /* Units of a TM: `COUNT` for each group of SIZE TPs. */
-#define TRAX_UNITS(C, SIZE, COUNT) (((C)->chip.tps_per_tm + (SIZE) - 1) / (SIZE) * (COUNT))
+#define TRAX_UNITS(C, SIZE, COUNT) (((C)->chip.tps_per_tm + (SIZE)-1) / (SIZE) * (COUNT))
 #define TRAX_ADDERS(C) TRAX_UNITS(C, (C)->fpu.tps_per_cluster, (C)->fpu.adders_per_cluster)
 #define TRAX_MULTIPLIERS(C) TRAX_UNITS(C, trax_config_mul_cluster(C), (C)->fpu.multipliers_per_cluster)
 #define TRAX_INT_MULS(C) TRAX_UNITS(C, (C)->int_mul.tps_per_unit, (C)->int_mul.units_per_group)

@@ -16,6 +16,8 @@ static trax_ask ask_of(const trax_inst *inst, const struct trax_config *config) 
     return TRAX_ASK_ILLEGAL;
   if (inst->op == TRAX_OP_HALT || (inst->op == TRAX_OP_TRAP && inst->imm == TRAX_TRAP_EXIT))
     return TRAX_ASK_END;
+  if (inst->op == TRAX_OP_FENCE)
+    return TRAX_ASK_FENCE;
   switch (info->unit) {
   case TRAX_UNIT_INT_MUL:
     return TRAX_ASK_INT_MUL;

@@ -17,6 +17,7 @@ typedef enum trax_ask {
   TRAX_ASK_SPECIAL,
   TRAX_ASK_MEMORY,  /* by its address: local memory, a data-cache bank, or the memory queue */
   TRAX_ASK_END,     /* halt and the exit trap: a place for what the write-combining buffer holds */
+  TRAX_ASK_FENCE,   /* the same, and that its TP's requests have completed */
   TRAX_ASK_ILLEGAL, /* faults */
   TRAX_ASK_OUTSIDE, /* not text: cannot be fetched */
   TRAX_ASK_COUNT

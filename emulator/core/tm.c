@@ -121,6 +121,7 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
     trax_dcache_arrival(&tm->dcache, tm, request->line, t);
     break;
   case TRAX_REQUEST_ATOMIC:
+    tm->tp[request->tp].increments--;
     tm->tp[request->tp].reg[request->rd] = request->value;
     if (tm->observer && tm->observer->arrival && request->rd != TRAX_NO_REGISTER)
       tm->observer->arrival(tm->observer->context,
@@ -131,6 +132,7 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
     trax_tm_data_arrival(tm, request->tp, request->rd, t);
     break;
   case TRAX_REQUEST_WRITE:
+    tm->tp[request->tp].writes--;
     break;
   }
 }
@@ -168,9 +170,11 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   case TRAX_REQUEST_WRITE:
     stats->written_bytes += request.bytes;
     stats->write_requests++;
+    tm->tp[request.tp].writes++;
     break;
   case TRAX_REQUEST_ATOMIC:
     stats->atomic_bytes += request.bytes;
+    tm->tp[request.tp].increments++;
     break;
   }
   stats->memory_requests++;
@@ -189,12 +193,16 @@ static bool request_in_turn(struct trax_tm *tm, unsigned tp, struct trax_request
   return true;
 }
 
+static bool request_write(struct trax_tm *tm, unsigned number, uint32_t begin, uint32_t end) {
+  const struct trax_request request = {
+      .kind = TRAX_REQUEST_WRITE, .tp = (uint8_t)number, .address = begin, .bytes = end - begin};
+  return request_in_turn(tm, number, request);
+}
+
 /* Empties the TP's write-combining buffer; false if that needs a place and there is none. */
 static bool write_run(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
-  const uint32_t run = tp->run_end - tp->run_begin;
-  const struct trax_request request = {.kind = TRAX_REQUEST_WRITE, .address = tp->run_begin, .bytes = run};
-  if (run && !request_in_turn(tm, number, request))
+  if (tp->run_begin != tp->run_end && !request_write(tm, number, tp->run_begin, tp->run_end))
     return false;
   tp->run_begin = tp->run_end = 0;
   return true;
@@ -205,8 +213,7 @@ static bool store_past_cache(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
   const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
   if (!tm->config->memory.write_combining)
-    return request_in_turn(tm, number,
-                           (struct trax_request){.kind = TRAX_REQUEST_WRITE, .address = begin, .bytes = end - begin});
+    return request_write(tm, number, begin, end);
   if (trax_tp_combines(tp, begin, tp->inst->bytes)) {
     tm->stats->combined_stores++;
     tp->outcome = TRAX_OUTCOME_COMBINED;
@@ -232,23 +239,33 @@ static bool read_past_cache(struct trax_tm *tm, unsigned number) {
                                        .bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes};
   if (!request_in_turn(tm, number, request))
     return false;
+  tm->stats->nontemporal_loads += !atomic;
   trax_tp_set_usable(tp, tp->inst->rd, TRAX_NEVER, atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS);
   return true;
 }
 
 static bool count_store(struct trax_tm *tm, struct trax_tp *tp) {
-  if (!tp->inst->is_nontemporal) {
-    if (trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address))) {
-      tm->stats->store_hits++;
-      tp->outcome |= TRAX_OUTCOME_HIT;
-    } else {
-      tm->stats->store_misses++;
-    }
+  if (tp->inst->is_nontemporal) {
+    tm->stats->nontemporal_stores++;
+  } else if (trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, tp->address))) {
+    tm->stats->store_hits++;
+    tp->outcome |= TRAX_OUTCOME_HIT;
+  } else {
+    tm->stats->store_misses++;
   }
   return true;
 }
 
-bool trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+static trax_cause serve_fence(struct trax_tm *tm, unsigned number) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const bool of_writes = tp->inst->imm & TRAX_FENCE_W;
+  if (of_writes && !write_run(tm, number))
+    return TRAX_CAUSE_MEMORY_QUEUE;
+  return tp->increments || (of_writes && tp->writes) ? TRAX_CAUSE_DATA_MISS : TRAX_CAUSE_ISSUED;
+}
+
+/* False if it needs a place and gets none. */
+static bool serve_others(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   if (tp->inst->ask == TRAX_ASK_END)
     return write_run(tm, number);
@@ -257,6 +274,12 @@ bool trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   if (tp->inst->is_nontemporal || tp->inst->is_atomic)
     return read_past_cache(tm, number);
   return trax_dcache_load(&tm->dcache, tm, number, t);
+}
+
+trax_cause trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+  if (tm->tp[number].inst->ask == TRAX_ASK_FENCE)
+    return serve_fence(tm, number);
+  return serve_others(tm, number, t) ? TRAX_CAUSE_ISSUED : TRAX_CAUSE_MEMORY_QUEUE;
 }
 
 void trax_tm_tell_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,

@@ -95,8 +95,8 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
 void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t);
 /* In cycle t: TP `tp` sleeps from `since` on and wakes in `until`. */
 void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause);
-/* The TP's turn in step 4; its inst and address are set. False if it needs a place and gets none. */
-bool trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
+/* The TP's turn in step 4; its inst and address are set. TRAX_CAUSE_ISSUED, or what refuses it. */
+trax_cause trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
 /* Tells an observer, which there must be, of what TP `tp` has just issued at pc; it goes on at next_pc. */
 void trax_tm_tell_issue(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst,
                         uint32_t next_pc);

@@ -13,11 +13,14 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copie
 
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
   const unsigned registers[] = {tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd};
-  for (unsigned i = 0; i < 3; i++)
-    if (tp->usable[registers[i]] > t) {
-      *until = tp->usable[registers[i]];
-      return (trax_cause)tp->usable_cause[registers[i]];
+  const bool all = tp->inst->ask == TRAX_ASK_FENCE;
+  for (unsigned i = 0; i < (all ? TRAX_NUM_REGISTERS : 3); i++) {
+    const unsigned number = all ? i : registers[i];
+    if (tp->usable[number] > t) {
+      *until = tp->usable[number];
+      return (trax_cause)tp->usable_cause[number];
     }
+  }
   return TRAX_CAUSE_ISSUED;
 }
 
@@ -72,6 +75,11 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
   return 0; /* the decoder lets no other pass */
 }
 
+static void fence(struct trax_tm *tm, uint32_t kind) {
+  if (kind & TRAX_FENCE_R)
+    tm->stats->dropped_lines += trax_dcache_drop(&tm->dcache);
+}
+
 bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
@@ -88,6 +96,7 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
 #define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, t)
 #define TRAP(VALUE, CODE) (tm->progressed = t + 1, alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t))
+#define FENCE(KIND) fence(tm, KIND)
 #define HALT() (tm->progressed = t + 1, trax_tm_end_thread(tm, number, t + 1, 0))
   switch ((trax_op)inst->op) {
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \

@@ -14,9 +14,11 @@ struct trax_tp {
   const struct trax_decoded *inst; /* at pc; whether it is fetched says trax_tm.holding */
   uint32_t address;                /* of the access that is being asked for */
   uint8_t outcome;                 /* of that access: TRAX_OUTCOME_MISS ..., noted when it is served */
+  uint16_t writes;                 /* of its requests, those in the memory queue; and */
 
   uint64_t usable[TRAX_NUM_REGISTERS + 1];      /* cycle from which the register is usable */
   uint8_t usable_cause[TRAX_NUM_REGISTERS + 1]; /* trax_cause of waiting for it */
+  uint16_t increments;                          /* here, so that both need no room */
 
   uint32_t run_begin, run_end; /* the write-combining buffer: a run of bytes in one 64-byte block; empty if equal */
 
@@ -30,8 +32,8 @@ struct trax_tp {
 
 struct trax_tm;
 
-/* The cause of the first register that inst must wait for in cycle t, in the order ra, rb, rd, and in *until the cycle
-   from which it is usable, TRAX_NEVER if unknown. TRAX_CAUSE_ISSUED if there is none. */
+/* The cause of the first register that inst must wait for in cycle t, in the order ra, rb, rd, of a fence r1 to r31,
+   and in *until the cycle from which it is usable, TRAX_NEVER if unknown. TRAX_CAUSE_ISSUED if there is none. */
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until);
 
 static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t cycle, trax_cause cause) {

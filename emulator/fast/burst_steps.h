@@ -90,6 +90,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   }))
 #define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(ftm->tm, number, NUMBER, 0) /* the cycle ends a burst */
 #define TRAP(VALUE, CODE) goto stop
+#define FENCE(KIND) goto stop
 #define HALT() goto stop
 
 /* Each operation goes on to the next one by itself, which the host's branch predictor learns far better than one switch

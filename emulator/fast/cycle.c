@@ -120,7 +120,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
   }
-  if (inst->ask == TRAX_ASK_END)
+  if (inst->ask == TRAX_ASK_END || inst->ask == TRAX_ASK_FENCE)
     asks |= TRAX_ASKS_QUEUE;
   if (inst->ask == TRAX_ASK_MEMORY) {
     tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
@@ -265,8 +265,9 @@ static bool serve(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   if (!(ftm->deferred >> number & 1) && load_hits(ftm, number, t))
     return true;
   trax_fast_show(ftm, number);
-  if (!trax_tm_serve(tm, number, t)) {
-    trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);
+  const trax_cause refused = trax_tm_serve(tm, number, t);
+  if (refused != TRAX_CAUSE_ISSUED) {
+    trax_tm_charge(tm, number, refused);
     return false;
   }
   trax_fast_set_busy(ftm, number, tm->tp[number].inst->rd);

@@ -119,9 +119,10 @@ static void collect(struct trax_fast *fast) {
 static void count_local(struct trax_tm_stats *stats) {
   const uint64_t *count = stats->instructions;
   stats->local_loads = count[TRAX_OP_LB] + count[TRAX_OP_LBU] + count[TRAX_OP_LH] + count[TRAX_OP_LHU] +
-                       count[TRAX_OP_LW] - stats->dcache_hits - stats->dcache_merged - stats->dcache_misses;
-  stats->local_stores =
-      count[TRAX_OP_SB] + count[TRAX_OP_SH] + count[TRAX_OP_SW] - stats->store_hits - stats->store_misses;
+                       count[TRAX_OP_LW] + count[TRAX_OP_LWNT] - stats->dcache_hits - stats->dcache_merged -
+                       stats->dcache_misses - stats->nontemporal_loads;
+  stats->local_stores = count[TRAX_OP_SB] + count[TRAX_OP_SH] + count[TRAX_OP_SW] + count[TRAX_OP_SWNT] -
+                        stats->store_hits - stats->store_misses - stats->nontemporal_stores;
 }
 
 /* In the order of trax_fast_lost and its tally. */

@@ -148,6 +148,8 @@ static bool execute_slowly(struct trax_functional *functional, struct trax_tm *t
     increment(functional, tp);
   if (!trax_tp_execute(tm, number, now))
     return false;
+  if (inst->is_nontemporal && tp->address < TRAX_LOCAL_BASE)
+    ++*(inst->is_store ? &tm->stats->nontemporal_stores : &tm->stats->nontemporal_loads);
   ++*executed;
   functional->changes[tm->number][index]++;
   functional->changes[tm->number][index + 1]--;
@@ -239,7 +241,8 @@ void trax_functional_collect(struct trax_functional *functional) {
 
 static bool is_slow(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic || decoded->ask == TRAX_ASK_ILLEGAL ||
-         decoded->ask == TRAX_ASK_OUTSIDE || decoded->op == TRAX_OP_TRAP || decoded->op == TRAX_OP_HALT;
+         decoded->ask == TRAX_ASK_OUTSIDE || decoded->ask == TRAX_ASK_FENCE || decoded->op == TRAX_OP_TRAP ||
+         decoded->op == TRAX_OP_HALT;
 }
 
 static trax_status predecode(struct text *text, size_t total, const struct trax_text *from,

@@ -75,6 +75,7 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
 #define SPECIAL_REGISTER(NUMBER)                                                                                       \
   trax_tp_special_register(tm, number, NUMBER, time_of(functional, count + (uint64_t)(inst - begin)))
 #define TRAP(VALUE, CODE) goto slow
+#define FENCE(KIND) goto slow
 #define HALT() goto slow
 #define NOWHERE UINT64_MAX
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \

@@ -35,6 +35,13 @@ static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint3
   return trax_fast_is_relative(decoded->op) && (decoded->imm % 4 || decoded->imm == 4 || target < 0 || target >= words);
 }
 
+/* All registers, of a fence. */
+static uint32_t waits_for(const struct trax_decoded *decoded) {
+  if (decoded->ask == TRAX_ASK_FENCE)
+    return ~1u;
+  return (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u;
+}
+
 _Static_assert(sizeof(struct trax_fast_inst) == 16, "four to a line of the host's cache");
 
 static void predecode(struct trax_fast_program *program, const struct trax_decoded *decoded, uint32_t index,
@@ -48,10 +55,7 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
                                                  .ra = decoded->ra,
                                                  .rb = decoded->rb,
                                                  .imm = decoded->imm};
-  program->note[index] =
-      (struct trax_fast_note){.decoded = decoded,
-                              .waits = (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u,
-                              .pc = pc};
+  program->note[index] = (struct trax_fast_note){.decoded = decoded, .waits = waits_for(decoded), .pc = pc};
   program->line[index] = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1);
   program->asks[index] =
       (uint16_t)(asks_of(decoded) | (slow ? TRAX_ASKS_SLOWLY : 0) | decoded->bank << TRAX_ASKS_FETCH_SHIFT);

@@ -175,6 +175,7 @@ static void perform_increments(struct trax_chip *chip) {
       if (!is_started(queue, place))
         increment(request, &chip->machine->space);
       chip->tm[i].tp[request->tp].reg[request->rd] = request->value;
+      chip->tm[i].tp[request->tp].increments--;
       request->kind = TRAX_REQUEST_LOAD;
     }
   }
@@ -407,6 +408,8 @@ void trax_sampled_finish(struct trax_sampled *sampled, uint64_t t) {
     memcpy(stats->instructions, exact.instructions, sizeof stats->instructions);
     stats->rays = exact.rays;
     stats->items = exact.items;
+    stats->nontemporal_loads = exact.nontemporal_loads;
+    stats->nontemporal_stores = exact.nontemporal_stores;
     stats->queue_peak = exact.queue_peak;
   }
   for (size_t i = 0; i < MEMORY_WORDS; i++)

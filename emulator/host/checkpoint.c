@@ -21,7 +21,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 1, LEVEL = 1 };
+enum { PAGE = 4096, VERSION = 2, LEVEL = 1 };
 
 static const char magic[8] = "TRAXckpt";
 

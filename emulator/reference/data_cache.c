@@ -34,7 +34,10 @@ bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
     trax_ref_result(tp, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
     return true;
   }
-  if (trax_ref_on_its_way(tm, DATA_LINE, 0, line)) {
+  const struct trax_ref_request *request = trax_ref_on_its_way(tm, DATA_LINE, 0, line);
+  if (request && request->passing)
+    return false;
+  if (request) {
     tm->stats->dcache_merged++;
     tp->outcome |= TRAX_OUTCOME_MERGED;
     wait_for_line(tp, line);
@@ -52,12 +55,13 @@ bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   return true;
 }
 
-void trax_ref_data_arrives(struct trax_ref_tm *tm, uint32_t line, uint64_t t) {
-  trax_ref_lines_take(&tm->dcache, line);
+void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request *request, uint64_t t) {
+  if (!request->passing)
+    trax_ref_lines_take(&tm->dcache, request->line);
   for (uint32_t i = 0; i < tm->tps; i++)
     for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++) {
       struct trax_ref_register *reg = &tm->tp[i].scoreboard[rd];
-      if (reg->awaits_line && reg->line == line) {
+      if (reg->awaits_line && reg->line == request->line) {
         reg->awaits_line = false;
         reg->usable = t;
       }

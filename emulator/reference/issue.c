@@ -81,6 +81,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
 #define SPECIAL_REGISTER(NUMBER) special_register(tm, tp, NUMBER, t)
 #define TRAP(VALUE, CODE) fault = trap(tm, tp, VALUE, CODE)
+#define FENCE(KIND) ((void)(KIND), trax_ref_fence(tm, tp))
 #define HALT() end(tm, tp, 0)
   switch (inst->op) {
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
@@ -112,7 +113,7 @@ static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t
 
 static void count(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   tm->stats->instructions[tp->inst.op]++;
-  if (trax_ref_accesses_local(tp) && !trax_ref_is(tp, TRAX_IS_NONTEMPORAL))
+  if (trax_ref_accesses_local(tp))
     ++*(trax_ref_is(tp, TRAX_IS_STORE) ? &tm->stats->local_stores : &tm->stats->local_loads);
 }
 

@@ -53,6 +53,15 @@ static uint32_t choose(struct trax_ref_lines *lines, uint32_t set) {
   return least;
 }
 
+uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines) {
+  uint32_t dropped = 0;
+  for (uint32_t i = 0; i < lines->sets * lines->ways; i++) {
+    dropped += lines->line[i].present;
+    lines->line[i].present = false;
+  }
+  return dropped;
+}
+
 void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line) {
   const uint32_t set = line % lines->sets, way = choose(lines, set);
   lines->line[(size_t)set * lines->ways + way] = (struct trax_ref_line){true, line, ++lines->uses};

@@ -30,11 +30,12 @@ uint32_t trax_ref_lines_on_their_way(const struct trax_ref_tm *tm, trax_ref_kind
   return count;
 }
 
-bool trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache, uint32_t line) {
+const struct trax_ref_request *trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache,
+                                                   uint32_t line) {
   for (uint32_t i = 0; i < tm->places; i++)
     if (tm->queue[i].kind == kind && tm->queue[i].icache == icache && tm->queue[i].line == line)
-      return true;
-  return false;
+      return &tm->queue[i];
+  return NULL;
 }
 
 struct trax_ref_request *trax_ref_oldest_at_bank(struct trax_ref_tm *tm, uint32_t bank) {
@@ -59,7 +60,7 @@ static void arrive(struct trax_ref_tm *tm, const struct trax_ref_request *reques
     trax_ref_instruction_arrives(tm, request->icache, request->line);
     break;
   case DATA_LINE:
-    trax_ref_data_arrives(tm, request->line, t);
+    trax_ref_data_arrives(tm, request, t);
     break;
   case ATOMIC:
     if (request->rd != 0) {
@@ -97,13 +98,14 @@ static bool read_word(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
                                                       .address = tp->address,
                                                       .bytes = atomic ? tm->config->memory.atomic_bytes : 4}))
     return false;
+  tm->stats->nontemporal_loads += !atomic;
   trax_ref_result(tp, UNKNOWN, atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS);
   return true;
 }
 
 /* Looks at a TP in its turn. False: it needs a place and gets none. */
 static bool serve(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
-  if (trax_ref_ends_thread(tp))
+  if (trax_ref_ends_thread(tp) || trax_ref_fences(tp, TRAX_FENCE_W))
     return trax_ref_write_run(tm, tp);
   if (!trax_ref_accesses_memory(tp) || trax_ref_accesses_local(tp))
     return true; /* it asks for nothing here */
@@ -121,6 +123,8 @@ void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t) {
     struct trax_ref_tp *tp = &tm->tp[position];
     if (trax_ref_active(tp) && !serve(tm, tp, t))
       trax_ref_charge(tm, tp, t, TRAX_CAUSE_MEMORY_QUEUE);
+    if (trax_ref_active(tp) && trax_ref_fence_waits(tm, tp))
+      trax_ref_charge(tm, tp, t, TRAX_CAUSE_DATA_MISS);
     if (tm->places > taken)
       tm->queue_turn = (position + 1) % tm->tps;
   }

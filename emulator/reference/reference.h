@@ -49,7 +49,9 @@ struct trax_ref_request {
   uint32_t bytes;
   uint32_t address;
   uint32_t icache, line;                      /* lines; icache of INSTRUCTION_LINE only */
-  uint32_t tp, rd;                            /* LOAD_PAST_CACHE, ATOMIC: who waits, in which register */
+  uint32_t tp;                                /* LOAD_PAST_CACHE, WRITE, ATOMIC: whose */
+  uint32_t rd;                                /* LOAD_PAST_CACHE, ATOMIC: the register that waits */
+  bool passing;                               /* DATA_LINE: it does not enter the cache */
   uint32_t old_value;                         /* ATOMIC */
   enum { AT_BANK, AT_CHANNEL, SERVED } stage; /* it waits for its bank of the second-level cache, for its channel */
   uint64_t came;       /* AT_CHANNEL, from the second-level cache: a number from trax_ref_controller.came */
@@ -156,7 +158,7 @@ static inline bool trax_ref_accesses_memory(const struct trax_ref_tp *tp) {
   return trax_ref_info(tp)->unit == TRAX_UNIT_MEMORY;
 }
 
-/* An access to local memory; its address is known. lwnt, swnt and ainc have no business there. */
+/* An access to local memory; its address is known. ainc has no business there. */
 static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
   return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE && !trax_ref_is(tp, TRAX_IS_ATOMIC);
 }
@@ -164,6 +166,11 @@ static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
 /* halt and the exit trap. */
 static inline bool trax_ref_ends_thread(const struct trax_ref_tp *tp) {
   return tp->inst.op == TRAX_OP_HALT || (tp->inst.op == TRAX_OP_TRAP && tp->inst.imm == TRAX_TRAP_EXIT);
+}
+
+/* fence r, w or rw. `kinds`: TRAX_FENCE_... */
+static inline bool trax_ref_fences(const struct trax_ref_tp *tp, unsigned kinds) {
+  return tp->inst.op == TRAX_OP_FENCE && ((unsigned)tp->inst.imm & kinds) != 0;
 }
 
 /* --- Fetch: fetch.c, lines.c --- */
@@ -178,6 +185,8 @@ bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line);
 bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line);
 /* The line arrives. */
 void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line);
+/* All places are empty from now on. Gives how many were not. */
+uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
@@ -193,25 +202,32 @@ uint32_t trax_ref_latency(const struct trax_ref_tp *tp, const struct trax_config
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);
 /* A load's turn in step 4. False: it needs a place or a miss register and gets none. */
 bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
-void trax_ref_data_arrives(struct trax_ref_tm *tm, uint32_t line, uint64_t t);
+void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request *request, uint64_t t);
 
 /* --- Stores and write combining: stores.c. False: it needs a place and gets none. --- */
 bool trax_ref_store(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
 /* Writes the run in the buffer, if there is one. */
-bool trax_ref_write_run(struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
+bool trax_ref_write_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
 
 /* --- Memory queue: queue.c --- */
 void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t);
 void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t);
 /* Takes a place for the request. False: there is none. */
 bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request);
-/* How many lines of that kind are on their way, and whether one of them is this. */
+/* How many lines of that kind are on their way, and the request for this one; NULL: there is none. */
 uint32_t trax_ref_lines_on_their_way(const struct trax_ref_tm *tm, trax_ref_kind kind);
-bool trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache, uint32_t line);
+const struct trax_ref_request *trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache,
+                                                   uint32_t line);
 
 /* The oldest request of the TM that waits for that bank or channel; NULL: none does. */
 struct trax_ref_request *trax_ref_oldest_at_bank(struct trax_ref_tm *tm, uint32_t bank);
 struct trax_ref_request *trax_ref_oldest_at_channel(struct trax_ref_tm *tm, uint32_t channel);
+
+/* --- Fences: fences.c --- */
+/* Whether the TP's fence has to wait for what the TP has requested. */
+bool trax_ref_fence_waits(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
+/* A fence issues. */
+void trax_ref_fence(struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 
 /* --- Second-level cache: l2.c --- */
 bool trax_ref_l2_create(struct trax_ref_l2 *l2, const struct trax_config *config);

@@ -11,10 +11,16 @@ static uint32_t greatest(uint32_t a, uint32_t b) {
   return a > b ? a : b;
 }
 
-bool trax_ref_write_run(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
-  const uint32_t bytes = tp->run_end - tp->run_begin;
-  return bytes == 0 ||
-         trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .address = tp->run_begin, .bytes = bytes});
+static bool request_write(struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t begin, uint32_t end) {
+  return trax_ref_request(
+      tm, (struct trax_ref_request){.kind = WRITE, .tp = tp->number, .address = begin, .bytes = end - begin});
+}
+
+bool trax_ref_write_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
+  if (tp->run_begin != tp->run_end && !request_write(tm, tp, tp->run_begin, tp->run_end))
+    return false;
+  tp->run_begin = tp->run_end = 0;
+  return true;
 }
 
 static bool combines(const struct trax_ref_tp *tp, uint32_t begin, uint32_t end) {
@@ -23,9 +29,9 @@ static bool combines(const struct trax_ref_tp *tp, uint32_t begin, uint32_t end)
 }
 
 static bool write(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
-  const uint32_t bytes = trax_ref_info(tp)->access_bytes, begin = tp->address, end = begin + bytes;
+  const uint32_t begin = tp->address, end = begin + trax_ref_info(tp)->access_bytes;
   if (!tm->config->memory.write_combining)
-    return trax_ref_request(tm, (struct trax_ref_request){.kind = WRITE, .address = begin, .bytes = bytes});
+    return request_write(tm, tp, begin, end);
   if (combines(tp, begin, end)) {
     tm->stats->combined_stores++;
     tp->outcome |= TRAX_OUTCOME_COMBINED;
@@ -43,8 +49,10 @@ static bool write(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
 bool trax_ref_store(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
   if (!write(tm, tp))
     return false;
-  if (trax_ref_is(tp, TRAX_IS_NONTEMPORAL))
+  if (trax_ref_is(tp, TRAX_IS_NONTEMPORAL)) {
+    tm->stats->nontemporal_stores++;
     return true;
+  }
   if (trax_ref_lines_use(&tm->dcache, tp->address / tm->config->dcache.line_bytes)) { /* updated in place */
     tm->stats->store_hits++;
     tp->outcome |= TRAX_OUTCOME_HIT;

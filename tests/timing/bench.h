@@ -26,6 +26,7 @@
 #define B(OP, RA, RB, OFFSET) trax_encode((trax_inst){TRAX_OP_##OP, 0, RA, RB, OFFSET})
 #define J(RD, OFFSET) trax_encode((trax_inst){TRAX_OP_JAL, RD, 0, 0, OFFSET})
 #define T(RA, CODE) trax_encode((trax_inst){TRAX_OP_TRAP, 0, RA, 0, CODE})
+#define FENCE(KIND) trax_encode((trax_inst){.op = TRAX_OP_FENCE, .imm = TRAX_FENCE_##KIND})
 #define NOP I(ADDI, 0, 0, 0)
 #define HALT trax_encode((trax_inst){.op = TRAX_OP_HALT})
 

@@ -30,6 +30,26 @@ uint32_t any_power(uint32_t least, uint32_t most) {
 
 /* --- programs --- */
 
+static uint32_t any_fence(void) {
+  return trax_encode((trax_inst){.op = TRAX_OP_FENCE, .imm = (int32_t)any(TRAX_FENCE_R, TRAX_FENCE_RW)});
+}
+
+/* Of local memory. */
+static uint32_t any_local_word(unsigned rd, unsigned rb, int32_t offset) {
+  switch (any(0, 7)) {
+  case 0:
+    return S(SWNT, rb, 0, offset);
+  case 1:
+    return I(LWNT, rd, 0, offset);
+  case 2:
+  case 3:
+  case 4:
+    return S(SW, rb, 0, offset);
+  default:
+    return I(LW, rd, 0, offset);
+  }
+}
+
 static uint32_t any_operation(unsigned left) {
   static const trax_op plain[] = {TRAX_OP_ADD,   TRAX_OP_SUB, TRAX_OP_XOR,   TRAX_OP_SLL,  TRAX_OP_SLT,  TRAX_OP_CMOVNZ,
                                   TRAX_OP_CMOVZ, TRAX_OP_MUL, TRAX_OP_MULHU, TRAX_OP_FADD, TRAX_OP_FSUB, TRAX_OP_FMUL,
@@ -57,9 +77,9 @@ static uint32_t any_operation(unsigned left) {
   case 7:
     return any(0, 1) ? S(SWNT, rb, BASE, own) : I(LWNT, rd, BASE, own);
   case 8:
-    return any(0, 1) ? S(SW, rb, 0, -4 - own) : I(LW, rd, 0, -4 - own);
+    return any_local_word(rd, rb, -4 - own);
   case 9:
-    return any(0, 7) ? NOP : I(AINC, rd, COUNTER, 0);
+    return any(0, 7) ? any(0, 2) ? NOP : any_fence() : I(AINC, rd, COUNTER, 0);
   case 10:
     return B(BLT, ra, rb, 4 * (int32_t)any(1, left < 12 ? left : 12)); /* forward, within the body */
   default:
@@ -110,13 +130,13 @@ static uint32_t any_racing_operation(unsigned left) {
            : any(0, 1) ? S(SW, ra, base, offset)
                        : S(SB, ra, base, offset + 1);
   case 4:
-    return any(0, 2) ? I(LW, rd, 0, -4 - offset % 512) : S(SB, ra, 0, -4 - offset % 512);
+    return any(0, 2) ? any_local_word(rd, ra, -4 - offset % 512) : S(SB, ra, 0, -4 - offset % 512);
   case 5:
     return any(0, 3) ? NOP : any(0, 1) ? S(SWNT, ra, base, offset) : I(LWNT, rd, base, offset);
   case 6:
-    return any(0, 3) ? NOP : I(AINC, rd, base, offset);
+    return any(0, 3) ? NOP : I(AINC, any(0, 3) ? rd : 0, base, offset);
   case 7:
-    return any(0, 1) ? NOP : U(RDSR, rd, (int32_t)any(0, 5));
+    return any(0, 1) ? any(0, 2) ? NOP : any_fence() : U(RDSR, rd, (int32_t)any(0, 5));
   case 8:
     return any(0, 5) ? NOP : T(ra, any(0, 2) ? any(0, 1) ? TRAX_TRAP_RAYS : TRAX_TRAP_ITEMS : TRAX_TRAP_PUTC);
   case 9:
@@ -245,6 +265,8 @@ static uint32_t any_instruction(unsigned at, unsigned end) {
     return trax_encode(inst);
   case TRAX_OP_HALT:
     return seldom(40) ? HALT : NOP;
+  case TRAX_OP_FENCE:
+    return seldom(400) ? trax_encode(inst) : any_fence();
   default:
     break;
   }
@@ -252,8 +274,6 @@ static uint32_t any_instruction(unsigned at, unsigned end) {
     inst.imm &= 31;
   if (info->format == TRAX_FORMAT_U)
     inst.imm &= 0xFFFF;
-  if (inst.op == TRAX_OP_FENCE)
-    inst.imm = (int32_t)any(TRAX_FENCE_R, TRAX_FENCE_RW);
   return trax_encode(inst);
 }
 

@@ -32,23 +32,34 @@ MUTANTS = [
     ("reference/data_cache.c", "!trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);", "!trax_ref_is(tp, TRAX_IS_ATOMIC);"),
     ("reference/data_cache.c", "tm->tp[i].address / 4 % banks == bank", "tm->tp[i].address / 64 % banks == bank"),
     ("reference/data_cache.c", "(tm->tps + per_bank - 1) / per_bank", "tm->tps / per_bank + 1"),
-    ("reference/data_cache.c", "if (trax_ref_on_its_way(tm, DATA_LINE, 0, line)) {", "if (0) {"),
+    ("reference/data_cache.c", "  if (request) {\n    tm->stats->dcache_merged++;", "  if (0) {\n    tm->stats->dcache_merged++;"),
     ("reference/data_cache.c", "trax_ref_lines_on_their_way(tm, DATA_LINE) == tm->config->dcache.mshrs", "trax_ref_lines_on_their_way(tm, DATA_LINE) > tm->config->dcache.mshrs"),
-    ("reference/data_cache.c", "if (reg->awaits_line && reg->line == line) {", "if (reg->awaits_line) {"),
+    ("reference/data_cache.c", "if (reg->awaits_line && reg->line == request->line) {", "if (reg->awaits_line) {"),
     ("reference/data_cache.c", "trax_ref_result(tp, UNKNOWN, TRAX_CAUSE_DATA_MISS);", "trax_ref_result(tp, UNKNOWN, TRAX_CAUSE_DATA_HIT);"),
     # --- Stores and write combining ---
     ("reference/stores.c", "begin <= tp->run_end &&", "begin < tp->run_end &&"),
     ("reference/stores.c", "end >= tp->run_begin;", "end > tp->run_begin;"),
     ("reference/stores.c", "begin / BLOCK == tp->run_begin / BLOCK &&", ""),
     ("reference/stores.c", "tp->run_end = greatest(tp->run_end, end);", "tp->run_end = greatest(tp->run_begin, end);"),
-    ("reference/stores.c", "return bytes == 0 ||", "return"),
+    ("reference/stores.c", "if (tp->run_begin != tp->run_end && !request_write", "if (!request_write"),
     # --- Memory queue ---
     ("reference/queue.c", "tm->queue_turn = (position + 1) % tm->tps;", "tm->queue_turn = (tm->queue_turn + 1) % tm->tps;"),
     ("reference/queue.c", "if (tm->places > taken)", "if (tm->places >= taken)"),
     ("reference/queue.c", "if (request.bytes < tm->config->memory.min_transfer_bytes)", "if (0)"),
     ("reference/queue.c", "if (tm->places == tm->config->memory.queue_depth)", "if (tm->places > tm->config->memory.queue_depth - 2)"),
-    ("reference/queue.c", "if (trax_ref_ends_thread(tp))", "if (tp->inst.op == TRAX_OP_HALT)"),
+    ("reference/queue.c", "if (trax_ref_ends_thread(tp) || ", "if (tp->inst.op == TRAX_OP_HALT || "),
     ("reference/queue.c", "atomic ? tm->config->memory.atomic_bytes : 4", "atomic ? 8 : 4"),
+    # --- Fences ---
+    ("reference/fences.c", "request->tp == tp->number && ", ""),
+    ("reference/fences.c", "(request->kind == ATOMIC && trax_ref_fences(tp, TRAX_FENCE_RW))", "(request->kind == ATOMIC && trax_ref_fences(tp, TRAX_FENCE_W))"),
+    ("reference/fences.c", "(request->kind == WRITE && trax_ref_fences(tp, TRAX_FENCE_W))", "(request->kind == WRITE && trax_ref_fences(tp, TRAX_FENCE_RW))"),
+    ("reference/fences.c", "if (!trax_ref_fences(tp, TRAX_FENCE_R))", "if (!trax_ref_fences(tp, TRAX_FENCE_RW))"),
+    ("reference/fences.c", "tm->queue[i].passing = tm->queue[i].kind == DATA_LINE;", "tm->queue[i].passing = false;"),
+    ("reference/lines.c", "lines->line[i].present = false;", "lines->line[i].present &= i == 0;"),
+    ("reference/data_cache.c", "if (!request->passing)\n", "if (true)\n"),
+    ("reference/data_cache.c", "if (request && request->passing)\n", "if (false)\n"),
+    ("reference/operands.c", "for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS && !tp->charged; rd++)", "for (unsigned rd = TRAX_NUM_REGISTERS - 1; rd > 0 && !tp->charged; rd--)"),
+    ("reference/queue.c", " || trax_ref_fences(tp, TRAX_FENCE_W))\n", ")\n"),
     # --- Memory controller ---
     ("reference/controller.c", "channel->free_from > t * cycle ? channel->free_from : t * cycle", "channel->free_from > t * cycle ? t * cycle : channel->free_from"),
     ("reference/controller.c", "(channel->free_from + cycle - 1) / cycle", "channel->free_from / cycle"),
@@ -85,7 +96,7 @@ MUTANTS = [
     ("fast/cycle.c", "return (woken & tm->holding) | taken_up;", "return (woken & tm->holding) | (taken_up & 0);"),
     ("fast/cycle.c", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
     ("fast/cycle.c", "ftm->busy_registers[number] &= ~waits;", "ftm->busy_registers[number] = 0;"),
-    ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END)\n    asks |= TRAX_ASKS_QUEUE;", "if (inst->ask == TRAX_ASK_END)\n    asks |= 0;"),
+    ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END || ", "if ("),
     # --- steps 3 and 4 ---
     ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
     ("fast/cycle.c", "*hits = there & ~ftm->deferred;", "*hits = there;"),
@@ -110,6 +121,20 @@ MUTANTS = [
     ("core/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
     ("core/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
     ("core/cache_tags.h", "(tags->next[set] + 1) & (tags->ways - 1)", "tags->next[set] & (tags->ways - 1)"),
+    # --- Fences ---
+    ("core/tp.c", "if (kind & TRAX_FENCE_R)", "if (kind == TRAX_FENCE_R)"),
+    ("core/tp.c", "all ? i : registers[i]", "all ? TRAX_NUM_REGISTERS - 1 - i : registers[i]"),
+    ("core/tm.c", "tp->increments || (of_writes && tp->writes)", "of_writes && (tp->increments || tp->writes)"),
+    ("core/tm.c", "if (of_writes && !write_run(tm, number))", "if (!write_run(tm, number))"),
+    ("core/tm.c", ".kind = TRAX_REQUEST_WRITE, .tp = (uint8_t)number, ", ".kind = TRAX_REQUEST_WRITE, "),
+    ("core/dcache.c", "dcache->mshr[i].passing = 1;", "dcache->mshr[i].passing = i == 0;"),
+    ("core/dcache.c", "if (!dcache->mshr[i].passing)\n", "if (true)\n"),
+    ("core/dcache.c", "if (dcache->mshr[i].passing)\n        return false;\n", ""),
+    ("core/cache_tags.h", "memset(tags->lines, 0, places * sizeof", "memset(tags->lines, 0, places / 2 * sizeof"),
+    ("core/state.c", "  VISIT(tp->writes);\n", ""),
+    ("fast/program.c", "return ~1u;", "return ~3u;"),
+    ("fast/sampled.c", "      chip->tm[i].tp[request->tp].increments--;\n", ""),
+    ("fast/cycle.c", " || inst->ask == TRAX_ASK_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.
     ("core/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
@@ -193,8 +218,8 @@ MUTANTS = [
     ("core/tm.c", "tm->fault.kind && tm->fault.tp < number",
      "tm->fault.kind && tm->fault.tp > number"),
     # A store past the cache does not look into it.
-    ("core/tm.c", "if (!tp->inst->is_nontemporal) {\n    if (trax_cache",
-     "if (tp->inst->bytes) {\n    if (trax_cache"),
+    ("core/tm.c", "if (tp->inst->is_nontemporal) {",
+     "if (!tp->inst->bytes) {"),
     # Sleepers wake in their cycle, however long they sleep.
     ("core/tm.c", "if (tm->tp[tp].asleep_until > t)",
      "if (tm->tp[tp].asleep_until > t + 1)"),
@@ -226,7 +251,7 @@ MUTANTS = [
     ("fast/cycle.c", "lost->int_mul = askers & ~won;",
      "lost->int_mul = askers & ~won & ~(askers & -askers);"),
     # A refused access is charged to the queue.
-    ("fast/cycle.c", "trax_tm_charge(tm, number, TRAX_CAUSE_MEMORY_QUEUE);\n    return false;",
+    ("fast/cycle.c", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
     # Carries of the counters of conflicts.
     ("fast/cycle.c", "(*(SUM) & one_) | (either_ & other_)",

@@ -16,7 +16,7 @@
    bench_far: the first instruction line (16 instructions) takes the bus in 0..3 and is there in 104. A data line asked
    for in t is there in t + 104, a word past the cache or an atomic increment in t + 101. */
 const struct rule *timing_rules(size_t *count) {
-  static struct rule rules[128];
+  static struct rule rules[160];
   size_t n = 0;
 
   /* --- Words --- */
@@ -138,6 +138,8 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Operands", "an illegal instruction faults before its operands are looked at", NEAR, "", 3, ILLEGAL, "1",
        "icache_miss=1", R(FDIV, 1, 0, 0), U(RDSR, 1, 0) | TRAX_SR_COUNT, HALT);
   /* 0 / 0 is 0x7FC00000, usable in 9. */
+  RULE("Operands", "a fence of another number is illegal", NEAR, "", 3, ILLEGAL, "1", "icache_miss=1", NOP,
+       FENCE(RW) + 1, HALT);
   RULE("Operands", "an access that is not allowed faults when its operands are usable", NEAR, "", 10, UNMAPPED, "1",
        "icache_miss=1 wait_special=7", R(FDIV, 1, 0, 0), I(LW, 2, 1, 0), HALT);
 
@@ -191,6 +193,8 @@ const struct rule *timing_rules(size_t *count) {
        R(ADD, 4, 3, 3), HALT);
   RULE("Units", "local memory is the TP's own", NEAR, "chip.tps_per_tm=3 " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3 / 1 2 3",
        "icache_miss=3", S(SW, 0, 0, -4), I(LW, 1, 0, -4), HALT);
+  RULE("Units", "lwnt and swnt of local memory are no other loads and stores", NEAR, "tp.local_latency_cycles=4", 8,
+       NONE, "1 2 6 7", "icache_miss=1 wait_local=3", S(SWNT, 0, 0, -4), I(LWNT, 1, 0, -4), R(ADD, 2, 1, 1), HALT);
   RULE("Units", "a bubble follows an instruction whose next pc is not pc + 4", NEAR, "tp.branch_bubble_cycles=3", 11,
        NONE, "1 5 6 10", "icache_miss=1 branch_bubble=6", J(1, 12), NOP, NOP, B(BNE, 0, 0, 8), B(BEQ, 0, 0, 8), NOP,
        HALT);
@@ -307,6 +311,67 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Memory queue", "a short transfer costs memory.min_transfer_bytes", FAR, "memory.min_transfer_bytes=32", 211,
        NONE, "104 105 106 207 209 210", "icache_miss=104 wait_memory=101", U(LUI, 1, 1), I(LWNT, 2, 1, 0),
        I(LWNT, 3, 1, 0), R(ADD, 0, 2, 2), R(ADD, 0, 3, 3), HALT);
+
+  /* --- Fences --- */
+  RULE("Fences", "a fence that waits for nothing is issued in the next cycle", FAR, "", 107, NONE, "104 105 106",
+       "icache_miss=104", U(LUI, 1, 1), FENCE(R), HALT);
+  /* r9 is usable in 13, r7 in 10: r7 is blamed in 3..9, r9 in 10..12. */
+  RULE("Fences", "a fence needs all registers, and the first is blamed", NEAR, "fpu.mul_latency_cycles=12", 15, NONE,
+       "1 2 13 14", "icache_miss=1 wait_special=7 wait_other=3", R(FMUL, 9, 0, 0), R(FDIV, 7, 0, 0), FENCE(W), HALT);
+  /* There in 209; again in 210, there in 314. */
+  RULE("Fences", "fence r drops the data cache's lines", FAR, "", 316, NONE, "104 105 209 210 314 315",
+       "icache_miss=104 wait_memory=206", U(LUI, 1, 1), I(LW, 2, 1, 0), FENCE(R), I(LW, 3, 1, 0), R(ADD, 4, 3, 3),
+       HALT);
+  RULE("Fences", "fence w does not", FAR, "", 213, NONE, "104 105 209 210 211 212", "icache_miss=104 wait_memory=103",
+       U(LUI, 1, 1), I(LW, 2, 1, 0), FENCE(W), I(LW, 3, 1, 0), R(ADD, 4, 3, 3), HALT);
+  /* Written in 106, complete in 207. */
+  RULE("Fences", "fence w writes the run and waits until it is complete", FAR, "", 209, NONE, "104 105 207 208",
+       "icache_miss=104 wait_memory=101", U(LUI, 1, 1), S(SW, 1, 1, 0), FENCE(W), HALT);
+  /* The run has the bus in 107. */
+  RULE("Fences", "fence r does not", FAR, "", 108, NONE, "104 105 106 107", "icache_miss=104", U(LUI, 1, 1),
+       S(SW, 1, 1, 0), FENCE(R), HALT);
+  /* Written in 105. */
+  RULE("Fences", "fence w waits for writes that are under way", FAR, "memory.write_combining=false", 208, NONE,
+       "104 105 206 207", "icache_miss=104 wait_memory=100", U(LUI, 1, 1), S(SW, 1, 1, 0), FENCE(W), HALT);
+  RULE("Fences", "but not for those of other TPs", FAR, "chip.tps_per_tm=2 memory.write_combining=false", 110, NONE,
+       "104 105 106 107 108 109 / 104 105 106 107 108", "icache_miss=208", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP),
+       B(BNE, 2, 0, 16), NOP, FENCE(RW), HALT, S(SW, 1, 1, 0), HALT);
+  /* The word has the place in 106..206. The run is written in 207 and complete in 308. */
+  RULE("Fences", "fence w needs a place for the run", FAR, "memory.queue_depth=1", 310, NONE, "104 105 106 308 309",
+       "icache_miss=104 memory_queue_full=100 wait_memory=101", U(LUI, 1, 1), S(SW, 1, 1, 0), I(LWNT, 0, 1, 64),
+       FENCE(W), HALT);
+  RULE("Fences", "every fence waits for increments, also without a destination", FAR, "", 208, NONE, "104 105 206 207",
+       "icache_miss=104 wait_memory=100", U(LUI, 1, 1), I(AINC, 0, 1, 0), FENCE(R), HALT);
+  RULE("Fences", "but not for a load without one", FAR, "", 108, NONE, "104 105 106 107", "icache_miss=104",
+       U(LUI, 1, 1), I(LWNT, 0, 1, 0), FENCE(RW), HALT);
+  /* The line is there in 209, when the run is written; complete in 310. Missed in 311, there in 415. */
+  RULE("Fences", "fence rw is both", FAR, "", 417, NONE, "104 105 106 310 311 415 416",
+       "icache_miss=104 wait_memory=306", U(LUI, 1, 1), I(LW, 2, 1, 0), S(SW, 1, 1, 0), FENCE(RW), I(LW, 3, 1, 0),
+       R(ADD, 4, 3, 3), HALT);
+  /* TP 0's fence is issued in 108. TP 1's line, missed in 107, is there in 211; missed again in 212, there in 316. */
+  RULE("Fences", "a line on its way serves those who wait for it and passes", FAR, "chip.tps_per_tm=2", 318, NONE,
+       "104 105 106 107 108 109 / 104 105 106 107 211 212 316 317", "icache_miss=208 wait_memory=206",
+       U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), B(BNE, 1, 0, 16), NOP, FENCE(R), HALT, I(LW, 3, 2, 0), R(ADD, 4, 3, 3),
+       I(LW, 5, 2, 4), R(ADD, 6, 5, 5), HALT);
+  /* TP 1 asks for the bank in 109..211. */
+  RULE("Fences", "a load whose line passes is refused until it has passed", FAR, "chip.tps_per_tm=2", 317, NONE,
+       "104 105 106 107 108 109 / 104 105 106 107 108 211 315 316",
+       "icache_miss=208 memory_queue_full=102 wait_memory=103", U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), B(BNE, 1, 0, 16),
+       NOP, FENCE(R), HALT, I(LW, 3, 2, 0), NOP, I(LW, 5, 2, 4), R(ADD, 6, 5, 5), HALT);
+  RULE("Fences", "a load of the fence's cycle comes before it", FAR, "chip.tps_per_tm=2", 213, NONE,
+       "104 105 106 107 108 109 / 104 105 106 107 108 211 212", "icache_miss=208 wait_memory=102",
+       U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), B(BNE, 1, 0, 16), NOP, FENCE(R), HALT, I(LW, 3, 2, 0), I(LW, 5, 2, 4),
+       R(ADD, 6, 5, 5), HALT);
+  /* Missed in 108, there in 212. */
+  RULE("Fences", "a line requested in the fence's cycle passes too", FAR, "chip.tps_per_tm=2", 318, NONE,
+       "104 105 106 107 108 109 / 104 105 106 107 108 212 316 317",
+       "icache_miss=208 memory_queue_full=103 wait_memory=103", U(RDSR, 1, TRAX_SR_TP), U(LUI, 2, 1), B(BNE, 1, 0, 16),
+       NOP, FENCE(R), HALT, NOP, I(LW, 3, 2, 0), I(LW, 5, 2, 4), R(ADD, 6, 5, 5), HALT);
+  /* TM 0's line, missed in 107, is there in 211. TM 1's fence is issued in 110. */
+  RULE("Fences", "other TMs keep their lines", FAR, "chip.tms=2", 215, NONE,
+       "104 105 106 107 211 212 213 214 / 108 109 110 111", "icache_miss=212 wait_memory=103", U(RDSR, 1, TRAX_SR_TM),
+       B(BNE, 1, 0, 28), U(LUI, 2, 1), I(LW, 3, 2, 0), R(ADD, 4, 3, 3), I(LW, 5, 2, 4), R(ADD, 6, 5, 5), HALT, FENCE(R),
+       HALT);
 
   /* --- Second-level cache: the first instruction line is there in 104, and in 124 at the TM --- */
   RULE("Second-level cache", "a miss has its latency besides", FAR, "l2.bytes=4096", 125, NONE, "124",
