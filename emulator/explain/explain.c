@@ -116,7 +116,7 @@ static bool is_wanted(const struct trax_explain_options *options, unsigned kind)
 }
 
 bool trax_explain_wanted(const struct trax_explain_options *options) {
-  bool wanted = options->series != NULL;
+  bool wanted = options->series != NULL || options->check_order;
   for (unsigned i = 0; i < KINDS; i++)
     wanted |= is_wanted(options, i);
   return wanted;
@@ -147,6 +147,11 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
         return TRAX_ERROR;
       explain->reader_count++;
     }
+  if (explain->options.check_order) {
+    if (trax_order_create(explain, &explain->readers[explain->reader_count], error) != TRAX_OK)
+      return TRAX_ERROR;
+    explain->reader_count++;
+  }
   if (explain->options.series && trax_series_create(explain, error) != TRAX_OK)
     return TRAX_ERROR;
   return TRAX_OK;

@@ -25,6 +25,7 @@ struct trax_explain_options {
   const char *items;    /* what each item cost */
   const char *lockstep; /* what the items would take on a SIMD machine */
   const char *series;
+  bool check_order; /* tells standard error of the first load that may return an old value */
 
   uint64_t series_interval; /* cycles; 0: TRAX_SERIES_INTERVAL */
   /* The window of trace, konata and perfetto: cycles begin <= t < end (0: to the run's end), of the TMs and of the TPs

@@ -61,6 +61,7 @@ trax_status trax_konata_create(struct trax_explain *explain, struct trax_reader 
 trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 trax_status trax_items_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
+trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 
 /* --- series.c: a watch, not a reader --- */

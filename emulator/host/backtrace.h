@@ -5,6 +5,12 @@
 #include "core/chip.h"
 #include "unwind.h"
 
+struct trax_host;
+
+/* Rows of symbol and source line for a place in the text, as fault reports have them; nothing where nothing is known.
+ */
+void trax_print_place(const struct trax_host *host, const char *label, uint32_t pc, FILE *out);
+
 /* What a thread's addresses mean. */
 struct trax_thread_memory {
   const struct trax_space *space;

@@ -25,8 +25,7 @@ static void print_line(const struct trax_source_line *line, FILE *out) {
     fprintf(out, ":%d", line->column);
 }
 
-/* Rows of symbol and source line for a place in the text; nothing where nothing is known. */
-static void print_place(const struct trax_host *host, const char *label, uint32_t pc, FILE *out) {
+void trax_print_place(const struct trax_host *host, const char *label, uint32_t pc, FILE *out) {
   if (!host)
     return;
   const struct trax_symbol *symbol = trax_image_symbol_at(host->image, pc);
@@ -114,7 +113,7 @@ static size_t print_return_address(const struct trax_host *host, const struct tr
   frame->pc = fault->registers[RA];
   frame->is_caller = true;
   if (frame->pc >= TRAX_NULL_END + 4)
-    print_place(host, is_fresh ? "called by" : "ra behind", trax_frame_place(frame), out);
+    trax_print_place(host, is_fresh ? "called by" : "ra behind", trax_frame_place(frame), out);
   return is_fresh;
 }
 
@@ -132,7 +131,7 @@ static void print_callers(const trax_machine *machine, const struct trax_fault *
   if (count == 0 && last == TRAX_NO_FRAME_INFO && print_return_address(host, fault, &frame, out))
     count = trax_callers(host->image, &frame, &memory, places, DEPTH, &last);
   for (size_t i = 0; i < count; ++i) {
-    print_place(host, "called by", places[i], out);
+    trax_print_place(host, "called by", places[i], out);
     if (i + 1 == INNERMOST && count > INNERMOST + OUTERMOST + 1) {
       fprintf(out, "  %-*s%zu frames\n", LABEL, "...", count - INNERMOST - OUTERMOST);
       i = count - OUTERMOST - 1;
@@ -149,7 +148,7 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   print_message(machine, fault, out);
   print_access(machine, fault, out);
   print_instruction(fault, out);
-  print_place(host, "in", fault->pc, out);
+  trax_print_place(host, "in", fault->pc, out);
   print_callers(machine, fault, out);
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, "thread", fault->thread, fault->tm, fault->tp,
           fault->cycle);

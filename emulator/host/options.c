@@ -42,6 +42,7 @@ enum option_id {
   OPTION_ENGINE,
   OPTION_SAMPLE,
   OPTION_HOST_THREADS,
+  OPTION_CHECK_ORDER,
   OPTION_POST_MORTEM,
   OPTION_GDB,
   OPTION_GDB_SYMBOLS,
@@ -96,6 +97,8 @@ static const struct {
                        "fast (default), reference (the same, slower), sampled (estimates) or functional (no time)"},
     [OPTION_SAMPLE] = {"sample", "KEY=N,...", "--engine sampled, with period, window, warm-up, hold or seed set"},
     [OPTION_HOST_THREADS] = {"host-threads", "N", "threads of the host for the fast engine; default one for each core"},
+    [OPTION_CHECK_ORDER] = {"check-order", NULL,
+                            "report the first load that may return an old value on such a machine"},
     [OPTION_POST_MORTEM] = {"post-mortem", "FILE", "where every thread was when the run ended, as text"},
     [OPTION_GDB] = {"gdb", "PORT", "wait for GDB on a port of the loopback interface; 0 is any free one"},
     [OPTION_GDB_SYMBOLS] = {"gdb-symbols", "FILE", "write PROGRAM as GDB reads it; end, unless there is --gdb"},
@@ -342,6 +345,9 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     if (parse_number(table[id].name, value, 1, TRAX_MAX_TMS, &number, error))
       return TRAX_ERROR;
     options->host_threads = (unsigned)number;
+    break;
+  case OPTION_CHECK_ORDER:
+    options->explain.check_order = true;
     break;
   case OPTION_POST_MORTEM:
     return set_once(id, &options->post_mortem, value, error);

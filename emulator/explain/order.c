@@ -1,0 +1,235 @@
+/* The first load that may return an old value (docs/emulator.md, "Checking the order").
+
+   The engines' memory is never stale, so that a program's results do not tell what it relies on. A cached load of what
+   a thread of another TM has stored is right if that thread has executed `fence w` since then, and either the loading
+   thread `fence r` since that, or no thread of its TM had loaded the line before. */
+#include "explain/step.h"
+#include "explain/table.h"
+#include "host/backtrace.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+enum { PAGE_SHIFT = 12, PAGE = 1 << PAGE_SHIFT, THREAD_BITS = 12, LABEL = 12 };
+
+_Static_assert(TRAX_MAX_TMS *TRAX_MAX_TPS_PER_TM <= 1 << THREAD_BITS, "threads of a moment");
+
+/* When and by whom something was issued, in the order of issues: cycle << THREAD_BITS | thread. 0 is never. */
+typedef uint64_t moment;
+#define NOT_YET UINT64_MAX
+
+struct thread {
+  moment acquired;  /* its latest `fence r` */
+  moment *released; /* [count]: its `fence w`, the earliest first */
+  size_t count, capacity;
+};
+
+/* The latest store to each byte of a page. */
+struct stores {
+  moment when[PAGE];
+  uint32_t pc[PAGE];
+};
+
+struct order {
+  const trax_machine *machine;
+  uint32_t tps, line_bytes;
+  struct thread *threads; /* [machine->stats.threads] */
+  size_t pages;
+  struct stores **stores; /* [pages] */
+  moment **loaded;        /* [TM * pages + page]: the first load of each of its lines */
+  bool out_of_memory;
+
+  bool found; /* a load, by which thread and of what */
+  struct trax_issue load;
+  uint32_t bytes, address, store_pc;
+  moment store, release, held; /* `fence w` behind the store; the first load of the line by the TM */
+};
+
+static uint32_t thread_of(moment when) {
+  return (uint32_t)(when & ((1 << THREAD_BITS) - 1));
+}
+
+static uint64_t cycle_of(moment when) {
+  return when >> THREAD_BITS;
+}
+
+static moment moment_of(const struct order *order, const struct trax_issue *issue) {
+  return issue->cycle << THREAD_BITS | (issue->tm * order->tps + issue->tp);
+}
+
+/* NULL: out of memory. */
+static void *page_at(struct order *order, void **page, size_t size) {
+  if (!*page && !(*page = calloc(1, size)))
+    order->out_of_memory = true;
+  return *page;
+}
+
+static void note_fence(struct order *order, const struct trax_issue *issue, int32_t kind) {
+  const moment now = moment_of(order, issue);
+  struct thread *thread = &order->threads[thread_of(now)];
+  if (kind & TRAX_FENCE_R)
+    thread->acquired = now;
+  if (!(kind & TRAX_FENCE_W))
+    return;
+  if (trax_grow((void **)&thread->released, thread->count, &thread->capacity, sizeof *thread->released))
+    thread->released[thread->count++] = now;
+  else
+    order->out_of_memory = true;
+}
+
+static void note_store(struct order *order, const struct trax_issue *issue, uint32_t bytes) {
+  struct stores *page = page_at(order, (void **)&order->stores[issue->address >> PAGE_SHIFT], sizeof **order->stores);
+  for (uint32_t i = issue->address % PAGE; page && i < issue->address % PAGE + bytes; i++) {
+    page->when[i] = moment_of(order, issue);
+    page->pc[i] = issue->pc;
+  }
+}
+
+/* The first `fence w` of the thread that has stored, since then. */
+static moment release_of(const struct order *order, moment store) {
+  const struct thread *thread = &order->threads[thread_of(store)];
+  size_t low = 0, high = thread->count;
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (thread->released[middle] > store)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low < thread->count ? thread->released[low] : NOT_YET;
+}
+
+/* Whether a load may miss the store; `held`: the first load of the line by the TM, never if this is it. */
+static bool may_miss(const struct order *order, const struct trax_issue *load, moment store, moment held) {
+  if (!store || thread_of(store) / order->tps == load->tm)
+    return false;
+  const moment release = release_of(order, store);
+  if (release == NOT_YET)
+    return true;
+  return order->threads[thread_of(moment_of(order, load))].acquired < release && held && held < release;
+}
+
+static void check_load(struct order *order, const struct trax_issue *issue, uint32_t bytes) {
+  const size_t number = issue->address >> PAGE_SHIFT, lines = (PAGE + order->line_bytes - 1) / order->line_bytes;
+  moment *page = page_at(order, (void **)&order->loaded[issue->tm * order->pages + number], lines * sizeof *page);
+  if (!page)
+    return;
+  moment *held = &page[issue->address % PAGE / order->line_bytes];
+  const struct stores *stores = order->stores[number];
+  for (uint32_t i = issue->address % PAGE; stores && !order->found && i < issue->address % PAGE + bytes; i++)
+    if (may_miss(order, issue, stores->when[i], *held)) {
+      order->found = true;
+      order->load = *issue;
+      order->bytes = bytes;
+      order->store = stores->when[i];
+      order->store_pc = stores->pc[i];
+      order->release = release_of(order, order->store);
+      order->held = *held;
+    }
+  if (!*held)
+    *held = moment_of(order, issue);
+}
+
+static void take(void *self, const struct trax_step *step) {
+  struct order *order = self;
+  const trax_op_info *op = &trax_op_table[step->inst.op];
+  if (!step->issue || order->found || order->out_of_memory)
+    return;
+  if (step->inst.op == TRAX_OP_FENCE)
+    note_fence(order, step->issue, step->inst.imm);
+  else if (!op->access_bytes || step->issue->address >= TRAX_LOCAL_BASE)
+    return;
+  else if (op->flags & (TRAX_IS_STORE | TRAX_IS_ATOMIC))
+    note_store(order, step->issue, op->access_bytes);
+  else if (!(op->flags & TRAX_IS_NONTEMPORAL))
+    check_load(order, step->issue, op->access_bytes);
+}
+
+/* --- the report --- */
+
+static void print_who(const struct order *order, const char *label, uint32_t thread, uint64_t cycle, FILE *out) {
+  fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, label, thread, thread / order->tps,
+          thread % order->tps, cycle);
+}
+
+static void print_instruction(const struct order *order, const char *label, uint32_t pc, FILE *out) {
+  char text[128];
+  uint32_t word;
+  memcpy(&word, order->machine->space.bytes + pc, sizeof word);
+  trax_disassemble(word, pc, text, sizeof text);
+  for (char *c = text; *c; ++c)
+    if (*c == '\t')
+      *c = ' ';
+  fprintf(out, "  %-*s0x%08x  %08x  %s\n", LABEL, label, pc, word, text);
+  trax_print_place(trax_host_of(order->machine), "in", pc, out);
+}
+
+static void print(const struct order *order, FILE *out) {
+  const struct trax_issue *load = &order->load;
+  const struct trax_host *host = trax_host_of(order->machine);
+  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, load->address) : NULL;
+  const uint32_t reader = load->tm * order->tps + load->tp, writer = thread_of(order->store);
+  fprintf(out, "trax-sim: order: a load may return an old value\n");
+  fprintf(out, "  %-*sload of %u byte%s from 0x%08x", LABEL, "access", order->bytes, order->bytes == 1 ? "" : "s",
+          load->address);
+  if (symbol && load->address == symbol->address)
+    fprintf(out, " (%s)", symbol->name);
+  else if (symbol)
+    fprintf(out, " (%s+0x%x)", symbol->name, load->address - symbol->address);
+  fprintf(out, "\n");
+  print_instruction(order, "at", load->pc, out);
+  print_who(order, "thread", reader, load->cycle, out);
+  print_instruction(order, "stored at", order->store_pc, out);
+  print_who(order, "by thread", writer, cycle_of(order->store), out);
+  if (order->release == NOT_YET)
+    fprintf(out, "  %-*sno `fence w` of thread %u since its store\n", LABEL, "missing", writer);
+  else
+    fprintf(out,
+            "  %-*sa `fence r` of thread %u since thread %u's `fence w` in cycle %" PRIu64
+            "; TM %u may hold the line since cycle %" PRIu64 "\n",
+            LABEL, "missing", reader, writer, cycle_of(order->release), load->tm, cycle_of(order->held));
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  const struct order *order = self;
+  if (order->out_of_memory)
+    return trax_fail(error, "out of memory for the order of accesses");
+  if (!order->found)
+    return TRAX_OK;
+  fflush(stdout);
+  print(order, stderr);
+  return trax_fail(error, "the program relies on more order than the machine promises (--check-order)");
+}
+
+static void destroy(void *self) {
+  struct order *order = self;
+  for (size_t i = 0; order->threads && i < order->machine->stats.threads; i++)
+    free(order->threads[i].released);
+  for (size_t i = 0; order->stores && i < order->pages; i++)
+    free(order->stores[i]);
+  for (size_t i = 0; order->loaded && i < order->pages * order->machine->config.chip.tms; i++)
+    free(order->loaded[i]);
+  free(order->threads);
+  free(order->stores);
+  free(order->loaded);
+  free(order);
+}
+
+trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  struct order *order = calloc(1, sizeof *order);
+  if (!order)
+    return trax_fail(error, "out of memory");
+  const trax_machine *machine = order->machine = explain->machine;
+  order->tps = machine->config.chip.tps_per_tm;
+  order->line_bytes = machine->config.dcache.line_bytes;
+  order->pages = (size_t)(machine->space.size >> PAGE_SHIFT);
+  order->threads = calloc(machine->stats.threads, sizeof *order->threads);
+  order->stores = calloc(order->pages, sizeof *order->stores);
+  order->loaded = calloc(order->pages * machine->config.chip.tms, sizeof *order->loaded);
+  if (!order->threads || !order->stores || !order->loaded) {
+    destroy(order);
+    return trax_fail(error, "out of memory for the order of accesses");
+  }
+  *reader = (struct trax_reader){.self = order, .step = take, .finish = finish, .destroy = destroy};
+  return TRAX_OK;
+}
