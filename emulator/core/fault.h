@@ -15,7 +15,7 @@
   X(UNMAPPED, "unmapped", "access to an address that is neither global nor local memory")                              \
   X(MISALIGNED, "misaligned", "misaligned access")                                                                     \
   X(READ_ONLY, "readonly", "write to read-only memory")                                                                \
-  X(NOT_GLOBAL, "local", "atomic increment of local memory")                                                 \
+  X(NOT_GLOBAL, "local", "atomic increment of local memory")                                                           \
   X(EXECUTE, "fetch", "execution outside the program's text")                                                          \
   X(MISALIGNED_PC, "misaligned-pc", "jump to an address that is not a multiple of 4")                                  \
   X(ILLEGAL, "illegal", "illegal instruction")                                                                         \
