@@ -166,12 +166,14 @@ bool TraxDAGToDAGISel::selectAddrRegImm(SDValue Addr, SDValue &Base, SDValue &Of
   if (CurDAG->isBaseWithConstantOffset(Addr)) {
     int64_t Value = cast<ConstantSDNode>(Addr.getOperand(1))->getSExtValue();
     Base = Addr.getOperand(0);
-    // Fields within a global's alignment share its upper half.
+    // Fields within a global's alignment share its upper half, but none across a multiple of 32 KiB: the lower half is
+    // signed.
+    constexpr uint64_t Shared = 0x8000;
     if (Base.getOpcode() == TraxISD::ADD_LO)
       if (auto *Symbol = dyn_cast<GlobalAddressSDNode>(Base.getOperand(1))) {
         int64_t Inside = Symbol->getOffset() + Value;
         Align Alignment = Symbol->getGlobal()->getPointerAlignment(CurDAG->getDataLayout());
-        if (Symbol->getOffset() == 0 && Inside >= 0 && uint64_t(Inside) < Alignment.value()) {
+        if (Symbol->getOffset() == 0 && Inside >= 0 && uint64_t(Inside) < std::min(Alignment.value(), Shared)) {
           Offset = CurDAG->getTargetGlobalAddress(Symbol->getGlobal(), DL, MVT::i32, Inside, TraxII::MO_LO);
           Base = Base.getOperand(0);
           return true;

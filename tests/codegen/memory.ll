@@ -4,6 +4,7 @@
 @global = global i32 0
 @record = global [3 x i32] zeroinitializer, align 4
 @aligned = global [4 x i32] zeroinitializer, align 16
+@page = global [131072 x i8] zeroinitializer, align 65536
 @table = global [10 x i32] zeroinitializer, align 4
 @local = thread_local global [4 x i32] zeroinitializer
 @elsewhere = external thread_local global i32
@@ -69,6 +70,26 @@ define i32 @two_fields_within_alignment() {
   %a = load i32, ptr @aligned
   %b = load i32, ptr getelementptr (i8, ptr @aligned, i32 12)
   %r = add i32 %a, %b
+  ret i32 %r
+}
+; However large the alignment, %hi is shared only up to the next odd multiple of 32 KiB, where %lo changes its sign.
+; CHECK-LABEL: two_fields_far_apart:
+; CHECK: lui [[HI:r[0-9]+]], %hi(page)
+; CHECK-DAG: lbu {{r[0-9]+}}, %lo(page)([[HI]])
+; CHECK-DAG: lbu {{r[0-9]+}}, %lo(page+32767)([[HI]])
+; CHECK-NOT: %lo(page+{{32768|36864|65535}})
+; CHECK: ret
+define i32 @two_fields_far_apart() {
+  %a = load i8, ptr @page
+  %b = load i8, ptr getelementptr (i8, ptr @page, i32 32767)
+  %c = load i8, ptr getelementptr (i8, ptr @page, i32 32768)
+  %d = load i8, ptr getelementptr (i8, ptr @page, i32 36864)
+  %e = load i8, ptr getelementptr (i8, ptr @page, i32 65535)
+  %ab = xor i8 %a, %b
+  %cd = xor i8 %c, %d
+  %abcd = xor i8 %ab, %cd
+  %abcde = xor i8 %abcd, %e
+  %r = zext i8 %abcde to i32
   ret i32 %r
 }
 ; CHECK-LABEL: element:
