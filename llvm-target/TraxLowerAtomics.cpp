@@ -10,8 +10,11 @@
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
+#include "TraxSubtarget.h"
+#include "TraxTargetMachine.h"
 #include "llvm/ADT/STLExtras.h"
 #include "llvm/Analysis/ValueTracking.h"
+#include "llvm/CodeGen/TargetPassConfig.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
@@ -64,7 +67,10 @@ public:
 
   StringRef getPassName() const override { return "TRaX atomic operations to calls"; }
   bool runOnFunction(Function &F) override;
-  void getAnalysisUsage(AnalysisUsage &AU) const override { AU.setPreservesCFG(); }
+  void getAnalysisUsage(AnalysisUsage &AU) const override {
+    AU.addRequired<TargetPassConfig>();
+    AU.setPreservesCFG();
+  }
 
 private:
   static void lower(StoreInst &Store);
@@ -119,10 +125,10 @@ static bool isOnlyCounted(const Value &Pointer) {
 }
 
 /// Whether an increment of or a store to this address needs no lock.
-static bool isLockFree(const Value *Address, const Function &F) {
+static bool isLockFree(const Value *Address, const TraxSubtarget &Subtarget) {
   const Value *Object = getUnderlyingObject(Address);
   if (isa<AllocaInst>(Object)) // in local memory no other thread reaches it
-    return !F.getFnAttribute("target-features").getValueAsString().contains("+global-stack") || isOnlyCounted(*Object);
+    return !Subtarget.hasGlobalStack() || isOnlyCounted(*Object);
   const auto *Global = dyn_cast<GlobalVariable>(Object);
   return Global && (Global->isThreadLocal() || (Global->hasLocalLinkage() && isOnlyCounted(*Global)));
 }
@@ -165,15 +171,16 @@ void TraxLowerAtomics::lower(AtomicCmpXchgInst &CmpXchg) {
 }
 
 bool TraxLowerAtomics::runOnFunction(Function &F) {
+  const auto &Subtarget = getAnalysis<TargetPassConfig>().getTM<TraxTargetMachine>().getSubtarget<TraxSubtarget>(F);
   bool Changed = false;
   for (Instruction &I : make_early_inc_range(instructions(F))) {
     if (auto *Store = dyn_cast<StoreInst>(&I)) {
-      if (!Store->isAtomic() || isLockFree(Store->getPointerOperand(), F))
+      if (!Store->isAtomic() || isLockFree(Store->getPointerOperand(), Subtarget))
         continue;
       lower(*Store);
       Changed = true;
     } else if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
-      if (isTraxAtomicIncrement(*RMW) && isLockFree(RMW->getPointerOperand(), F))
+      if (isTraxAtomicIncrement(*RMW) && isLockFree(RMW->getPointerOperand(), Subtarget))
         continue;
       lower(*RMW);
       Changed = true;

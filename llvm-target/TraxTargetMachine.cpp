@@ -33,7 +33,7 @@ TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRe
     // Programs are linked statically at fixed addresses: position independence is accepted and without effect.
     : LLVMTargetMachine(T, DataLayoutString, TT, CPU, FS, Options, Reloc::Static,
                         getEffectiveCodeModel(CM, CodeModel::Small), OL),
-      TLOF(std::make_unique<TargetLoweringObjectFileELF>()), Subtarget(TT, CPU.str(), FS.str(), *this) {
+      TLOF(std::make_unique<TargetLoweringObjectFileELF>()) {
   initAsmInfo();
   setCFIFixup(true);
   setMachineOutliner(true);
@@ -41,6 +41,19 @@ TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRe
 }
 
 TraxTargetMachine::~TraxTargetMachine() = default;
+
+// A function may say where its stack is; those that do not follow the command line.
+const TraxSubtarget *TraxTargetMachine::getSubtargetImpl(const Function &F) const {
+  auto OwnOr = [&](StringRef Name, const std::string &Default) {
+    const Attribute Own = F.getFnAttribute(Name);
+    return Own.isValid() ? Own.getValueAsString().str() : Default;
+  };
+  const std::string CPU = OwnOr("target-cpu", TargetCPU), FS = OwnOr("target-features", TargetFS);
+  std::unique_ptr<TraxSubtarget> &Found = Subtargets[CPU + "/" + FS];
+  if (!Found)
+    Found = std::make_unique<TraxSubtarget>(TargetTriple, CPU, FS, *this);
+  return Found.get();
+}
 
 TargetTransformInfo TraxTargetMachine::getTargetTransformInfo(const Function &F) const {
   return TargetTransformInfo(TraxTTIImpl(this, F));

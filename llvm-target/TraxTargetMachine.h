@@ -3,6 +3,7 @@
 #define TRAX_TRAXTARGETMACHINE_H
 
 #include "TraxSubtarget.h"
+#include "llvm/ADT/StringMap.h"
 #include "llvm/Target/TargetLoweringObjectFile.h"
 #include "llvm/Target/TargetMachine.h"
 #include <optional>
@@ -11,14 +12,16 @@ namespace llvm {
 
 class TraxTargetMachine : public LLVMTargetMachine {
   std::unique_ptr<TargetLoweringObjectFile> TLOF;
-  TraxSubtarget Subtarget;
+  mutable StringMap<std::unique_ptr<TraxSubtarget>> Subtargets; // by processor and features
 
 public:
   TraxTargetMachine(const Target &T, const Triple &TT, StringRef CPU, StringRef FS, const TargetOptions &Options,
                     std::optional<Reloc::Model> RM, std::optional<CodeModel::Model> CM, CodeGenOptLevel OL, bool JIT);
   ~TraxTargetMachine() override;
 
-  const TraxSubtarget *getSubtargetImpl(const Function &) const override { return &Subtarget; }
+  const TraxSubtarget *getSubtargetImpl(const Function &F) const override;
+  // Without a function there is no subtarget.
+  const TraxSubtarget *getSubtargetImpl() const = delete;
   TargetLoweringObjectFile *getObjFileLowering() const override { return TLOF.get(); }
   TargetPassConfig *createPassConfig(PassManagerBase &PM) override;
   TargetTransformInfo getTargetTransformInfo(const Function &F) const override;
