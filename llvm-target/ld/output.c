@@ -29,23 +29,36 @@ static bool is_wanted(const ld_context *ctx, const ld_symbol *symbol) {
   return !ctx->options.strip_debug || symbol->type != STT_FILE;
 }
 
+/* In an executable, hidden and internal symbols are local ones (the gABI, "Symbol Table"). */
+static bool becomes_local(const ld_symbol *symbol) {
+  return symbol->visibility == STV_HIDDEN || symbol->visibility == STV_INTERNAL;
+}
+
 static void add_symbol(ld_context *ctx, ld_symbol_table *table, const ld_symbol *symbol) {
   /* Thread-local objects have plain addresses here. */
   uint8_t type = symbol->type == STT_TLS ? STT_OBJECT : symbol->type;
+  uint8_t binding = becomes_local(symbol) ? STB_LOCAL : symbol->binding;
   uint32_t header = symbol->kind == LD_DEFINED ? symbol->section->output->header_index : 0;
   Elf32_Sym entry = {.st_name = ld_add_string(ctx, &table->names, symbol->name),
                      .st_value = ld_symbol_address(ctx, symbol),
                      .st_size = symbol->kind == LD_DEFSYM ? 0 : symbol->size,
-                     .st_info = ELF32_ST_INFO(symbol->binding, type),
+                     .st_info = ELF32_ST_INFO(binding, type),
                      .st_other = symbol->visibility,
                      .st_shndx = header ? (Elf32_Half)header : (Elf32_Half)SHN_ABS};
   ld_push(ctx, &table->entries, entry);
+}
+
+static void add_globals(ld_context *ctx, ld_symbol_table *table, bool local) {
+  for (size_t i = 0; i < ctx->symbols.count; i++)
+    if (is_wanted(ctx, ctx->symbols.items[i]) && becomes_local(ctx->symbols.items[i]) == local)
+      add_symbol(ctx, table, ctx->symbols.items[i]);
 }
 
 static void collect_symbols(ld_context *ctx, ld_symbol_table *table) {
   Elf32_Sym null = {0};
   ld_add_string(ctx, &table->names, "");
   ld_push(ctx, &table->entries, null);
+  add_globals(ctx, table, true); /* first: behind the symbol of a file they would be that file's */
   for (size_t o = 0; o < ctx->objects.count; o++) {
     const ld_object *object = ctx->objects.items[o];
     for (size_t i = 1; i < object->symbol_count && i < object->first_global; i++)
@@ -53,9 +66,7 @@ static void collect_symbols(ld_context *ctx, ld_symbol_table *table) {
         add_symbol(ctx, table, object->symbols[i]);
   }
   table->local_count = table->entries.count;
-  for (size_t i = 0; i < ctx->symbols.count; i++)
-    if (is_wanted(ctx, ctx->symbols.items[i]))
-      add_symbol(ctx, table, ctx->symbols.items[i]);
+  add_globals(ctx, table, false);
 }
 
 /* --- headers --- */

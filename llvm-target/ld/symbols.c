@@ -96,8 +96,16 @@ static const char *definition_place(ld_context *ctx, const ld_symbol *symbol) {
   return ld_format(ctx, "%s:(absolute)", symbol->object->name);
 }
 
+/* The most constraining of the visibilities wins: internal, hidden, protected, default (the gABI, "Symbol Table"). But
+   for default, which is 0, their numbers are in that order. */
+static void constrain(ld_symbol *symbol, uint8_t visibility) {
+  if (symbol->visibility == STV_DEFAULT || (visibility != STV_DEFAULT && visibility < symbol->visibility))
+    symbol->visibility = visibility;
+}
+
 /* fresh is a definition; name and reference counts stay those of symbol. */
 static void define(ld_context *ctx, ld_symbol *symbol, ld_symbol fresh) {
+  constrain(symbol, fresh.visibility); /* even if another definition counts */
   if (symbol->kind == LD_DEFSYM)
     return; /* the command line has the last word */
   int old_strength = strength(symbol), new_strength = strength(&fresh);
@@ -119,8 +127,7 @@ static void define(ld_context *ctx, ld_symbol *symbol, ld_symbol fresh) {
     return;
   fresh.name = symbol->name;
   fresh.referenced = symbol->referenced;
-  if (symbol->visibility > fresh.visibility)
-    fresh.visibility = symbol->visibility;
+  fresh.visibility = symbol->visibility;
   *symbol = fresh;
 }
 
@@ -200,8 +207,7 @@ static bool add_global(ld_context *ctx, ld_object *object, size_t index) {
   const char *name = (const char *)ld_map_find(&ctx->wrapped, fresh.name, strlen(fresh.name));
   ld_symbol *symbol = object->symbols[index] = intern(ctx, name ? name : fresh.name);
   refer(ctx, symbol, object, weak);
-  if (fresh.visibility > symbol->visibility)
-    symbol->visibility = fresh.visibility;
+  constrain(symbol, fresh.visibility);
   return true;
 }
 
@@ -299,23 +305,27 @@ static bool section_exists(const ld_context *ctx, const char *name) {
   return false;
 }
 
+static void make_boundary(ld_symbol *symbol, uint32_t value) {
+  *symbol = (ld_symbol){.name = symbol->name,
+                        .kind = LD_BOUNDARY,
+                        .binding = STB_GLOBAL,
+                        .visibility = symbol->visibility,
+                        .referenced = true,
+                        .value = value};
+}
+
 static void define_boundaries(ld_context *ctx) {
   for (size_t i = 0; i < sizeof boundaries / sizeof boundaries[0]; i++) {
     ld_symbol *symbol = ld_symbol_find(ctx, boundaries[i].name);
     if (symbol && symbol->kind == LD_UNDEFINED) {
-      *symbol = (ld_symbol){.name = symbol->name, .kind = LD_BOUNDARY, .binding = STB_GLOBAL, .referenced = true};
-      symbol->value = (uint32_t)boundaries[i].offset;
+      make_boundary(symbol, (uint32_t)boundaries[i].offset);
     }
   }
   for (size_t i = 0; i < ctx->symbols.count; i++) {
     ld_symbol *symbol = ctx->symbols.items[i];
     const char *section = symbol->kind == LD_UNDEFINED ? ld_boundary_section(symbol->name) : NULL;
     if (section && section_exists(ctx, section))
-      *symbol = (ld_symbol){.name = symbol->name,
-                            .kind = LD_BOUNDARY,
-                            .binding = STB_GLOBAL,
-                            .referenced = true,
-                            .value = LD_BOUNDARY_SECTION};
+      make_boundary(symbol, LD_BOUNDARY_SECTION);
   }
 }
 
