@@ -7,6 +7,7 @@
 #include "TraxTargetMachine.h"
 #include "llvm/CodeGen/AsmPrinter.h"
 #include "llvm/CodeGen/MachineInstr.h"
+#include "llvm/IR/Module.h"
 #include "llvm/MC/MCContext.h"
 #include "llvm/MC/MCExpr.h"
 #include "llvm/MC/MCInst.h"
@@ -27,6 +28,7 @@ public:
   StringRef getPassName() const override { return "TRaX assembly printer"; }
 
   void emitInstruction(const MachineInstr *MI) override;
+  void emitEndOfAsmFile(Module &M) override;
   bool PrintAsmOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) override;
   bool PrintAsmMemoryOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) override;
 
@@ -81,6 +83,13 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
     lowerTraxInstruction(*MI, Inst, *this);
   }
   EmitToStreamer(*OutStreamer, Inst);
+}
+
+/// Where main looks at argv the linker takes the array from the library, for crt0 (docs/abi.md, "Program start").
+void TraxAsmPrinter::emitEndOfAsmFile(Module &M) {
+  const Function *Main = M.getFunction("main");
+  if (Main && !Main->isDeclaration() && Main->arg_size() > 1 && !Main->getArg(1)->use_empty())
+    OutStreamer->emitSymbolAttribute(OutContext.getOrCreateSymbol("__trax_argv"), MCSA_Global);
 }
 
 /// An operand of inline assembly. %z prints r0 for the constant 0, %H the register of a double word's upper half.

@@ -5,7 +5,7 @@
 // What the program does not have is not there to be called: a call of an undefined weak function goes on behind itself.
 #include <trax/abi.h>
 
-  .weak __trax_start, __trax_end_thread, __trax_end_program
+  .weak __trax_start, __trax_argv, __trax_end_thread, __trax_end_program
 
   .cfi_sections .debug_frame
   .section .text._start, "ax", @progbits
@@ -26,7 +26,7 @@ _start:
 #endif
   jal r1, __trax_start
   addi r4, r0, 0 // argc
-  addi r5, r0, 0 // argv
+  addi r5, r0, %abs(__trax_argv)
   jal r1, main
   addi r20, r4, 0
   jal r1, __trax_end_thread
