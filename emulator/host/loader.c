@@ -71,15 +71,16 @@ static void place_stacks(struct trax_machine *machine) {
     trax_space_guard(&machine->space, (uint32_t)(below - stride), TRAX_STACK_GUARD);
 }
 
-/* These words are optional. */
-static trax_status place_heap(struct trax_machine *machine, trax_error *error) {
+/* What a program may want to know of its machine; each word is optional. */
+static trax_status fill_words(struct trax_machine *machine, trax_error *error) {
   const struct trax_host *host = trax_host_of(machine);
   const struct {
     const char *name;
     uint64_t value;
   } words[] = {{"__trax_heap", host->free_address},
                {"__trax_heap_end", host->memory_end},
-               {"__trax_stack_top", machine->space.size}};
+               {"__trax_stack_top", machine->space.size},
+               {"__trax_clock_mhz", machine->config.chip.clock_mhz}};
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i) {
     if (!trax_image_symbol(host->image, words[i].name))
       continue;
@@ -153,7 +154,7 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   if (trax_machine_set_entry(machine, trax_image_entry(image), &reason) != TRAX_OK)
     return trax_fail(error, "%s: %s", path, reason.message);
   place_stacks(machine);
-  return place_heap(machine, error);
+  return fill_words(machine, error);
 }
 
 /* --- buffers --- */
@@ -207,7 +208,7 @@ static trax_status finish_bind(struct trax_machine *machine, const char *symbol,
     machine->space.input = address;
     machine->space.input_bytes = (uint32_t)host->free_address - address;
   }
-  return place_heap(machine, error);
+  return fill_words(machine, error);
 }
 
 trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const void *bytes, uint32_t size,

@@ -1,5 +1,5 @@
-/* C's time, as far as the machine knows it: clock() counts its cycles, at the paper's 1 GHz. There is no time of day.
- */
+/* C's time, as far as the machine knows it: clock() gives the nanoseconds that its cycles so far take at the chip's
+   clock, or -1 if the loader did not say what that is. There is no time of day. */
 #ifndef TRAX_TIME_H
 #define TRAX_TIME_H
 

@@ -15,7 +15,7 @@ struct symbols {
   struct {
     bool found;
     uint32_t value;
-  } begin_signature, end_signature, stack_size, heap, heap_end, stack_top;
+  } begin_signature, end_signature, stack_size, heap, heap_end, stack_top, clock_mhz;
 };
 
 static bool read_symbols(Elf *elf, const char *path, struct symbols *symbols, struct model_error *error) {
@@ -43,6 +43,7 @@ static bool read_symbols(Elf *elf, const char *path, struct symbols *symbols, st
       NAMED("__trax_heap", heap)
       NAMED("__trax_heap_end", heap_end)
       NAMED("__trax_stack_top", stack_top)
+      NAMED("__trax_clock_mhz", clock_mhz)
 #undef NAMED
     }
   }
@@ -88,7 +89,8 @@ static bool store_word(struct model_machine *machine, const char *path, const ch
   return true;
 }
 
-/* Stacks in global memory, and the words that say where heap and stacks are (docs/abi.md, "Buffers"). */
+/* Stacks in global memory, and the words that say where heap and stacks are, and what the clock is (docs/abi.md,
+ * "Buffers"). */
 static bool place_stacks(struct model_machine *machine, const char *path, const struct symbols *symbols, uint64_t end,
                          struct model_error *error) {
   const uint64_t heap = (end + 63) / 64 * 64;
@@ -97,11 +99,13 @@ static bool place_stacks(struct model_machine *machine, const char *path, const 
   if (stack_bytes % 64 || stacks > machine->size || machine->size - stacks < heap)
     return model_fail(error, "%s: stacks of %u bytes for %u threads do not fit into memory", path, stack_bytes,
                       machine->thread_count);
-  const bool good = store_word(machine, path, "__trax_heap", symbols->heap.found, symbols->heap.value, heap, error) &&
-                    store_word(machine, path, "__trax_heap_end", symbols->heap_end.found, symbols->heap_end.value,
-                               machine->size - stacks, error) &&
-                    store_word(machine, path, "__trax_stack_top", symbols->stack_top.found, symbols->stack_top.value,
-                               machine->size, error);
+  const bool good =
+      store_word(machine, path, "__trax_heap", symbols->heap.found, symbols->heap.value, heap, error) &&
+      store_word(machine, path, "__trax_heap_end", symbols->heap_end.found, symbols->heap_end.value,
+                 machine->size - stacks, error) &&
+      store_word(machine, path, "__trax_stack_top", symbols->stack_top.found, symbols->stack_top.value, machine->size,
+                 error) &&
+      store_word(machine, path, "__trax_clock_mhz", symbols->clock_mhz.found, symbols->clock_mhz.value, 500, error);
   machine->stack_bytes = stack_bytes;
   return good;
 }
