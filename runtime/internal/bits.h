@@ -86,6 +86,14 @@ INLINE uint64_t shift_right_sticky64(uint64_t v, unsigned n) {
 #define DOUBLE_INFINITY 0x7FF0000000000000u
 #define DOUBLE_NAN 0x7FF8000000000000u
 
+/* x, but the canonical NaN for any NaN: as arithmetic would give it. */
+INLINE float canonical_float(float x) {
+  return x == x ? x : bits_float(FLOAT_NAN);
+}
+INLINE double canonical_double(double x) {
+  return (double_bits(x) & ~DOUBLE_SIGN) > DOUBLE_INFINITY ? bits_double(DOUBLE_NAN) : x;
+}
+
 /* The number significand * 2^(exponent - 127 - 31), rounded to nearest even, with the given sign bit; the significand
    has its top bit set. Underflow is gradual, overflow gives infinity. */
 float trax_round_float(uint32_t sign, int exponent, uint32_t significand);

@@ -40,6 +40,8 @@ float fdimf(float x, float y) {
 
 float modff(float x, float *integer) {
   *integer = truncf(x);
+  if (x != x)
+    return *integer;
   return copysignf(fabsf(x) == HUGE_VALF ? 0 : x - *integer, x);
 }
 
@@ -52,7 +54,7 @@ float frexpf(float x, int *exponent) {
   uint32_t magnitude = float_bits(x) & MAGNITUDE;
   *exponent = 0;
   if (magnitude - 1 >= FLOAT_INFINITY - 1)
-    return x;
+    return canonical_float(x);
   *exponent = exponent_of(magnitude) + 1;
   return ldexpf(x, -*exponent);
 }

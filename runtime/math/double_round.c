@@ -16,7 +16,7 @@ static double rounded(double x, enum direction direction) {
   uint64_t bits = double_bits(x), sign_bit = bits & DOUBLE_SIGN;
   int exponent = exponent_of(bits);
   if (exponent >= 52 || magnitude_of(bits) == 0)
-    return x;
+    return canonical_double(x);
   if (exponent < -1) { /* below a half */
     int up = (direction == DOWN && sign_bit) || (direction == UP && !sign_bit);
     return bits_double(sign_bit | (up ? 0x3FF0000000000000u : 0));
@@ -108,6 +108,8 @@ double fmax(double x, double y) {
 double modf(double x, double *integer) {
   *integer = trunc(x);
   uint64_t bits = double_bits(x);
+  if (magnitude_of(bits) > DOUBLE_INFINITY)
+    return *integer;
   return copysign(magnitude_of(bits) == DOUBLE_INFINITY ? 0 : x - *integer, x);
 }
 
@@ -115,7 +117,7 @@ double frexp(double x, int *exponent) {
   uint64_t bits = double_bits(x), m = magnitude_of(bits);
   *exponent = 0;
   if (m == 0 || m >= DOUBLE_INFINITY)
-    return x;
+    return canonical_double(x);
   int extra = 0;
   if (m < 0x0010000000000000u) { /* subnormal: its leading bit to the hidden one's place */
     extra = leading_zeros64(m) - 11;
@@ -128,7 +130,7 @@ double frexp(double x, int *exponent) {
 double ldexp(double x, int exponent) {
   uint64_t bits = double_bits(x), m = magnitude_of(bits);
   if (m == 0 || m >= DOUBLE_INFINITY)
-    return x;
+    return canonical_double(x);
   int old;
   double fraction = frexp(x, &old);
   exponent = exponent > 5000 ? 5000 : exponent < -5000 ? -5000 : exponent;

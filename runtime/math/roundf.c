@@ -15,33 +15,33 @@ INLINE int is_integer_already(float x) {
 } /* NaNs too */
 
 float truncf(float x) {
-  return is_integer_already(x) ? x : signed_like((float)(int)x, x);
+  return is_integer_already(x) ? canonical_float(x) : signed_like((float)(int)x, x);
 }
 
 float floorf(float x) {
   if (is_integer_already(x))
-    return x;
+    return canonical_float(x);
   float t = (float)(int)x;
   return signed_like(t - (float)(t > x), x);
 }
 
 float ceilf(float x) {
   if (is_integer_already(x))
-    return x;
+    return canonical_float(x);
   float t = (float)(int)x;
   return signed_like(t + (float)(t < x), x);
 }
 
 float roundf(float x) {
   if (is_integer_already(x))
-    return x;
+    return canonical_float(x);
   float a = magnitude_of(x), t = (float)(int)a;
   return signed_like(t + (float)(a - t >= 0.5f), x);
 }
 
 /* Adding 2^23 rounds as the machine rounds, to nearest even. */
 float rintf(float x) {
-  return is_integer_already(x) ? x : signed_like((magnitude_of(x) + 0x1p23f) - 0x1p23f, x);
+  return is_integer_already(x) ? canonical_float(x) : signed_like((magnitude_of(x) + 0x1p23f) - 0x1p23f, x);
 }
 
 float nearbyintf(float x) {
