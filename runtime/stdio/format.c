@@ -4,7 +4,14 @@
 
 #include "../internal/machine.h"
 
+#include <errno.h>
+#include <stdint.h>
 #include <string.h>
+
+/* Programs that do not look at it do not have it. */
+extern __thread int errno __attribute__((weak));
+
+typedef __WINT_TYPE__ wint_t;
 
 /* Inlining would put every conversion's variables into one frame. */
 #define SEPARATE __attribute__((noinline))
@@ -49,27 +56,67 @@ SEPARATE static void format_string(struct sink *out, struct conversion *how, con
   trax_put_suffix(out, how, start);
 }
 
-/* The digits of x, written to end at end; returns where they begin. No digits for 0. */
-static char *write_digits(char *end, unsigned long long x, const struct conversion *how) {
-  if (how->letter == 'u') {
-    for (; x >> 32; x /= 10)
-      *--end = (char)('0' + (int)(x % 10));
-    for (unsigned low = (unsigned)x; low; low /= 10)
-      *--end = (char)('0' + low % 10);
-    return end;
+/* The bytes of c in UTF-8; returns how many, 0 if c is not a character. */
+static int encode(char *bytes, wchar_t c) {
+  uint32_t code = (uint32_t)c;
+  if (code < 0x80) {
+    bytes[0] = (char)code;
+    return 1;
   }
-  int shift = how->letter == 'o' ? 3 : 4;
-  for (; x; x >>= shift)
-    *--end = (how->is_upper ? "0123456789ABCDEF" : "0123456789abcdef")[(unsigned)x & ((1u << shift) - 1)];
-  return end;
+  if (code > 0x10FFFF || code - 0xD800 < 0x800)
+    return 0;
+  int size = code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+  for (int i = size - 1; i > 0; i--, code >>= 6)
+    bytes[i] = (char)(0x80 | (code & 0x3F));
+  bytes[0] = (char)(0xF00 >> size | code);
+  return size;
 }
 
-/* how->letter is u, o or x. */
+/* One character, or those up to a null character; of these no more than whole ones within the precision. Returns 0,
+   and prints nothing, if one cannot be encoded. */
+SEPARATE static int format_wide(struct sink *out, struct conversion *how, const wchar_t *s, int is_string) {
+  char bytes[4];
+  int length = 0, size = 0, limit = is_string && how->precision >= 0 ? how->precision : __INT_MAX__;
+  const wchar_t *end = s;
+  while (length < limit && (*end || !is_string)) {
+    if ((size = encode(bytes, *end)) == 0)
+      return 0;
+    if (size > limit - length)
+      break;
+    length += size;
+    end++;
+    if (!is_string)
+      break;
+  }
+  int start = out->count;
+  how->flags &= (unsigned char)~FLAG_ZERO;
+  trax_put_prefix(out, how, "", length);
+  for (; s != end; s++) {
+    size = encode(bytes, *s);
+    for (int i = 0; i < size; i++)
+      trax_put(out, bytes[i]);
+  }
+  trax_put_suffix(out, how, start);
+  return 1;
+}
+
+/* how->letter is u, o, x or b. */
 SEPARATE static void format_integer(struct sink *out, struct conversion *how, const char *prefix,
                                     unsigned long long x) {
-  char digits[22]; /* 64 bits in octal */
-  char *p = write_digits(digits + sizeof digits, x, how);
-  int count = (int)(digits + sizeof digits - p);
+  char digits[20]; /* of decimal numbers */
+  char *p = digits + sizeof digits;
+  int shift = how->letter == 'x' ? 4 : how->letter == 'o' ? 3 : how->letter == 'b';
+  int count = 0; /* of digits; none for 0 */
+  if (shift) {
+    for (unsigned long long rest = x; rest; rest >>= shift)
+      count++;
+  } else {
+    for (; x >> 32; x /= 10)
+      *--p = (char)('0' + (int)(x % 10));
+    for (unsigned low = (unsigned)x; low; low /= 10)
+      *--p = (char)('0' + low % 10);
+    count = (int)(digits + sizeof digits - p);
+  }
   int precision = how->precision;
   if (precision >= 0)
     how->flags &= (unsigned char)~FLAG_ZERO;
@@ -82,8 +129,10 @@ SEPARATE static void format_integer(struct sink *out, struct conversion *how, co
   int start = out->count;
   trax_put_prefix(out, how, prefix, precision);
   trax_put_repeated(out, '0', precision - count);
-  for (; count; count--)
-    trax_put(out, *p++);
+  while (count--)
+    trax_put(out, shift ? (how->is_upper ? "0123456789ABCDEF"
+                                         : "0123456789abcdef")[(unsigned)(x >> count * shift) & ((1u << shift) - 1)]
+                        : *p++);
   trax_put_suffix(out, how, start);
 }
 
@@ -97,21 +146,21 @@ static const char *parse_length(const char *f, struct conversion *how) {
     how->length = f[1] == 'l' ? LENGTH_LONG_LONG : LENGTH_LONG;
     return f + 1 + (f[1] == 'l');
   case 'j':
+  case 'q':
+  case 'L': /* long double is double */
     how->length = LENGTH_LONG_LONG;
     return f + 1;
   case 'z':
   case 't':
-    how->length = LENGTH_LONG;
+    how->length = sizeof(size_t) == sizeof(int) ? LENGTH_INT : LENGTH_LONG;
     return f + 1;
-  case 'L':
-    return f + 1; /* long double is double */
   default:
     return f;
   }
 }
 
 static const char *parse_flags(const char *f, struct conversion *how) {
-  static const char flags[] = "-+ #0";
+  static const char flags[] = "-+ #0'"; /* in the order of FLAG_LEFT and so on */
   const char *flag;
   how->flags = 0;
   while (*f && (flag = strchr(flags, *f))) {
@@ -157,8 +206,12 @@ SEPARATE static const char *parse_conversion(const char *f, struct conversion *h
     }
   }
   f = parse_length(f, how);
-  how->is_upper = (unsigned)(*f - 'A') < 26;
+  how->is_upper = *f && strchr("XBAEFG", *f);
   how->letter = (char)(*f | (how->is_upper ? 32 : 0));
+  if (*f == 'C' || *f == 'S') {
+    how->length = LENGTH_LONG;
+    how->letter = (char)(*f | 32);
+  }
   return f;
 }
 
@@ -192,8 +245,8 @@ SEPARATE static void format_unsigned(struct sink *out, struct conversion *how, s
   else if (how->length == LENGTH_CHAR)
     value = (unsigned char)value;
   const char *prefix = "";
-  if (how->letter == 'x' && how->flags & FLAG_ALT && value)
-    prefix = how->is_upper ? "0X" : "0x";
+  if (how->flags & FLAG_ALT && value)
+    prefix = how->letter == 'x' ? how->is_upper ? "0X" : "0x" : how->letter == 'b' ? how->is_upper ? "0B" : "0b" : "";
   format_integer(out, how, prefix, value);
 }
 
@@ -205,15 +258,49 @@ SEPARATE static void format_character(struct sink *out, struct conversion *how, 
   trax_put_suffix(out, how, start);
 }
 
+SEPARATE static void store_count(int count, const struct conversion *how, void *to) {
+  switch (how->length) {
+  case LENGTH_CHAR:
+    *(signed char *)to = (signed char)count;
+    break;
+  case LENGTH_SHORT:
+    *(short *)to = (short)count;
+    break;
+  case LENGTH_LONG:
+    *(long *)to = count;
+    break;
+  case LENGTH_LONG_LONG:
+    *(long long *)to = count;
+    break;
+  default:
+    *(int *)to = count;
+  }
+}
+
+/* What is behind an unknown conversion's argument cannot be found. The message is in global memory, where the host
+   reads it; if two threads write it at once, one of them is heard. */
+__attribute__((noreturn)) SEPARATE static void refuse(const char *why, const char *conversion, const char *letter) {
+  static char message[64];
+  char *to = message;
+  while (*why)
+    *to++ = *why++;
+  while (to < message + sizeof message - 1 && conversion <= letter && *conversion)
+    *to++ = *conversion++;
+  *to = 0;
+  machine_abort(message);
+}
+
 int trax_format(struct sink *out, const char *format, va_list list, double_formatter *format_double) {
   struct conversion how;
   struct arguments arguments;
+  int is_encoded = 1;
   va_copy(arguments.list, list);
-  for (const char *f = format; *f; f++) {
+  for (const char *f = format; *f && is_encoded; f++) {
     if (*f != '%') {
       trax_put(out, *f);
       continue;
     }
+    const char *start = f;
     f = parse_conversion(f + 1, &how, &arguments);
     switch (how.letter) {
     case 'd':
@@ -223,6 +310,7 @@ int trax_format(struct sink *out, const char *format, va_list list, double_forma
     case 'u':
     case 'o':
     case 'x':
+    case 'b':
       format_unsigned(out, &how, &arguments);
       break;
     case 'p':
@@ -230,33 +318,43 @@ int trax_format(struct sink *out, const char *format, va_list list, double_forma
       format_integer(out, &how, "0x", (unsigned long)va_arg(arguments.list, void *));
       break;
     case 'c':
-      format_character(out, &how, (char)va_arg(arguments.list, int));
+      if (how.length == LENGTH_LONG) {
+        const wchar_t c = (wchar_t)va_arg(arguments.list, wint_t);
+        is_encoded = format_wide(out, &how, &c, 0);
+      } else {
+        format_character(out, &how, (char)va_arg(arguments.list, int));
+      }
       break;
-    case 's':
-      format_string(out, &how, va_arg(arguments.list, const char *));
+    case 's': {
+      const void *s = va_arg(arguments.list, const void *);
+      if (how.length == LENGTH_LONG && s)
+        is_encoded = format_wide(out, &how, s, 1);
+      else
+        format_string(out, &how, s);
       break;
+    }
     case 'a':
     case 'e':
     case 'f':
-    case 'g': {
-      double value = va_arg(arguments.list, double);
-      if (format_double)
-        format_double(out, &how, value);
-      else
-        trax_put(out, '?');
+    case 'g':
+      if (!format_double)
+        refuse("iprintf formats no doubles: ", start, f);
+      format_double(out, &how, va_arg(arguments.list, double));
       break;
-    }
+    case 'n':
+      store_count(out->count, &how, va_arg(arguments.list, void *));
+      break;
     case '%':
       trax_put(out, '%');
       break;
-    case 0:
-      f--; /* the format ends within a conversion */
-      break;
-    default: /* not a conversion: visible in the output rather than silently gone */
-      trax_put(out, '%');
-      trax_put(out, *f);
+    default:
+      refuse("printf: unknown conversion: ", start, f);
     }
   }
   va_end(arguments.list);
-  return out->count;
+  if (is_encoded)
+    return out->count;
+  if (&errno)
+    errno = EILSEQ;
+  return -1;
 }

@@ -12,19 +12,21 @@ struct sink {
 };
 
 enum {
-  FLAG_LEFT = 1,  /* - */
-  FLAG_PLUS = 2,  /* + */
-  FLAG_SPACE = 4, /* space */
-  FLAG_ALT = 8,   /* # */
-  FLAG_ZERO = 16, /* 0 */
+  FLAG_LEFT = 1,   /* - */
+  FLAG_PLUS = 2,   /* + */
+  FLAG_SPACE = 4,  /* space */
+  FLAG_ALT = 8,    /* # */
+  FLAG_ZERO = 16,  /* 0 */
+  FLAG_GROUP = 32, /* ': does nothing in this locale */
+  FLAG_BARE = 64,  /* no 0x before a hexadecimal double; no format can say so */
 };
 
 enum length { LENGTH_CHAR, LENGTH_SHORT, LENGTH_INT, LENGTH_LONG, LENGTH_LONG_LONG };
 
 struct conversion {
   unsigned char flags;
-  char letter;          /* in lower case */
-  char is_upper;        /* the letter was in upper case */
+  char letter;          /* in lower case, if it is that of an integer or a double */
+  char is_upper;        /* the letter was in upper case: so are the digits, and the x, the b or the e */
   unsigned char length; /* enum length */
   int width;            /* 0 if none */
   int precision;        /* -1 if none */
@@ -40,8 +42,8 @@ void trax_put_prefix(struct sink *out, const struct conversion *how, const char 
 /* Blanks behind what began when out->count was start, for FLAG_LEFT. */
 void trax_put_suffix(struct sink *out, const struct conversion *how, int start);
 
-/* Formats the arguments and returns out->count. Where a double is to be formatted and format_double is NULL, a question
-   mark stands for it: the caller knows that there is none, and the linker then drops the code. */
+/* Formats the arguments and returns out->count, or -1 at a wide character that there is not. A conversion that is
+   unknown stops the program, as does one of a double if format_double is NULL: the linker then drops the code. */
 int trax_format(struct sink *out, const char *format, va_list arguments, double_formatter *format_double);
 
 double_formatter trax_format_double;

@@ -263,8 +263,10 @@ SEPARATE static void format_hexadecimal(struct sink *out, const struct conversio
   char prefix[4], *p = prefix;
   if (*sign)
     *p++ = *sign;
-  *p++ = '0';
-  *p++ = how->is_upper ? 'X' : 'x';
+  if (!(how->flags & FLAG_BARE)) {
+    *p++ = '0';
+    *p++ = how->is_upper ? 'X' : 'x';
+  }
   *p = 0;
   int point = precision > 0 || how->flags & FLAG_ALT;
   int size = power < 0 ? -power : power;

@@ -11,7 +11,8 @@ extern jmp_buf host_abort_target; /* where an abort or an exit goes */
 extern const char *host_abort_message;
 
 void rt_host_put_char(int c);
-unsigned long long rt_host_cycles(void); /* counts on by 1000 */
+extern unsigned long long host_cycles; /* what the cycle counter shows */
+unsigned long long rt_host_cycles(void);
 void rt_host_put_string(const char *s);
 __attribute__((noreturn)) void rt_host_abort(const char *message);
 __attribute__((noreturn)) void rt_host_exit(int status);
