@@ -1,11 +1,15 @@
 # The binary64 functions that are hard to do well, complex numbers, and some of binary32, are newlib's: Debian's package
 # newlib-source has its sources, which are unpacked into the build folder and compiled like ours. docs/runtime.md lists them.
 
+set(NEWLIB_VERSION 3.3.0) # other versions compute other last bits, need other cycles and name other files
 file(GLOB NEWLIB_FOUND /usr/src/newlib/newlib-*.tar.xz)
+if(EXISTS /usr/src/newlib/newlib-${NEWLIB_VERSION}.tar.xz)
+  set(NEWLIB_FOUND /usr/src/newlib/newlib-${NEWLIB_VERSION}.tar.xz)
+endif()
 set(TRAX_NEWLIB "${NEWLIB_FOUND}" CACHE FILEPATH "The archive of newlib's sources")
 if(NOT EXISTS "${TRAX_NEWLIB}")
-  message(FATAL_ERROR "newlib's sources are not at /usr/src/newlib: install the package newlib-source, "
-    "or say -DTRAX_NEWLIB=newlib-VERSION.tar.xz")
+  message(FATAL_ERROR "newlib's sources are not at /usr/src/newlib: install the package newlib-source of Debian 12, "
+    "or say -DTRAX_NEWLIB=newlib-${NEWLIB_VERSION}.tar.xz")
 endif()
 set(NEWLIB_DIR ${CMAKE_CURRENT_BINARY_DIR}/newlib)
 file(SHA256 ${TRAX_NEWLIB} NEWLIB_HASH)
@@ -17,8 +21,19 @@ if(NOT NEWLIB_UNPACKED STREQUAL NEWLIB_HASH)
   message(STATUS "Unpacking ${TRAX_NEWLIB}")
   file(REMOVE_RECURSE ${NEWLIB_DIR})
   file(ARCHIVE_EXTRACT INPUT ${TRAX_NEWLIB} DESTINATION ${NEWLIB_DIR}
-    PATTERNS */newlib/libm/common/* */newlib/libm/math/* */newlib/libm/complex/* */COPYING.NEWLIB)
+    PATTERNS */newlib/ac*.m4 */newlib/libm/common/* */newlib/libm/math/* */newlib/libm/complex/* */COPYING.NEWLIB)
   file(GLOB NEWLIB_TOP ${NEWLIB_DIR}/*)
+  set(NEWLIB_FOUND_VERSION "")
+  if(EXISTS "${NEWLIB_TOP}/newlib/acinclude.m4")
+    file(STRINGS ${NEWLIB_TOP}/newlib/acinclude.m4 NEWLIB_PARTS REGEX "NEWLIB_(MAJOR|MINOR|PATCHLEVEL)_VERSION\\],\\[[0-9]+\\]")
+    list(TRANSFORM NEWLIB_PARTS REPLACE ".*VERSION\\],\\[([0-9]+)\\].*" "\\1")
+    list(JOIN NEWLIB_PARTS . NEWLIB_FOUND_VERSION)
+  endif()
+  if(NOT NEWLIB_FOUND_VERSION STREQUAL NEWLIB_VERSION)
+    file(REMOVE_RECURSE ${NEWLIB_DIR})
+    message(FATAL_ERROR "${TRAX_NEWLIB} is not newlib ${NEWLIB_VERSION} but '${NEWLIB_FOUND_VERSION}': the runtime is made and "
+      "measured with ${NEWLIB_VERSION}, that of Debian 12's package newlib-source: say -DTRAX_NEWLIB=newlib-${NEWLIB_VERSION}.tar.xz")
+  endif()
   file(RENAME ${NEWLIB_TOP}/newlib/libm ${NEWLIB_DIR}/libm)
   file(RENAME ${NEWLIB_TOP}/COPYING.NEWLIB ${NEWLIB_DIR}/COPYING.NEWLIB)
   file(REMOVE_RECURSE ${NEWLIB_TOP})
