@@ -53,8 +53,8 @@ TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) {
   return __builtin_trax_ainc(p);
 }
 
-/* Word accesses to global memory that go around the data cache. The compiler may move and merge them like any others.
- */
+/* Word accesses to global memory that go around the data cache. The compiler may move and merge them like any others: a
+   loop that waits for another thread takes __atomic_load_n, which is made each time. */
 TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) {
   __builtin_nontemporal_store(value, p);
 }
