@@ -6,11 +6,12 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
-/* A round lasts some 10 microseconds: who waits looks again for about as long before it lets others have the processor,
-   and sleeps if nothing comes for long. Before it has waited for a while it does not look for the work of those who are
-   late: what it looks at is taken from their caches. */
+/* A round lasts some 10 microseconds: who waits, be it for work or for the others, looks again for about as long before
+   it lets others have the processor, and sleeps if nothing comes for long. Before it has waited for a while it does not
+   look for the work of those who are late: what it looks at is taken from their caches. */
 enum { PATIENCE = 200, LOOKS = 2000, YIELDS = 200 };
 
 struct item {
@@ -36,15 +37,22 @@ struct trax_pool {
   _Alignas(64) atomic_uint done;  /* items of all rounds */
   struct item *item;              /* [items] */
 
-  _Alignas(64) atomic_uint sleepers;
+  _Alignas(64) atomic_uint sleepers; /* workers */
+  atomic_bool owner_sleeps;
   pthread_mutex_t mutex;
-  pthread_cond_t wakened;
+  pthread_cond_t wakened, finished;
 };
 
 static void pause_briefly(void) {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();
 #endif
+}
+
+static void wake_owner(struct trax_pool *pool) {
+  pthread_mutex_lock(&pool->mutex);
+  pthread_cond_signal(&pool->finished);
+  pthread_mutex_unlock(&pool->mutex);
 }
 
 static void take_items(struct trax_pool *pool, uint32_t first, uint32_t end, unsigned round) {
@@ -54,6 +62,8 @@ static void take_items(struct trax_pool *pool, uint32_t first, uint32_t end, uns
         atomic_compare_exchange_strong(&pool->item[i].taken, &before, round)) {
       pool->work(pool->context, i);
       atomic_fetch_add(&pool->done, 1);
+      if (atomic_load(&pool->owner_sleeps))
+        wake_owner(pool);
     }
   }
 }
@@ -106,7 +116,9 @@ void trax_pool_run(struct trax_pool *pool) {
   pool->target += pool->items;
   begin_round(pool, round);
   take_part(pool, 0, round);
-  for (unsigned i = 0; atomic_load(&pool->done) != pool->target; i++) {
+  for (unsigned i = 0; i < LOOKS + YIELDS; i++) {
+    if (atomic_load(&pool->done) == pool->target)
+      return;
     if (i == PATIENCE)
       take_items(pool, 0, pool->items, round);
     if (i < LOOKS)
@@ -114,6 +126,12 @@ void trax_pool_run(struct trax_pool *pool) {
     else
       sched_yield();
   }
+  pthread_mutex_lock(&pool->mutex);
+  atomic_store(&pool->owner_sleeps, true);
+  while (atomic_load(&pool->done) != pool->target)
+    pthread_cond_wait(&pool->finished, &pool->mutex);
+  atomic_store(&pool->owner_sleeps, false);
+  pthread_mutex_unlock(&pool->mutex);
 }
 
 struct trax_pool *trax_pool_create(unsigned threads, uint32_t items, void (*work)(void *context, uint32_t item),
@@ -133,6 +151,7 @@ struct trax_pool *trax_pool_create(unsigned threads, uint32_t items, void (*work
     atomic_init(&pool->item[i].taken, 0);
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->wakened, NULL);
+  pthread_cond_init(&pool->finished, NULL);
   for (; pool->running + 1 < threads; pool->running++) {
     struct worker *worker = &pool->worker[pool->running];
     *worker = (struct worker){.pool = pool, .number = pool->running + 1};
@@ -152,6 +171,7 @@ void trax_pool_destroy(struct trax_pool *pool) {
   for (unsigned i = 0; i < pool->running; i++)
     pthread_join(pool->worker[i].thread, NULL);
   pthread_cond_destroy(&pool->wakened);
+  pthread_cond_destroy(&pool->finished);
   pthread_mutex_destroy(&pool->mutex);
   free(pool->item);
   free(pool->worker);

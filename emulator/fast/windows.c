@@ -1,4 +1,3 @@
-#define _POSIX_C_SOURCE 200809L /* sysconf */
 #include "fast/windows.h"
 
 #include "core/ahead.h"
@@ -8,7 +7,6 @@
 
 #include <assert.h>
 #include <string.h>
-#include <unistd.h>
 
 enum {
   LEAST_WINDOW = 16,       /* cycles; shorter ones are not worth it */
@@ -372,9 +370,8 @@ bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t un
 
 trax_status trax_windows_create(struct trax_chip *chip, unsigned threads, trax_error *error) {
   const uint64_t length = trax_memory_least_latency(&chip->machine->config);
-  const long processors = sysconf(_SC_NPROCESSORS_ONLN);
   if (!threads)
-    threads = processors > 1 ? (unsigned)processors : 1;
+    threads = trax_host_processors();
   if (threads > chip->tms)
     threads = chip->tms;
   chip->machine->fast_path.no_windows = length < LEAST_WINDOW;

@@ -17,8 +17,8 @@
 struct trax_chip;
 struct trax_windows;
 
-/* Into chip->windows, if there is something to gain; else that stays NULL. `threads` of the host, 0: one for each of
-   its processors. */
+/* Into chip->windows, if there is something to gain; else that stays NULL. `threads` of the host, 0:
+   trax_host_processors. */
 trax_status trax_windows_create(struct trax_chip *chip, unsigned threads, trax_error *error);
 void trax_windows_destroy(struct trax_windows *windows);
 

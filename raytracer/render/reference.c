@@ -7,7 +7,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Squared pixel values, which are linear in the light. */
 static struct double3 shade(const struct trax_frame *frame, uint32_t material, struct double3 normal, double lit) {
@@ -208,8 +207,8 @@ static trax_status build_scene(RTCDevice device, struct reference *reference, tr
 }
 
 static trax_status render(struct reference *reference, trax_error *error) {
-  long online = sysconf(_SC_NPROCESSORS_ONLN);
-  unsigned count = online > 64 ? 64 : online > 0 ? (unsigned)online : 1, started = 0;
+  const unsigned processors = trax_host_processors(), count = processors > 64 ? 64 : processors;
+  unsigned started = 0;
   pthread_t threads[64];
   while (started < count && pthread_create(&threads[started], NULL, render_rows, reference) == 0)
     started++;

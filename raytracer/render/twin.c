@@ -10,7 +10,6 @@
 #include <string.h>
 #include <time.h>
 #include <trax.h>
-#include <unistd.h>
 
 /* The program's own (raytracer/device/main.c), the variables common to all. */
 extern struct trax_buffer scene, params, image, paths, record;
@@ -77,10 +76,8 @@ static bool wait_for_crew(struct crew *crew, uint32_t slot_count, const struct t
 
 static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), const struct trax_frame *frame,
                             unsigned threads, struct trax_render_run *run, trax_error *error) {
-  if (threads == 0) {
-    long online = sysconf(_SC_NPROCESSORS_ONLN);
-    threads = online > 0 ? (unsigned)online : 1;
-  }
+  if (threads == 0)
+    threads = trax_host_processors();
   const uint32_t image_bytes = trax_frame_image_bytes(frame);
   struct worker *workers = calloc(threads, sizeof *workers);
   void *pixels = calloc(1, image_bytes), *path_bytes = calloc(threads, TRAX_PATH_BYTES);

@@ -128,10 +128,13 @@ typedef struct trax_run_options {
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
   trax_engine engine;
-  unsigned host_threads; /* of the fast engine, whose results they do not change; 0: one for each processor */
+  unsigned host_threads; /* of the fast engine, whose results they do not change; 0: trax_host_processors */
   trax_sampling sampling;
   const trax_slot_sampling *slots; /* of the fast engine; NULL: everything is simulated */
 } trax_run_options;
+
+/* Of the host, that this process may use: by its affinity mask and the quotas of its control groups; at least 1. */
+unsigned trax_host_processors(void);
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
 

@@ -80,7 +80,7 @@ def parse(arguments):
     parser.add_argument("--mode", choices=MODES)
     parser.add_argument("--quick", dest="mode", action="store_const", const="quick")
     parser.add_argument("--runner", default="local", choices=tuple(runners.RUNNERS))
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--hosts")
     parser.add_argument("--slurm-options", default="")
     parser.add_argument("--dry-run", action="store_true")

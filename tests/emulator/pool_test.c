@@ -1,0 +1,84 @@
+/* The pool of host threads (emulator/fast/pool.h): all work is done once a round, and who waits for long sleeps. */
+#define _POSIX_C_SOURCE 200809L
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "fast/pool.h"
+
+#include <dirent.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+enum { MOST_ITEMS = 64, ROUNDS = 300, THREADS = 4 };
+
+static void count(void *context, uint32_t item) {
+  atomic_uint *counts = context;
+  atomic_fetch_add(&counts[item], 1);
+}
+
+static void every_item_once(void **state) {
+  (void)state;
+  for (unsigned threads = 1; threads <= 5; threads++)
+    for (uint32_t items = 1; items <= MOST_ITEMS; items = 3 * items + 1) {
+      atomic_uint counts[MOST_ITEMS] = {0};
+      struct trax_pool *pool = trax_pool_create(threads, items, count, counts, NULL);
+      assert_non_null(pool);
+      for (unsigned round = 1; round <= ROUNDS; round++) {
+        trax_pool_run(pool);
+        for (uint32_t item = 0; item < items; item++)
+          assert_int_equal(atomic_load(&counts[item]), round);
+      }
+      trax_pool_destroy(pool);
+    }
+}
+
+/* How many threads of this process sleep: the third field of their stat, behind a name in brackets. */
+static unsigned sleepers(void) {
+  unsigned asleep = 0;
+  DIR *tasks = opendir("/proc/self/task");
+  assert_non_null(tasks);
+  for (const struct dirent *entry; (entry = readdir(tasks));) {
+    char path[300], text[256] = "";
+    snprintf(path, sizeof path, "/proc/self/task/%s/stat", entry->d_name);
+    FILE *file = entry->d_name[0] == '.' ? NULL : fopen(path, "r");
+    if (!file)
+      continue;
+    const char *name_end = fgets(text, sizeof text, file) ? strrchr(text, ')') : NULL;
+    asleep += name_end && name_end[1] && name_end[2] == 'S';
+    fclose(file);
+  }
+  closedir(tasks);
+  return asleep;
+}
+
+static const struct timespec nap = {.tv_nsec = 10000000};
+
+/* The work of one item goes on until all other threads sleep, for a minute at most. */
+static void wait_for_sleepers(void *context, uint32_t item) {
+  unsigned *asleep = context;
+  for (unsigned i = 0; item == THREADS - 1 && (*asleep = sleepers()) < THREADS - 1 && i < 6000; i++)
+    nanosleep(&nap, NULL);
+}
+
+static void sleeps_while_waiting(void **state) {
+  (void)state;
+  unsigned asleep = 0;
+  struct trax_pool *pool = trax_pool_create(THREADS, THREADS, wait_for_sleepers, &asleep, NULL);
+  assert_non_null(pool);
+  for (unsigned i = 0; i < 3; i++) {
+    trax_pool_run(pool);
+    assert_int_equal(asleep, THREADS - 1);
+  }
+  trax_pool_destroy(pool);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(sleeps_while_waiting)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
