@@ -11,20 +11,6 @@
 /* Rounding to an integer is cheap where adding is not. */
 #define HAVE_FAST_ROUND 1
 
-/* newlib's public functions check for errors around these; ours are these. */
-#define __ieee754_acos acos
-#define __ieee754_acosh acosh
-#define __ieee754_asin asin
-#define __ieee754_atan2 atan2
-#define __ieee754_atanh atanh
-#define __ieee754_cosh cosh
-#define __ieee754_hypot hypot
-#define __ieee754_lgamma_r lgamma_r
-#define __ieee754_log10 log10
-#define __ieee754_sinh sinh
-#define __ieee754_sqrt sqrt
-#define __ieee754_sqrtf sqrtf
-
 /* This one, 60 units in the last place off, is not used. */
 #define erfcf __newlib_erfcf
 

@@ -1,5 +1,4 @@
-# The binary64 functions that are hard to do well, complex numbers, and some of binary32, are newlib's: Debian's package
-# newlib-source has its sources, which are unpacked into the build folder and compiled like ours. docs/runtime.md lists them.
+# Powers and logarithms of binary64, complex numbers, and erff are newlib's: Debian's package newlib-source has its sources, which are unpacked into the build folder and compiled like ours. docs/runtime.md lists them.
 
 set(NEWLIB_VERSION 3.3.0) # other versions compute other last bits, need other cycles and name other files
 file(GLOB NEWLIB_FOUND /usr/src/newlib/newlib-*.tar.xz)
@@ -43,10 +42,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${TRAX_NEWLIB} ${
 
 set(NEWLIB_C
   # binary64
-  math/k_sin math/k_cos math/k_tan math/s_sin math/s_cos math/s_tan math/e_asin math/e_acos math/s_atan math/e_atan2
-  math/e_sinh math/e_cosh math/s_tanh math/s_asinh math/e_acosh math/e_atanh math/e_log10 math/e_hypot math/s_erf
-  math/er_lgamma common/s_expm1 common/s_log1p common/s_cbrt
-  common/exp common/exp2 common/exp_data common/log common/log_data common/log2 common/log2_data common/pow
+  common/s_cbrt common/exp common/exp2 common/exp_data common/log common/log_data common/log2 common/log2_data common/pow
   common/pow_log_data common/math_err
   # binary32
   math/sf_erf
