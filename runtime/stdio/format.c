@@ -100,6 +100,10 @@ SEPARATE static int format_wide(struct sink *out, struct conversion *how, const 
   return 1;
 }
 
+SEPARATE static int format_wide_character(struct sink *out, struct conversion *how, wchar_t c) {
+  return format_wide(out, how, &c, 0);
+}
+
 /* how->letter is u, o, x or b. */
 SEPARATE static void format_integer(struct sink *out, struct conversion *how, const char *prefix,
                                     unsigned long long x) {
@@ -279,9 +283,12 @@ SEPARATE static void store_count(int count, const struct conversion *how, void *
 
 /* What is behind an unknown conversion's argument cannot be found. The message is in global memory, where the host
    reads it; if two threads write it at once, one of them is heard. */
-__attribute__((noreturn)) SEPARATE static void refuse(const char *why, const char *conversion, const char *letter) {
+__attribute__((noreturn)) SEPARATE static void refuse(const char *why, const char *letter) {
   static char message[64];
   char *to = message;
+  const char *conversion = letter;
+  while (*conversion != '%')
+    conversion--;
   while (*why)
     *to++ = *why++;
   while (to < message + sizeof message - 1 && conversion <= letter && *conversion)
@@ -293,14 +300,12 @@ __attribute__((noreturn)) SEPARATE static void refuse(const char *why, const cha
 int trax_format(struct sink *out, const char *format, va_list list, double_formatter *format_double) {
   struct conversion how;
   struct arguments arguments;
-  int is_encoded = 1;
   va_copy(arguments.list, list);
-  for (const char *f = format; *f && is_encoded; f++) {
+  for (const char *f = format; *f; f++) {
     if (*f != '%') {
       trax_put(out, *f);
       continue;
     }
-    const char *start = f;
     f = parse_conversion(f + 1, &how, &arguments);
     switch (how.letter) {
     case 'd':
@@ -318,19 +323,17 @@ int trax_format(struct sink *out, const char *format, va_list list, double_forma
       format_integer(out, &how, "0x", (unsigned long)va_arg(arguments.list, void *));
       break;
     case 'c':
-      if (how.length == LENGTH_LONG) {
-        const wchar_t c = (wchar_t)va_arg(arguments.list, wint_t);
-        is_encoded = format_wide(out, &how, &c, 0);
-      } else {
+      if (how.length != LENGTH_LONG)
         format_character(out, &how, (char)va_arg(arguments.list, int));
-      }
+      else if (!format_wide_character(out, &how, (wchar_t)va_arg(arguments.list, wint_t)))
+        goto not_encoded;
       break;
     case 's': {
       const void *s = va_arg(arguments.list, const void *);
-      if (how.length == LENGTH_LONG && s)
-        is_encoded = format_wide(out, &how, s, 1);
-      else
+      if (how.length != LENGTH_LONG || !s)
         format_string(out, &how, s);
+      else if (!format_wide(out, &how, s, 1))
+        goto not_encoded;
       break;
     }
     case 'a':
@@ -338,7 +341,7 @@ int trax_format(struct sink *out, const char *format, va_list list, double_forma
     case 'f':
     case 'g':
       if (!format_double)
-        refuse("iprintf formats no doubles: ", start, f);
+        refuse("iprintf formats no doubles: ", f);
       format_double(out, &how, va_arg(arguments.list, double));
       break;
     case 'n':
@@ -348,12 +351,14 @@ int trax_format(struct sink *out, const char *format, va_list list, double_forma
       trax_put(out, '%');
       break;
     default:
-      refuse("printf: unknown conversion: ", start, f);
+      refuse("printf: unknown conversion: ", f);
     }
   }
   va_end(arguments.list);
-  if (is_encoded)
-    return out->count;
+  return out->count;
+
+not_encoded:
+  va_end(arguments.list);
   if (&errno)
     errno = EILSEQ;
   return -1;
