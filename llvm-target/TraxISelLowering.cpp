@@ -121,6 +121,7 @@ const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
     NODE(SETJMP)
     NODE(LONGJMP)
     NODE(WAIT)
+    NODE(FENCE)
     NODE(AINC)
     NODE(LWNT)
 #undef NODE
@@ -165,8 +166,8 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
     return lowerSetJmp(Op, DAG);
   case ISD::EH_SJLJ_LONGJMP:
     return lowerLongJmp(Op, DAG);
-  case ISD::ATOMIC_FENCE: // a thread's accesses reach memory in program order
-    return DAG.getNode(ISD::MEMBARRIER, SDLoc(Op), MVT::Other, Op.getOperand(0));
+  case ISD::ATOMIC_FENCE:
+    return lowerAtomicFence(Op, DAG);
   case ISD::ATOMIC_LOAD:
     return lowerAtomicLoad(Op, DAG);
   case ISD::ATOMIC_LOAD_ADD:
@@ -417,6 +418,18 @@ SDValue TraxTargetLowering::lowerReturnAddr(SDValue Op, SelectionDAG &DAG) const
 
 //--- atomics ------------------------------------------------------------------
 
+SDValue TraxTargetLowering::lowerAtomicFence(SDValue Op, SelectionDAG &DAG) const {
+  SDLoc DL(Op);
+  SDValue Chain = Op.getOperand(0);
+  if (Op.getConstantOperandVal(2) == SyncScope::SingleThread) // the thread itself sees its accesses in their order
+    return DAG.getNode(ISD::MEMBARRIER, DL, MVT::Other, Chain);
+  const auto Ordering = AtomicOrdering(Op.getConstantOperandVal(1));
+  const unsigned Kind = Ordering == AtomicOrdering::Acquire   ? TRAX_FENCE_R
+                        : Ordering == AtomicOrdering::Release ? TRAX_FENCE_W
+                                                              : TRAX_FENCE_RW;
+  return DAG.getNode(TraxISD::FENCE, DL, MVT::Other, Chain, DAG.getTargetConstant(Kind, DL, MVT::i32));
+}
+
 /// Caches of different TMs are not coherent, so an atomic load must go to memory, unless it is of local memory, which
 /// has no cache. Bytes and halves are taken from their word.
 SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const {
@@ -465,7 +478,7 @@ SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const 
   }
   SDValue Old = DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
                                         {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
-  // Whatever its order: a release store must come behind a relaxed increment too.
+  // Whatever its order: the thread's later accesses to the word come behind the increment.
   SDValue Chain = DAG.getNode(TraxISD::WAIT, DL, MVT::Other, Old.getValue(1), Old);
   return DAG.getMergeValues({Old, Chain}, DL);
 }

@@ -26,6 +26,7 @@ enum NodeType : unsigned {
   COPY_LOOP, // of a long argument
   SETJMP,    // __builtin_setjmp: 0, and 1 when it is jumped to
   LONGJMP,   // __builtin_longjmp
+  FENCE,     // its kind; chained
   WAIT,      // until a value has arrived; chained
   FIRST_MEMORY = ISD::FIRST_TARGET_MEMORY_OPCODE,
   AINC, // atomic increment; the value before it
@@ -117,6 +118,7 @@ private:
   SDValue lowerLongJmp(SDValue Op, SelectionDAG &DAG) const;
   MachineBasicBlock *emitCopyLoop(MachineInstr &MI, MachineBasicBlock *This) const;
   MachineBasicBlock *emitSetJmp(MachineInstr &MI, MachineBasicBlock *This) const;
+  SDValue lowerAtomicFence(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const;
   SDValue lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const;
   SDValue performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const;

@@ -5,6 +5,9 @@
 // call would be lost, so both are the machine's own only where all uses of the object are in sight and none is such a
 // call; elsewhere they take the lock as well. A load never needs it.
 //
+// Nothing orders the machine's own accesses but its fences, which are put before and behind them here (docs/abi.md,
+// "Atomics"); the library's functions have theirs.
+//
 // Runs behind AtomicExpand, which has reduced operations without a function to compare-and-exchange, and has made calls
 // of operations wider than a word.
 //
@@ -76,6 +79,8 @@ private:
   static void lower(StoreInst &Store);
   static void lower(AtomicRMWInst &RMW);
   static void lower(AtomicCmpXchgInst &CmpXchg);
+  static bool lowerOrKeep(Instruction &I, const TraxSubtarget &Subtarget);
+  static bool mergeFences(BasicBlock &BB);
 };
 
 } // namespace
@@ -124,13 +129,40 @@ static bool isOnlyCounted(const Value &Pointer) {
   });
 }
 
+/// Whether the object is in local memory, where no other thread reaches it.
+static bool isPrivate(const Value *Address, const TraxSubtarget &Subtarget) {
+  const Value *Object = getUnderlyingObject(Address);
+  if (isa<AllocaInst>(Object))
+    return !Subtarget.hasGlobalStack();
+  const auto *Global = dyn_cast<GlobalVariable>(Object);
+  return Global && Global->isThreadLocal();
+}
+
 /// Whether an increment of or a store to this address needs no lock.
 static bool isLockFree(const Value *Address, const TraxSubtarget &Subtarget) {
   const Value *Object = getUnderlyingObject(Address);
-  if (isa<AllocaInst>(Object)) // in local memory no other thread reaches it
-    return !Subtarget.hasGlobalStack() || isOnlyCounted(*Object);
   const auto *Global = dyn_cast<GlobalVariable>(Object);
-  return Global && (Global->isThreadLocal() || (Global->hasLocalLinkage() && isOnlyCounted(*Global)));
+  return isPrivate(Address, Subtarget) ||
+         ((isa<AllocaInst>(Object) || (Global && Global->hasLocalLinkage())) && isOnlyCounted(*Object));
+}
+
+static void fenceBefore(Instruction &I, AtomicOrdering Ordering) {
+  IRBuilder<>(&I).CreateFence(Ordering);
+}
+
+static void fenceBehind(Instruction &I, AtomicOrdering Ordering) {
+  IRBuilder<>(I.getNextNode()).CreateFence(Ordering);
+}
+
+/// The fences of an access that the machine performs.
+static void addFences(Instruction &Access, AtomicOrdering Ordering) {
+  const bool Stores = !isa<LoadInst>(Access), Loads = !isa<StoreInst>(Access);
+  if (Stores && isReleaseOrStronger(Ordering))
+    fenceBefore(Access, AtomicOrdering::Release);
+  if (Loads && isAcquireOrStronger(Ordering))
+    fenceBehind(Access, AtomicOrdering::Acquire);
+  else if (Ordering == AtomicOrdering::SequentiallyConsistent) // a later load must not come before the store
+    fenceBehind(Access, AtomicOrdering::Release);
 }
 
 /// void __atomic_store_N(object, value, order)
@@ -170,25 +202,62 @@ void TraxLowerAtomics::lower(AtomicCmpXchgInst &CmpXchg) {
   CmpXchg.eraseFromParent();
 }
 
+/// Makes a call of an atomic access, or adds the fences that it needs.
+bool TraxLowerAtomics::lowerOrKeep(Instruction &I, const TraxSubtarget &Subtarget) {
+  if (auto *Load = dyn_cast<LoadInst>(&I)) {
+    if (!Load->isAtomic() || isPrivate(Load->getPointerOperand(), Subtarget))
+      return false;
+    addFences(*Load, Load->getOrdering());
+  } else if (auto *Store = dyn_cast<StoreInst>(&I)) {
+    if (!Store->isAtomic() || isPrivate(Store->getPointerOperand(), Subtarget))
+      return false;
+    if (isLockFree(Store->getPointerOperand(), Subtarget))
+      addFences(*Store, Store->getOrdering());
+    else
+      lower(*Store);
+  } else if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
+    if (!isTraxAtomicIncrement(*RMW) || !isLockFree(RMW->getPointerOperand(), Subtarget))
+      lower(*RMW);
+    else if (!isPrivate(RMW->getPointerOperand(), Subtarget))
+      addFences(*RMW, RMW->getOrdering());
+    else
+      return false;
+  } else if (auto *CmpXchg = dyn_cast<AtomicCmpXchgInst>(&I)) {
+    lower(*CmpXchg);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Fences without an access between them become one.
+bool TraxLowerAtomics::mergeFences(BasicBlock &BB) {
+  bool Changed = false;
+  FenceInst *Before = nullptr;
+  for (Instruction &I : make_early_inc_range(BB)) {
+    auto *Fence = dyn_cast<FenceInst>(&I);
+    if (!Fence) {
+      Before = I.mayReadOrWriteMemory() ? nullptr : Before;
+    } else if (Fence->getSyncScopeID() != SyncScope::SingleThread) {
+      if (Before) {
+        if (Fence->getOrdering() != Before->getOrdering())
+          Fence->setOrdering(AtomicOrdering::SequentiallyConsistent);
+        Before->eraseFromParent();
+        Changed = true;
+      }
+      Before = Fence;
+    }
+  }
+  return Changed;
+}
+
 bool TraxLowerAtomics::runOnFunction(Function &F) {
   const auto &Subtarget = getAnalysis<TargetPassConfig>().getTM<TraxTargetMachine>().getSubtarget<TraxSubtarget>(F);
   bool Changed = false;
-  for (Instruction &I : make_early_inc_range(instructions(F))) {
-    if (auto *Store = dyn_cast<StoreInst>(&I)) {
-      if (!Store->isAtomic() || isLockFree(Store->getPointerOperand(), Subtarget))
-        continue;
-      lower(*Store);
-      Changed = true;
-    } else if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
-      if (isTraxAtomicIncrement(*RMW) && isLockFree(RMW->getPointerOperand(), Subtarget))
-        continue;
-      lower(*RMW);
-      Changed = true;
-    } else if (auto *CmpXchg = dyn_cast<AtomicCmpXchgInst>(&I)) {
-      lower(*CmpXchg);
-      Changed = true;
-    }
-  }
+  for (Instruction &I : make_early_inc_range(instructions(F)))
+    Changed |= lowerOrKeep(I, Subtarget);
+  for (BasicBlock &BB : F)
+    Changed |= mergeFences(BB);
   return Changed;
 }
 

@@ -25,6 +25,8 @@ def trax_copy_loop : SDNode<"TraxISD::COPY_LOOP",
 def trax_setjmp : SDNode<"TraxISD::SETJMP", SDT_TraxUnary, [SDNPHasChain, SDNPSideEffect]>;
 def trax_longjmp : SDNode<"TraxISD::LONGJMP", SDTypeProfile<0, 1, [SDTCisVT<0, i32>]>, [SDNPHasChain, SDNPSideEffect]>;
 def trax_wait : SDNode<"TraxISD::WAIT", SDTypeProfile<0, 1, [SDTCisVT<0, i32>]>, [SDNPHasChain, SDNPSideEffect]>;
+def trax_fence : SDNode<"TraxISD::FENCE", SDTypeProfile<0, 1, [SDTCisVT<0, i32>]>,
+                        [SDNPHasChain, SDNPMayLoad, SDNPMayStore, SDNPSideEffect]>;
 def trax_ainc : SDNode<"TraxISD::AINC", SDTLoad, [SDNPHasChain, SDNPMayLoad, SDNPMayStore, SDNPMemOperand]>;
 // A load past the cache, with the memory operand of an atomic load.
 def trax_lwnt : SDNode<"TraxISD::LWNT", SDTLoad, [SDNPHasChain, SDNPMayLoad, SDNPMemOperand]>;
@@ -347,7 +349,7 @@ def : PatStore<nt_store, SWNT, f32>;
 
 //--- atomics ----------------------------------------------------------------
 
-// Stores go to memory in program order and caches are written through: a store is atomic as it is.
+// Caches are written through: a store is atomic as it is. TraxLowerAtomics has put the fences around it.
 def : PatStore<atomic_store_8, SB>;
 def : PatStore<atomic_store_16, SH>;
 def : PatStore<atomic_store_32, SW>;
@@ -358,3 +360,4 @@ def : PatLoad<atomic_load_32, LW>;
 def : PatLoad<trax_lwnt, LWNT>;
 def : PatLoad<trax_ainc, AINC>;
 def : Pat<(trax_wait i32:$ra), (PseudoWAIT GPR:$ra)>;
+def : Pat<(trax_fence timm:$kind), (FENCE timm:$kind)>;

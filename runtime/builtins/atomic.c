@@ -1,7 +1,8 @@
 /* Atomic operations that the machine has no instruction for, under a lock made from the one it has. The functions are
    those of GCC's and LLVM's libatomic. Each object belongs to one of a few locks by its address.
 
-   A read-modify-write that leaves the value as it was stores nothing: then nobody waits for memory. */
+   Of 1 to 8 bytes the object is read past the cache, so that only an order of acquire or more empties that. A
+   read-modify-write that leaves the value as it was stores nothing: then nobody waits for memory. */
 #include "../internal/machine.h"
 
 #include <stdbool.h>
@@ -18,6 +19,32 @@ static inline struct ticket_lock *lock_of(const volatile void *p) {
   return &locks[(uintptr_t)p >> 3 & (LOCKS - 1)];
 }
 
+/* What comes before and behind an operation of this order. */
+static inline void begin(int order) {
+  if (order >= __ATOMIC_RELEASE)
+    release_fence();
+}
+static inline void end(int order) {
+  if (order != __ATOMIC_RELAXED && order != __ATOMIC_RELEASE)
+    acquire_fence();
+}
+
+/* The object as it is in memory. */
+static inline uint8_t read_1(const volatile uint8_t *p) {
+  return __atomic_load_n(p, __ATOMIC_RELAXED);
+}
+static inline uint16_t read_2(const volatile uint16_t *p) {
+  return __atomic_load_n(p, __ATOMIC_RELAXED);
+}
+static inline uint32_t read_4(const volatile uint32_t *p) {
+  return __atomic_load_n(p, __ATOMIC_RELAXED);
+}
+static inline uint64_t read_8(const volatile uint64_t *p) { /* under its lock */
+  const volatile uint32_t *word = (const volatile uint32_t *)p;
+  const uint32_t low = read_4(word);
+  return (uint64_t)read_4(word + 1) << 32 | low;
+}
+
 /* Clang takes these names for its own generic builtins, so they get them from the assembler. */
 #define NAMED(name) __asm__(#name)
 
@@ -30,7 +57,7 @@ bool trax_atomic_compare_exchange(size_t size, volatile void *p, void *expected,
 bool trax_atomic_is_lock_free(size_t size, const volatile void *p) NAMED(__atomic_is_lock_free);
 
 void trax_atomic_load(size_t size, const volatile void *from, void *to, int order) {
-  (void)order;
+  begin(order);
   struct ticket_lock *l = lock_of(from);
   lock(l);
   memcpy(to, (const void *)from, size);
@@ -38,7 +65,7 @@ void trax_atomic_load(size_t size, const volatile void *from, void *to, int orde
 }
 
 void trax_atomic_store(size_t size, volatile void *to, const void *from, int order) {
-  (void)order;
+  begin(order);
   struct ticket_lock *l = lock_of(to);
   lock(l);
   memcpy((void *)to, from, size);
@@ -46,7 +73,7 @@ void trax_atomic_store(size_t size, volatile void *to, const void *from, int ord
 }
 
 void trax_atomic_exchange(size_t size, volatile void *p, const void *value, void *old, int order) {
-  (void)order;
+  begin(order);
   struct ticket_lock *l = lock_of(p);
   lock(l);
   memcpy(old, (const void *)p, size);
@@ -56,8 +83,8 @@ void trax_atomic_exchange(size_t size, volatile void *p, const void *value, void
 
 bool trax_atomic_compare_exchange(size_t size, volatile void *p, void *expected, const void *desired, int success,
                                   int failure) {
-  (void)success;
   (void)failure;
+  begin(success);
   struct ticket_lock *l = lock_of(p);
   lock(l);
   bool equal = memcmp((const void *)p, expected, size) == 0;
@@ -74,37 +101,45 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
 }
 
 /* A fetch-and-change of one size: the old value is returned, the new one is an expression of old and value. */
-#define FETCH(name, bytes, type, expression)                                                                           \
-  type trax_##name##_##bytes(volatile type *p, type value, int order) NAMED(__##name##_##bytes);                       \
-  type trax_##name##_##bytes(volatile type *p, type value, int order) {                                                \
-    (void)order;                                                                                                       \
+#define CHANGE(bytes, type, expression, order)                                                                         \
+  {                                                                                                                    \
+    begin(order);                                                                                                      \
     struct ticket_lock *l = lock_of(p);                                                                                \
-    lock(l);                                                                                                           \
-    type old = *p, changed = (type)(expression);                                                                       \
-    if (changed != old)                                                                                                \
+    enter(l);                                                                                                          \
+    const type old = (type)read_##bytes((const volatile void *)p), changed = (type)(expression);                       \
+    if (changed != old) {                                                                                              \
       *p = changed;                                                                                                    \
-    unlock(l);                                                                                                         \
+      release_fence();                                                                                                 \
+    }                                                                                                                  \
+    leave(l);                                                                                                          \
+    end(order);                                                                                                        \
     return old;                                                                                                        \
   }
+#define FETCH(name, bytes, type, expression)                                                                           \
+  type trax_##name##_##bytes(volatile type *p, type value, int order) NAMED(__##name##_##bytes);                       \
+  type trax_##name##_##bytes(volatile type *p, type value, int order) CHANGE(bytes, type, expression, order)
+#define SYNC(name, bytes, type, expression)                                                                            \
+  type trax_##name##_##bytes(volatile type *p, type value) NAMED(__##name##_##bytes);                                  \
+  type trax_##name##_##bytes(volatile type *p, type value) CHANGE(bytes, type, expression, __ATOMIC_SEQ_CST)
 
 /* Loads and stores of one aligned word or less are atomic by themselves; 8 bytes need the lock. */
 #define OPERATIONS(bytes, type)                                                                                        \
   type trax_atomic_load_##bytes(const volatile type *p, int order) NAMED(__atomic_load_##bytes);                       \
   type trax_atomic_load_##bytes(const volatile type *p, int order) {                                                   \
-    (void)order;                                                                                                       \
-    if (bytes <= 4)                                                                                                    \
-      return *p;                                                                                                       \
     struct ticket_lock *l = lock_of(p);                                                                                \
-    lock(l);                                                                                                           \
-    type value = *p;                                                                                                   \
-    unlock(l);                                                                                                         \
+    if (bytes > 4)                                                                                                     \
+      enter(l);                                                                                                        \
+    const type value = read_##bytes(p);                                                                                \
+    if (bytes > 4)                                                                                                     \
+      unlock(l); /* what was read is there before the next one changes it */                                           \
+    end(order);                                                                                                        \
     return value;                                                                                                      \
   }                                                                                                                    \
   void trax_atomic_store_##bytes(volatile type *p, type value, int order) NAMED(__atomic_store_##bytes);               \
   void trax_atomic_store_##bytes(volatile type *p, type value, int order) {                                            \
-    (void)order;                                                                                                       \
+    begin(order);                                                                                                      \
     struct ticket_lock *l = lock_of(p);                                                                                \
-    lock(l);                                                                                                           \
+    enter(l);                                                                                                          \
     *p = value;                                                                                                        \
     unlock(l);                                                                                                         \
   }                                                                                                                    \
@@ -112,15 +147,17 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
       NAMED(__atomic_compare_exchange_##bytes);                                                                        \
   bool trax_atomic_compare_exchange_##bytes(volatile type *p, type *expected, type desired, int success,               \
                                             int failure) {                                                             \
-    (void)success;                                                                                                     \
-    (void)failure;                                                                                                     \
+    begin(success);                                                                                                    \
     struct ticket_lock *l = lock_of(p);                                                                                \
-    lock(l);                                                                                                           \
-    type old = *p;                                                                                                     \
-    bool equal = old == *expected;                                                                                     \
-    if (equal && desired != old)                                                                                       \
+    enter(l);                                                                                                          \
+    const type old = read_##bytes(p);                                                                                  \
+    const bool equal = old == *expected;                                                                               \
+    if (equal && desired != old) {                                                                                     \
       *p = desired;                                                                                                    \
-    unlock(l);                                                                                                         \
+      release_fence();                                                                                                 \
+    }                                                                                                                  \
+    leave(l);                                                                                                          \
+    end(equal ? success : failure);                                                                                    \
     if (!equal)                                                                                                        \
       *expected = old;                                                                                                 \
     return equal;                                                                                                      \
@@ -128,7 +165,7 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
   type trax_sync_val_compare_and_swap_##bytes(volatile type *p, type expected, type desired)                           \
       NAMED(__sync_val_compare_and_swap_##bytes);                                                                      \
   type trax_sync_val_compare_and_swap_##bytes(volatile type *p, type expected, type desired) {                         \
-    trax_atomic_compare_exchange_##bytes(p, &expected, desired, 0, 0);                                                 \
+    trax_atomic_compare_exchange_##bytes(p, &expected, desired, __ATOMIC_SEQ_CST, __ATOMIC_SEQ_CST);                   \
     return expected;                                                                                                   \
   }                                                                                                                    \
   FETCH(atomic_exchange, bytes, type, value)                                                                           \
@@ -138,15 +175,15 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
   FETCH(atomic_fetch_or, bytes, type, old | value)                                                                     \
   FETCH(atomic_fetch_xor, bytes, type, old ^ value)                                                                    \
   FETCH(atomic_fetch_nand, bytes, type, ~(old & value))                                                                \
-  FETCH(sync_lock_test_and_set, bytes, type, value)                                                                    \
-  FETCH(sync_fetch_and_add, bytes, type, old + value)                                                                  \
-  FETCH(sync_fetch_and_sub, bytes, type, old - value)                                                                  \
-  FETCH(sync_fetch_and_and, bytes, type, old &value)                                                                   \
-  FETCH(sync_fetch_and_or, bytes, type, old | value)                                                                   \
-  FETCH(sync_fetch_and_xor, bytes, type, old ^ value)                                                                  \
-  FETCH(sync_fetch_and_nand, bytes, type, ~(old & value))                                                              \
-  FETCH(sync_fetch_and_umax, bytes, type, old > value ? old : value)                                                   \
-  FETCH(sync_fetch_and_umin, bytes, type, old < value ? old : value)
+  SYNC(sync_lock_test_and_set, bytes, type, value)                                                                    \
+  SYNC(sync_fetch_and_add, bytes, type, old + value)                                                                  \
+  SYNC(sync_fetch_and_sub, bytes, type, old - value)                                                                  \
+  SYNC(sync_fetch_and_and, bytes, type, old &value)                                                                   \
+  SYNC(sync_fetch_and_or, bytes, type, old | value)                                                                   \
+  SYNC(sync_fetch_and_xor, bytes, type, old ^ value)                                                                  \
+  SYNC(sync_fetch_and_nand, bytes, type, ~(old & value))                                                              \
+  SYNC(sync_fetch_and_umax, bytes, type, old > value ? old : value)                                                   \
+  SYNC(sync_fetch_and_umin, bytes, type, old < value ? old : value)
 
 OPERATIONS(1, uint8_t)
 OPERATIONS(2, uint16_t)
@@ -154,8 +191,8 @@ OPERATIONS(4, uint32_t)
 OPERATIONS(8, uint64_t)
 
 #define SIGNED_OPERATIONS(bytes, type)                                                                                 \
-  FETCH(sync_fetch_and_max, bytes, type, old > value ? old : value)                                                    \
-  FETCH(sync_fetch_and_min, bytes, type, old < value ? old : value)
+  SYNC(sync_fetch_and_max, bytes, type, old > value ? old : value)                                                    \
+  SYNC(sync_fetch_and_min, bytes, type, old < value ? old : value)
 
 SIGNED_OPERATIONS(1, int8_t)
 SIGNED_OPERATIONS(2, int16_t)

@@ -17,8 +17,10 @@ unsigned owned() {
 
 extern "C" int __cxa_guard_acquire(unsigned *guard) {
   unsigned state = load_shared(guard);
-  if (state & initialised)
+  if (state & initialised) {
+    acquire_fence();
     return 0;
+  }
   if (trax_atomic_inc(&guard[1]) == 0) {
     store_shared(guard, owned());
     return 1;
@@ -26,10 +28,12 @@ extern "C" int __cxa_guard_acquire(unsigned *guard) {
   while (!((state = load_shared(guard)) & initialised))
     if (state == owned())
       machine_abort("the initialisation of a function-local static object enters itself");
+  acquire_fence();
   return 0;
 }
 
 extern "C" void __cxa_guard_release(unsigned *guard) {
+  release_fence();
   store_shared(guard, initialised);
 }
 

@@ -24,11 +24,13 @@ bool try_take(__libcpp_mutex_t &mutex) {
   if (load_shared(&mutex.__taken))
     return false;
   ticket_lock *guard = guard_of(mutex);
-  ::lock(guard);
+  enter(guard);
   const bool was_free = load_shared(&mutex.__taken) == 0;
   if (was_free)
     store_shared(&mutex.__taken, 1);
   ::unlock(guard);
+  if (was_free)
+    acquire_fence();
   return was_free;
 }
 
@@ -38,6 +40,7 @@ void take(__libcpp_mutex_t &mutex) {
 }
 
 void give(__libcpp_mutex_t &mutex) {
+  release_fence();
   store_shared(&mutex.__taken, 0);
 }
 
@@ -99,17 +102,19 @@ void __call_once(volatile once_flag::_State_type &state, void *argument, void (*
   static ticket_lock guard;
   auto *word = reinterpret_cast<unsigned *>(const_cast<once_flag::_State_type *>(&state));
   static_assert(sizeof(once_flag::_State_type) == sizeof *word);
-  ::lock(&guard);
+  enter(&guard);
   const bool first = load_shared(word) == once_flag::_Unset;
   if (first)
     store_shared(word, once_flag::_Pending);
   ::unlock(&guard);
   if (first) {
     function(argument);
+    release_fence();
     store_shared(word, once_flag::_Complete);
   }
   while (load_shared(word) != once_flag::_Complete)
     ;
+  acquire_fence();
 }
 
 // std::atomic's wait and notify: the headers ask again and again.

@@ -32,6 +32,15 @@ INLINE int machine_is_local(const void *p) {
   return (uintptr_t)p >= 0xFFFFFE00u;
 }
 
+/* The machine orders nothing by itself (docs/isa.md, "Order"). What this thread has stored is in memory before what it
+   stores from here on; what it loads from here on is no older than what it has loaded. */
+INLINE void release_fence(void) {
+  __atomic_thread_fence(__ATOMIC_RELEASE);
+}
+INLINE void acquire_fence(void) {
+  __atomic_thread_fence(__ATOMIC_ACQUIRE);
+}
+
 /* A lock that is taken in the order of asking: the atomic increment draws a number, and the owner, who alone writes the
    number being served, passes on. Words beyond the cache, because no TM's cache hears of another's stores. */
 struct ticket_lock {
@@ -48,14 +57,23 @@ INLINE void store_shared(unsigned *p, unsigned value) {
   __asm__ volatile("swnt %0, 0(%1)" : : "r"(value), "r"(p) : "memory");
 }
 
-INLINE void lock(struct ticket_lock *l) {
+/* The lock alone, where it protects no memory, or memory that is read past the cache: then nobody's cache is emptied. */
+INLINE void enter(struct ticket_lock *l) {
   unsigned ticket = trax_atomic_inc(&l->next);
   while (load_shared(&l->serving) != ticket)
     ;
 }
-
-INLINE void unlock(struct ticket_lock *l) {
+INLINE void leave(struct ticket_lock *l) {
   store_shared(&l->serving, load_shared(&l->serving) + 1);
+}
+
+INLINE void lock(struct ticket_lock *l) {
+  enter(l);
+  acquire_fence();
+}
+INLINE void unlock(struct ticket_lock *l) {
+  release_fence();
+  leave(l);
 }
 
 #else
@@ -98,6 +116,13 @@ INLINE void lock(struct ticket_lock *l) {
 
 INLINE void unlock(struct ticket_lock *l) {
   __atomic_fetch_add(&l->serving, 1, __ATOMIC_SEQ_CST);
+}
+
+INLINE void enter(struct ticket_lock *l) {
+  lock(l);
+}
+INLINE void leave(struct ticket_lock *l) {
+  unlock(l);
 }
 
 #endif

@@ -33,6 +33,7 @@ void __trax_start(void) {
   if (trax_thread() == 0) {
     for (unsigned i = 0; i < bytes / sizeof *__init_array_start; i++)
       __init_array_start[i]();
+    release_fence();
     store_shared(&construction, CONSTRUCTED);
   } else {
     unsigned state;
@@ -40,6 +41,7 @@ void __trax_start(void) {
       ;
     if (state == ENDED)
       machine_exit(0);
+    acquire_fence();
   }
 }
 

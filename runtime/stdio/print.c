@@ -5,12 +5,13 @@
 
 static struct ticket_lock output_lock;
 
+/* It keeps the output of threads apart and protects no memory. */
 void trax_lock_output(void) {
-  lock(&output_lock);
+  enter(&output_lock);
 }
 
 void trax_unlock_output(void) {
-  unlock(&output_lock);
+  leave(&output_lock);
 }
 
 int trax_print(const char *format, va_list arguments, double_formatter *format_double) {

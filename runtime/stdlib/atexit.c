@@ -55,8 +55,10 @@ int atexit(void (*function)(void)) {
 }
 
 void __trax_end_program(void) {
+  release_fence();
   if (trax_atomic_inc(&ended_threads) != trax_threads() - 1)
     return;
+  acquire_fence();
   while (last->used || last->before) { /* what is called may register more */
     if (!last->used) {
       last = last->before; /* the memory is of no more use */

@@ -77,51 +77,56 @@ static uint32_t reciprocal_root(struct model_execution *execution, const uint32_
 
 /* --- memory --- */
 
-static bool may(struct model_execution *execution, uint32_t address, uint32_t bytes, bool write, bool global_only) {
+static bool may(struct model_execution *execution, uint32_t address, uint32_t bytes, enum model_access access) {
   if (execution->fault)
     return false;
-  execution->fault = model_check(execution->machine, address, bytes, write, global_only);
+  execution->fault = model_check(execution->machine, address, bytes, access);
   execution->fault_address = address;
   return !execution->fault;
 }
 
-static uint32_t load(struct model_execution *execution, uint32_t address, uint32_t bytes, bool global_only) {
-  return may(execution, address, bytes, false, global_only)
-             ? model_load(execution->machine, execution->thread, address, bytes)
+static uint32_t load(struct model_execution *execution, uint32_t address, uint32_t bytes, bool past_cache) {
+  return may(execution, address, bytes, MODEL_LOAD)
+             ? model_load(execution->machine, execution->thread, address, bytes, past_cache)
              : 0;
 }
 
 static uint32_t store(struct model_execution *execution, uint32_t address, uint32_t value, uint32_t bytes,
-                      bool global_only) {
-  if (may(execution, address, bytes, true, global_only))
-    model_store(execution->machine, execution->thread, address, value, bytes);
+                      bool past_cache) {
+  if (may(execution, address, bytes, MODEL_STORE))
+    model_store(execution->machine, execution->thread, address, value, bytes, past_cache);
   return 0;
 }
 
-#define LOAD(NAME, BYTES, GLOBAL_ONLY)                                                                                 \
+#define LOAD(NAME, BYTES, PAST_CACHE)                                                                                  \
   static uint32_t NAME(struct model_execution *execution, const uint32_t *argument) {                                  \
-    return load(execution, argument[0], BYTES, GLOBAL_ONLY);                                                           \
+    return load(execution, argument[0], BYTES, PAST_CACHE);                                                            \
   }
-#define STORE(NAME, BYTES, GLOBAL_ONLY)                                                                                \
+#define STORE(NAME, BYTES, PAST_CACHE)                                                                                 \
   static uint32_t NAME(struct model_execution *execution, const uint32_t *argument) {                                  \
-    return store(execution, argument[0], argument[1], BYTES, GLOBAL_ONLY);                                             \
+    return store(execution, argument[0], argument[1], BYTES, PAST_CACHE);                                              \
   }
 LOAD(load_8, 1, false)
 LOAD(load_16, 2, false)
 LOAD(load_32, 4, false)
-LOAD(load_32_global, 4, true)
+LOAD(load_32_nontemporal, 4, true)
 STORE(store_8, 1, false)
 STORE(store_16, 2, false)
 STORE(store_32, 4, false)
-STORE(store_32_global, 4, true)
+STORE(store_32_nontemporal, 4, true)
 
 static uint32_t atomic_increment(struct model_execution *execution, const uint32_t *argument) {
-  const uint32_t address = argument[0];
-  if (!may(execution, address, 4, true, true))
-    return 0;
-  const uint32_t value = model_load(execution->machine, execution->thread, address, 4);
-  model_store(execution->machine, execution->thread, address, value + 1, 4);
-  return value;
+  return may(execution, argument[0], 4, MODEL_INCREMENT)
+             ? model_increment(execution->machine, execution->thread, argument[0])
+             : 0;
+}
+
+static uint32_t fence(struct model_execution *execution, const uint32_t *argument) {
+  if (argument[0] - MODEL_FENCE_R > MODEL_FENCE_RW - MODEL_FENCE_R)
+    execution->fault = MODEL_FAULT_ILLEGAL;
+  else
+    model_fence(execution->machine, execution->thread, (enum model_fence)argument[0]);
+  return 0;
 }
 
 /* --- docs/isa.md: special registers and traps --- */
@@ -157,15 +162,15 @@ static void put_string(struct model_execution *execution, uint32_t address) {
   const bool is_local = address >= MODEL_LOCAL_BASE;
   const uint64_t end = is_local ? UINT64_C(1) << 32 : machine->size;
   uint64_t nul = address;
-  if (!may(execution, address, 1, false, false))
+  if (!may(execution, address, 1, MODEL_LOAD))
     return;
-  while (nul < end && model_load(machine, execution->thread, (uint32_t)nul, 1))
+  while (nul < end && model_load(machine, execution->thread, (uint32_t)nul, 1, false))
     nul++;
   if (nul == end)
     execution->fault = MODEL_FAULT_UNMAPPED;
   else if (machine->output)
     for (uint64_t i = address; i < nul; i++)
-      fputc((int)model_load(machine, execution->thread, (uint32_t)i, 1), machine->output);
+      fputc((int)model_load(machine, execution->thread, (uint32_t)i, 1, false), machine->output);
 }
 
 static uint32_t trap(struct model_execution *execution, const uint32_t *argument) {
@@ -217,12 +222,13 @@ static const struct model_function functions[] = {
     {"LOAD8", 1, MODEL_U32, load_8},
     {"LOAD16", 1, MODEL_U32, load_16},
     {"LOAD32", 1, MODEL_U32, load_32},
-    {"LOAD32_GLOBAL", 1, MODEL_U32, load_32_global},
+    {"LOAD32_NONTEMPORAL", 1, MODEL_U32, load_32_nontemporal},
     {"STORE8", 2, MODEL_VOID, store_8},
     {"STORE16", 2, MODEL_VOID, store_16},
     {"STORE32", 2, MODEL_VOID, store_32},
-    {"STORE32_GLOBAL", 2, MODEL_VOID, store_32_global},
+    {"STORE32_NONTEMPORAL", 2, MODEL_VOID, store_32_nontemporal},
     {"ATOMIC_INC", 1, MODEL_U32, atomic_increment},
+    {"FENCE", 1, MODEL_VOID, fence},
     {"SPECIAL_REGISTER", 1, MODEL_U32, special_register},
     {"TRAP", 2, MODEL_VOID, trap},
     {"HALT", 0, MODEL_VOID, halt},

@@ -83,9 +83,10 @@ static bool store_word(struct model_machine *machine, const char *path, const ch
                        uint64_t value, struct model_error *error) {
   if (!found)
     return true;
-  if (model_check(machine, address, 4, true, true))
+  if (model_check(machine, address, 4, MODEL_INCREMENT))
     return model_fail(error, "%s: %s, 0x%08x, is no writable word", path, name, address);
-  model_store(machine, &machine->threads[0], address, (uint32_t)value, 4);
+  for (unsigned i = 0; i < 4; i++)
+    machine->memory[address + i] = (uint8_t)(value >> 8 * i);
   return true;
 }
 

@@ -92,7 +92,7 @@ static void fault(struct model_machine *machine, struct model_thread *thread, en
     machine->fault = (struct model_fault){kind, thread->pc, address, thread->number};
 }
 
-static bool step(struct model_machine *machine, struct model_thread *thread, struct model_error *error) {
+bool model_step(struct model_machine *machine, struct model_thread *thread, struct model_error *error) {
   struct model_execution execution = {.machine = machine, .thread = thread, .next_pc = thread->pc + 4};
   uint32_t word = 0;
   enum model_fault_kind kind = fetch(machine, thread->pc, &word);
@@ -126,7 +126,7 @@ enum model_end model_run(struct model_machine *machine, uint64_t limit, struct m
         continue;
       if (limit && machine->instructions == limit)
         return MODEL_LIMIT;
-      if (!step(machine, &machine->threads[i], error))
+      if (!model_step(machine, &machine->threads[i], error))
         return MODEL_ERROR;
       running = true;
     }

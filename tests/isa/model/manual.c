@@ -145,7 +145,7 @@ static bool read_boxes(struct section *section, const struct line *line, struct 
 static bool read_immediate(struct section *section, const struct line *line, struct model_error *error) {
   struct model_instruction *instruction = &section->instruction;
   const char *at = line->text;
-  unsigned scale = 1, limit = 0;
+  unsigned scale = 1, limit = 0, first = 0;
   skip(&at, line->end, "IMM is bits ");
   const bool bits = read_number(&at, line->end, &section->immediate_high) && skip(&at, line->end, "..") &&
                     read_number(&at, line->end, &section->immediate_low) && skip(&at, line->end, ", ");
@@ -154,10 +154,14 @@ static bool read_immediate(struct section *section, const struct line *line, str
       (skip(&at, line->end, ", times ") && !read_number(&at, line->end, &scale)) || !skip(&at, line->end, ".") ||
       (skip(&at, line->end, " Values of ") &&
        !(read_number(&at, line->end, &limit) && limit && skip(&at, line->end, " and above are illegal."))) ||
+      (limit && skip(&at, line->end, " Values below ") &&
+       !(read_number(&at, line->end, &first) && skip(&at, line->end, " are illegal."))) ||
       at != line->end)
     return fail_at(error, line,
-                   "expected 'IMM is bits H..L, sign|zero extended[, times N].[ Values of N and above are illegal.]'");
+                   "expected 'IMM is bits H..L, sign|zero extended[, times N].[ Values of N and above are illegal."
+                   "[ Values below N are illegal.]]'");
   instruction->imm_scale = scale;
+  instruction->imm_first = first;
   instruction->imm_limit = limit;
   section->has_immediate = true;
   return true;
@@ -292,7 +296,8 @@ const struct model_instruction *model_decode(const struct model_isa *isa, uint32
       continue;
     const unsigned low = instruction->field[MODEL_FIELD_IMM].low, width = instruction->field[MODEL_FIELD_IMM].width;
     const uint32_t value = width ? word >> low & (uint32_t)((UINT64_C(1) << width) - 1) : 0;
-    return instruction->imm_limit && value >= instruction->imm_limit ? NULL : instruction;
+    return instruction->imm_limit && (value < instruction->imm_first || value >= instruction->imm_limit) ? NULL
+                                                                                                         : instruction;
   }
   return NULL;
 }

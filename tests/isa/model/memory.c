@@ -52,8 +52,8 @@ static enum model_fault_kind check_write(const struct model_machine *machine, ui
   return is_guard(machine, address) ? MODEL_FAULT_STACK : MODEL_FAULT_NONE;
 }
 
-enum model_fault_kind model_check(const struct model_machine *machine, uint32_t address, uint32_t bytes, bool write,
-                                  bool global_only) {
+enum model_fault_kind model_check(const struct model_machine *machine, uint32_t address, uint32_t bytes,
+                                  enum model_access access) {
   const bool is_local = address >= MODEL_LOCAL_BASE;
   if (address < MODEL_NULL_END)
     return MODEL_FAULT_NULL;
@@ -62,15 +62,17 @@ enum model_fault_kind model_check(const struct model_machine *machine, uint32_t 
   if (address % bytes)
     return MODEL_FAULT_MISALIGNED;
   if (is_local)
-    return global_only ? MODEL_FAULT_LOCAL : MODEL_FAULT_NONE;
-  return write ? check_write(machine, address) : MODEL_FAULT_NONE;
+    return access == MODEL_INCREMENT ? MODEL_FAULT_LOCAL : MODEL_FAULT_NONE;
+  return access != MODEL_LOAD ? check_write(machine, address) : MODEL_FAULT_NONE;
 }
 
 static uint8_t *place(struct model_machine *machine, struct model_thread *thread, uint32_t address) {
   return address >= MODEL_LOCAL_BASE ? thread->local + (address - MODEL_LOCAL_BASE) : machine->memory + address;
 }
 
-uint32_t model_load(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t bytes) {
+uint32_t model_load(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t bytes,
+                    bool past_cache) {
+  (void)past_cache; /* there is none */
   uint32_t value = 0;
   for (uint32_t i = bytes; i-- > 0;)
     value = value << 8 | *place(machine, thread, address + i);
@@ -78,7 +80,20 @@ uint32_t model_load(struct model_machine *machine, struct model_thread *thread, 
 }
 
 void model_store(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t value,
-                 uint32_t bytes) {
+                 uint32_t bytes, bool past_cache) {
+  (void)past_cache;
   for (uint32_t i = 0; i < bytes; i++, value >>= 8)
     *place(machine, thread, address + i) = (uint8_t)value;
+}
+
+uint32_t model_increment(struct model_machine *machine, struct model_thread *thread, uint32_t address) {
+  const uint32_t value = model_load(machine, thread, address, 4, true);
+  model_store(machine, thread, address, value + 1, 4, true);
+  return value;
+}
+
+void model_fence(struct model_machine *machine, struct model_thread *thread, enum model_fence kind) {
+  (void)machine; /* everything is performed when it is executed */
+  (void)thread;
+  (void)kind;
 }

@@ -29,8 +29,8 @@ struct model_instruction {
     unsigned low, width; /* in bits; width 0: the instruction lacks the field */
   } field[MODEL_FIELDS];
   bool imm_signed;
-  uint32_t imm_scale; /* IMM is the field's value times this */
-  uint32_t imm_limit; /* values of the field from here on are illegal; 0: none */
+  uint32_t imm_scale;            /* IMM is the field's value times this */
+  uint32_t imm_first, imm_limit; /* values of the field below and from there on are illegal; a limit of 0: none */
   struct model_node *semantics;
 };
 
@@ -42,7 +42,7 @@ struct model_isa {
 /* From the manual's text; name is what messages call it. Of the sections headed `### MNEMONIC`, those with a line
    "Semantics: `STATEMENT`" are instructions. They also have a diagram, the bits of each box in one line and the boxes
    below it, and, where a box is called imm or offset, a line "IMM is bits H..L, sign|zero extended[, times N].[ Values
-   of N and above are illegal.]" */
+   of N and above are illegal.[ Values below N are illegal.]]" */
 struct model_isa *model_isa_parse(const char *name, const char *text, struct model_error *error);
 struct model_isa *model_isa_read(const char *path, struct model_error *error);
 void model_isa_free(struct model_isa *isa);
@@ -131,17 +131,25 @@ enum model_end {
 };
 /* limit: instructions of all threads; 0: none. */
 enum model_end model_run(struct model_machine *machine, uint64_t limit, struct model_error *error);
+/* One instruction of a thread that has not ended. False: *error tells. */
+bool model_step(struct model_machine *machine, struct model_thread *thread, struct model_error *error);
 /* The status of the lowest-numbered thread whose status is not 0, else 0. */
 uint32_t model_status(const struct model_machine *machine);
 const char *model_fault_word(enum model_fault_kind kind);
 
+enum model_access { MODEL_LOAD, MODEL_STORE, MODEL_INCREMENT };
 /* MODEL_FAULT_NONE if the thread may access 1, 2 or 4 bytes there. */
-enum model_fault_kind model_check(const struct model_machine *machine, uint32_t address, uint32_t bytes, bool write,
-                                  bool global_only);
+enum model_fault_kind model_check(const struct model_machine *machine, uint32_t address, uint32_t bytes,
+                                  enum model_access access);
 /* What was checked, little endian. */
-uint32_t model_load(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t bytes);
+uint32_t model_load(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t bytes,
+                    bool past_cache);
 void model_store(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t value,
-                 uint32_t bytes);
+                 uint32_t bytes, bool past_cache);
+uint32_t model_increment(struct model_machine *machine, struct model_thread *thread, uint32_t address);
+
+enum model_fence { MODEL_FENCE_R = 1, MODEL_FENCE_W, MODEL_FENCE_RW };
+void model_fence(struct model_machine *machine, struct model_thread *thread, enum model_fence kind);
 
 /* --- programs: image.c --- */
 

@@ -167,20 +167,20 @@ static void segments(void **state) {
   assert_false(model_map(machine, 0x2084, 4, MODEL_READ, NULL, &error));
   assert_false(model_map(machine, 0xFFFC0, 65, MODEL_READ, NULL, &error));
   /* A segment's permissions hold for all of its last 64 bytes. */
-  assert_int_equal(model_check(machine, 0x207F, 1, true, false), MODEL_FAULT_READ_ONLY);
-  assert_int_equal(model_check(machine, 0x2080, 1, true, false), MODEL_FAULT_NONE);
-  assert_int_equal(model_check(machine, 0x203C, 4, true, false), MODEL_FAULT_NONE);
-  assert_int_equal(model_check(machine, 0x1FFC, 4, true, false), MODEL_FAULT_READ_ONLY);
-  assert_int_equal(model_check(machine, 0x1FFC, 4, false, false), MODEL_FAULT_NONE);
+  assert_int_equal(model_check(machine, 0x207F, 1, MODEL_STORE), MODEL_FAULT_READ_ONLY);
+  assert_int_equal(model_check(machine, 0x2080, 1, MODEL_STORE), MODEL_FAULT_NONE);
+  assert_int_equal(model_check(machine, 0x203C, 4, MODEL_STORE), MODEL_FAULT_NONE);
+  assert_int_equal(model_check(machine, 0x1FFC, 4, MODEL_STORE), MODEL_FAULT_READ_ONLY);
+  assert_int_equal(model_check(machine, 0x1FFC, 4, MODEL_LOAD), MODEL_FAULT_NONE);
   /* Where several things are wrong, the first of docs/isa.md's list. */
-  assert_int_equal(model_check(machine, 0xFFF, 4, true, true), MODEL_FAULT_NULL);
-  assert_int_equal(model_check(machine, 0x100001, 4, true, true), MODEL_FAULT_UNMAPPED);
-  assert_int_equal(model_check(machine, 0xFFFEFDFF, 4, true, true), MODEL_FAULT_UNMAPPED);
-  assert_int_equal(model_check(machine, 0xFFFEFE01, 4, true, true), MODEL_FAULT_STACK);
-  assert_int_equal(model_check(machine, 0xFFFFFDFF, 1, false, false), MODEL_FAULT_STACK);
-  assert_int_equal(model_check(machine, 0xFFFFFE01, 4, true, true), MODEL_FAULT_MISALIGNED);
-  assert_int_equal(model_check(machine, 0xFFFFFE00, 4, true, true), MODEL_FAULT_LOCAL);
-  assert_int_equal(model_check(machine, 0x1001, 2, true, false), MODEL_FAULT_MISALIGNED);
+  assert_int_equal(model_check(machine, 0xFFF, 4, MODEL_INCREMENT), MODEL_FAULT_NULL);
+  assert_int_equal(model_check(machine, 0x100001, 4, MODEL_INCREMENT), MODEL_FAULT_UNMAPPED);
+  assert_int_equal(model_check(machine, 0xFFFEFDFF, 4, MODEL_INCREMENT), MODEL_FAULT_UNMAPPED);
+  assert_int_equal(model_check(machine, 0xFFFEFE01, 4, MODEL_INCREMENT), MODEL_FAULT_STACK);
+  assert_int_equal(model_check(machine, 0xFFFFFDFF, 1, MODEL_LOAD), MODEL_FAULT_STACK);
+  assert_int_equal(model_check(machine, 0xFFFFFE01, 4, MODEL_INCREMENT), MODEL_FAULT_MISALIGNED);
+  assert_int_equal(model_check(machine, 0xFFFFFE00, 4, MODEL_INCREMENT), MODEL_FAULT_LOCAL);
+  assert_int_equal(model_check(machine, 0x1001, 2, MODEL_STORE), MODEL_FAULT_MISALIGNED);
   model_destroy(machine);
 }
 
@@ -230,9 +230,9 @@ static void wrong_pages(void **state) {
                "page:1: the line 'IMM is bits ...' and the diagram do not go together");
   expect_error("### op\n31..16 15..0\n| 1 | imm |\nIMM is bits 14..0, sign extended.\nSemantics: `HALT();`\n",
                "page:1: the line 'IMM is bits ...' and the diagram do not go together");
-  expect_error(
-      "### op\n31..16 15..0\n| 1 | imm |\nIMM is bits 15..0, maybe extended.\nSemantics: `HALT();`\n",
-      "page:4: expected 'IMM is bits H..L, sign|zero extended[, times N].[ Values of N and above are illegal.]'");
+  expect_error("### op\n31..16 15..0\n| 1 | imm |\nIMM is bits 15..0, maybe extended.\nSemantics: `HALT();`\n",
+               "page:4: expected 'IMM is bits H..L, sign|zero extended[, times N].[ Values of N and above are illegal."
+               "[ Values below N are illegal.]]'");
 }
 
 static void immediates(void **state) {
@@ -243,7 +243,7 @@ static void immediates(void **state) {
                       "### a\n31..26 25..16 15..0\n| 1 | 0 | imm |\nIMM is bits 15..0, sign extended, times 4.\n"
                       "Semantics: `NEXT_PC = IMM;`\n## Others\n### prose\ntext\n### b\n"
                       "31..26 25..5 4..0\n| 2 | 0 | imm |\nIMM is bits 4..0, zero extended. Values of 6 and above are "
-                      "illegal.\nSemantics: `NEXT_PC = IMM;`\n",
+                      "illegal. Values below 2 are illegal.\nSemantics: `NEXT_PC = IMM;`\n",
                       &error);
   if (!isa)
     fail_msg("%s", error.message);
@@ -256,6 +256,8 @@ static void immediates(void **state) {
   assert_null(model_decode(isa, 0x0401FFFF));
   assert_ptr_equal(model_decode(isa, 0x08000005), &isa->instructions[1]);
   assert_null(model_decode(isa, 0x08000006));
+  assert_ptr_equal(model_decode(isa, 0x08000002), &isa->instructions[1]);
+  assert_null(model_decode(isa, 0x08000001));
   assert_null(model_decode(isa, 0));
   model_isa_free(isa);
 }

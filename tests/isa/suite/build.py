@@ -111,8 +111,9 @@ class Builder:
 
 def all_programs(instructions, constants):
     check_rows(instructions)
-    limits = {inst.name: constants[{"s": "TRAX_SR_COUNT", "t": "TRAX_TRAP_COUNT"}[inst.syntax[-1]]] for inst in instructions
-              if inst.syntax[-1:] in ("s", "t")}
+    numbers = {"s": range(constants["TRAX_SR_COUNT"]), "t": range(constants["TRAX_TRAP_COUNT"]),
+               "f": range(constants["TRAX_FENCE_R"], constants["TRAX_FENCE_RW"] + 1)}
+    limits = {inst.name: numbers[inst.syntax[-1]] for inst in instructions if inst.syntax[-1:] in numbers}
     made = []
     for inst in instructions:
         made += programs(inst, constants) + fault_programs(inst, ROWS[inst.name], instructions, limits, constants)

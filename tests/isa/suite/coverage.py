@@ -38,6 +38,9 @@ def conditions(inst, constants):
     elif inst.format == "T":
         codes = [name[len("TRAX_TRAP_"):].lower() for name in constants if name.startswith("TRAX_TRAP_") and name != "TRAX_TRAP_COUNT"]
         applies += ["every ra", "ra is r0", "bystanders", "unknown number", *_FAULTS] + [f"code {code}" for code in codes]
+    elif inst.format == "F":
+        kinds = [name[len("TRAX_FENCE_"):].lower() for name in constants if name.startswith("TRAX_FENCE_")]
+        applies += ["bystanders", "unknown number"] + [f"kind {kind}" for kind in kinds]
     elif inst.format == "N":
         applies += ["ends the thread"]
     else:
@@ -57,7 +60,7 @@ def check(instructions, counts, constants):
 
 
 _GROUPS = [("Computation", lambda inst: not inst.bytes and inst.unit != "CONTROL"), ("Loads, stores and the atomic increment", lambda inst: inst.bytes),
-           ("Branches and jumps", lambda inst: "IS_BRANCH" in inst.flags), ("System", lambda inst: inst.format in ("N", "T") or inst.syntax == "d,s")]
+           ("Branches and jumps", lambda inst: "IS_BRANCH" in inst.flags), ("System", lambda inst: inst.format in ("F", "N", "T") or inst.syntax == "d,s")]
 
 
 def table(instructions, counts, features, constants):

@@ -12,8 +12,8 @@ class DescriptionError(Exception):
 class Instruction:
     name: str  # FCVT_W_S
     mnemonic: str  # fcvt.w.s
-    syntax: str  # operands in the assembler's order: d, a, b registers; i u immediates; p target; s t names
-    format: str  # R, R1, I, SH, U, S, B, J, T, N
+    syntax: str  # operands in the assembler's order: d, a, b registers; i u immediates; p target; s t f names
+    format: str  # R, R1, I, SH, U, S, B, J, T, F, N
     unit: str
     mask: int  # bits that are fixed
     match: int  # and their values
@@ -41,7 +41,7 @@ class Instruction:
 
     def text(self, d="r0", a="r0", b="r0", i=0, p="0"):
         """A line of assembly."""
-        values = {"d": d, "a": a, "b": b, "i": i, "u": i, "s": i, "t": i, "p": p}
+        values = {"d": d, "a": a, "b": b, "i": i, "u": i, "s": i, "t": i, "f": i, "p": p}
         return f"{self.mnemonic} " + re.sub("[a-z]", lambda letter: str(values[letter[0]]), self.syntax)
 
 

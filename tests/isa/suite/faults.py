@@ -41,15 +41,15 @@ class FaultProgram(Program):
 def legal(word, instructions, limits):
     for inst in instructions:
         if word & inst.mask == inst.match:
-            return inst.name not in limits or word & 0xFFFF < limits[inst.name]
+            return inst.name not in limits or word & 0xFFFF in limits[inst.name]
     return False
 
 
 def illegal_words(inst, instructions, limits):
-    """{label: (condition, word)}: a reserved field that is not zero, an immediate beyond the limit."""
+    """{label: (condition, word)}: a reserved field that is not zero, a number that is none of its limits' range."""
     base = inst.match | (~inst.mask & 0x03FFFFFF & (0x01234800 if inst.format != "J" else 0))
     if inst.name in limits:
-        base &= 0xFFFF0000
+        base = base & 0xFFFF0000 | limits[inst.name][0]
     words = {}
     for bit in range(32):
         if inst.reserved >> bit & 1:
@@ -57,9 +57,10 @@ def illegal_words(inst, instructions, limits):
     if inst.reserved & (inst.reserved - 1):
         words["all_bits"] = ("reserved bits", base | inst.reserved)
     if inst.name in limits:
-        numbers = {limits[inst.name], limits[inst.name] + 1, 0xFFFF} | {1 << bit for bit in range(16) if 1 << bit >= limits[inst.name]}
+        behind = limits[inst.name].stop
+        numbers = {behind, behind + 1, 0xFFFF, *range(limits[inst.name].start)} | {1 << bit for bit in range(16) if 1 << bit >= behind}
         for number in sorted(numbers):
-            words[f"number{number}"] = ("unknown number", base | number)
+            words[f"number{number}"] = ("unknown number", base & 0xFFFF0000 | number)
     for label, (_, word) in words.items():
         if legal(word, instructions, limits):
             raise ValueError(f"{inst.name}: {label} is legal: {word:#010x}")

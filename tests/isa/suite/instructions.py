@@ -8,7 +8,7 @@ from branches import branching, jump_and_link, jump_indirect
 from computations import computation
 from description import DescriptionError
 from memory import loading, storing
-from system import halting, read_special, trapping
+from system import fencing, halting, read_special, trapping
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ ROWS = {
     "BEQ": Row(taken=(7, 7), not_taken=(7, 8)), "BNE": Row(taken=(7, 8), not_taken=(7, 7)),
     "BLT": Row(taken=(0xFFFFFFFF, 1), not_taken=(1, 0xFFFFFFFF)), "BGE": Row(taken=(1, 0xFFFFFFFF), not_taken=(0xFFFFFFFF, 1)),
     "BLTU": Row(taken=(1, 0xFFFFFFFF), not_taken=(0xFFFFFFFF, 1)), "BGEU": Row(taken=(0xFFFFFFFF, 1), not_taken=(1, 0xFFFFFFFF)),
-    "JAL": Row(), "JALR": Row(), "RDSR": Row(), "TRAP": Row(), "HALT": Row(),
+    "JAL": Row(), "JALR": Row(), "RDSR": Row(), "TRAP": Row(), "HALT": Row(), "FENCE": Row(),
 }
 
 
@@ -58,7 +58,7 @@ def check_rows(instructions):
 
 _SYNTAXES = {  # by format, the operands for which there are conditions
     "R": {"d,a,b"}, "R1": {"d,a"}, "I": {"d,a,i", "d,i(a)"}, "SH": {"d,a,i"}, "U": {"d,u", "d,s"}, "S": {"b,i(a)"}, "B": {"a,b,p"},
-    "J": {"d,p"}, "T": {"a,t"}, "N": {""}}
+    "J": {"d,p"}, "T": {"a,t"}, "F": {"f"}, "N": {""}}
 
 
 def programs(inst, constants):
@@ -68,6 +68,8 @@ def programs(inst, constants):
     row = ROWS[inst.name]
     if inst.format == "N":
         return halting(inst)
+    if inst.format == "F":
+        return fencing(inst, constants)
     if inst.format == "T":
         return trapping(inst, constants)
     if inst.syntax == "d,s":

@@ -33,57 +33,85 @@ def _wait(address):
 
 def tests():
     made = []
+
+    def add(name, rule, threads, *forbidden):
+        made.append(Test(name, rule, threads, list(forbidden)))
+
     for where, writer, reader in (("of one TM", 0, 1), ("of two TMs", 0, 2), ("of two TMs, downwards", 3, 1)):
+        old_data = {(reader, "r10"): 1, (reader, "r11"): 0}
+        look = ["lwnt r10, 0(r9)", _use("r10"), "lwnt r11, 0(r8)"]
+
+        def pair(name, rule, first, second, *forbidden):
+            add(f"{name}, threads {where}", rule, {writer: first, reader: second}, *forbidden)
+
+        # What fence w waits for, and what a result that is used is.
         for store in ("sw", "swnt"):
-            made.append(Test(f"message passing, {store}, threads {where}", "stores keep their order",
-                             {writer: [f"{store} r12, 0(r8)", f"{store} r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
-                             [{(reader, "r10"): 1, (reader, "r11"): 0}]))
-        made.append(Test(f"message passing, a byte of it, threads {where}", "stores keep their order",
-                         {writer: ["sb r12, 3(r8)", "sh r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
-                         [{(reader, "r10"): 1, (reader, "r11"): 0}]))
-        made.append(Test(f"message waited for, threads {where}", "stores are performed in finite time",
-                         {writer: ["sw r12, 0(r8)", "sw r12, 0(r9)"], reader: [*_wait("r9"), "lw r11, 0(r8)"]}, [{(reader, "r11"): 0}]))
-        made.append(Test(f"an answer waited for, threads {where}", "stores are performed in finite time",
-                         {writer: ["sw r12, 0(r8)", *_wait("r9"), "lwnt r11, 0(r8)"], reader: [*_wait("r8"), "sw r12, 0(r9)"]},
-                         [{(writer, "r11"): 0}]))
-        made.append(Test(f"coherence of loads, threads {where}", "loads past the cache keep their order",
-                         {writer: ["sw r12, 0(r8)", "sw r13, 0(r8)"], reader: ["lwnt r10, 0(r8)", "lwnt r11, 0(r8)"]},
-                         [{(reader, "r10"): 1, (reader, "r11"): 0}, {(reader, "r10"): 2, (reader, "r11"): 0},
-                          {(reader, "r10"): 2, (reader, "r11"): 1}]))
-        made.append(Test(f"load buffering, used, threads {where}", "a result used is a load performed",
-                         {writer: ["lwnt r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"]},
-                         [{(writer, "r10"): 1, (reader, "r10"): 1}]))
-        made.append(Test(f"two stores each, threads {where}", "stores keep their order",
-                         {writer: ["sw r12, 0(r8)", "sw r13, 0(r9)"], reader: ["swnt r12, 0(r9)", "swnt r13, 0(r8)"]}, [{"x": 1, "y": 1}]))
-        made.append(Test(f"a store behind what was seen, threads {where}", "stores keep their order",
-                         {writer: ["sw r13, 0(r8)", "sw r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"]},
-                         [{(reader, "r10"): 1, "x": 2}]))
-        made.append(Test(f"a store behind an increment, threads {where}", "an increment waited for is performed",
-                         {writer: ["ainc r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
-                         [{(reader, "r10"): 1, (reader, "r11"): 0}]))
-        made.append(Test(f"an increment behind a store, threads {where}", "stores keep their order",
-                         {writer: ["sw r12, 0(r8)", "ainc r10, 0(r9)"], reader: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
-                         [{(reader, "r10"): 1, (reader, "r11"): 0}]))
-        made.append(Test(f"bytes of one word, threads {where}", "a store changes its own bytes",
-                         {writer: ["sb r12, 0(r8)"], reader: ["sb r13, 1(r8)"]}, [{"x": 0x0001}, {"x": 0x0200}, {"x": 0}]))
-        made.append(Test(f"increments of one word, threads {where}", "an increment is one step",
-                         {writer: ["ainc r10, 0(r8)", "ainc r11, 0(r8)"], reader: ["ainc r10, 0(r8)", "ainc r11, 0(r8)"]},
-                         [{(writer, a): n, (reader, b): n} for a in ("r10", "r11") for b in ("r10", "r11") for n in range(4)] +
-                         [{"x": n} for n in range(4)]))
-    made.append(Test("independent reads of independent writes", "there is one order",
-                     {0: ["sw r12, 0(r8)"], 2: ["sw r12, 0(r9)"], 1: ["lwnt r10, 0(r8)", "lwnt r11, 0(r9)"],
-                      3: ["lwnt r10, 0(r9)", "lwnt r11, 0(r8)"]},
-                     [{(1, "r10"): 1, (1, "r11"): 0, (3, "r10"): 1, (3, "r11"): 0}]))
+            pair(f"message passing, {store}", "fence w waits for stores", [f"{store} r12, 0(r8)", "fence w", f"{store} r12, 0(r9)"], look,
+                 old_data)
+        pair("message passing, a byte of it", "fence w waits for stores", ["sb r12, 3(r8)", "fence w", "sh r12, 0(r9)"], look, old_data)
+        pair("message passing, fence rw", "fence rw waits for stores", ["sw r12, 0(r8)", "fence rw", "sw r12, 0(r9)"], look, old_data)
+        pair("two stores each", "fence w waits for stores", ["sw r12, 0(r8)", "fence w", "sw r13, 0(r9)"],
+             ["swnt r12, 0(r9)", "fence w", "swnt r13, 0(r8)"], {"x": 1, "y": 1})
+        pair("a store behind what was seen", "fence w waits for stores", ["sw r13, 0(r8)", "fence w", "sw r12, 0(r9)"],
+             ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"], {(reader, "r10"): 1, "x": 2})
+        pair("an increment behind a store", "fence w waits for stores", ["sw r12, 0(r8)", "fence w", "ainc r10, 0(r9)"], look, old_data)
+        pair("a store behind an increment", "an increment waited for is performed", ["ainc r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], look,
+             old_data)
+        for register in ("r10", "r0"):
+            pair(f"a store behind an increment into {register}", "fence w waits for increments",
+                 [f"ainc {register}, 0(r8)", "fence w", "sw r12, 0(r9)"], look, old_data)
+        pair("a store behind an increment", "fence r waits for increments", ["ainc r10, 0(r8)", "fence r", "sw r12, 0(r9)"], look, old_data)
+        # Loads that are used, or waited for by a fence.
+        both = {(writer, "r10"): 1, (reader, "r10"): 1}
+        pair("load buffering, used", "a result used is a load performed", ["lwnt r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"],
+             ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"], both)
+        for load in ("lwnt", "lw"):
+            for kind in ("r", "w", "rw"):
+                pair(f"load buffering, {load}", f"fence {kind} waits for loads", [f"{load} r10, 0(r8)", f"fence {kind}", "sw r12, 0(r9)"],
+                     [f"{load} r10, 0(r9)", f"fence {kind}", "sw r12, 0(r8)"], both)
+        pair("message passing", "fence r waits for loads", ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
+             ["lwnt r10, 0(r9)", "fence r", "lwnt r11, 0(r8)"], old_data)
+        # The cache is emptied.
+        for kind in ("r", "rw"):
+            pair("message passing to a cache", f"fence {kind} empties the cache", ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
+                 ["lw r14, 0(r8)", _use("r14"), "lwnt r10, 0(r9)", f"fence {kind}", "lw r11, 0(r8)"], old_data)
+            pair("message passing of an increment to a cache", f"fence {kind} empties the cache", ["ainc r0, 0(r8)", "fence w", "sw r12, 0(r9)"],
+                 ["lw r14, 0(r8)", _use("r14"), "lwnt r10, 0(r9)", f"fence {kind}", "lbu r11, 0(r8)"], old_data)
+        pair("message waited for", "stores are performed in finite time", ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
+             ["lw r14, 0(r8)", *_wait("r9"), "fence r", "lw r11, 0(r8)"], {(reader, "r11"): 0})
+        pair("an answer waited for", "stores are performed in finite time", ["sw r12, 0(r8)", *_wait("r9"), "lwnt r11, 0(r8)"],
+             [*_wait("r8"), "sw r12, 0(r9)"], {(writer, "r11"): 0})
+        # Both directions.
+        none = {(writer, "r10"): 0, (reader, "r10"): 0}
+        for kinds, load in ((("w",), "lwnt"), (("rw",), "lwnt"), (("rw",), "lw"), (("w", "r"), "lw")):
+            fences = [f"fence {kind}" for kind in kinds]
+            pair(f"store buffering, {', '.join(fences)}, {load}", f"{fences[0]} waits for stores",
+                 ["lw r14, 0(r9)", "sw r12, 0(r8)", *fences, f"{load} r10, 0(r9)"],
+                 ["lw r14, 0(r8)", "sw r12, 0(r9)", *fences, f"{load} r10, 0(r8)"], none)
+        # One word.
+        pair("coherence of loads", "accesses to one word keep their order", ["sw r12, 0(r8)", "sw r13, 0(r8)"],
+             ["lwnt r10, 0(r8)", "lwnt r11, 0(r8)"], old_data, {(reader, "r10"): 2, (reader, "r11"): 0},
+             {(reader, "r10"): 2, (reader, "r11"): 1}, {"x": 1})
+        for load in ("lw", "lwnt", "lbu"):
+            pair(f"a load and the thread's later store, {load}", "accesses to one word keep their order", [f"{load} r10, 0(r8)", "sw r12, 0(r8)"],
+                 [f"{load} r10, 0(r9)", "sb r12, 0(r9)"], {(writer, "r10"): 1}, {(reader, "r10"): 1})
+        pair("an increment behind a store to its word", "accesses to one word keep their order", ["sw r13, 0(r8)", "ainc r10, 0(r8)"],
+             ["lwnt r11, 0(r8)"], {(writer, "r10"): 0}, {(reader, "r11"): 1}, {"x": 2})
+        pair("bytes of one word", "a store changes its own bytes", ["sb r12, 0(r8)"], ["sb r13, 1(r8)"], {"x": 0x0001}, {"x": 0x0200}, {"x": 0})
+        pair("increments of one word", "an increment is one step", ["ainc r10, 0(r8)", "ainc r11, 0(r8)"],
+             ["ainc r10, 0(r8)", "ainc r11, 0(r8)"],
+             *[{(writer, a): n, (reader, b): n} for a in ("r10", "r11") for b in ("r10", "r11") for n in range(4)], *[{"x": n} for n in range(4)])
+    add("independent reads of independent writes", "there is one order",
+        {0: ["sw r12, 0(r8)"], 2: ["sw r12, 0(r9)"], 1: ["lwnt r10, 0(r8)", _use("r10"), "lwnt r11, 0(r9)"],
+         3: ["lwnt r10, 0(r9)", _use("r10"), "lwnt r11, 0(r8)"]}, {(1, "r10"): 1, (1, "r11"): 0, (3, "r10"): 1, (3, "r11"): 0})
     for first, second, third in ((0, 1, 2), (2, 0, 3), (1, 3, 0)):
-        made.append(Test(f"handed on, threads {first}, {second}, {third}", "there is one order",
-                         {first: ["sw r12, 0(r8)"], second: [*_wait("r8"), "sw r12, 0(r9)"], third: [*_wait("r9"), "lwnt r11, 0(r8)"]},
-                         [{(third, "r11"): 0}]))
-    made.append(Test("plain loads behind a message within a TM", "the threads of a TM share its cache",
-                     {0: ["sw r12, 0(r8)", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", _use("r14"), *_wait("r9"), "lw r11, 0(r8)"]},
-                     [{(1, "r11"): 0}]))
-    made.append(Test("plain loads within a TM", "the threads of a TM share its cache",
-                     {0: ["lw r14, 0(r8)", "sw r12, 0(r8)", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", "lw r10, 0(r9)", "lw r11, 0(r8)"]},
-                     [{(1, "r10"): 1, (1, "r11"): 0}]))
+        add(f"handed on, threads {first}, {second}, {third}", "there is one order",
+            {first: ["sw r12, 0(r8)"], second: [*_wait("r8"), "sw r12, 0(r9)"], third: [*_wait("r9"), "lwnt r11, 0(r8)"]}, {(third, "r11"): 0})
+    add("plain loads behind a message within a TM", "the threads of a TM share its cache",
+        {0: ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", _use("r14"), *_wait("r9"), "lw r11, 0(r8)"]}, {(1, "r11"): 0})
+    add("plain loads within a TM", "the threads of a TM share its cache",
+        {0: ["lw r14, 0(r8)", _use("r14"), "sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
+         1: ["lw r14, 0(r8)", "lw r10, 0(r9)", _use("r10"), "lw r11, 0(r8)"]}, {(1, "r10"): 1, (1, "r11"): 0})
     return made
 
 

@@ -29,7 +29,7 @@ def new_program(inst):
 
 
 def has_local(inst):
-    return not inst.flags & {"IS_NONTEMPORAL", "IS_ATOMIC"}
+    return "IS_ATOMIC" not in inst.flags
 
 
 def places(inst):

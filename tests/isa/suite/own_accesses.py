@@ -15,8 +15,6 @@ def sizes(program, memory, base):
     value = random.Random(memory)
     for store, stored in _STORES.items():
         for load, loaded in _LOADS.items():
-            if memory == "local" and (store == "swnt" or load == "lwnt"):
-                continue
             for at in range(0, 4, stored):
                 for place in range(0, 4, loaded):
                     if place < at + stored and at < place + loaded:
@@ -30,8 +28,7 @@ def sizes(program, memory, base):
 def sequences(program, memory, base, span):
     """Random stores and loads within a few lines, in bursts that touch, overlap and leave gaps."""
     source = random.Random(f"{memory} sequences")
-    stores = [name for name in _STORES if memory == "global" or name != "swnt"]
-    loads = [name for name in _LOADS if memory == "global" or name != "lwnt"]
+    stores, loads = list(_STORES), list(_LOADS)
     at = 0
     for _ in range(400):
         if source.random() < 0.55:

@@ -1,4 +1,4 @@
-"""rdsr, trap and halt."""
+"""rdsr, trap, fence and halt."""
 
 from program import Program
 
@@ -57,8 +57,9 @@ def read_special(inst, constants):
     program.case("bystanders")
     # The last thread to come here compares.
     program.address("r4", "arrived")
-    program.emit("ainc r5, 0(r4)", f"addi r6, r0, {threads - 1}", "beq r5, r6, Llast", "trap r0, exit")
+    program.emit("fence rw", "ainc r5, 0(r4)", f"addi r6, r0, {threads - 1}", "beq r5, r6, Llast", "trap r0, exit")
     program.place("Llast")
+    program.emit("fence rw")
     program.sections += ['  .section .counter, "aw", @progbits', "arrived: .word 0"]
     program.end()
     return [program]
@@ -124,6 +125,32 @@ def exits(inst, code):
         program.entries[label] = {"code exit": 1}
         program.statuses[label] = status & 0xFF
     return program
+
+
+def fencing(inst, constants):
+    """What a fence does to one thread: nothing. What it does to the order of accesses is litmus.py's."""
+    program = Program(inst.mnemonic, inst.mnemonic)
+    program.begin()
+    for name in ("R", "W", "RW"):
+        kind = constants[f"TRAX_FENCE_{name}"]
+        program.reach(64)
+        program.fill(lambda n: 0x01010101 * n)
+        program.emit(inst.text(i=kind))
+        program.store_all()
+        program.case("bystanders")
+        program.address("r4", "word")
+        for before, after in (("sw r5, 0(r4)", "lw r6, 0(r4)"), ("swnt r5, 0(r4)", "lw r6, 0(r4)"), ("lw r6, 0(r4)", "sw r6, 4(r4)"),
+                              ("ainc r6, 0(r4)", "lw r7, 0(r4)"), ("ainc r0, 0(r4)", "lw r6, 0(r4)"), ("sw r5, -8(r0)", "lw r6, -8(r0)"),
+                              ("fdiv r6, r5, r7", "addi r7, r6, 1"), ("mul r6, r5, r7", "sw r6, 0(r4)")):
+            if kind == constants["TRAX_FENCE_R"] and before.startswith("ainc r0"):
+                continue  # it waits for results
+            program.emit(before, inst.text(i=kind), after)
+            for register in ("r6", "r7"):
+                program.store(register)
+            program.case(f"kind {name.lower()}")
+    program.end()
+    program.sections += ["  .data", "  .p2align 6", "word: .word 7, 8"]
+    return [program]
 
 
 def halting(inst):

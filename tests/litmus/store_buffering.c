@@ -1,0 +1,25 @@
+/* Of two threads that announce themselves and then look for the other, one sees the other. */
+#define ROLES 2
+#include "litmus.h"
+
+static struct {
+  struct shared word[2];
+} at[RUNS];
+
+void part(unsigned role, unsigned run) {
+  unsigned other;
+  if (run % 2) {
+    STORE(at[run].word[role].word, 1, SEQ_CST);
+    other = LOAD(at[run].word[!role].word, SEQ_CST);
+  } else {
+    STORE(at[run].word[role].word, 1, memory_order_relaxed);
+    FENCE(memory_order_seq_cst);
+    other = LOAD(at[run].word[!role].word, memory_order_relaxed);
+  }
+  wait(4);
+  SEE(run, role, 0, other);
+}
+
+enum outcome outcome(unsigned run) {
+  return !SAW(run, 0, 0) && !SAW(run, 1, 0) ? WEAK : ALLOWED;
+}
