@@ -175,14 +175,14 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
   FETCH(atomic_fetch_or, bytes, type, old | value)                                                                     \
   FETCH(atomic_fetch_xor, bytes, type, old ^ value)                                                                    \
   FETCH(atomic_fetch_nand, bytes, type, ~(old & value))                                                                \
-  SYNC(sync_lock_test_and_set, bytes, type, value)                                                                    \
-  SYNC(sync_fetch_and_add, bytes, type, old + value)                                                                  \
-  SYNC(sync_fetch_and_sub, bytes, type, old - value)                                                                  \
-  SYNC(sync_fetch_and_and, bytes, type, old &value)                                                                   \
-  SYNC(sync_fetch_and_or, bytes, type, old | value)                                                                   \
-  SYNC(sync_fetch_and_xor, bytes, type, old ^ value)                                                                  \
-  SYNC(sync_fetch_and_nand, bytes, type, ~(old & value))                                                              \
-  SYNC(sync_fetch_and_umax, bytes, type, old > value ? old : value)                                                   \
+  SYNC(sync_lock_test_and_set, bytes, type, value)                                                                     \
+  SYNC(sync_fetch_and_add, bytes, type, old + value)                                                                   \
+  SYNC(sync_fetch_and_sub, bytes, type, old - value)                                                                   \
+  SYNC(sync_fetch_and_and, bytes, type, old &value)                                                                    \
+  SYNC(sync_fetch_and_or, bytes, type, old | value)                                                                    \
+  SYNC(sync_fetch_and_xor, bytes, type, old ^ value)                                                                   \
+  SYNC(sync_fetch_and_nand, bytes, type, ~(old & value))                                                               \
+  SYNC(sync_fetch_and_umax, bytes, type, old > value ? old : value)                                                    \
   SYNC(sync_fetch_and_umin, bytes, type, old < value ? old : value)
 
 OPERATIONS(1, uint8_t)
@@ -191,7 +191,7 @@ OPERATIONS(4, uint32_t)
 OPERATIONS(8, uint64_t)
 
 #define SIGNED_OPERATIONS(bytes, type)                                                                                 \
-  SYNC(sync_fetch_and_max, bytes, type, old > value ? old : value)                                                    \
+  SYNC(sync_fetch_and_max, bytes, type, old > value ? old : value)                                                     \
   SYNC(sync_fetch_and_min, bytes, type, old < value ? old : value)
 
 SIGNED_OPERATIONS(1, int8_t)

@@ -57,7 +57,8 @@ INLINE void store_shared(unsigned *p, unsigned value) {
   __asm__ volatile("swnt %0, 0(%1)" : : "r"(value), "r"(p) : "memory");
 }
 
-/* The lock alone, where it protects no memory, or memory that is read past the cache: then nobody's cache is emptied. */
+/* The lock alone, where it protects no memory, or memory that is read past the cache: then nobody's cache is emptied.
+ */
 INLINE void enter(struct ticket_lock *l) {
   unsigned ticket = trax_atomic_inc(&l->next);
   while (load_shared(&l->serving) != ticket)

@@ -31,7 +31,8 @@ static void *check_range(void *argument) {
         match = ops[n];
       }
     trax_inst inst = trax_decode(word);
-    bool beyond_limit = (match == TRAX_OP_RDSR || match == TRAX_OP_TRAP) && (word & 0xFFFFu) >= 6;
+    bool beyond_limit = ((match == TRAX_OP_RDSR || match == TRAX_OP_TRAP) && (word & 0xFFFFu) >= 6) ||
+                        (match == TRAX_OP_FENCE && (word & 0xFFFFu) - 1 >= 3);
     if (matches > 1)
       r->ambiguous++, r->example = word;
     if (inst.op != (beyond_limit ? TRAX_OP_ILLEGAL : match))
@@ -78,7 +79,9 @@ static void test_all_words(void **state) {
   uint64_t expected = 0;
   for (int op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
     unsigned free_bits = (unsigned)__builtin_popcount(~trax_op_table[op].mask);
-    expected += op == TRAX_OP_RDSR || op == TRAX_OP_TRAP ? UINT64_C(32) * 6 : UINT64_C(1) << free_bits;
+    expected += op == TRAX_OP_RDSR || op == TRAX_OP_TRAP ? UINT64_C(32) * 6
+                : op == TRAX_OP_FENCE                    ? 3
+                                                         : UINT64_C(1) << free_bits;
   }
   assert_int_equal(legal, expected);
 }
@@ -111,6 +114,7 @@ static void test_known_words(void **state) {
   check_text((trax_inst){TRAX_OP_JALR, 0, 1, 0, 0}, 0x9C010000u, "jalr r0, 0(r1)");
   check_text((trax_inst){TRAX_OP_RDSR, 5, 0, 0, 3}, 0xA0A00003u, "rdsr r5, threads");
   check_text((trax_inst){TRAX_OP_TRAP, 0, 4, 0, 1}, 0xA4040001u, "trap r4, putc");
+  check_text((trax_inst){TRAX_OP_FENCE, 0, 0, 0, 2}, 0xAC000002u, "fence w");
   check_text((trax_inst){.op = TRAX_OP_HALT}, 0xA8000000u, "halt");
 }
 

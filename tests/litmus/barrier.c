@@ -2,18 +2,16 @@
 #define ROLES 2
 #include "litmus.h"
 
-static struct {
-  struct data data[ROLES];
-} at[RUNS];
+static struct data data[RUNS][ROLES];
 static struct shared come[RUNS];
 
 void part(unsigned role, unsigned run) {
-  (void)at[run].data[!role].beside;
-  at[run].data[role].value = 1;
+  (void)data[run][!role].beside;
+  data[run][role].value = 1;
   atomic_fetch_add_explicit(&come[run].word, 1, (memory_order)ACQ_REL);
   while (LOAD(come[run].word, ACQUIRE) < ROLES)
     ;
-  SEE(run, role, 0, at[run].data[!role].value);
+  SEE(run, role, 0, data[run][!role].value);
 }
 
 enum outcome outcome(unsigned run) {

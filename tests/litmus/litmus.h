@@ -1,6 +1,7 @@
-/* What the litmus tests share: RUNS runs of ROLES roles each, on fresh locations, many at once on a machine of many threads.
-   A test defines ROLES, before this file, and behind it `part`, what a role does in a run, and `outcome`, what came of one.
-   It prints how many outcomes no order allowed (`weak`) and how many no machine of docs/isa.md gives, fences or not (`broken`).
+/* What the litmus tests share: RUNS runs of ROLES roles each, on fresh locations, many at once on a machine of many
+   threads. A test defines ROLES, before this file, and behind it `part`, what a role does in a run, and `outcome`, what
+   came of one. It prints how many outcomes no order allowed (`weak`) and how many no machine of docs/isa.md gives,
+   fences or not (`broken`).
 
    With RELAXED all orders are relaxed and there are no fences: then weak outcomes must come. */
 #include <stdatomic.h>
@@ -16,7 +17,12 @@
 enum { ACQUIRE, RELEASE = 0, ACQ_REL = 0, SEQ_CST = 0 };
 #define FENCE(ORDER) ((void)0)
 #else
-enum { ACQUIRE = memory_order_acquire, RELEASE = memory_order_release, ACQ_REL = memory_order_acq_rel, SEQ_CST = memory_order_seq_cst };
+enum {
+  ACQUIRE = memory_order_acquire,
+  RELEASE = memory_order_release,
+  ACQ_REL = memory_order_acq_rel,
+  SEQ_CST = memory_order_seq_cst
+};
 #define FENCE(ORDER) atomic_thread_fence(ORDER)
 #endif
 _Static_assert(memory_order_relaxed == 0, "what RELAXED makes of all orders");
@@ -24,7 +30,8 @@ _Static_assert(memory_order_relaxed == 0, "what RELAXED makes of all orders");
 #define LOAD(OBJECT, ORDER) atomic_load_explicit(&(OBJECT), (memory_order)(ORDER))
 #define STORE(OBJECT, VALUE, ORDER) atomic_store_explicit(&(OBJECT), VALUE, (memory_order)(ORDER))
 
-/* Data that atomics protect, and a word of its line that nobody writes: to read it brings the line into the TM's cache. */
+/* Data that atomics protect, and a word of its line that nobody writes: to read it brings the line into the TM's cache.
+ */
 struct data {
   _Alignas(64) volatile unsigned value;
   volatile unsigned beside;

@@ -33,12 +33,10 @@ RULES = [
      {"trax_signed": "", "trax_sext8": "", "trax_sext16": ""}),
     ("another shift or product", r"(trax_sra|trax_mulh)\(", {"trax_sra": "trax_mulh", "trax_mulh": "trax_fmul"}),
     ("another sign", r"(trax_sext8|trax_sext16)\(", {"trax_sext8": "trax_sext16", "trax_sext16": "trax_sext8"}),
-    ("another width", r"((?:LOAD|STORE)(?:8|16|32))\(",
+    ("another width", r"((?:LOAD|STORE)(?:8|16|32)(?:_NONTEMPORAL)?)\(",
      {"LOAD8": "LOAD16", "LOAD16": "LOAD8", "LOAD32": "LOAD16", "STORE8": "STORE16", "STORE16": "STORE32",
-      "STORE32": "STORE16"}),
-    ("anywhere in memory", r"((?:LOAD32|STORE32)_GLOBAL)\(",
-     {"LOAD32_GLOBAL": "LOAD32", "STORE32_GLOBAL": "STORE32"}),
-    ("no increment", r"(ATOMIC_INC)\(", {"ATOMIC_INC": "LOAD32_GLOBAL"}),
+      "STORE32": "STORE16", "LOAD32_NONTEMPORAL": "LOAD16", "STORE32_NONTEMPORAL": "STORE16"}),
+    ("no increment", r"(ATOMIC_INC)\(", {"ATOMIC_INC": "LOAD32"}),
     ("another function", r"(trax_f\w+|FPDIV|ISQRT)\(",
      {"trax_fadd": "trax_fsub", "trax_fsub": "trax_fadd", "trax_fmul": "trax_fadd", "trax_fmin": "trax_fmax",
       "trax_fmax": "trax_fmin", "trax_feq": "trax_fle", "trax_flt": "trax_fle", "trax_fle": "trax_flt",
@@ -69,13 +67,15 @@ EQUIVALENT = {
     ("lui", "its sign"): "the bits that differ are shifted out",
     ("rdsr", "its sign"): "negative numbers are beyond the limit",
     ("trap", "its sign"): "negative numbers are beyond the limit",
+    ("fence", "its sign"): "negative numbers are beyond the limit",
+    ("fence", "nothing"): "the engines' memory is one, and always up to date",
 }
 
 
 def changes_of_immediate(text):
     """Of what follows "IMM is bits "."""
     yield "its sign", re.sub("sign|zero", lambda match: {"sign": "zero", "zero": "sign"}[match[0]], text)
-    for pattern, new in ((", times 4", ""), (", times 4", ", times 2"), ("Values of 6", "Values of 3")):
+    for pattern, new in ((", times 4", ""), (", times 4", ", times 2"), ("Values of 6", "Values of 3"), ("Values of 4", "Values of 3"), ("below 1", "below 2")):
         if re.search(pattern, text):
             yield "its values", re.sub(pattern, new, text)
 

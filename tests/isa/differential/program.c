@@ -184,12 +184,11 @@ static bool is_store(trax_op op) {
 }
 
 /* A load or store: no ainc, which no later access of the word may overtake. */
-static trax_op any_access(bool local, bool must_load) {
+static trax_op any_access(bool must_load) {
   while (true) {
     const trax_op op = (trax_op)any(1, TRAX_OP_COUNT - 1);
     const trax_op_info *info = &trax_op_table[op];
-    if (info->access_bytes && !(info->flags & TRAX_IS_ATOMIC) && !(local && info->flags & TRAX_IS_NONTEMPORAL) &&
-        !(must_load && is_store(op)))
+    if (info->access_bytes && !(info->flags & TRAX_IS_ATOMIC) && !(must_load && is_store(op)))
       return op;
   }
 }
@@ -220,7 +219,7 @@ static void emit_far_access(struct program *program, trax_op op, unsigned base, 
 
 static void emit_memory(struct program *program) {
   const bool local = one_in(3), common = !local && one_in(3);
-  const trax_op op = any_access(local, common);
+  const trax_op op = any_access(common);
   const int32_t bytes = (int32_t)trax_op_table[op].access_bytes;
   const unsigned base = local ? 0 : program->role[common ? CONSTANTS : OWN];
   int32_t offset = bytes * (int32_t)any(0, (uint32_t)((local    ? (int)TRAX_LOCAL_SIZE
@@ -243,6 +242,11 @@ static void emit_increment(struct program *program) {
     emit(program, I(AINC, 0, program->role[CONSTANTS], COMMON_COUNTERS - COMMON + 4 * (int32_t)any(0, 15)));
   else
     emit_access(program, TRAX_OP_AINC, program->role[OWN], OWN_WORDS + 4 * (int32_t)any(0, OWN_COUNTERS / 4 - 1));
+}
+
+static void emit_fence(struct program *program) {
+  const trax_inst fence = {.op = TRAX_OP_FENCE, .imm = (int32_t)any(TRAX_FENCE_R, TRAX_FENCE_RW)};
+  emit(program, trax_encode(fence));
 }
 
 static void emit_special_register(struct program *program) {
@@ -298,7 +302,6 @@ static trax_op any_memory_op(void) {
 
 /* Something that the machine does not allow, mostly. */
 static void emit_fault(struct program *program) {
-  static const trax_op global_only[] = {TRAX_OP_LWNT, TRAX_OP_SWNT, TRAX_OP_AINC};
   const trax_op op = any_memory_op();
   const unsigned reg = any_value_register(program);
   switch (any(0, 12)) {
@@ -319,7 +322,7 @@ static void emit_fault(struct program *program) {
                    one_in(2) ? any_between(RODATA, RODATA + 63) : any_between(TEXT, TEXT + 255));
     break;
   case 5: /* local, or misaligned */
-    emit_access_to(program, global_only[any(0, 2)],
+    emit_access_to(program, TRAX_OP_AINC,
                    any_between(TRAX_LOCAL_BASE, 0xFFFFFFFF) & (one_in(4) ? 0xFFFFFFFF : 0xFFFFFFFC));
     break;
   case 6: /* a jump to nowhere, or to a pc that is none */
@@ -411,7 +414,10 @@ static void emit_element(struct program *program, unsigned depth) {
     emit_increment(program);
     break;
   case 7:
-    emit_special_register(program);
+    if (one_in(3))
+      emit_fence(program);
+    else
+      emit_special_register(program);
     break;
   case 8:
     emit_trap(program);

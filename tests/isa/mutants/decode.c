@@ -48,6 +48,7 @@ static uint32_t immediate_of(const trax_op_info *info) {
   case TRAX_FORMAT_S:
   case TRAX_FORMAT_B:
   case TRAX_FORMAT_T:
+  case TRAX_FORMAT_F:
     return 0xFFFFu;
   case TRAX_FORMAT_SH:
     return 0x1Fu;
@@ -59,7 +60,12 @@ static uint32_t immediate_of(const trax_op_info *info) {
 }
 
 static bool has_limit(trax_op op) {
-  return op == TRAX_OP_RDSR || op == TRAX_OP_TRAP;
+  return op == TRAX_OP_RDSR || op == TRAX_OP_TRAP || op == TRAX_OP_FENCE;
+}
+
+/* Bits of the field that a legal number can have. */
+static unsigned number_bits(trax_op op) {
+  return op == TRAX_OP_FENCE ? 2 : 3;
 }
 
 static bool is_signed(const trax_op_info *info) {
@@ -74,7 +80,7 @@ static void add_fields(trax_op op, const trax_op_info *info) {
     const uint32_t one = 1u << bit;
     if (info->mask & one & ~opcode & ~function)
       add((decoding){RESERVED_BIT, op, bit, one});
-    else if (!(info->mask & one) && !(has_limit(op) && (immediate & one) && bit > 2))
+    else if (!(info->mask & one) && !(has_limit(op) && (immediate & one) && bit >= number_bits(op)))
       add((decoding){FIELD_BIT, op, bit, one});
   }
   if (is_signed(info))
@@ -208,7 +214,7 @@ static trax_inst accept_wrongly(const decoding *mutant, uint32_t word) {
                ? trax_true_decode((word & ~mutant->field) | (number & 255))
                : (trax_inst){.op = TRAX_OP_ILLEGAL};
   case LIMIT_NOP:
-    return trax_true_decode(word & ~mutant->field).op == mutant->op ? nop : (trax_inst){.op = TRAX_OP_ILLEGAL};
+    return trax_true_decode((word & ~mutant->field) | 1).op == mutant->op ? nop : (trax_inst){.op = TRAX_OP_ILLEGAL};
   default:
     return (trax_inst){.op = TRAX_OP_ILLEGAL};
   }

@@ -113,7 +113,7 @@ static void add(kind kind, unsigned what) {
 
 static void add_accesses(unsigned op) {
   const trax_op_info *info = &trax_op_table[op];
-  const bool global_only = info->flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);
+  const bool global_only = info->flags & TRAX_IS_ATOMIC;
   const bool writes = info->flags & (TRAX_IS_STORE | TRAX_IS_ATOMIC);
   if (info->access_bytes > 1) {
     add(MISALIGNED_ALLOWED, op);

@@ -11,7 +11,10 @@
 #include "order.h"
 
 typedef enum kind {
-  LATE_STORES,
+  FENCE_W_IGNORED,
+  FENCE_RW_IGNORED,
+  FENCE_R_KEEPS,
+  FENCE_RW_KEEPS,
   LATE_STORES_BEHIND_AINC,
   LOST_NEIGHBOURS,
   CACHED_LWNT,
@@ -24,8 +27,11 @@ typedef enum kind {
 static const struct {
   const char *mnemonic, *what;
 } texts[] = {
-    [LATE_STORES] = {"", "a thread's stores reach memory in the wrong order"},
-    [LATE_STORES_BEHIND_AINC] = {"ainc", "an earlier store reaches memory behind the increment"},
+    [FENCE_W_IGNORED] = {"fence", "w does not wait for stores"},
+    [FENCE_RW_IGNORED] = {"fence", "rw does not wait for stores"},
+    [FENCE_R_KEEPS] = {"fence", "r keeps the TM's cache"},
+    [FENCE_RW_KEEPS] = {"fence", "rw keeps the TM's cache"},
+    [LATE_STORES_BEHIND_AINC] = {"ainc", "an earlier store to the word reaches memory behind the increment"},
     [LOST_NEIGHBOURS] = {"sb", "the bytes beside those stored are written as they were a while ago"},
     [CACHED_LWNT] = {"lwnt", "the word comes from the TM's cache"},
     [STALE_OWN_SWNT] = {"swnt", "the TM's cache keeps the old word"},
@@ -52,9 +58,7 @@ static int current(void) {
 
 /* --- a cache of words that nobody keeps coherent, for each thread or each TM --- */
 
-static struct {
-  uint32_t address, word; /* address 0: none */
-} cached[MOST][MOST][CACHED];
+static struct { uint32_t address, word; /* address 0: none */ } cached[MOST][MOST][CACHED];
 
 static void forget(const struct trax_ref_tm *tm) {
   memset(cached[tm->number], 0, tm->tps * sizeof cached[0][0]);
@@ -104,7 +108,8 @@ static bool is_global(const struct trax_ref_tp *tp) {
 }
 
 static bool is_late(int mutant) {
-  return mutant == LATE_STORES || mutant == LATE_STORES_BEHIND_AINC || mutant == NEVER_LEAVES;
+  return mutant == FENCE_W_IGNORED || mutant == FENCE_RW_IGNORED || mutant == LATE_STORES_BEHIND_AINC ||
+         mutant == NEVER_LEAVES;
 }
 
 void trax_order_before(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
@@ -117,8 +122,6 @@ void trax_order_before(const struct trax_ref_tm *tm, const struct trax_ref_tp *t
     if (trax_ref_is(tp, TRAX_IS_LOAD)
             ? !(atomic && mutant == LATE_STORES_BEHIND_AINC) && (store->address ^ tp->address) < 4
             : (store->address ^ tp->address) < 4)
-      perform(tm, tp->number);
-    if (atomic && mutant != LATE_STORES_BEHIND_AINC)
       perform(tm, tp->number);
   }
   if (trax_ref_is(tp, TRAX_IS_STORE))
@@ -176,7 +179,8 @@ static void behind_load(const struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
   uint32_t *const rd = &tp->reg[tp->inst.rd];
   if (mutant == STALE_IN_TM && !past)
     load_from_cache(tm, tp->number, tp->address, rd);
-  else if (mutant == CACHED_LWNT || ((mutant == STALE_OWN_SWNT || mutant == STALE_OWN_AINC) && !past))
+  else if (mutant == CACHED_LWNT || (!past && (mutant == STALE_OWN_SWNT || mutant == STALE_OWN_AINC ||
+                                               mutant == FENCE_R_KEEPS || mutant == FENCE_RW_KEEPS)))
     load_from_cache(tm, 0, tp->address, rd);
 }
 
@@ -187,9 +191,19 @@ static bool others_have_ended(const struct trax_ref_tm *tm) {
   return true;
 }
 
+static void behind_fence(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  const int kind = tp->inst.imm;
+  if (kind & TRAX_FENCE_W && current() != (kind == TRAX_FENCE_W ? FENCE_W_IGNORED : FENCE_RW_IGNORED))
+    perform(tm, tp->number);
+  if (kind & TRAX_FENCE_R && current() != (kind == TRAX_FENCE_R ? FENCE_R_KEEPS : FENCE_RW_KEEPS))
+    forget(tm);
+}
+
 void trax_order_behind(const struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   if (current() < 0)
     return;
+  if (tp->inst.op == TRAX_OP_FENCE)
+    behind_fence(tm, tp);
   if (is_global(tp) && trax_ref_is(tp, TRAX_IS_STORE))
     behind_store(tm, tp, t);
   else if (is_global(tp) && trax_ref_is(tp, TRAX_IS_LOAD) && !trax_ref_is(tp, TRAX_IS_ATOMIC))
@@ -201,7 +215,8 @@ void trax_order_behind(const struct trax_ref_tm *tm, struct trax_ref_tp *tp, uin
 }
 
 void trax_order_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic) {
-  if (current() == STALE_OWN_SWNT || current() == CACHED_LWNT)
+  if (current() == STALE_OWN_SWNT || current() == CACHED_LWNT || current() == FENCE_R_KEEPS ||
+      current() == FENCE_RW_KEEPS)
     refresh(tm, 0, atomic->address);
   else if (current() == STALE_IN_TM)
     refresh(tm, atomic->tp, atomic->address);

@@ -13,7 +13,7 @@ import sys
 SIGNED = r"trax_signed\((\w+)\)"
 
 # What they do is not in the statement: decode.c and machine.c have their other mutants.
-CALLS = {"RD = SPECIAL_REGISTER(IMM);", "TRAP(RA, IMM);", "HALT();", "RD = ATOMIC_INC(RA + IMM);"}
+CALLS = {"RD = SPECIAL_REGISTER(IMM);", "TRAP(RA, IMM);", "HALT();", "FENCE(IMM);", "RD = ATOMIC_INC(RA + IMM);"}
 
 COMMUTATIVE = re.compile(r"trax_(mulh|fadd|fmul|fmin|fmax|feq)\(")
 
@@ -94,22 +94,22 @@ REWRITES = [
     (r"= LOAD16\(RA \+ IMM\)", "= trax_sext16(LOAD16(RA + IMM))", "sign extended"),
     (r"LOAD8\(", "LOAD16(", "a half word is loaded"),
     (r"LOAD16\(", "LOAD8(", "a byte is loaded"),
-    (r"LOAD32(_GLOBAL)?\(", "LOAD16(", "a half word is loaded"),
+    (r"LOAD32(_NONTEMPORAL)?\(", "LOAD16(", "a half word is loaded"),
     (r"STORE8\(", "STORE16(", "a half word is stored"),
     (r"STORE16\(", "STORE8(", "a byte is stored"),
     (r"STORE16\(", "STORE32(", "a word is stored"),
-    (r"STORE32(_GLOBAL)?\(", "STORE16(", "a half word is stored"),
+    (r"STORE32(_NONTEMPORAL)?\(", "STORE16(", "a half word is stored"),
     (r"((?:LOAD|STORE)8)\(RA \+ IMM", r"\1((RA + IMM) ^ 1", "the other byte of the half word"),
     (r"((?:LOAD|STORE)8)\(RA \+ IMM", r"\1((RA + IMM) ^ 3", "the bytes of a word are counted from the top"),
     (r"((?:LOAD|STORE)16)\(RA \+ IMM", r"\1((RA + IMM) ^ 2", "the other half word of the word"),
-    (r"((?:LOAD|STORE)32(?:_GLOBAL)?)\(RA \+ IMM", r"\1((RA + IMM) ^ 4", "the other word of two"),
+    (r"((?:LOAD|STORE)32(?:_NONTEMPORAL)?)\(RA \+ IMM", r"\1((RA + IMM) ^ 4", "the other word of two"),
     (r"LOAD16(\(RA \+ IMM\))", r"(LOAD16\1 << 8 | LOAD16\1 >> 8)", "big endian"),
-    (r"(LOAD32(?:_GLOBAL)?\(RA \+ IMM\))", r"__builtin_bswap32(\1)", "big endian"),
+    (r"(LOAD32(?:_NONTEMPORAL)?\(RA \+ IMM\))", r"__builtin_bswap32(\1)", "big endian"),
     (r"STORE16\(RA \+ IMM, RB\)", "STORE16(RA + IMM, RB << 8 | (RB >> 8 & 0xFF))", "big endian"),
-    (r"STORE32(_GLOBAL)?\(RA \+ IMM, RB\)", "STORE32(RA + IMM, __builtin_bswap32(RB))", "big endian"),
-    (r"((?:LOAD|STORE)\d+(?:_GLOBAL)?)\(RA \+ IMM", r"\1((RA + IMM >= 0xFFFFFE00u ? RA + IMM : (RA + IMM) & ~0x40u)",
+    (r"STORE32(_NONTEMPORAL)?\(RA \+ IMM, RB\)", "STORE32(RA + IMM, __builtin_bswap32(RB))", "big endian"),
+    (r"((?:LOAD|STORE)\d+(?:_NONTEMPORAL)?)\(RA \+ IMM", r"\1((RA + IMM >= 0xFFFFFE00u ? RA + IMM : (RA + IMM) & ~0x40u)",
      "bit 6 of global addresses is lost"),
-    (r"((?:LOAD|STORE)\d+)\(RA \+ IMM", r"\1((RA + IMM >= 0xFFFFFE00u ? (RA + IMM) & ~0x100u : RA + IMM)",
+    (r"((?:LOAD|STORE)\d+(?:_NONTEMPORAL)?)\(RA \+ IMM", r"\1((RA + IMM >= 0xFFFFFE00u ? (RA + IMM) & ~0x100u : RA + IMM)",
      "bit 8 of local addresses is lost"),
 ]
 
@@ -190,14 +190,14 @@ def results(statement, flags):
 
 
 def stores(statement):
-    match = re.fullmatch(r"STORE\d+(_GLOBAL)?\(RA \+ IMM, RB\);", statement)
+    match = re.fullmatch(r"STORE\d+(_NONTEMPORAL)?\(RA \+ IMM, RB\);", statement)
     if match:
         yield "(void)0;", "nothing is stored"
         yield f"{statement} NEXT_PC = PC + 8;", "the next instruction is left out"
 
 
 def memory(statement):
-    if re.search(r"\b(LOAD|STORE)\d+\(", statement):
+    if re.search(r"\b(LOAD|STORE)\d+(_NONTEMPORAL)?\(", statement):
         yield f"struct trax_ref_tp *const own = tp; tp = &tm->tp[0]; {mine(statement)}", "all threads have the first one's local memory"
 
 
@@ -217,6 +217,9 @@ def own_rules(statement):
         for code, instead, what in TRAPS:
             yield f"if (IMM == {code}) {{ {instead} }} else TRAP(RA, IMM);", what
         yield "TRAP(RA, IMM); if (IMM != 0 && !fault) NEXT_PC = PC + 8;", "the next instruction is left out"
+    elif statement == "FENCE(IMM);":
+        yield f"{statement} NEXT_PC = PC + 8;", "the next instruction is left out"
+        yield f"{statement} RD ^= 1; reg[0] = 0;", "a register is changed"
     elif statement == "HALT();":
         yield "(void)0;", "the thread goes on"
         yield "HALT(); for (uint32_t i = 0; i < tm->tps; i++) if (!tm->tp[i].ended) end(tm, &tm->tp[i], 0);", "all threads of the TM end"

@@ -58,7 +58,8 @@ def illegal_words(inst, instructions, limits):
         words["all_bits"] = ("reserved bits", base | inst.reserved)
     if inst.name in limits:
         behind = limits[inst.name].stop
-        numbers = {behind, behind + 1, 0xFFFF, *range(limits[inst.name].start)} | {1 << bit for bit in range(16) if 1 << bit >= behind}
+        numbers = {behind, behind + 1, 0xFFFF, *range(limits[inst.name].start)} | {
+            1 << bit | limits[inst.name].start for bit in range(16) if 1 << bit >= behind}
         for number in sorted(numbers):
             words[f"number{number}"] = ("unknown number", base & 0xFFFF0000 | number)
     for label, (_, word) in words.items():
