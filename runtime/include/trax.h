@@ -47,13 +47,14 @@ TRAX_INLINE float trax_rsqrt(float x) {
   return __builtin_trax_rsqrt(x);
 }
 
-/* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. A later
-   store may reach memory before it, unless what was returned has been used by then. */
+/* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. It orders
+   nothing: a later access may come before it, unless what was returned has been used by then, and what was stored before
+   may be seen later. Whoever counts arrivals puts __atomic_thread_fence before and behind it, or takes an atomic. */
 TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) {
   return __builtin_trax_ainc(p);
 }
 
-/* Word accesses to global memory that go around the data cache. The compiler may move and merge them like any others: a
+/* Word accesses that go around the data cache and order nothing. The compiler may move and merge them like any others: a
    loop that waits for another thread takes __atomic_load_n, which is made each time. */
 TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) {
   __builtin_nontemporal_store(value, p);

@@ -21,7 +21,7 @@ int main(void) {
     b++;
     atomic_store(&word, 0);
   }
-  if (trax_atomic_inc(&arrived) != 31)
+  if (__atomic_fetch_add(&arrived, 1, __ATOMIC_ACQ_REL) != trax_threads() - 1)
     return 0;
   printf("%u %u\n", a, b);
   return 0;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <trax.h>
 
-enum { THREADS = 32, ROUNDS = 10 };
+enum { ROUNDS = 10 };
 
 static atomic_uint arrived;
 static atomic_int counted; /* incremented alone */
@@ -23,7 +23,7 @@ static int swaps_lost;
 
 static void meet(unsigned round) {
   atomic_fetch_add(&arrived, 1);
-  while (atomic_load(&arrived) < round * THREADS)
+  while (atomic_load(&arrived) < round * trax_threads())
     ;
 }
 

@@ -25,7 +25,7 @@ int main(void) {
   int known = atomic_load(&greatest);
   while (known < thread && !atomic_compare_exchange_weak(&greatest, &known, thread))
     ;
-  if (trax_atomic_inc(&arrived) != 31)
+  if (__atomic_fetch_add(&arrived, 1, __ATOMIC_ACQ_REL) != trax_threads() - 1)
     return 0;
   printf("%u %d %d %llx\n", atomic_load(&increments), atomic_load(&sum), atomic_load(&greatest),
          (unsigned long long)wide);

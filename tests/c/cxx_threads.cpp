@@ -1,11 +1,11 @@
 // RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global" --simflags "--config 1x32"
-// Objects that 32 threads share and that each has of its own: when they begin and end. (Expected output by hand.)
+// Objects that threads share and that each has of its own: when they begin and end. (Expected output by hand.)
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <trax.h>
 
-static std::atomic<int> made, owned_made, owned_ended, arrived;
+static std::atomic<int> made, owned_made, owned_ended, arrived, registered;
 
 struct Shared {
   int value;
@@ -41,15 +41,19 @@ static void at_end() {
 }
 
 int main() {
-  if (made.load() == 0 && trax_thread() == 3)
+  if (trax_thread() == trax_threads() / 2) {
     std::atexit(at_end);
+    registered++;
+  }
+  while (registered.load() == 0)
+    ;
   bool right = shared().value == 41;
   for (int i = 0; i < 3; i++)
     own.uses++;
   own_initialised += static_cast<int>(trax_thread());
   right &= own.thread == trax_thread() && own_initialised == 5 + static_cast<int>(trax_thread()) && made.load() == 1;
   arrived++;
-  while (arrived.load() < 32)
+  while (arrived.load() < static_cast<int>(trax_threads()))
     ;
   if (trax_thread() % 2)
     std::exit(!right);

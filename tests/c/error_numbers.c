@@ -6,7 +6,7 @@
 #include <trax.h>
 
 static const char *const texts[] = {"12", "99999999999", "-99999999999", "7"};
-static volatile int sequence[32];
+static volatile int sequence[256];
 static unsigned wrong, arrived;
 
 /* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
@@ -22,15 +22,15 @@ int main(void) {
   srand(thread / 2 + 5);
   for (int i = 0; i < 3; i++)
     sequence[thread] = rand();
-  trax_atomic_inc(&arrived);
-  while (now(&arrived) < 32)
+  __atomic_fetch_add(&arrived, 1, __ATOMIC_RELEASE);
+  while (now(&arrived) < trax_threads())
     ;
   /* All have set theirs by now. */
   if (errno != (range ? ERANGE : 0) || value != values[thread % 4])
     trax_atomic_inc(&wrong);
   if ((sequence[thread] == sequence[thread ^ 1]) + (sequence[thread] != sequence[thread ^ 2]) != 2)
     trax_atomic_inc(&wrong);
-  if (trax_atomic_inc(&arrived) == 63)
+  if (__atomic_fetch_add(&arrived, 1, __ATOMIC_ACQ_REL) == 2 * trax_threads() - 1)
     printf("%u\n", wrong);
   return 0;
 }

@@ -6,8 +6,6 @@
 #include <string.h>
 #include <trax.h>
 
-#define THREADS 32
-
 static atomic_uint arrived;
 static atomic_int *volatile shared; /* on the stack of thread 0 */
 static unsigned failures;
@@ -28,7 +26,7 @@ __attribute__((noinline)) static unsigned own_array(unsigned char with) {
 
 static void meet(unsigned round) {
   atomic_fetch_add(&arrived, 1);
-  while (atomic_load(&arrived) < round * THREADS)
+  while (atomic_load(&arrived) < round * trax_threads())
     ;
 }
 

@@ -15,7 +15,7 @@ static unsigned now(const volatile unsigned *p) {
 }
 
 __attribute__((noinline)) static void wait_for(unsigned n) {
-  trax_atomic_inc(&arrived);
+  __atomic_fetch_add(&arrived, 1, __ATOMIC_RELEASE);
   while (now(&arrived) < n)
     ;
 }
@@ -28,7 +28,7 @@ __attribute__((noinline)) static unsigned fill(unsigned thread, volatile unsigne
   volatile unsigned *end = &last - 24; /* the frame, and that of wait_for */
   for (volatile unsigned *p = from; p < end; p++)
     *p = thread * 1000 + (unsigned)(p - from);
-  wait_for(128);
+  wait_for(2 * trax_threads());
   for (volatile unsigned *p = from; p < end; p++)
     sum += *p != thread * 1000 + (unsigned)(p - from);
   return sum + (end - from < 60);
@@ -42,7 +42,7 @@ int main(void) {
     thread_place = (uintptr_t)own;
   }
   own[thread % 8] = thread;
-  wait_for(64);
+  wait_for(trax_threads());
   if ((uintptr_t)&local < 0xFFFFFE00u || (uintptr_t)own != 0xFFFFFE00u)
     trax_atomic_inc(&outside);
   if ((uintptr_t)&local != place || (uintptr_t)own != thread_place)
@@ -51,7 +51,7 @@ int main(void) {
     trax_atomic_inc(&mixed);
   if (fill(thread, own + 8))
     trax_atomic_inc(&mixed);
-  if (trax_atomic_inc(&arrived) == 64 * 3 - 1)
+  if (__atomic_fetch_add(&arrived, 1, __ATOMIC_ACQ_REL) == trax_threads() * 3 - 1)
     printf("%u %u %u\n", outside, differing, mixed);
   return 0;
 }

@@ -26,11 +26,11 @@ int main(void) {
   text[0] = (char)('a' + thread % 20);
   zero -= thread;
   atomic_fetch_add(&arrived, 1);
-  while (atomic_load(&arrived) < 32)
+  while (atomic_load(&arrived) < trax_threads())
     ;
   if (good && number == 17 + thread && text[0] == 'a' + thread % 20 && zero == -thread)
     atomic_fetch_add(&right, 1);
-  while (thread == 0 && atomic_load(&right) < 32)
+  while (thread == 0 && atomic_load(&right) < trax_threads())
     ;
   if (thread == 0)
     printf("%u\n", atomic_load(&right));

@@ -31,7 +31,7 @@ int main(void) {
     __atomic_store_n(&serving, ticket + 1, __ATOMIC_RELEASE);
   }
   unsigned threads = trax_threads();
-  if (trax_atomic_inc(&finished) != threads - 1)
+  if (__atomic_fetch_add(&finished, 1, __ATOMIC_ACQ_REL) != threads - 1)
     return 0;
   printf("%d %d %u %u\n", next == threads * ROUNDS, shared == threads * ROUNDS / 4 * 6, out_of_order, intruders);
   return 0;

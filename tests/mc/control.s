@@ -122,6 +122,18 @@ trap r4, 0
 # CHECK: trap r4, puts
 # ENC-SAME: encoding: [0x05,0x00,0x04,0xa4]
 trap r4, 5
+# CHECK: fence r
+# ENC-SAME: encoding: [0x01,0x00,0x00,0xac]
+fence r
+# CHECK: fence w
+# ENC-SAME: encoding: [0x02,0x00,0x00,0xac]
+fence w
+# CHECK: fence rw
+# ENC-SAME: encoding: [0x03,0x00,0x00,0xac]
+fence rw
+# CHECK: fence w
+# ENC-SAME: encoding: [0x02,0x00,0x00,0xac]
+fence 2
 # CHECK: halt
 # ENC-SAME: encoding: [0x00,0x00,0x00,0xa8]
 halt
@@ -135,4 +147,6 @@ halt
 # OBJ: 58: 9c3ffffc jalr r1, -4(r31)
 # OBJ: 74: a0800005 rdsr r4, cycleh
 # OBJ: 94: a4040005 trap r4, puts
-# OBJ: a0: a8000000 halt
+# OBJ: a0: ac000001 fence r
+# OBJ: a8: ac000003 fence rw
+# OBJ: b0: a8000000 halt

@@ -24,7 +24,7 @@ class Operand:
         self.low, self.high = (int(limits[1]), int(limits[2])) if limits else (None, None)
 
     def good(self):
-        return "r4" if self.is_register else "4"
+        return "r4" if self.is_register else str(4 if self.high is None or self.high >= 4 else self.high)
 
     def wrong(self, is_offset):
         """Texts that are none of this kind. An offset stands before "(ra)"."""

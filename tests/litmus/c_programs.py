@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""The threaded programs of tests/c on memory as weak as docs/isa.md allows: on each machine they must print, and end with, what they do
+on the model without caches and delays.
+
+  c_programs.py --build build [--machines 2x1,2x16,4x32] [--seeds 0,1,2] [--level -O2] [--only REGEX] [--jobs N]
+"""
+
+import argparse
+import concurrent.futures
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCES = os.path.join(HERE, "..", "c")
+LIMIT = 4000000000  # instructions
+
+
+def threaded():
+    """{name: the compiler's flags} of the programs that are made for several threads and end well."""
+    found = {}
+    for name in sorted(os.listdir(SOURCES)):
+        if not name.endswith((".c", ".cpp")):
+            continue
+        with open(os.path.join(SOURCES, name), encoding="utf-8") as file:
+            text = file.read().replace("\\\n// RUN:", "")
+        line = re.search(r"RUN: %run_c %s %t(.*)", text)
+        if not line or "--fault" in line[1] or not re.search(r"RUN: .*(--config|chip\.t)", text):
+            continue
+        words = shlex.split(line[1])
+        found[name] = dict(zip(words[::2], words[1::2])).get("--cflags", "")
+    return found
+
+
+def result(options, model, machine, binary, seed=None):
+    tms, tps = machine.split("x")
+    environment = os.environ | ({} if seed is None else {"TRAX_SEED": seed})
+    done = subprocess.run([os.path.join(options.build, "bin", model), "--tms", tms, "--tps", tps, "--memory-mib", "64", "--limit", str(LIMIT), binary],
+                          env=environment, capture_output=True, check=False)
+    return done.returncode, done.stdout, done.stderr.decode(errors="replace").replace("trax-isa-model", "")
+
+
+def check(options, name, flags, directory):
+    """How many runs went well, and what went wrong."""
+    binary = os.path.join(directory, name)
+    compiler = "clang++" if name.endswith(".cpp") else "clang"
+    subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", options.level, *shlex.split(flags),
+                    os.path.join(SOURCES, name), "-o", binary], check=True)
+    good, problems = 0, []
+    for machine in options.machines.split(","):
+        expected = result(options, "trax-isa-model", machine, binary)
+        if expected[0] == 124:
+            problems.append(f"{name} {machine}: it does not end")
+            continue
+        for seed in options.seeds.split(","):
+            found = result(options, "isa-weak-model", machine, binary, seed)
+            if found[:2] == expected[:2]:
+                good += 1
+            else:
+                problems.append(f"{name} {machine}, seed {seed}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, "
+                                f"not {expected[1][-200:]!r} {found[2].strip()}")
+    return good, problems
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    parser.add_argument("--build", required=True, help="the build directory")
+    parser.add_argument("--machines", default="2x1,2x16,4x32")
+    parser.add_argument("--seeds", default="0", help="of the model's random orders")
+    parser.add_argument("--level", default="-O2", choices=["-O0", "-O1", "-O2", "-O3", "-Os", "-Oz"])
+    parser.add_argument("--only", default="", help="programs whose names match")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--verbose", action="store_true")
+    arguments = sys.argv[1:]
+    for i, word in enumerate(arguments[:-1]):
+        if word == "--level":  # its value begins with a dash
+            arguments[i:i + 2] = [f"--level={arguments[i + 1]}"]
+            break
+    options = parser.parse_args(arguments)
+    programs = {name: flags for name, flags in threaded().items() if re.search(options.only, name)}
+    good, problems = 0, []
+    with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for name, (well, wrong) in zip(programs, pool.map(lambda name: check(options, name, programs[name], directory), programs)):
+            good += well
+            problems += wrong
+            if options.verbose:
+                print(f"{name}: {well} well", flush=True)
+            for line in wrong:
+                print(line, flush=True)
+    print(f"{len(programs)} programs: {good} runs well, {len(problems)} not")
+    return bool(problems) or good == 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
