@@ -1,8 +1,8 @@
 /* The first load that may return an old value (docs/emulator.md, "Checking the order").
 
    The engines' memory is never stale, so that a program's results do not tell what it relies on. A cached load of what
-   a thread of another TM has stored is right if that thread has executed `fence w` since then, and either the loading
-   thread `fence r` since that, or no thread of its TM had loaded the line before. */
+   another thread has stored is right if that thread has executed `fence w` since then and, unless it is of the same TM,
+   either the loading thread has executed `fence r` since that, or no thread of its TM had loaded the line before. */
 #include "explain/step.h"
 #include "explain/table.h"
 #include "host/backtrace.h"
@@ -101,12 +101,13 @@ static moment release_of(const struct order *order, moment store) {
 
 /* Whether a load may miss the store; `held`: the first load of the line by the TM, never if this is it. */
 static bool may_miss(const struct order *order, const struct trax_issue *load, moment store, moment held) {
-  if (!store || thread_of(store) / order->tps == load->tm)
+  const uint32_t reader = thread_of(moment_of(order, load)), writer = thread_of(store);
+  if (!store || writer == reader)
     return false;
   const moment release = release_of(order, store);
   if (release == NOT_YET)
     return true;
-  return order->threads[thread_of(moment_of(order, load))].acquired < release && held && held < release;
+  return writer / order->tps != load->tm && order->threads[reader].acquired < release && held && held < release;
 }
 
 static void check_load(struct order *order, const struct trax_issue *issue, uint32_t bytes) {
@@ -182,7 +183,7 @@ static void print(const struct order *order, FILE *out) {
   print_instruction(order, "stored at", order->store_pc, out);
   print_who(order, "by thread", writer, cycle_of(order->store), out);
   if (order->release == NOT_YET)
-    fprintf(out, "  %-*sno `fence w` of thread %u since its store\n", LABEL, "missing", writer);
+    fprintf(out, "  %-*sa `fence w` of thread %u behind its store\n", LABEL, "missing", writer);
   else
     fprintf(out,
             "  %-*sa `fence r` of thread %u since thread %u's `fence w` in cycle %" PRIu64
