@@ -63,7 +63,7 @@ MUTANTS = [
     # --- Memory controller ---
     ("reference/controller.c", "channel->free_from > t * cycle ? channel->free_from : t * cycle", "channel->free_from > t * cycle ? t * cycle : channel->free_from"),
     ("reference/controller.c", "(channel->free_from + cycle - 1) / cycle", "channel->free_from / cycle"),
-    ("reference/controller.c", "const uint64_t next = (t + 1) * chip", "const uint64_t next = t * chip"),
+    ("reference/controller.c", "((trax_ref_units)t + 1) * chip", "(trax_ref_units)t * chip"),
     ("reference/controller.c", "request->old_value + 1", "request->old_value + 2"),
     ("reference/run.c", "return trax_ref_buses_idle(chip, t);", "return t > 0 || trax_ref_buses_idle(chip, t);"),
     ("reference/controller.c", "miss->came < first) {", "miss->came > first) {"),
@@ -120,7 +120,7 @@ MUTANTS = [
     ("core/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}", "(struct trax_instant){t, 0}"),
     ("core/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
     ("core/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
-    ("core/cache_tags.h", "(tags->next[set] + 1) & (tags->ways - 1)", "tags->next[set] & (tags->ways - 1)"),
+    ("core/cache_tags.h", "(way + 1) & (tags->ways - 1)", "way & (tags->ways - 1)"),
     # --- Fences ---
     ("core/tp.c", "if (kind & TRAX_FENCE_R)", "if (kind == TRAX_FENCE_R)"),
     ("core/tp.c", "all ? i : registers[i]", "all ? TRAX_NUM_REGISTERS - 1 - i : registers[i]"),
@@ -185,8 +185,8 @@ MUTANTS = [
     ("core/memory.c", "trax_arbiter_to_back(&memory->turn, tm->number);",
      "(void)0;"),
     # A transfer takes bytes / B cycles.
-    ("core/memory.c", "begin + request->bytes * memory->units_per_byte",
-     "begin + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
+    ("core/memory.c", "begin.units + request->bytes * memory->units_per_byte",
+     "begin.units + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
     # The latency is added to every transfer.
     ("core/memory.c", "+ memory->latency;",
      "+ memory->latency + (request->kind == TRAX_REQUEST_WRITE);"),
