@@ -21,7 +21,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 2, LEVEL = 1 };
+enum { PAGE = 4096, VERSION = 3, LEVEL = 1, MOST_EXPANSION = 1100 /* of deflate */ };
 
 static const char magic[8] = "TRAXckpt";
 
@@ -35,6 +35,7 @@ struct header {
   uint64_t state;      /* bytes */
   uint64_t compressed; /* bytes that follow */
   uint64_t run[2];     /* digest of what the run began with */
+  uint64_t layout;     /* of the state: trax_state_layout */
   uint64_t body[2];    /* digest of the bytes that follow and of the header, with zero here */
 };
 
@@ -130,7 +131,7 @@ struct content {
   bool failed;
 };
 
-static void add(void *context, void *bytes, size_t size) {
+static void add(void *context, const void *bytes, size_t size) {
   struct content *content = context;
   if (content->failed)
     return;
@@ -147,14 +148,18 @@ static void add(void *context, void *bytes, size_t size) {
   content->count += size;
 }
 
+static void add_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
+  (void)name;
+  if (count)
+    add(context, bytes, size * count);
+}
+
 static void add_page(void *context, uint32_t number, const uint8_t *page) {
   struct content *content = context;
   if (hash_page(page) == content->checkpoint->pages[number])
     return;
-  uint8_t copy[PAGE];
-  memcpy(copy, page, PAGE);
   add(content, &number, sizeof number);
-  add(content, copy, PAGE);
+  add(content, page, PAGE);
   content->pages++;
 }
 
@@ -174,8 +179,8 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
   trax_chip_settle(chip, t);
   if (chip->tm->output)
     fflush(chip->tm->output); /* it is of the time before */
-  trax_state_visit(chip, add, &content);
-  struct header header = {.version = VERSION, .cycle = t, .state = content.count};
+  trax_state_visit(chip, add_piece, &content);
+  struct header header = {.version = VERSION, .cycle = t, .state = content.count, .layout = trax_state_layout(chip)};
   memcpy(header.magic, magic, sizeof magic);
   visit_pages(&chip->machine->space, add_page, &content);
   header.pages = content.pages;
@@ -269,6 +274,9 @@ static trax_status read_checkpoint(struct trax_checkpoint *checkpoint, trax_erro
   trax_status status = TRAX_OK;
   if (header->run[0] != checkpoint->run.low64 || header->run[1] != checkpoint->run.high64) {
     status = refuse(path, "a checkpoint of another program, machine, or buffer", error);
+  } else if (header->pages > checkpoint->machine->space.size / PAGE ||
+             header->state / MOST_EXPANSION > header->compressed) {
+    status = refuse(path, "damaged: it cannot hold as much as it says", error);
   } else {
     uLongf size = header->state + (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
     const uLongf expected = size;
@@ -287,8 +295,7 @@ struct reader {
   bool failed;
 };
 
-static void take(void *context, void *bytes, size_t size) {
-  struct reader *reader = context;
+static void take(struct reader *reader, void *bytes, size_t size) {
   reader->failed |= size > reader->left;
   if (reader->failed)
     return;
@@ -297,13 +304,23 @@ static void take(void *context, void *bytes, size_t size) {
   reader->left -= size;
 }
 
+static void take_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
+  (void)name;
+  if (count)
+    take(context, bytes, size * count);
+}
+
 /* For trax_machine.prepare. */
 static trax_status resume(void *context, struct trax_chip *chip, trax_error *error) {
   struct trax_checkpoint *checkpoint = context;
   const struct header *header = &checkpoint->header;
   struct reader reader = {checkpoint->content, header->state, false};
+  char wrong[128];
+  if (header->layout != trax_state_layout(chip))
+    return refuse(checkpoint->options.resume,
+                  "its state has another layout: it was written by another build of trax-sim", error);
   trax_chip_gather(chip); /* nothing has run ahead */
-  trax_state_visit(chip, take, &reader);
+  trax_state_visit(chip, take_piece, &reader);
   if (reader.failed || reader.left)
     return refuse(checkpoint->options.resume, "its state is of another size", error);
   reader.left = (size_t)header->pages * (PAGE + sizeof(uint32_t));
@@ -314,6 +331,8 @@ static trax_status resume(void *context, struct trax_chip *chip, trax_error *err
       return refuse(checkpoint->options.resume, "a page lies outside memory", error);
     take(&reader, chip->machine->space.bytes + (size_t)number * PAGE, PAGE);
   }
+  if (trax_state_check(chip, header->cycle, wrong))
+    return trax_fail(error, "%s: its state cannot be: %s", checkpoint->options.resume, wrong);
   trax_state_taken(chip, header->cycle);
   free(checkpoint->content);
   checkpoint->content = NULL;

@@ -1,0 +1,272 @@
+/* Checkpoints with right digests and wrong contents: every kind of field of the state is damaged in every way, and the
+   header too. The file is refused, with its name and what is wrong with it, or its run ends in an orderly way.
+
+   TRAX_RANDOM_SEED makes it different; with the address sanitizer it also sees what is read beside an array. */
+#include "compare.h"
+#include "temporary.h"
+
+#include "core/state.h"
+#include "host/checkpoint.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+#include <zlib.h>
+
+enum { MOST_NAMES = 256, MOST_PIECES = 1 << 20, MOST_BYTES = 1 << 24, STOP = 400, GO_ON = 3000, SINGLES = 3 };
+
+/* As emulator/host/checkpoint.c writes it. */
+struct header {
+  char magic[8];
+  uint32_t version, pages;
+  uint64_t cycle, state, compressed, run[2], layout, body[2];
+};
+
+struct piece {
+  unsigned name;
+  size_t at, size;
+};
+
+/* What is where in the state. */
+static const char *names[MOST_NAMES];
+static bool refused[MOST_NAMES]; /* damaged somewhere */
+static unsigned name_count;
+static struct piece *pieces; /* [piece_count] */
+static size_t piece_count, state_bytes;
+
+static const char *path;
+static uint8_t *content, *damaged;
+static size_t content_bytes;
+static struct header header;
+
+/* --- the state --- */
+
+static unsigned number_of(const char *name) {
+  unsigned i = 0;
+  while (i < name_count && strcmp(names[i], name) != 0)
+    i++;
+  if (i == name_count) {
+    assert_true(name_count < MOST_NAMES);
+    names[name_count++] = name;
+  }
+  return i;
+}
+
+static void note_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
+  (void)context;
+  (void)bytes;
+  if (!count)
+    return;
+  assert_true(piece_count < MOST_PIECES);
+  pieces[piece_count++] = (struct piece){number_of(name), state_bytes, size * count};
+  state_bytes += size * count;
+}
+
+static trax_status note_pieces(void *context, struct trax_chip *chip, trax_error *error) {
+  (void)context;
+  piece_count = state_bytes = 0;
+  trax_state_visit(chip, note_piece, NULL);
+  return trax_fail(error, "that is all");
+}
+
+/* --- files --- */
+
+static void write_file(struct header changed) {
+  uLongf size = compressBound(content_bytes);
+  uint8_t *body = malloc(size);
+  assert_int_equal(compress2(body, &size, damaged, content_bytes, 1), Z_OK);
+  if (changed.compressed == header.compressed)
+    changed.compressed = size;
+  changed.body[0] = changed.body[1] = 0;
+  XXH3_state_t *state = XXH3_createState();
+  XXH3_128bits_reset(state);
+  XXH3_128bits_update(state, &changed, sizeof changed);
+  XXH3_128bits_update(state, body, size);
+  const XXH128_hash_t digest = XXH3_128bits_digest(state);
+  XXH3_freeState(state);
+  changed.body[0] = digest.low64;
+  changed.body[1] = digest.high64;
+  FILE *file = fopen(path, "wb");
+  assert_int_equal(fwrite(&changed, sizeof changed, 1, file), 1);
+  assert_int_equal(fwrite(body, 1, size, file), size);
+  fclose(file);
+  free(body);
+}
+
+static void read_file(void) {
+  static uint8_t bytes[MOST_BYTES];
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  const size_t size = fread(bytes, 1, sizeof bytes, file);
+  fclose(file);
+  memcpy(&header, bytes, sizeof header);
+  uLongf expected = header.state + header.pages * (uint64_t)4100;
+  content = realloc(content, expected);
+  damaged = realloc(damaged, expected);
+  assert_int_equal(uncompress(content, &expected, bytes + sizeof header, size - sizeof header), Z_OK);
+  content_bytes = expected;
+  memcpy(damaged, content, content_bytes);
+}
+
+/* --- runs --- */
+
+static trax_error reason;
+
+/* Whether the file is refused. */
+static bool resume(const struct trax_config *config, const uint32_t *program, size_t count, const char *what) {
+  struct bench bench = bench_begin(config, program, count);
+  struct trax_checkpoint *checkpoint = NULL;
+  const struct trax_checkpoint_options options = {.resume = path};
+  const uint64_t saved = random_state;
+  random_state = 99; /* as compare.c fills the data */
+  for (uint32_t i = 0; i < DATA_BYTES; i++)
+    bench.machine->space.bytes[DATA + i] = (uint8_t)any(0, 255);
+  random_state = saved;
+  if (count % 2) {
+    bench.machine->space.input = DATA + DATA_BYTES / 4;
+    bench.machine->space.input_bytes = DATA_BYTES / 2;
+  }
+  reason.message[0] = '\0';
+  trax_status status = trax_checkpoint_begin(&checkpoint, bench.machine, &options, &reason);
+  const trax_run_options run = {.max_cycles = STOP + GO_ON, .host_threads = 1};
+  if (status == TRAX_OK)
+    status = trax_machine_run(bench.machine, &run, &reason);
+  if (status == TRAX_ERROR && strncmp(reason.message, path, strlen(path)) != 0)
+    fail_msg("%s: \"%s\" does not name the file", what, reason.message);
+  trax_checkpoint_end(checkpoint, NULL);
+  bench_end(&bench);
+  return status == TRAX_ERROR;
+}
+
+enum damage { ONES, ZEROS, FLIPPED, RANDOM, ONE_MORE, DAMAGES };
+
+static void damage(const struct piece *piece, enum damage how) {
+  uint8_t *bytes = damaged + piece->at;
+  for (size_t i = 0; i < piece->size; i++)
+    bytes[i] = (uint8_t)(how == ONES ? 0xFF : how == ZEROS ? 0 : how == RANDOM ? any(0, 255) : bytes[i]);
+  if (how == FLIPPED)
+    bytes[any(0, (uint32_t)piece->size - 1)] ^= (uint8_t)(1u << any(0, 7));
+  if (how == ONE_MORE)
+    bytes[0]++;
+}
+
+static void damage_state(const struct trax_config *config, const uint32_t *program, size_t count) {
+  for (unsigned name = 0; name < name_count; name++)
+    for (unsigned how = 0; how < DAMAGES; how++)
+      for (unsigned turn = 0; turn <= SINGLES; turn++) { /* one of the name somewhere, and all of it */
+        const size_t first = any(0, (uint32_t)piece_count - 1);
+        bool any_damage = false;
+        for (size_t i = 0; i < piece_count; i++) {
+          const struct piece *piece = &pieces[(first + i) % piece_count];
+          if (piece->name != name || (turn < SINGLES && any_damage))
+            continue;
+          damage(piece, (enum damage)how);
+          any_damage = true;
+        }
+        write_file(header);
+        memcpy(damaged, content, content_bytes);
+        if (setting("TRAX_TEST_VERBOSE", 0))
+          fprintf(stderr, "%s, %u, %u\n", names[name], how, turn);
+        refused[name] |= resume(config, program, count, names[name]);
+      }
+}
+
+static void damage_header(const struct trax_config *config, const uint32_t *program, size_t count) {
+  for (size_t at = sizeof header.magic; at < offsetof(struct header, body); at++)
+    for (unsigned bit = 0; bit < 8; bit++) {
+      struct header changed = header;
+      ((uint8_t *)&changed)[at] ^= (uint8_t)(1u << bit);
+      write_file(changed);
+      const bool is_cycle = at >= offsetof(struct header, cycle) && at < offsetof(struct header, state);
+      if (!resume(config, program, count, "header"))
+        fail_msg("byte %zu, bit %u of the header is taken", at, bit);
+      if (at >= offsetof(struct header, layout) && !strstr(reason.message, "another build of trax-sim"))
+        fail_msg("another layout: \"%s\"", reason.message);
+      if (is_cycle && !strstr(reason.message, "its state cannot be: "))
+        fail_msg("another cycle: \"%s\"", reason.message);
+      if (at < offsetof(struct header, pages) && !strstr(reason.message, "a checkpoint of version"))
+        fail_msg("another version: \"%s\"", reason.message);
+    }
+  write_file(header);
+  assert_false(resume(config, program, count, "what was not damaged"));
+}
+
+/* What a program may have made, and what is only counted: any value will do. */
+static const char *const free_names[] = {
+    "tags->lines",       "tp->reg",           "tp->pc",
+    "tp->address",       "tp->local",         "tp->run_begin",
+    "tp->run_end",       "request->value",    "request->number",
+    "request->line",     "queue->peak",       "queue->made",
+    "queue->last_fresh", "tm->exit_statuses", "tm->dcache.next_waiter",
+};
+
+static bool may_be_anything(const char *name) {
+  for (size_t i = 0; i < sizeof free_names / sizeof *free_names; i++)
+    if (strcmp(free_names[i], name) == 0)
+      return true;
+  return strncmp(name, "stats->", 7) == 0 || strncmp(name, "memory_stats->", 14) == 0;
+}
+
+static void machine(struct trax_config config, uint64_t seed) {
+  random_state = seed;
+  uint32_t program[BODY + 64];
+  const size_t count = any_program(program);
+  const trax_run_options options = {.max_cycles = STOP, .host_threads = 1};
+  struct trax_checkpoint *checkpoint;
+  struct bench bench = bench_begin(&config, program, count);
+  bench.machine->prepare = note_pieces;
+  assert_int_equal(trax_machine_run(bench.machine, &options, &bench.error), TRAX_ERROR);
+  bench_end(&bench);
+  bench = bench_begin(&config, program, count);
+  random_state = 99;
+  for (uint32_t i = 0; i < DATA_BYTES; i++)
+    bench.machine->space.bytes[DATA + i] = (uint8_t)any(0, 255);
+  random_state = seed + setting("TRAX_RANDOM_SEED", 1);
+  const struct trax_checkpoint_options write = {.write = path};
+  assert_int_equal(trax_checkpoint_begin(&checkpoint, bench.machine, &write, &bench.error), TRAX_OK);
+  const trax_status status = trax_machine_run(bench.machine, &options, &bench.error);
+  assert_int_equal(status, TRAX_STUCK); /* in the midst of it */
+  assert_int_equal(trax_checkpoint_end(checkpoint, &bench.error), TRAX_OK);
+  bench_end(&bench);
+  read_file();
+  assert_int_equal(header.state, state_bytes);
+  damage_header(&config, program, count);
+  damage_state(&config, program, count);
+}
+
+static void every_field(void **state) {
+  (void)state;
+  struct trax_config ring = TRAX_CONFIG_DEFAULT;
+  ring.chip.tms = 2;
+  ring.chip.tps_per_tm = 6;
+  ring.memory.size_mib = 1;
+  ring.memory.bandwidth_gbps = 1;
+  ring.memory.queue_depth = 8;
+  ring.dcache.mshrs = 4;
+  struct trax_config lists = ring;
+  lists.memory.channels = 2;
+  lists.memory.atomic_latency_cycles = 30;
+  struct trax_config l2 = lists;
+  l2.l2.bytes = 1024;
+  l2.l2.ways = 2;
+  l2.l2.banks = 2;
+  l2.l2.mshrs = 4;
+  machine(ring, 3);
+  machine(lists, 4);
+  machine(l2, 5);
+  machine(l2, 6);
+  for (unsigned i = 0; i < name_count; i++)
+    if (!refused[i] && !may_be_anything(names[i]))
+      fail_msg("%s was never refused", names[i]);
+}
+
+int main(void) {
+  path = test_path("forged");
+  pieces = malloc(MOST_PIECES * sizeof *pieces);
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_field)};
+  const int failures = cmocka_run_group_tests(tests, NULL, NULL);
+  free(pieces);
+  free(content);
+  free(damaged);
+  return failures;
+}
