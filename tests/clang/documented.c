@@ -21,6 +21,16 @@ unsigned merged(const volatile unsigned *p) { return __builtin_nontemporal_load(
 // CHECK: lwnt
 // CHECK: ret
 unsigned each_time(const unsigned *p) { return __atomic_load_n(p, __ATOMIC_RELAXED) + __atomic_load_n(p, __ATOMIC_RELAXED); }
+// The load stays in a loop that waits for it, as runtime.md and trax.h say.
+// CHECK-LABEL: {{^}}wait_for:
+// CHECK: [[LOOP:\.LBB[0-9_]+]]:
+// CHECK: lwnt
+// CHECK: b{{.*}}[[LOOP]]
+// CHECK: ret
+void wait_for(const unsigned *p) {
+  while (__atomic_load_n(p, __ATOMIC_RELAXED) == 0)
+    ;
+}
 // CHECK-LABEL: {{^}}quotient:
 // CHECK: fdiv
 float quotient(float a, float b) { return a / b; }
