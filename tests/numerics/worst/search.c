@@ -139,6 +139,13 @@ static bool is_named(const struct function *f, char **names) {
   return !any;
 }
 
+static bool is_known(const char *name) {
+  for (size_t k = 0; k < function_count; k++)
+    if (!strcmp(name, functions[k].name))
+      return true;
+  return false;
+}
+
 int main(int argc, char **argv) {
   uint64_t count = 100000, seed = 1;
   const char *start = NULL;
@@ -155,6 +162,18 @@ int main(int argc, char **argv) {
       return 1;
     }
   }
+  FILE *file = start ? fopen(start, "r") : NULL;
+  if (start && !file) {
+    fprintf(stderr, "math64-worst: '%s' cannot be read\n", start);
+    return 1;
+  }
+  if (file)
+    fclose(file);
+  for (char **name = argv + i; *name; name++)
+    if (!is_known(*name)) {
+      fprintf(stderr, "math64-worst: there is no function '%s'\n", *name);
+      return 1;
+    }
   for (size_t k = 0; k < function_count; k++)
     if (is_named(&functions[k], argv + i))
       search(&functions[k], seed, count, start);
