@@ -41,6 +41,11 @@ static inline int32_t greatest_bits(struct vector v) {
   return larger(larger(float_bits(v.x), float_bits(v.y)), float_bits(v.z));
 }
 
+/* The same of the components' magnitudes. */
+static inline int32_t greatest_magnitude(struct vector v) {
+  return larger(larger(magnitude(v.x), magnitude(v.y)), magnitude(v.z));
+}
+
 static inline float at_least(float value, float least) {
   return bits_float(larger(float_bits(value), float_bits(least))); /* least is not negative, value is no NaN */
 }

@@ -33,6 +33,17 @@ static inline struct vector bounded_colour(struct vector colour) {
 /* The way to a point; returns 1 / square of its distance, or 0 if it is too near to have a direction. */
 static inline float aim_at(struct arrival *arrival, struct vector from, struct vector to) {
   struct vector way = minus(to, from);
+  if (HITS_ARE_EXACT) {
+    int32_t exponent;
+    way = scale_way(way, &exponent);
+    if (exponent == 0)
+      return 0;
+    float square = dot(way, way), inverse = trax_rsqrt(square), scaled = inverse * bits_float(0x7F000000 - exponent);
+    arrival->direction = times(inverse, way);
+    arrival->distance_bits = float_bits(square * inverse * bits_float(exponent)) - LIGHT_SLACK;
+    arrival->target = to;
+    return at_most(scaled * scaled, 0x1p80f);
+  }
   float square = dot(way, way);
   if (float_bits(square) < float_bits(0x1p-80f))
     return 0;
@@ -75,6 +86,10 @@ static inline bool light_arrives(struct arrival *arrival, const struct trax_devi
 /* Of the triangle's two sides; not towards the origin. */
 static inline struct vector triangle_normal(const float *v) {
   struct vector a = load_vector(v), e = minus(load_vector(v + 3), a), f = minus(load_vector(v + 6), a);
+  if (HITS_ARE_EXACT) {
+    float scale = bits_float(0x7F000000 - (larger(greatest_magnitude(e), greatest_magnitude(f)) & 0x7F800000));
+    e = times(scale, e), f = times(scale, f);
+  }
   struct vector n = cross(e, f);
   int32_t size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
   if (size == 0)

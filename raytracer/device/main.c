@@ -60,7 +60,10 @@ next_sample:
     struct surface surface;
     struct light way;
     struct vector eye = {run->eye[0], run->eye[1], run->eye[2]};
-    find_surface(&surface, &hit, eye);
+    if (HITS_ARE_EXACT)
+      find_surface_exactly(&surface, &hit, eye, direction);
+    else
+      find_surface(&surface, &hit, eye);
     struct vector flat = surface.normal;
     if (NEEDS(run, SMOOTH))
       smooth_surface(&surface, &hit, run->normals_distance);

@@ -314,7 +314,10 @@ PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct p
     const struct trax_device_material *material = hit_material(run, &hit);
     struct surface surface;
     struct texel texel = {{1, 1, 1}, 1};
-    find_surface(&surface, &hit, path->origin);
+    if (HITS_ARE_EXACT)
+      find_surface_exactly(&surface, &hit, path->origin, path->direction);
+    else
+      find_surface(&surface, &hit, path->origin);
     if (NEEDS(run, TEXTURES) && material->texture)
       texel = texture_of_hit(scene.data, material->texture, &hit);
     if (pass_hole(run, path, shadow, &surface, material, &hit, texel.alpha))

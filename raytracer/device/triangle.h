@@ -12,6 +12,8 @@
 #define TRAX_DEVICE_TRIANGLE_H
 
 #include "bits.h"
+#include "exact.h"
+#include "run.h"
 #include "trax/scene_format.h"
 
 #include <stdbool.h>
@@ -80,12 +82,20 @@ accept_hit(const char *triangle, bool any, float scaled, float determinant, floa
 
 #if TRAX_TRIANGLE == TRAX_WATERTIGHT
 
+/* Other programs of the TPs have no room for it. */
+#if defined TRAX_EXACT_HITS || !defined __trax__
+#define HAS_EXACT_RAY
+#endif
+
 /* Coordinates are renamed so that the direction's largest component is the third, and sheared and scaled so that the
    ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
 struct triangle_ray {
   uint32_t offset_u, offset_v, offset_w;
   float origin_u, origin_v, origin_w;
   float shear_u, shear_v, scale_w;
+#ifdef HAS_EXACT_RAY
+  struct exact_ray ray; /* as it is */
+#endif
 };
 
 /* inverse_ are the reciprocals of the direction's components, of which only the largest one's is used. */
@@ -93,6 +103,10 @@ static inline void prepare_triangle_ray(struct triangle_ray *ray, float ox, floa
                                         float dz, float inverse_x, float inverse_y, float inverse_z) {
   int32_t size_x = magnitude(dx), size_y = magnitude(dy), size_z = magnitude(dz);
   int32_t size = larger(larger(size_x, size_y), size_z);
+#ifdef HAS_EXACT_RAY
+  if (HITS_ARE_EXACT)
+    ray->ray = (struct exact_ray){{ox, oy, oz}, {dx, dy, dz}};
+#endif
   if (size == size_x) {
     ray->offset_u = 4, ray->offset_v = 8, ray->offset_w = 0;
     ray->origin_u = oy, ray->origin_v = oz, ray->origin_w = ox;
@@ -116,10 +130,69 @@ static inline bool opposite(float a, float b) {
   return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
 }
 
+#ifdef HAS_EXACT_RAY
+/* May the ray hit the triangle? Only where two edge values are certain to be on different sides does it not. As the
+   watertight test below, but with all lengths scaled by a power of two to less than 2, so that no product leaves the
+   range of floats. In units of 2^-24, and with S, the greatest magnitude of a coordinate across the ray: the vertices
+   as seen from the origin are off by 2, their product with the shear (6, from a reciprocal of error 5) by 16, so
+   coordinates across the ray by 22, and edge values by 4 * 22 S + 2 * 22 * 22 * 2^-24 + 4 S S, where S is at most 4. */
+static inline __attribute__((always_inline)) bool may_hit_triangle(const struct triangle_ray *ray,
+                                                                   const char *triangle) {
+  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
+  float coordinate[9];
+  int32_t size = 0, across = 0;
+  for (int corner = 0; corner < 3; corner++) {
+    float *place = coordinate + 3 * corner;
+    place[0] = load_float(at_u + 12 * corner) - ray->origin_u;
+    place[1] = load_float(at_v + 12 * corner) - ray->origin_v;
+    place[2] = load_float(at_w + 12 * corner) - ray->origin_w;
+    size = larger(size, larger(larger(magnitude(place[0]), magnitude(place[1])), magnitude(place[2])));
+  }
+  float scale = bits_float(0x7F000000 - (size & 0x7F800000));
+  for (int corner = 0; corner < 3; corner++) {
+    float *place = coordinate + 3 * corner;
+    float w = place[2] * scale;
+    place[0] = place[0] * scale - ray->shear_u * w;
+    place[1] = place[1] * scale - ray->shear_v * w;
+    across = larger(across, larger(magnitude(place[0]), magnitude(place[1])));
+  }
+  int32_t error = float_bits(bits_float(across) * 0x1p-17f + 0x1p-38f);
+  uint32_t sides = 0; /* bit 0: an edge value is certainly positive; bit 1: one is certainly negative */
+  for (int corner = 0; corner < 3; corner++) {
+    const float *b = coordinate + 3 * ((corner + 1) % 3), *c = coordinate + 3 * ((corner + 2) % 3);
+    float edge = c[0] * b[1] - c[1] * b[0];
+    if (magnitude(edge) > error)
+      sides |= 1u << ((uint32_t)float_bits(edge) >> 31);
+  }
+  return sides != 3;
+}
+
+/* As hit_triangle, without error. */
+static inline __attribute__((always_inline)) bool
+hit_triangle_exactly(const struct triangle_ray *ray, const char *triangle, bool any, struct hit *hit) {
+  struct exact_answer answer;
+  if (!may_hit_triangle(ray, triangle) || !exact_hit(&ray->ray, (const float *)(const void *)triangle, &answer))
+    return false;
+  int32_t distance_bits = float_bits(answer.distance);
+  if (distance_bits > hit->distance_bits)
+    return false;
+  if (!any) {
+    if (distance_bits == hit->distance_bits && (!hit->triangle || !comes_first(triangle, hit->triangle)))
+      return false;
+    *hit = (struct hit){distance_bits, triangle, answer.weight1, answer.weight2};
+  }
+  return true;
+}
+#else
+#define hit_triangle_exactly(ray, triangle, any, hit) false
+#endif
+
 /* Is the triangle hit before hit->distance_bits? If so *hit becomes this one; if any hit will do, only the answer
    counts. */
 static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
                                                                bool any, struct hit *hit) {
+  if (HITS_ARE_EXACT)
+    return hit_triangle_exactly(ray, triangle, any, hit);
   const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
   float aw = load_float(at_w) - ray->origin_w;
   float bw = load_float(at_w + 12) - ray->origin_w;

@@ -1,6 +1,7 @@
 /* The device program's parameters: camera, light, palette, the order of pixels, the margin of boxes. */
 #include "core/machine.h"
 #include "lighting.h"
+#include "reach.h"
 #include "render.h"
 
 #include <math.h>
@@ -74,7 +75,8 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   *exponent = 0;
   if (magnitude >= LEAST_EXPONENT && magnitude <= GREATEST_EXPONENT)
     return TRAX_OK;
-  *exponent = -magnitude;
+  /* No further down than necessary: where a scene of 2^60 has details, bits would be lost. */
+  *exponent = (magnitude > GREATEST_EXPONENT ? GREATEST_EXPONENT : 0) - magnitude;
   scale_scene(scene, *exponent);
   trax_scale_view(view, *exponent);
   return TRAX_OK;

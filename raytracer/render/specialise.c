@@ -83,6 +83,8 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   fputs(" */\n", out);
   if (frame->method.triangle == TRAX_TRIANGLE_MOLLER_TRUMBORE)
     fputs("#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE\n", out);
+  if (frame->params->features & TRAX_FEATURE_BIT(EXACT))
+    fputs("#define TRAX_EXACT_HITS 1\n", out);
   if (queues > 1)
     fprintf(out, "#define TRAX_QUEUES %u\n", queues < TRAX_MAX_QUEUES ? queues : TRAX_MAX_QUEUES);
   fprintf(out,

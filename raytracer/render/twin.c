@@ -147,7 +147,7 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
   else {
     /* One ray a pixel and no shading that matters. */
     memcpy(plain.params, frame->params, frame->params_size);
-    plain.params->features = 0;
+    plain.params->features &= TRAX_FEATURE_BIT(EXACT);
     plain.params->samples = 1;
     status = run_twin(&picture, trax_twin_recording, &plain, threads, run, error);
   }
