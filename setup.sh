@@ -19,8 +19,8 @@ packages=(
   cmake ninja-build make gcc g++ pkg-config python3 git                   # to build; the tutorial applies a patch with git
   llvm-19 llvm-19-dev llvm-19-tools libclang-19-dev libclang-common-19-dev clang-19 libc++-19-dev
   libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev        # linker, emulator
-  libassimp-dev libembree-dev libpng-dev libjpeg62-turbo-dev libopenexr-dev liblzma-dev zlib1g-dev  # ray tracer's host side
-  libcmocka-dev libgmp-dev libmpfr-dev gdb gdb-multiarch                                          # tests
+  libassimp-dev libembree-dev libpng-dev libjpeg62-turbo-dev libopenexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
+  libcmocka-dev libmpfr-dev gdb gdb-multiarch                                                     # tests
   newlib-source                                                          # the mathematical functions of binary64
   gnuplot-nox                                                            # the evaluation's figures
   parallel chromium                                                      # tests: runs handed to GNU parallel; the evaluation's page in a browser

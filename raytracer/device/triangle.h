@@ -171,7 +171,8 @@ static inline __attribute__((always_inline)) bool may_hit_triangle(const struct 
 static inline __attribute__((always_inline)) bool
 hit_triangle_exactly(const struct triangle_ray *ray, const char *triangle, bool any, struct hit *hit) {
   struct exact_answer answer;
-  if (!may_hit_triangle(ray, triangle) || !exact_hit(&ray->ray, (const float *)(const void *)triangle, &answer))
+  struct exact_ray copy = ray->ray; /* whose address is taken, so that no other part of the ray must be in memory */
+  if (!may_hit_triangle(ray, triangle) || !exact_hit(&copy, (const float *)(const void *)triangle, &answer))
     return false;
   int32_t distance_bits = float_bits(answer.distance);
   if (distance_bits > hit->distance_bits)

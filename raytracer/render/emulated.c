@@ -50,7 +50,10 @@ static trax_status general_program(struct trax_program *program, const struct op
     return trax_fail(error, "the general program has no %s nodes: it takes %s and %s ones",
                      trax_node_formats[layout].name, trax_node_formats[TRAX_NODES_BINARY].name,
                      trax_node_formats[TRAX_NODES_QUANTISED].name);
-  if (!installed_file(program->path, "lib/trax", deep ? "trax-raytracer-deep" : "trax-raytracer", ".elf"))
+  const char *name = frame->params->features & TRAX_FEATURE_BIT(EXACT) ? "trax-raytracer-exact"
+                     : deep                                            ? "trax-raytracer-deep"
+                                                                       : "trax-raytracer";
+  if (!installed_file(program->path, "lib/trax", name, ".elf"))
     return trax_fail(error, "%s is missing; --program names another one", program->path);
   return TRAX_OK;
 }

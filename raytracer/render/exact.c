@@ -1,31 +1,156 @@
 #include "exact.h"
 
+#include <gmp.h>
 #include <string.h>
 
-/* Edges are triple products of the direction and two vertices as seen from the origin: two triangles that share an edge
-   compute the same value for it with opposite signs, since a product's terms change places and nothing else. So no ray
-   passes between them, as with the watertight test of the device. Vertices and the eye are floats, whose differences
-   are exact unless their exponents are more than 29 apart. */
+/* --- in binary64, with bounds on the errors --- */
+
+struct bounded {
+  double value, error; /* |value - what it stands for| <= error */
+};
+
+/* det(direction, b, c) */
+static struct bounded volume(struct double3 direction, struct double3 b, struct double3 c) {
+  const double size = fabs(direction.x) * (fabs(b.y * c.z) + fabs(b.z * c.y)) +
+                      fabs(direction.y) * (fabs(b.z * c.x) + fabs(b.x * c.z)) +
+                      fabs(direction.z) * (fabs(b.x * c.y) + fabs(b.y * c.x));
+  return (struct bounded){dot(direction, cross(b, c)), 0x1p-48 * size + 0x1p-900};
+}
+
+/* Of a sum of products of three: what is between -error and error may have either sign, and is 0 if that is exact. */
+static bool is_certain(struct bounded value) {
+  return fabs(value.value) > value.error;
+}
+
+/* --- exactly --- */
+
+struct rational3 {
+  mpq_t x, y, z;
+};
+
+/* The distance is that of the plane; false: the ray runs along it. */
+struct rational_triangle {
+  struct rational3 direction, vertex[3], scratch;
+  mpq_t volume[3], determinant, scaled, product;
+};
+
+static mpq_t *component(struct rational3 *v, int axis) {
+  return axis == 0 ? &v->x : axis == 1 ? &v->y : &v->z;
+}
+
+static void rational_init(struct rational_triangle *r) {
+  struct rational3 *vectors[] = {&r->direction, &r->vertex[0], &r->vertex[1], &r->vertex[2], &r->scratch};
+  for (int i = 0; i < 5; i++)
+    mpq_inits(vectors[i]->x, vectors[i]->y, vectors[i]->z, NULL);
+  mpq_inits(r->volume[0], r->volume[1], r->volume[2], r->determinant, r->scaled, r->product, NULL);
+}
+
+static void rational_clear(struct rational_triangle *r) {
+  struct rational3 *vectors[] = {&r->direction, &r->vertex[0], &r->vertex[1], &r->vertex[2], &r->scratch};
+  for (int i = 0; i < 5; i++)
+    mpq_clears(vectors[i]->x, vectors[i]->y, vectors[i]->z, NULL);
+  mpq_clears(r->volume[0], r->volume[1], r->volume[2], r->determinant, r->scaled, r->product, NULL);
+}
+
+/* sum = det(a, b, c) */
+static void rational_volume(struct rational_triangle *r, mpq_t sum, struct rational3 *a, struct rational3 *b,
+                            struct rational3 *c) {
+  mpq_set_ui(sum, 0, 1);
+  for (int i = 0; i < 3; i++)
+    for (int odd = 0; odd < 2; odd++) {
+      mpq_mul(r->product, *component(b, (i + 1 + odd) % 3), *component(c, (i + 2 - odd) % 3));
+      mpq_mul(r->product, r->product, *component(a, i));
+      if (odd)
+        mpq_sub(sum, sum, r->product);
+      else
+        mpq_add(sum, sum, r->product);
+    }
+}
+
+static void rational_set(struct rational_triangle *r, const struct trax_triangle *triangle, struct double3 origin,
+                         struct double3 direction) {
+  const float *const corner[3] = {triangle->v0, triangle->v1, triangle->v2};
+  const double from[3] = {origin.x, origin.y, origin.z}, towards[3] = {direction.x, direction.y, direction.z};
+  for (int axis = 0; axis < 3; axis++) {
+    mpq_set_d(r->product, from[axis]);
+    mpq_set_d(*component(&r->direction, axis), towards[axis]);
+    for (int i = 0; i < 3; i++) {
+      mpq_set_d(*component(&r->vertex[i], axis), (double)corner[i][axis]);
+      mpq_sub(*component(&r->vertex[i], axis), *component(&r->vertex[i], axis), r->product);
+    }
+  }
+  mpq_set_ui(r->determinant, 0, 1);
+  for (int i = 0; i < 3; i++) {
+    rational_volume(r, r->volume[i], &r->direction, &r->vertex[(i + 2) % 3], &r->vertex[(i + 1) % 3]);
+    mpq_add(r->determinant, r->determinant, r->volume[i]);
+  }
+  rational_volume(r, r->scaled, &r->vertex[0], &r->vertex[2], &r->vertex[1]);
+}
+
+/* As exact_triangle. */
+static bool rational_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
+                              struct exact_hit *hit, mpq_t distance) {
+  struct rational_triangle r;
+  rational_init(&r);
+  rational_set(&r, triangle, origin, direction);
+  bool positive = false, negative = false;
+  for (int i = 0; i < 3; i++) {
+    positive |= mpq_sgn(r.volume[i]) > 0;
+    negative |= mpq_sgn(r.volume[i]) < 0;
+  }
+  const bool found = !(positive && negative) && mpq_sgn(r.determinant) * mpq_sgn(r.scaled) > 0;
+  if (found) {
+    mpq_div(distance, r.scaled, r.determinant);
+    mpq_div(r.volume[1], r.volume[1], r.determinant);
+    mpq_div(r.volume[2], r.volume[2], r.determinant);
+    hit->distance = mpq_get_d(distance);
+    hit->u = mpq_get_d(r.volume[1]);
+    hit->v = mpq_get_d(r.volume[2]);
+  }
+  rational_clear(&r);
+  return found;
+}
+
+/* --- both --- */
+
+/* Edge values are triple products of the direction and two vertices as seen from the origin. Binary64 decides where it
+   is certain, rational numbers where it is not: so what is hit is hit without error, and distance and weights are
+   within DISTANCE_ERROR. */
+#define DISTANCE_ERROR 0x1p-32
+
 bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
                     struct exact_hit *hit) {
   const struct double3 a = minus(from(triangle->v0), origin), b = minus(from(triangle->v1), origin),
                        c = minus(from(triangle->v2), origin);
-  const double edge_a = dot(direction, cross(c, b)), edge_b = dot(direction, cross(a, c)),
-               edge_c = dot(direction, cross(b, a));
-  if ((edge_a < 0 || edge_b < 0 || edge_c < 0) && (edge_a > 0 || edge_b > 0 || edge_c > 0))
+  const struct bounded edge[3] = {volume(direction, c, b), volume(direction, a, c), volume(direction, b, a)};
+  bool positive = false, negative = false, certain = true;
+  for (int i = 0; i < 3; i++) {
+    positive |= edge[i].value > edge[i].error;
+    negative |= edge[i].value < -edge[i].error;
+    certain = certain && is_certain(edge[i]);
+  }
+  if (positive && negative)
     return false;
-  const double sum = edge_a + edge_b + edge_c;
-  const struct double3 normal = cross(minus(b, a), minus(c, a));
-  const double slope = dot(normal, direction);
-  if (sum == 0 || slope == 0)
-    return false;
-  const double distance = dot(normal, a) / slope;
-  if (!(distance > 0))
-    return false;
-  hit->distance = distance;
-  hit->u = edge_b / sum;
-  hit->v = edge_c / sum;
-  return true;
+  /* Edges of the triangle itself, whose rounding is that of floats' differences. */
+  const struct double3 e = minus(from(triangle->v1), from(triangle->v0)),
+                       f = minus(from(triangle->v2), from(triangle->v0));
+  const struct bounded slope = volume(direction, e, f), scaled = volume(a, e, f);
+  const double sum = edge[0].value + edge[1].value + edge[2].value;
+  const double sum_error = edge[0].error + edge[1].error + edge[2].error;
+  certain = certain && slope.error <= 0.25 * DISTANCE_ERROR * fabs(slope.value) &&
+            scaled.error <= 0.25 * DISTANCE_ERROR * fabs(scaled.value) &&
+            sum_error <= 0.25 * DISTANCE_ERROR * fabs(sum);
+  if (!certain) {
+    mpq_t distance;
+    mpq_init(distance);
+    const bool found = rational_triangle(triangle, origin, direction, hit, distance);
+    mpq_clear(distance);
+    return found;
+  }
+  hit->distance = scaled.value / slope.value;
+  hit->u = edge[1].value / sum;
+  hit->v = edge[2].value / sum;
+  return hit->distance > 0;
 }
 
 /* --- Embree's callbacks --- */
@@ -63,6 +188,23 @@ static bool comes_first(const struct trax_triangle *triangle, const struct trax_
   return triangle < other;
 }
 
+/* Both triangles are hit: is the first one nearer? Of equal distances the one that comes first is. */
+static bool is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
+                      const struct exact_hit *other) {
+  const struct trax_triangle *triangle = &source->triangles[hit->triangle],
+                             *rival = &source->triangles[other->triangle];
+  if (fabs(hit->distance - other->distance) > 2 * DISTANCE_ERROR * (hit->distance + other->distance))
+    return hit->distance < other->distance;
+  struct exact_hit ignored;
+  mpq_t distance, other_distance;
+  mpq_inits(distance, other_distance, NULL);
+  rational_triangle(triangle, query->origin, query->direction, &ignored, distance);
+  rational_triangle(rival, query->origin, query->direction, &ignored, other_distance);
+  const int order = mpq_cmp(distance, other_distance);
+  mpq_clears(distance, other_distance, NULL);
+  return order < 0 || (order == 0 && comes_first(triangle, rival));
+}
+
 /* Of the float rays Embree's own is only to leave out what is too far: its end lies behind the hit. */
 static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct query *query = (struct query *)arguments->context;
@@ -70,9 +212,7 @@ static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct exact_hit hit = {.triangle = arguments->primID};
   if (!arguments->valid[0] ||
       !exact_triangle(&source->triangles[hit.triangle], query->origin, query->direction, &hit) ||
-      hit.distance > query->limit ||
-      (query->found && hit.distance == query->hit.distance &&
-       !comes_first(&source->triangles[hit.triangle], &source->triangles[query->hit.triangle])))
+      (query->found && !is_nearer(query, source, &hit, &query->hit)))
     return;
   query->found = true;
   query->hit = hit;

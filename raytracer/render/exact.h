@@ -1,5 +1,6 @@
-/* Rays against triangles in binary64, for the reference that errors are measured by. Embree's BVH finds the triangles
-   whose boxes a ray may meet; whether and where it meets them is computed here. */
+/* Rays against triangles without error, for the reference that errors are measured by. Embree's BVH finds the triangles
+   whose boxes a ray may meet; whether it meets them, and which is the nearest, is decided in binary64 where that is
+   certain and in rational numbers where it is not. */
 #ifndef TRAX_RENDER_EXACT_H
 #define TRAX_RENDER_EXACT_H
 

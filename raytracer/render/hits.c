@@ -2,6 +2,8 @@
 
 #include "core/machine.h"
 #include "double3.h"
+#include "exact.h"
+#include "reach.h"
 
 #include "../device/camera.h"
 
@@ -22,7 +24,9 @@ struct bounds {
   double distance, distance_error; /* of the plane, in units of the direction */
 };
 
-static struct bounds bounds_of(const struct trax_triangle *triangle, struct double3 eye, struct double3 towards) {
+/* hit: how far away that is of which the answer is judged, in units of the direction. */
+static struct bounds bounds_of(const struct trax_triangle *triangle, struct double3 eye, struct double3 towards,
+                               double hit) {
   const float *const corners[3] = {triangle->v0, triangle->v1, triangle->v2};
   const double origin[3] = {eye.x, eye.y, eye.z}, direction[3] = {towards.x, towards.y, towards.z};
   int w = 0;
@@ -31,12 +35,14 @@ static struct bounds bounds_of(const struct trax_triangle *triangle, struct doub
       w = axis;
   const int u = (w + 1) % 3, v = (w + 2) % 3;
   double vertex[3][3], error[3], size = 0;
+  const double reach = TRAX_REACH * hit * fabs(direction[w]);
   for (int i = 0; i < 3; i++) {
     double farthest = 0;
     for (int axis = 0; axis < 3; axis++) {
       vertex[i][axis] = (double)corners[i][axis] - origin[axis];
       farthest = fmax(farthest, fabs(vertex[i][axis]));
     }
+    farthest = fmin(farthest, reach);
     vertex[i][u] -= direction[u] / direction[w] * vertex[i][w];
     vertex[i][v] -= direction[v] / direction[w] * vertex[i][w];
     error[i] = 14 * UNIT * farthest;
@@ -84,18 +90,33 @@ static bool must_be_found(const struct bounds *bounds) {
   return true;
 }
 
-/* Could a test with such errors give this answer, where the other triangle is in the scene, too? */
-static bool is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t other, struct double3 eye,
-                         struct double3 direction) {
+struct ray {
+  struct double3 eye, direction;
+};
+
+/* Of exact hits. */
+static bool exact_is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t right, struct ray ray) {
+  struct exact_hit own, nearest;
+  return answer != TRAX_NO_TRIANGLE && right != TRAX_NO_TRIANGLE &&
+         exact_triangle(&scene->triangles[answer], ray.eye, ray.direction, &own) &&
+         exact_triangle(&scene->triangles[right], ray.eye, ray.direction, &nearest) &&
+         own.distance <= nearest.distance * (1 + 0x1p-21);
+}
+
+/* Could a test with the errors of binary32 give this answer? */
+static bool is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t right, struct ray ray) {
   struct bounds own = {.distance = INFINITY};
+  struct exact_hit nearest = {.distance = INFINITY};
+  if (right != TRAX_NO_TRIANGLE)
+    exact_triangle(&scene->triangles[right], ray.eye, ray.direction, &nearest);
   if (answer != TRAX_NO_TRIANGLE) {
-    own = bounds_of(&scene->triangles[answer], eye, direction);
+    own = bounds_of(&scene->triangles[answer], ray.eye, ray.direction, nearest.distance);
     if (!may_be_found(&own))
       return false;
   }
-  if (other == TRAX_NO_TRIANGLE)
+  if (right == TRAX_NO_TRIANGLE)
     return true;
-  const struct bounds rival = bounds_of(&scene->triangles[other], eye, direction);
+  const struct bounds rival = bounds_of(&scene->triangles[right], ray.eye, ray.direction, nearest.distance);
   return !must_be_found(&rival) || rival.distance + rival.distance_error >= own.distance - own.distance_error;
 }
 
@@ -103,25 +124,37 @@ static uint32_t number_of(const struct trax_scene *scene, uint32_t triangle) {
   return triangle == TRAX_NO_TRIANGLE || !scene->source_ids ? triangle : scene->source_ids[triangle];
 }
 
-void trax_hits_compare(struct trax_hits_difference *difference, const struct trax_hits *a, const struct trax_hits *b,
-                       const struct trax_frame *frame) {
+uint64_t trax_hits_same(const struct trax_hits *a, const struct trax_hits *b, const struct trax_frame *frame) {
+  uint64_t same = 0;
+  for (size_t i = 0; i < (size_t)a->width * a->height; i++)
+    same += number_of(frame->scene, a->triangles[i]) == number_of(frame->scene, b->triangles[i]);
+  return same;
+}
+
+void trax_hits_judge(struct trax_hits_difference *difference, const struct trax_hits *answers,
+                     const struct trax_hits *exact, const struct trax_frame *frame) {
   const struct trax_render_params *params = frame->params;
   const struct trax_scene *scene = frame->scene;
-  *difference = (struct trax_hits_difference){.pixels = (uint64_t)a->width * a->height};
-  for (uint32_t y = 0; y < a->height; y++)
-    for (uint32_t x = 0; x < a->width; x++) {
-      const size_t i = (size_t)y * a->width + x;
-      const uint32_t left = a->triangles[i], right = b->triangles[i];
-      if (number_of(scene, left) == number_of(scene, right)) {
+  *difference = (struct trax_hits_difference){.pixels = (uint64_t)answers->width * answers->height};
+  for (uint32_t y = 0; y < answers->height; y++)
+    for (uint32_t x = 0; x < answers->width; x++) {
+      const size_t i = (size_t)y * answers->width + x;
+      const uint32_t answer = answers->triangles[i], right = exact->triangles[i];
+      if (number_of(scene, answer) == number_of(scene, right)) {
         difference->same++;
         continue;
       }
       const struct vector camera = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
-      const struct double3 direction = {camera.x, camera.y, camera.z}, eye = from(params->eye);
-      if (is_explained(scene, left, right, eye, direction) && is_explained(scene, right, left, eye, direction))
+      const struct ray ray = {from(params->eye), {camera.x, camera.y, camera.z}};
+      if (params->features & TRAX_FEATURE_BIT(EXACT) ? exact_is_explained(scene, answer, right, ray)
+                                                     : is_explained(scene, answer, right, ray)) {
         difference->tied++;
-      else if (difference->unexplained++ == 0)
+        continue;
+      }
+      if (difference->holes + difference->wrong == 0)
         difference->x = x, difference->y = y;
+      difference->holes += answer == TRAX_NO_TRIANGLE;
+      difference->wrong += answer != TRAX_NO_TRIANGLE;
     }
 }
 

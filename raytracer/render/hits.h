@@ -1,4 +1,4 @@
-/* Which triangle the ray through the middle of each pixel hits: by the device program and by Embree. */
+/* Which triangle the ray through the middle of each pixel hits: by the device program, by Embree, and without error. */
 #ifndef TRAX_RENDER_HITS_H
 #define TRAX_RENDER_HITS_H
 
@@ -16,21 +16,34 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
 /* By Embree 3 in robust mode; reference.c. */
 trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                              trax_error *error);
+/* Without error (exact.h); reference.c. */
+trax_status trax_hits_exact(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
+                            trax_error *error);
 void trax_hits_release(struct trax_hits *hits);
 
 struct trax_hits_difference {
   uint64_t pixels, same;
-  uint64_t tied;        /* another triangle, or none, and rounding explains either answer */
-  uint64_t unexplained; /* the other pixels */
-  uint32_t x, y;        /* the first of those */
+  uint64_t tied;  /* another triangle, or none, and rounding explains it */
+  uint64_t holes; /* of the other pixels: the ray hits a triangle and the answer is none, */
+  uint64_t wrong; /* and where the answer is another one, or one where there is none */
+  uint32_t x, y;  /* the first of those two */
 };
 
-/* Rounding explains two answers if either may be found by a watertight test that sees every coordinate of a vertex
-   across the ray off by 14 units of 2^-24 of its distance, as frame.c adds them up: the ray passes through the triangle
-   or within that error of an edge, and no triangle of the other answer must be found nearer. Triangles with the same
-   number in the mesh are the same. */
-void trax_hits_compare(struct trax_hits_difference *difference, const struct trax_hits *a, const struct trax_hits *b,
-                       const struct trax_frame *frame);
+/* Judges answers of the device program by what is hit without error. Triangles with the same number in the mesh are the
+   same.
+
+   Of exact hits (TRAX_FEATURE_EXACT) nothing but the distance is rounded: another triangle is tied with the nearest one
+   if the ray hits it, too, and the distances are within 2^-21 of each other.
+
+   Of others rounding explains an answer that a watertight test may find which sees every coordinate of a vertex across
+   the ray off by 14 units of 2^-24 of its distance, as frame.c adds them up, or of TRAX_REACH times the distance of the
+   hit, which is more in every scene whose hits are not exact (reach.h): the ray passes through the triangle or within
+   that error of an edge, and the nearest triangle need not be found before it. */
+void trax_hits_judge(struct trax_hits_difference *difference, const struct trax_hits *answers,
+                     const struct trax_hits *exact, const struct trax_frame *frame);
+
+/* How many pixels have the same triangle. */
+uint64_t trax_hits_same(const struct trax_hits *a, const struct trax_hits *b, const struct trax_frame *frame);
 
 /* A picture of numbers: R + 256 G + 65536 B is the triangle's number among those that were imported, plus 1; 0: none.
  */

@@ -56,38 +56,44 @@ static trax_status run_on_host(struct trax_picture *picture, bool reference, uns
   return status;
 }
 
-/* What the rays hit, by the native twin or by Embree. */
-static trax_status find_hits(struct trax_hits *hits, bool embree, unsigned threads, const struct trax_frame *frame,
-                             struct progress *progress, trax_error *error) {
-  struct step step = {progress, embree ? "Embree's hits" : "hits"};
+enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
+
+/* What the rays hit. */
+static trax_status find_hits(struct trax_hits *hits, enum finder finder, unsigned threads,
+                             const struct trax_frame *frame, struct progress *progress, trax_error *error) {
+  static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
+  struct step step = {progress, names[finder]};
   struct trax_render_run run = {
       .progress = show_step, .progress_context = &step, .interrupt = (const volatile int *)&interrupted};
-  trax_status status =
-      embree ? trax_hits_embree(hits, frame, &run, error) : trax_hits_native(hits, frame, threads, &run, error);
+  trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
+                       : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, error)
+                                             : trax_hits_exact(hits, frame, &run, error);
   progress_clear(progress);
   return status;
 }
 
 static trax_status compare_hits(const struct trax_frame *frame, struct progress *progress, bool *agrees,
                                 trax_error *error) {
-  struct trax_hits device = {0}, embree = {0};
+  struct trax_hits hits[3] = {{0}};
   struct trax_hits_difference difference;
-  trax_status status = find_hits(&device, false, 0, frame, progress, error);
-  if (status == TRAX_OK)
-    status = find_hits(&embree, true, 0, frame, progress, error);
+  trax_status status = TRAX_OK;
+  for (int finder = BY_TWIN; finder <= WITHOUT_ERROR && status == TRAX_OK; finder++)
+    status = find_hits(&hits[finder], finder, 0, frame, progress, error);
   if (status == TRAX_OK) {
-    trax_hits_compare(&difference, &device, &embree, frame);
-    printf("hits        %llu of %llu pixels hit the triangle that Embree hits, %llu another within the error bound, "
-           "%llu beyond it",
+    trax_hits_judge(&difference, &hits[BY_TWIN], &hits[WITHOUT_ERROR], frame);
+    const uint64_t beyond = difference.holes + difference.wrong;
+    printf("hits        %llu of %llu pixels hit the nearest triangle, %llu another within the error bound, %llu beyond "
+           "it, of which %llu are holes",
            (unsigned long long)difference.same, (unsigned long long)difference.pixels,
-           (unsigned long long)difference.tied, (unsigned long long)difference.unexplained);
-    if (difference.unexplained)
+           (unsigned long long)difference.tied, (unsigned long long)beyond, (unsigned long long)difference.holes);
+    if (beyond)
       printf(": (%u, %u)", difference.x, difference.y);
-    putchar('\n');
-    *agrees = *agrees && difference.unexplained == 0;
+    printf("\nEmbree      %llu pixels hit the triangle that Embree hits\n",
+           (unsigned long long)trax_hits_same(&hits[BY_TWIN], &hits[BY_EMBREE], frame));
+    *agrees = *agrees && beyond == 0;
   }
-  trax_hits_release(&device);
-  trax_hits_release(&embree);
+  for (int finder = BY_TWIN; finder <= WITHOUT_ERROR; finder++)
+    trax_hits_release(&hits[finder]);
   return status;
 }
 
@@ -95,7 +101,8 @@ static trax_status write_hits(const struct options *options, const struct trax_f
                               trax_error *error) {
   struct trax_hits hits = {0};
   struct trax_picture picture = {0};
-  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE, options->threads, frame, progress, error);
+  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, options->threads, frame,
+                                 progress, error);
   if (status == TRAX_OK)
     status = trax_hits_picture(&picture, &hits, frame, error);
   if (status == TRAX_OK)
@@ -143,7 +150,7 @@ static trax_status compare(const struct trax_picture *picture, const struct trax
     printf("twin        %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
            (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
   *agrees = *agrees && difference.unequal == 0;
-  /* The error bound is the watertight test's. */
+  /* The error bounds are the watertight test's. */
   return frame->method.triangle == TRAX_TRIANGLE_WATERTIGHT ? compare_hits(frame, progress, agrees, error) : TRAX_OK;
 }
 

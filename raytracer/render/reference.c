@@ -1,5 +1,5 @@
-/* The reference pictures: Embree finds the hits, in binary32, or they are found in binary64 (exact.c); binary64 shades
-   them. They share the camera's arithmetic with the device program and nothing else of it: neither BVH, nor
+/* The reference pictures: Embree finds the hits, in binary32, or they are found without error (exact.c); binary64
+   shades them. They share the camera's arithmetic with the device program and nothing else of it: neither BVH, nor
    intersection, nor shading. */
 #include "reference.h"
 
@@ -44,7 +44,7 @@ static struct RTCRay make_ray(struct double3 origin, struct double3 direction, f
 
 bool reference_hit(const struct reference *reference, struct double3 origin, struct double3 direction,
                    struct exact_hit *hit) {
-  if (reference->exact)
+  if (reference->exactly)
     return exact_nearest(reference->scene, origin, direction, hit);
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -56,7 +56,7 @@ bool reference_hit(const struct reference *reference, struct double3 origin, str
 
 bool reference_blocked(const struct reference *reference, struct double3 origin, struct double3 direction,
                        double distance) {
-  if (reference->exact)
+  if (reference->exactly)
     return exact_any(reference->scene, origin, direction, distance);
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -179,7 +179,7 @@ static trax_status build_scene(RTCDevice device, struct reference *reference, tr
   const struct trax_scene *source = reference->frame->scene;
   RTCScene scene = reference->scene;
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  if (source->triangle_count > 0 && reference->exact) {
+  if (source->triangle_count > 0 && reference->exactly) {
     if (!exact_attach(device, scene, source))
       return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
   } else if (source->triangle_count > 0) {
@@ -250,18 +250,29 @@ trax_status trax_render_reference(struct trax_picture *picture, const struct tra
   return status;
 }
 
-trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
-                             trax_error *error) {
+static trax_status find_hits(struct trax_hits *hits, const struct trax_frame *frame, bool exactly,
+                             struct trax_render_run *run, trax_error *error) {
   const struct trax_render_params *params = frame->params;
   *hits = (struct trax_hits){.width = params->width, .height = params->height};
   hits->triangles = malloc((size_t)params->width * params->height * sizeof *hits->triangles);
-  struct reference reference = {.frame = frame, .hits = hits, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  struct reference reference = {
+      .frame = frame, .hits = hits, .exactly = exactly, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
   const trax_status status =
       hits->triangles ? run_reference(&reference, error)
                       : trax_fail(error, "out of memory for what %u x %u pixels hit", params->width, params->height);
   if (status != TRAX_OK)
     trax_hits_release(hits);
   return status;
+}
+
+trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
+                             trax_error *error) {
+  return find_hits(hits, frame, false, run, error);
+}
+
+trax_status trax_hits_exact(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
+                            trax_error *error) {
+  return find_hits(hits, frame, true, run, error);
 }
 
 trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame *frame, bool seen,
@@ -271,7 +282,8 @@ trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame 
   *exact = (struct trax_exact){.width = params->width, .height = params->height, .samples = params->samples};
   exact->channels = malloc(3 * pixels * sizeof *exact->channels);
   exact->seen = seen ? malloc(pixels * params->samples * sizeof *exact->seen) : NULL;
-  struct reference reference = {.frame = frame, .exact = exact, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  struct reference reference = {
+      .frame = frame, .exact = exact, .exactly = true, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
   const trax_status status = !exact->channels || (seen && !exact->seen)
                                  ? trax_fail(error, "out of memory for a reference of %u x %u pixels and %u samples",
                                              params->width, params->height, params->samples)

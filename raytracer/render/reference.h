@@ -1,4 +1,4 @@
-/* What the reference's files share: how it finds hits, in binary32 or in binary64. */
+/* What the reference's files share: how it finds hits, as Embree does or without error. */
 #ifndef TRAX_RENDER_REFERENCE_H
 #define TRAX_RENDER_REFERENCE_H
 
@@ -14,8 +14,9 @@ struct reference {
   RTCScene scene;
   const struct trax_frame *frame;
   struct trax_picture *picture; /* to fill, or else one of the next two */
-  struct trax_exact *exact;     /* whose hits are found in binary64 */
-  struct trax_hits *hits;       /* of one ray a pixel, and nothing is shaded */
+  struct trax_exact *exact;
+  struct trax_hits *hits; /* of one ray a pixel, and nothing is shaded */
+  bool exactly;           /* hits are those of exact.h, else Embree's own */
   struct trax_render_run *run;
   pthread_mutex_t lock; /* of what follows */
   uint32_t next_row, finished_rows;

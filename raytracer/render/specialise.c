@@ -274,6 +274,7 @@ struct places {
   bool params_in_memory; /* instead of constants, which may take registers */
   bool paths_local;      /* what a path remembers in registers and on the stack, instead of in global memory */
   bool small;            /* -O2 */
+  bool stack_in_memory;  /* of exact hits in deep trees, whose functions' frames come on top of the traversal's */
 };
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
@@ -284,7 +285,7 @@ static trax_status compile(const char *root, const char *constants, const char *
   if (!join(clang, root, "bin/clang", "") || !join(include, root, "lib/trax/raytracer", "") ||
       !join(source, root, "lib/trax/raytracer/main.c", ""))
     return trax_fail(error, "%s: the path is too long", root);
-  const char *arguments[MOST_FLAGS + 16], **next = arguments;
+  const char *arguments[MOST_FLAGS + 18], **next = arguments;
   *next++ = clang;
   for (size_t i = 0; i < chosen_count; i++)
     *next++ = chosen[i];
@@ -296,6 +297,10 @@ static trax_status compile(const char *root, const char *constants, const char *
     *next++ = "-DTRAX_PATHS_LOCAL";
   if (places->small)
     *next++ = "-O2";
+  if (places->stack_in_memory) {
+    *next++ = "-mstack=global";
+    *next++ = "-mstack-size=2k";
+  }
   *next++ = "-include";
   *next++ = constants;
   *next++ = source;
@@ -353,7 +358,7 @@ static bool fits_cache(const char *program) {
 /* Into the cache, aside and renamed: the first of the ways for which there is stack enough. What is larger than the
    instruction cache, but for paths, which are anyway, is compiled for less code. */
 static trax_status build(const char *root, const char *constants, const char *program, const char *const *chosen,
-                         size_t chosen_count, bool paths, const volatile int *interrupt, trax_error *error) {
+                         size_t chosen_count, uint32_t features, const volatile int *interrupt, trax_error *error) {
   char temporary[TRAX_PATH_SIZE];
   if (!join(temporary, program, "", "XXXXXX"))
     return trax_fail(error, "%s: the path is too long", program);
@@ -362,10 +367,15 @@ static trax_status build(const char *root, const char *constants, const char *pr
   if (descriptor < 0)
     return trax_fail(error, "%s: %s", temporary, strerror(errno));
   close(descriptor);
-  static const struct places ways[] = {
-      {false, true, false}, {true, true, false}, {false, false, false}, {true, false, false}};
+  static const struct places ways[] = {{.paths_local = true},
+                                       {.params_in_memory = true, .paths_local = true},
+                                       {0},
+                                       {.params_in_memory = true},
+                                       {.stack_in_memory = true}};
+  const bool paths = features & TRAX_PATH_FEATURES;
+  const size_t count = sizeof ways / sizeof *ways - (features & TRAX_FEATURE_BIT(EXACT) ? 0 : 1);
   trax_status status = TRAX_ERROR;
-  for (size_t i = paths ? 0 : 2; i < sizeof ways / sizeof *ways && status == TRAX_ERROR; i++) {
+  for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {
     struct places way = ways[i];
     status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
     if (status != TRAX_OK || paths || fits_cache(temporary))
@@ -427,8 +437,8 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
     status = trax_write_file(header, constants, strlen(constants), &reason);
     if (status == TRAX_OK)
-      status = build(options->root, header, elf, chosen, chosen_count, frame->params->features & TRAX_PATH_FEATURES,
-                     options->interrupt, &reason);
+      status =
+          build(options->root, header, elf, chosen, chosen_count, frame->params->features, options->interrupt, &reason);
     if (status == TRAX_OK)
       prune(cache);
     else
