@@ -111,12 +111,12 @@ static inline bool exactly_opposite(struct exact_value a, struct exact_value b) 
   return (float_bits(a.value) ^ float_bits(b.value)) < 0 && magnitude(a.value) != 0 && magnitude(b.value) != 0;
 }
 
-struct exact_answer {
+struct exact_result {
   float distance, weight1, weight2;
 };
 
 /* Edges and vertices belong to the triangle, one whose plane holds the ray is not hit, nor one at distance 0. */
-EXACT_STEP bool exact_hit(const struct exact_ray *ray, const float *a, struct exact_answer *answer) {
+EXACT_STEP bool exact_hit(const struct exact_ray *ray, const float *a, struct exact_result *answer) {
   const float *b = a + 3, *c = a + 6, *origin = ray->origin, *direction = ray->direction;
   uint32_t sum[EXACT_WORDS] = {0};
   add_determinants(sum, direction, c, b, origin, false, 0);

@@ -170,7 +170,7 @@ static inline __attribute__((always_inline)) bool may_hit_triangle(const struct 
 /* As hit_triangle, without error. */
 static inline __attribute__((always_inline)) bool
 hit_triangle_exactly(const struct triangle_ray *ray, const char *triangle, bool any, struct hit *hit) {
-  struct exact_answer answer;
+  struct exact_result answer;
   struct exact_ray copy = ray->ray; /* whose address is taken, so that no other part of the ray must be in memory */
   if (!may_hit_triangle(ray, triangle) || !exact_hit(&copy, (const float *)(const void *)triangle, &answer))
     return false;

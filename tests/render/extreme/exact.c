@@ -1,6 +1,8 @@
 /* Every sign is certain: binary64 with an error bound decides where it can, integers of GMP where it cannot. */
 #include "exact.h"
 
+#include "reach.h"
+
 #include <gmp.h>
 #include <math.h>
 #include <stdlib.h>
@@ -147,7 +149,8 @@ static bool surely_outside(const triple origin, const triple direction, double o
 
 /* The watertight test's own quantities, with bounds on the errors that it makes: every coordinate of a vertex across
    the ray is off by 14 units of 2^-24 of the vertex's distance at most (frame.c adds them up), and so are products. In
-   the scaled scene, along the scaled direction. */
+   the scaled scene, along the scaled direction. Of vertices more than TRAX_REACH times as far away as what is hit, so
+   much is taken for their distance: where scenes have them hits are exact (render/reach.h). */
 struct bounds {
   double edge[3], edge_error[3];
   double determinant, determinant_error;
@@ -155,7 +158,7 @@ struct bounds {
 };
 
 static void bound(struct bounds *bounds, const struct exact_scene *scene, const struct query_ray *ray,
-                  int direction_exponent, const struct exact_triangle *triangle) {
+                  int direction_exponent, const struct exact_triangle *triangle, double hit) {
   triple vertex[3], direction;
   double error[3], size = 0;
   int w = 0;
@@ -174,6 +177,7 @@ static void bound(struct bounds *bounds, const struct exact_scene *scene, const 
     }
     vertex[i][u] -= direction[u] / direction[w] * vertex[i][w];
     vertex[i][v] -= direction[v] / direction[w] * vertex[i][w];
+    farthest = fmin(farthest, TRAX_REACH * hit * fabs(direction[w]));
     error[i] = 14 * UNIT * farthest + 0x1p-147;
     size = fmax(size, farthest);
   }
@@ -310,35 +314,66 @@ static bool sees_light(struct exact_pair *pair, const struct exact_scene *scene,
   return sees;
 }
 
+/* Exactly, along the ray as the program scaled it. */
+static double program_distance(const struct exact_scene *scene, int direction_exponent, const mpq_t distance) {
+  mpq_t scaled;
+  mpq_init(scaled);
+  mpq_set(scaled, distance);
+  scale_distance(scaled, scene->exponent - direction_exponent);
+  const double result = mpq_get_d(scaled);
+  mpq_clear(scaled);
+  return result;
+}
+
+#define TIED_DISTANCES 0x1p-21
+
 /* An answer that names a triangle. nearest: exactly, of what the ray hits; meaningless if that is nothing. */
 static void judge_hit(struct exact_tally *tally, struct exact_pair *pair, const struct exact_scene *scene,
                       const struct query_ray *ray, const struct exact_answer *answer, bool hit, const mpq_t nearest) {
   const struct exact_triangle *triangle = &scene->triangles[answer->triangle];
-  struct bounds bounds;
-  bound(&bounds, scene, ray, answer->direction_exponent, triangle);
-  tally->unexplained += !may_be_found(&bounds, (double)answer->distance);
-  if (evaluate_ray(pair, ray, triangle) != HIT || !hit || !mpq_equal(pair->distance, nearest)) {
+  const enum side side = evaluate_ray(pair, ray, triangle);
+  const double right = hit ? program_distance(scene, answer->direction_exponent, nearest) : INFINITY;
+  if (answer->exact) {
+    const double own = side == HIT ? program_distance(scene, answer->direction_exponent, pair->distance) : INFINITY;
+    tally->unexplained += !(own <= right * (1 + TIED_DISTANCES)) ||
+                          fabs((double)answer->distance - own) > TIED_DISTANCES * own + 0x1p-149;
+  } else {
+    struct bounds bounds;
+    bound(&bounds, scene, ray, answer->direction_exponent, triangle, right);
+    tally->unexplained += !may_be_found(&bounds, (double)answer->distance);
+  }
+  if (side != HIT || !hit || !mpq_equal(pair->distance, nearest)) {
     tally->wrong++;
     return;
   }
-  mpq_t distance;
-  mpq_init(distance);
-  mpq_set(distance, nearest);
   if (answer->light != QUERY_NOT_ASKED) {
-    bool sees = sees_light(pair, scene, ray, (uint32_t)answer->triangle, distance);
+    bool sees = sees_light(pair, scene, ray, (uint32_t)answer->triangle, nearest);
     tally->lit += sees;
     tally->leaks += !sees && answer->light == QUERY_LIT;
     tally->acne += sees && answer->light != QUERY_LIT;
   }
+  mpq_t distance;
+  mpq_init(distance);
+  mpq_set(distance, nearest);
   scale_distance(distance, scene->exponent - answer->direction_exponent);
   tally->worst_ulp = fmax(tally->worst_ulp, error_in_ulp(answer->distance, distance));
   mpq_clear(distance);
 }
 
+/* Is there a triangle that a test within the bounds must find before the answer? */
+static bool overlooks(const struct exact_scene *scene, const struct query_ray *ray, const struct exact_answer *answer,
+                      const struct exact_triangle *triangle, double distance) {
+  if (answer->exact)
+    return answer->triangle < 0; /* else judge_hit compares with the nearest */
+  struct bounds bounds;
+  bound(&bounds, scene, ray, answer->direction_exponent, triangle, distance);
+  return must_be_found(&bounds) &&
+         (answer->triangle < 0 || bounds.distance + bounds.distance_error < (double)answer->distance);
+}
+
 void exact_judge(struct exact_tally *tallies, const struct exact_scene *scene, const struct query_ray *ray,
                  const struct exact_answer *answers, unsigned count) {
   struct exact_pair pair;
-  struct bounds bounds;
   triple origin, direction;
   mpq_t nearest;
   bool hit = false, overlooked[8] = {false};
@@ -354,11 +389,9 @@ void exact_judge(struct exact_tally *tallies, const struct exact_scene *scene, c
     if (!hit || mpq_cmp(pair.distance, nearest) < 0)
       mpq_set(nearest, pair.distance);
     hit = true;
-    bound(&bounds, scene, ray, answers[0].direction_exponent, triangle);
-    if (must_be_found(&bounds))
-      for (unsigned a = 0; a < count; a++)
-        overlooked[a] |=
-            answers[a].triangle < 0 || bounds.distance + bounds.distance_error < (double)answers[a].distance;
+    const double distance = program_distance(scene, answers[0].direction_exponent, pair.distance);
+    for (unsigned a = 0; a < count; a++)
+      overlooked[a] = overlooked[a] || overlooks(scene, ray, &answers[a], triangle, distance);
   }
   for (unsigned a = 0; a < count; a++) {
     tallies[a].judged++;

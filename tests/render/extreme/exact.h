@@ -26,6 +26,7 @@ struct exact_answer {
   float distance;   /* of the parameter along the direction times 2^direction_exponent, in the scaled scene */
   int direction_exponent;
   enum query_light light;
+  bool exact; /* of exact hits: what is hit is no matter of rounding */
 };
 
 /* Counts of rays. */
@@ -34,7 +35,8 @@ struct exact_tally {
   uint64_t hits;        /* that hit something exactly: a closed triangle, in front of the origin */
   uint64_t missed;      /* hit something and the answer is: nothing */
   uint64_t wrong;       /* another triangle than the nearest one, or one where there is none */
-  uint64_t unexplained; /* of both, those that the error bound of the watertight test does not cover */
+  uint64_t unexplained; /* of both, those that the error bound of the watertight test does not cover, or, of exact
+                           hits, all but those that are another triangle 2^-21 of the distance behind the nearest */
   uint64_t lit;         /* whose nearest hit sees the light exactly */
   uint64_t leaks;       /* lit in the answer though something is in between, or the light is behind the triangle */
   uint64_t acne;        /* not lit in the answer though they see the light */

@@ -111,7 +111,8 @@ trax_status machine_pictures(const char *directory, const struct trax_frame *fra
   struct trax_picture expected = {0}, picture = {0};
   struct trax_render_run run = {0};
   char program[4096];
-  snprintf(program, sizeof program, "%s/trax-raytracer.elf", directory);
+  snprintf(program, sizeof program, "%s/trax-raytracer%s.elf", directory,
+           frame->params->features & TRAX_FEATURE_BIT(EXACT) ? "-exact" : "");
   trax_status status = trax_render_twin(&expected, frame, 1, &run, error);
   for (uint32_t i = 0; status == TRAX_OK && i < expected.width * expected.height; i++)
     if (expected.pixels[i] >> 24 != 0xFF)

@@ -32,7 +32,10 @@ static inline void answer_query(const char *scene, const struct query_params *pa
       break;
     struct surface surface;
     struct light way;
-    find_surface(&surface, &hit, origin);
+    if (HITS_ARE_EXACT)
+      find_surface_exactly(&surface, &hit, origin, direction);
+    else
+      find_surface(&surface, &hit, origin);
     aim_at_light(&way, &surface, params->light);
     answer->origin[0] = surface.point.x, answer->origin[1] = surface.point.y, answer->origin[2] = surface.point.z;
     answer->light = QUERY_BEHIND;
