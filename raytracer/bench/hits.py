@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which triangles the device program hits, against Embree's: a table with a row for each scene.
+"""Which triangles the device program hits, against exact arithmetic and Embree: a table with a row for each scene.
 
     raytracer/bench/hits.py SCENES_DIRECTORY [--size 1280x720] [--bin build/bin]
 
@@ -15,7 +15,8 @@ import tempfile
 
 from scenes import SCENES, arguments, find
 
-LINE = re.compile(r"^hits +(\d+) of (\d+) pixels .* Embree hits, (\d+) another within the error bound, (\d+) beyond it", re.M)
+LINE = re.compile(r"^hits +(\d+) of (\d+) pixels hit the nearest triangle, (\d+) another within the error bound, (\d+) beyond it, "
+                  r"of which (\d+) are holes.*\nEmbree +(\d+) ", re.M)
 
 
 def main():
@@ -25,8 +26,8 @@ def main():
     if (options.scenes / "CornellBox.obj").exists():
         scenes.append(("CornellBox", [str(options.scenes / "CornellBox.obj")]))
     unexplained = 0
-    print("| scene | pixels | the same triangle | tied | beyond the bound |")
-    print("| --- | --- | --- | --- | --- |")
+    print("| scene | pixels | the nearest triangle | tied | beyond the bound | holes | Embree's triangle |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as scratch:
         for scene, files in scenes:
             run = subprocess.run([options.bin / "trax-render", *files, "--view", scene, "--size", options.size, "--engine", "native", "--compare",
@@ -35,9 +36,9 @@ def main():
             found = LINE.search(run.stdout)
             if not found:
                 sys.exit(f"hits.py: error: {scene}: trax-render --compare has no line about hits\n{run.stderr}")
-            same, pixels, tied, beyond = map(int, found.groups())
+            same, pixels, tied, beyond, holes, embree = map(int, found.groups())
             unexplained += beyond
-            print(f"| {scene} | {pixels:,} | {same:,} | {tied:,} | {beyond:,} |", flush=True)
+            print(f"| {scene} | {pixels:,} | {same:,} | {tied:,} | {beyond:,} | {holes:,} | {embree:,} |", flush=True)
     return 1 if unexplained else 0
 
 

@@ -1,5 +1,5 @@
-/* What rays hit: the device program natively against Embree, on scenes where many pixels have two right answers; and
-   that a wrong answer is told from those. */
+/* What rays hit: the device program natively against exact arithmetic and Embree, on scenes where many pixels have two
+   right answers; that a wrong answer is told from those, and that holes are counted. */
 #include "hits.h"
 #include "meshes.h"
 
@@ -19,11 +19,15 @@ static void make_frame(struct trax_frame *frame, struct trax_scene *scene, const
     fail_msg("%s", error.message);
 }
 
-static void find(struct trax_hits *hits, const struct trax_frame *frame, bool embree) {
+enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
+
+static void find(struct trax_hits *hits, const struct trax_frame *frame, enum finder finder) {
   struct trax_render_run run = {0};
   trax_error error;
-  if ((embree ? trax_hits_embree(hits, frame, &run, &error) : trax_hits_native(hits, frame, 2, &run, &error)) !=
-      TRAX_OK)
+  const trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, 2, &run, &error)
+                             : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, &error)
+                                                   : trax_hits_exact(hits, frame, &run, &error);
+  if (status != TRAX_OK)
     fail_msg("%s", error.message);
   assert_int_equal(run.rays, 97 * 61);
 }
@@ -32,20 +36,23 @@ static void find(struct trax_hits *hits, const struct trax_frame *frame, bool em
 static void check_agreement(struct trax_mesh *mesh, struct trax_view view, uint64_t least) {
   struct trax_scene scene = {0};
   struct trax_frame frame;
-  struct trax_hits device, embree;
+  struct trax_hits device, embree, exact;
   struct trax_hits_difference difference;
   build(&scene, mesh, NULL);
   normalise(&scene, &view);
   make_frame(&frame, &scene, &view);
-  find(&device, &frame, false);
-  find(&embree, &frame, true);
-  trax_hits_compare(&difference, &device, &embree, &frame);
-  assert_int_equal(difference.same + difference.tied + difference.unexplained, 97 * 61);
-  if (difference.unexplained)
-    fail_msg("%llu pixels beyond the error bound, the first at (%u, %u)", (unsigned long long)difference.unexplained,
-             difference.x, difference.y);
+  find(&device, &frame, BY_TWIN);
+  find(&embree, &frame, BY_EMBREE);
+  find(&exact, &frame, WITHOUT_ERROR);
+  trax_hits_judge(&difference, &device, &exact, &frame);
+  assert_int_equal(difference.same + difference.tied + difference.holes + difference.wrong, 97 * 61);
+  if (difference.holes + difference.wrong)
+    fail_msg("%llu pixels beyond the error bound, the first at (%u, %u)",
+             (unsigned long long)(difference.holes + difference.wrong), difference.x, difference.y);
   assert_true(difference.same >= least);
+  assert_true(trax_hits_same(&device, &embree, &frame) >= least);
   trax_hits_release(&device);
+  trax_hits_release(&exact);
   trax_hits_release(&embree);
   trax_frame_release(&frame);
   trax_scene_release(&scene);
@@ -98,7 +105,7 @@ static void test_wrong_hits(void **state) {
   build(&scene, &mesh, NULL);
   normalise(&scene, &view);
   make_frame(&frame, &scene, &view);
-  find(&right, &frame, false);
+  find(&right, &frame, BY_TWIN);
   const size_t middle = 30 * 97 + 48;
   assert_true(scene.source_ids[right.triangles[middle]] < shell);
   uint32_t behind = 0;
@@ -106,17 +113,16 @@ static void test_wrong_hits(void **state) {
     behind++;
   const uint32_t answers[] = {TRAX_NO_TRIANGLE, behind, right.triangles[middle - 20]};
   for (size_t i = 0; i < sizeof answers / sizeof *answers; i++) {
-    find(&wrong, &frame, false);
-    trax_hits_compare(&difference, &wrong, &right, &frame);
-    assert_true(difference.same == 97 * 61 && difference.unexplained == 0);
+    find(&wrong, &frame, BY_TWIN);
+    trax_hits_judge(&difference, &wrong, &right, &frame);
+    assert_true(difference.same == 97 * 61);
     assert_true(answers[i] != right.triangles[middle]);
     wrong.triangles[middle] = answers[i];
-    for (int turn = 0; turn < 2; turn++) {
-      trax_hits_compare(&difference, turn ? &right : &wrong, turn ? &wrong : &right, &frame);
-      assert_int_equal(difference.unexplained, 1);
-      assert_int_equal(difference.tied, 0);
-      assert_true(difference.x == 48 && difference.y == 30);
-    }
+    trax_hits_judge(&difference, &wrong, &right, &frame);
+    assert_int_equal(difference.holes, i == 0);
+    assert_int_equal(difference.wrong, i != 0);
+    assert_int_equal(difference.tied, 0);
+    assert_true(difference.x == 48 && difference.y == 30);
     trax_hits_release(&wrong);
   }
   struct trax_picture picture;
@@ -130,11 +136,61 @@ static void test_wrong_hits(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* By exact hits nothing is missed, and those of binary32 are seen to have holes, or to be wrong. */
+static void check_range(struct trax_mesh *mesh, struct trax_view view, uint64_t least_holes, uint64_t least_wrong) {
+  struct trax_scene scene = {0};
+  struct trax_frame frame;
+  struct trax_hits device, exact;
+  struct trax_hits_difference difference;
+  build(&scene, mesh, NULL);
+  normalise(&scene, &view);
+  make_frame(&frame, &scene, &view);
+  assert_true(frame.params->features & TRAX_FEATURE_BIT(EXACT));
+  find(&device, &frame, BY_TWIN);
+  find(&exact, &frame, WITHOUT_ERROR);
+  trax_hits_judge(&difference, &device, &exact, &frame);
+  assert_int_equal(difference.holes + difference.wrong, 0);
+  assert_true(difference.same >= 97 * 61 - 100);
+  trax_hits_release(&device);
+  frame.params->features &= ~TRAX_FEATURE_BIT(EXACT);
+  find(&device, &frame, BY_TWIN);
+  trax_hits_judge(&difference, &device, &exact, &frame);
+  if (difference.holes < least_holes || difference.wrong < least_wrong)
+    fail_msg("binary32 has %llu holes and %llu wrong hits only", (unsigned long long)difference.holes,
+             (unsigned long long)difference.wrong);
+  trax_hits_release(&device);
+  trax_hits_release(&exact);
+  trax_frame_release(&frame);
+  trax_scene_release(&scene);
+  trax_mesh_release(mesh);
+}
+
+static void test_range(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  const struct trax_view view = view_from(0, 0, 0, 0, -0.2f, -1, 80, 0, 0.5f, 0);
+  const float lengths[] = {3e7f, 1e8f, 1e9f, 1.7e18f};
+  const uint64_t holes[] = {50, 1000, 1000, 1000};
+  for (int i = 0; i < 4; i++) {
+    const float length = lengths[i];
+    mesh_box(&mesh, (float[]){-length, -2, -length}, (float[]){length, length, length}, 0);
+    check_range(&mesh, view, holes[i], 0);
+  }
+  /* The near boxes, too. */
+  mesh_box(&mesh, (float[]){-1, -1, -4}, (float[]){0.2f, 0.1f, -3}, 0);
+  mesh_box(&mesh, (float[]){-1e9f, -2, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
+  check_range(&mesh, view, 1000, 0);
+  mesh_box(&mesh, (float[]){-1e-9f, -1e-9f, -4e-9f}, (float[]){0.2e-9f, 0.1e-9f, -3e-9f}, 0);
+  mesh_box(&mesh, (float[]){-1e18f, -1e18f, -1e18f}, (float[]){1e18f, 1e18f, 1e18f}, 0);
+  check_range(&mesh, view, 0, 100);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_agreement),
       cmocka_unit_test(test_ties),
       cmocka_unit_test(test_wrong_hits),
+      cmocka_unit_test(test_range),
   };
   return cmocka_run_group_tests_name("hits", tests, NULL, NULL);
 }

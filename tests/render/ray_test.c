@@ -1,6 +1,9 @@
 /* The device program's own functions, one by one: which pixel a slot is, what a ray hits. */
 #include "meshes.h"
 
+static _Bool exact; /* which hits the functions below are to find */
+#define TRAX_EXACT_HITS exact
+
 #include "../../raytracer/device/camera.h"
 #include "../../raytracer/device/shade.h"
 #include "../../raytracer/device/traverse.h"
@@ -199,7 +202,11 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
       continue;
     struct surface surface;
     struct vector eye = {from[0], from[1], from[2]};
-    find_surface(&surface, &hit, eye);
+    struct vector towards = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    if (exact)
+      find_surface_exactly(&surface, &hit, eye, towards);
+    else
+      find_surface(&surface, &hit, eye);
 
     /* Any way that leads away from the plane. */
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};
@@ -236,5 +243,7 @@ int main(void) {
       OF_LAYOUT(test_nearest_hit, WIDE_QUANTISED8),
       cmocka_unit_test(test_shadow_rays_start_off_the_surface),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  const int failures = cmocka_run_group_tests_name("hits in binary32", tests, NULL, NULL);
+  exact = true;
+  return failures + cmocka_run_group_tests_name("exact hits", tests, NULL, NULL);
 }

@@ -537,8 +537,13 @@ static const struct extreme_case cases[] = {
 };
 
 const struct extreme_case *extreme_case(unsigned number) {
-  const unsigned count = sizeof cases / sizeof *cases;
-  if (number < count)
-    return &cases[number];
-  return number - count < picture_case_count ? &picture_cases[number - count] : NULL;
+  const struct {
+    const struct extreme_case *cases;
+    unsigned count;
+  } lists[] = {
+      {cases, sizeof cases / sizeof *cases}, {range_cases, range_case_count}, {picture_cases, picture_case_count}};
+  for (unsigned i = 0; i < sizeof lists / sizeof *lists; number -= lists[i++].count)
+    if (number < lists[i].count)
+      return &lists[i].cases[number];
+  return NULL;
 }

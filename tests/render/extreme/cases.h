@@ -28,4 +28,8 @@ const struct extreme_case *extreme_case(unsigned number);
 extern const struct extreme_case picture_cases[];
 extern const unsigned picture_case_count;
 
+/* range_cases.c */
+extern const struct extreme_case range_cases[];
+extern const unsigned range_case_count;
+
 #endif

@@ -1,0 +1,171 @@
+/* Cases at the ends of binary32: large faces near the eye, tiny things in huge scenes, both at once, moved and turned.
+ */
+#include "cases.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- moved and turned --- */
+
+static void turn(float point[3]) {
+  static const double matrix[3][3] = {{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}};
+  const double old[3] = {(double)point[0], (double)point[1], (double)point[2]};
+  for (int i = 0; i < 3; i++)
+    point[i] = (float)(matrix[i][0] * old[0] + matrix[i][1] * old[1] + matrix[i][2] * old[2]);
+}
+
+static void turn_and_move(struct setup *setup, const float by[3]) {
+  for (uint32_t i = 0; i < setup->mesh.vertex_count; i++) {
+    turn(setup->mesh.vertices[i]);
+    for (int axis = 0; axis < 3; axis++)
+      setup->mesh.vertices[i][axis] += by[axis];
+  }
+  for (uint32_t i = 0; i < setup->ray_count; i++) {
+    turn(setup->rays[i].origin);
+    turn(setup->rays[i].direction);
+    for (int axis = 0; axis < 3; axis++)
+      setup->rays[i].origin[axis] += by[axis];
+  }
+}
+
+/* --- large faces --- */
+
+/* From within half a unit of 0, in all directions, most of them close to the horizon. */
+static void look_around(struct setup *setup, uint32_t rays, float size) {
+  for (uint32_t i = 0; i < rays; i++) {
+    float from[3] = {0.5f * size * any(setup), 0.5f * size * any(setup), 0.5f * size * any(setup)};
+    float direction[3] = {any(setup), any(setup), any(setup)};
+    if (i & 3)
+      direction[1] *= exp2f(-20 * random_unit(&setup->seed));
+    if (i % 16 == 0)
+      from[0] = from[1] = from[2] = 0;
+    add_ray(setup, from, direction);
+  }
+}
+
+/* A room from -L to L whose floor is near. */
+static void room(struct setup *setup, uint32_t rays, float length, float height) {
+  mesh_box(&setup->mesh, (float[]){-length, -height, -length}, (float[]){length, length, length}, 0);
+  look_around(setup, rays, height);
+}
+
+static void make_room_3e7(struct setup *setup, uint32_t rays) {
+  room(setup, rays, 3e7f, 2);
+}
+static void make_room_1e9(struct setup *setup, uint32_t rays) {
+  room(setup, rays, 1e9f, 2);
+}
+static void make_room_1e18(struct setup *setup, uint32_t rays) {
+  room(setup, rays, 1.7e18f, 1e-3f);
+}
+
+static void make_room_turned(struct setup *setup, uint32_t rays) {
+  room(setup, rays, 1e9f, 500);
+  turn_and_move(setup, (float[]){1e3f, -2e3f, 3e3f});
+}
+
+static void make_ground(struct setup *setup, uint32_t rays) {
+  const float far = 1e8f, corner[4][3] = {{-far, 0, -far}, {far, 0, -far}, {far, 0, far}, {-far, 0, far}};
+  triangle_at(setup, corner[0], corner[1], corner[2]);
+  triangle_at(setup, corner[0], corner[2], corner[3]);
+  for (uint32_t i = 0; i < rays; i++) {
+    float from[3] = {any(setup), 1.7f, any(setup)};
+    add_ray(setup, from, (float[]){any(setup), -exp2f(-24 * random_unit(&setup->seed)), any(setup)});
+  }
+}
+
+/* --- tiny things --- */
+
+static void rocks(struct setup *setup, float distance, float size, float below) {
+  for (int i = 0; i < 6; i++) {
+    struct globe globe = {{distance * any(setup), below, -distance * (1 + random_unit(&setup->seed))}, size, 0.2f};
+    add_globe(setup, 2, &globe);
+  }
+}
+
+/* At vertices, edges and faces of the first triangles. */
+static void aim_at_first(struct setup *setup, uint32_t rays, uint32_t triangles, float radius) {
+  const uint32_t all = setup->mesh.triangle_count;
+  for (uint32_t i = 0; i < rays; i++) {
+    float from[3] = {radius * any(setup), radius * random_unit(&setup->seed), radius * any(setup)}, at[3];
+    setup->mesh.triangle_count = i & 7 ? triangles : all;
+    random_target(setup, at);
+    aim(setup, from, at);
+  }
+  setup->mesh.triangle_count = all;
+}
+
+static void rocks_in_globe(struct setup *setup, uint32_t rays, float radius, float size) {
+  rocks(setup, 4 * size, size, 0);
+  const uint32_t first = setup->mesh.triangle_count;
+  mesh_box(&setup->mesh, (float[]){-size, -size, -4 * size}, (float[]){0, 0, -3 * size}, 0);
+  add_globe(setup, 3, &(struct globe){{0, 0, 0}, radius, 0.1f});
+  aim_at_first(setup, rays, first, size);
+}
+
+static void make_tiny_1e16(struct setup *setup, uint32_t rays) {
+  rocks_in_globe(setup, rays, 1e16f, 1);
+}
+static void make_tiny_1e18(struct setup *setup, uint32_t rays) {
+  rocks_in_globe(setup, rays, 1.5e18f, 1e-9f);
+}
+static void make_tiny_turned(struct setup *setup, uint32_t rays) {
+  rocks_in_globe(setup, rays, 1e17f, 1e-6f);
+  turn_and_move(setup, (float[]){1e-3f, -2e-3f, 3e-3f});
+}
+
+/* --- both, with light --- */
+
+/* Rocks of a hundredth around the eye, on a floor that is 2 below it and 1e9 wide. */
+static void make_both(struct setup *setup, uint32_t rays) {
+  rocks(setup, 4, 0.01f, -2);
+  const uint32_t first = setup->mesh.triangle_count;
+  mesh_box(&setup->mesh, (float[]){-1e9f, -2, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
+  aim_at_first(setup, rays, first, 1);
+  setup->light[0] = 3, setup->light[1] = 4, setup->light[2] = 2;
+}
+
+static void make_both_turned(struct setup *setup, uint32_t rays) {
+  rocks(setup, 400, 4, -500);
+  const uint32_t first = setup->mesh.triangle_count;
+  mesh_box(&setup->mesh, (float[]){-1e9f, -500, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
+  aim_at_first(setup, rays, first, 100);
+  turn_and_move(setup, (float[]){1e3f, -2e3f, 3e3f});
+  setup->light[0] = 1300, setup->light[1] = -1800, setup->light[2] = 3200;
+}
+
+/* Rays to rocks that end at the light: 2^-60 of the scene away from it. */
+static void make_tiny_lit(struct setup *setup, uint32_t rays) {
+  rocks_in_globe(setup, rays, 1e17f, 1e-3f);
+  setup->light[0] = 0.002f, setup->light[1] = 0.004f, setup->light[2] = 0.001f;
+}
+
+/* --- a picture --- */
+
+static void make_picture_both(struct setup *setup, uint32_t rays) {
+  (void)rays;
+  mesh_box(&setup->mesh, (float[]){-1, -2, -4}, (float[]){0.2f, -0.9f, -3}, 0);
+  mesh_box(&setup->mesh, (float[]){0.3f, -2, -3.5f}, (float[]){1, -0.3f, -2.5f}, 0);
+  mesh_box(&setup->mesh, (float[]){-1e17f, -2, -1e17f}, (float[]){1e17f, 1e17f, 1e17f}, 0);
+  setup->view = view_from(0, 0, 0, 0, -0.3f, -1, 60, 3, 4, 2);
+  setup->width = 40, setup->height = 30;
+  memcpy(setup->light, setup->view.light, sizeof setup->light);
+}
+
+const struct extreme_case range_cases[] = {
+    {"room-3e7", "a room of 3e7 whose floor is 2 below the eye", make_room_3e7, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"room-1e9", "the same of 1e9", make_room_1e9, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"room-1e18", "the same of 1.7e18, the floor 0.001 below", make_room_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"room-turned", "a room of 1e9, moved and turned", make_room_turned, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"ground", "two triangles of 1e8, 1.7 below the eye", make_ground, CASE_BEYOND_BINARY32},
+    {"tiny-1e16", "rocks of 1 in a globe of 1e16", make_tiny_1e16, CASE_CLOSED},
+    {"tiny-1e18", "rocks of 1e-9 in a globe of 1.5e18", make_tiny_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"tiny-turned", "rocks of 1e-6 in a globe of 1e17, moved and turned", make_tiny_turned,
+     CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"both", "rocks of 0.01 on a floor of 1e9", make_both, CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32},
+    {"both-turned", "rocks of 4 on a floor of 1e9, moved and turned", make_both_turned,
+     CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32},
+    {"tiny-lit", "rocks of 0.001 and a light in a globe of 1e17", make_tiny_lit, CASE_CLOSED | CASE_SHADOWS},
+    {"picture-both", "boxes of 1 on a floor of 1e17", make_picture_both, CASE_CLOSED | CASE_BEYOND_BINARY32},
+};
+const unsigned range_case_count = sizeof range_cases / sizeof *range_cases;
