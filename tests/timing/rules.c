@@ -333,7 +333,9 @@ const struct rule *timing_rules(size_t *count) {
   /* Written in 105. */
   RULE("Fences", "fence w waits for writes that are under way", FAR, "memory.write_combining=false", 208, NONE,
        "104 105 206 207", "icache_miss=104 wait_memory=100", U(LUI, 1, 1), S(SW, 1, 1, 0), FENCE(W), HALT);
-  RULE("Fences", "but not for those of other TPs", FAR, "chip.tps_per_tm=2 memory.write_combining=false", 110, NONE,
+  RULE("Fences", "fence r does not wait for those either", FAR, "memory.write_combining=false", 108, NONE,
+       "104 105 106 107", "icache_miss=104", U(LUI, 1, 1), S(SW, 1, 1, 0), FENCE(R), HALT);
+  RULE("Fences", "nor fence w for those of other TPs", FAR, "chip.tps_per_tm=2 memory.write_combining=false", 110, NONE,
        "104 105 106 107 108 109 / 104 105 106 107 108", "icache_miss=208", U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP),
        B(BNE, 2, 0, 16), NOP, FENCE(RW), HALT, S(SW, 1, 1, 0), HALT);
   /* The word has the place in 106..206. The run is written in 207 and complete in 308. */
