@@ -32,7 +32,7 @@ if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "trax" AND NOT TARGET trax::emulator)
     set_target_properties(trax::emulator PROPERTIES
       IMPORTED_LOCATION "${TRAX_PREFIX}/lib/libtraxemu.a"
       INTERFACE_INCLUDE_DIRECTORIES "${TRAX_PREFIX}/include"
-      INTERFACE_LINK_LIBRARIES "${TRAX_PREFIX}/lib/libtraxisa.a;PkgConfig::TRAX_EMULATOR_NEEDS;m")
+      INTERFACE_LINK_LIBRARIES "${TRAX_PREFIX}/lib/libtraxisa.a;${TRAX_PREFIX}/lib/libtraxbase.a;PkgConfig::TRAX_EMULATOR_NEEDS;m")
   elseif(NOT trax_FIND_QUIETLY)
     message(STATUS "trax: no trax::emulator, since pkg-config does not find libelf, libdw, libconfig, jansson, libxxhash and zlib")
   endif()

@@ -10,16 +10,6 @@
 #include <string.h>
 #include <time.h>
 
-trax_status trax_fail(trax_error *error, const char *format, ...) {
-  if (error) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    va_end(arguments);
-  }
-  return TRAX_ERROR;
-}
-
 const char *trax_fault_text(trax_fault_kind kind) {
   static const char *const texts[TRAX_FAULT_COUNT] = {
 #define TEXT(ID, NAME, WORDS) WORDS,

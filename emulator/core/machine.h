@@ -11,8 +11,6 @@
 #include "core/stats.h"
 #include "trax/emulator.h"
 
-#include <stdarg.h>
-
 struct trax_chip;
 struct trax_watch;
 
@@ -60,8 +58,5 @@ void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *co
 
 /* The fault that ended the run; its kind is TRAX_FAULT_NONE if none did. */
 const struct trax_fault *trax_machine_fault(const struct trax_machine *machine);
-
-/* Puts the message into *error (which may be NULL) and returns TRAX_ERROR. */
-__attribute__((format(printf, 2, 3))) trax_status trax_fail(trax_error *error, const char *format, ...);
 
 #endif

@@ -11,6 +11,7 @@
 #include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
+#include "trax/version.h"
 #include "util.h"
 #include "watchdog.h"
 

@@ -6,8 +6,8 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "trax/files.h"
 #include "util.h"
 
 enum option_id {
@@ -427,49 +427,56 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
   return TRAX_OK;
 }
 
-/* The outputs: by the options that have one, and behind these the assignments. */
-static const char *output_path(const struct trax_options *options, const char *const *paths, size_t i) {
-  if (i < OPTIONS)
-    return paths[i];
-  const struct trax_assignment *assignment = &options->assignments[i - OPTIONS];
-  return assignment->kind == TRAX_ASSIGN_DUMP ? assignment->value : NULL;
+static bool is_preset(const char *name) {
+  for (const char *const *preset = trax_config_presets(); *preset; preset++)
+    if (strcmp(*preset, name) == 0)
+      return true;
+  return false;
 }
 
-/* Of two outputs in one file the second would replace the first. What is no file, such as /dev/null, takes any number.
- */
-static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
+/* No output may be what the run reads, and none is written twice. */
+static trax_status check_files(const struct trax_options *options, trax_error *error) {
   const struct trax_explain_options *explain = &options->explain;
-  const char *const paths[OPTIONS] = {[OPTION_SIGNATURE] = options->signature,
-                                      [OPTION_STATS] = options->stats,
-                                      [OPTION_REPORT] = options->report,
-                                      [OPTION_PROFILE] = explain->profile,
-                                      [OPTION_PROFILE_FOLDED] = explain->folded,
-                                      [OPTION_ANNOTATE] = explain->annotate,
-                                      [OPTION_HEAT] = explain->heat,
-                                      [OPTION_HEAT_LINES] = explain->heat_lines,
-                                      [OPTION_ITEMS] = explain->items,
-                                      [OPTION_LOCKSTEP] = explain->lockstep,
-                                      [OPTION_SERIES] = explain->series,
-                                      [OPTION_TRACE] = explain->trace,
-                                      [OPTION_PERFETTO] = explain->perfetto,
-                                      [OPTION_KONATA] = explain->konata,
-                                      [OPTION_POST_MORTEM] = options->post_mortem,
-                                      [OPTION_GDB_SYMBOLS] = options->gdb_symbols,
-                                      [OPTION_CHECKPOINT] = options->checkpoint.write};
-  const size_t all = OPTIONS + options->assignment_count;
-  for (size_t i = 0; i < all; i++) {
-    const char *path = output_path(options, paths, i);
-    struct stat existing;
-    if (!path || strcmp(path, "-") == 0 || (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode)))
-      continue;
-    for (size_t j = i + 1; j < all; j++) {
-      const char *other = output_path(options, paths, j);
-      if (other && strcmp(path, other) == 0)
-        return trax_fail(error, "--%s and --%s would both write %s", table[i < OPTIONS ? i : OPTION_DUMP].name,
-                         table[j < OPTIONS ? j : OPTION_DUMP].name, path);
-    }
+  const struct {
+    enum option_id id;
+    const char *path;
+  } outputs[] = {{OPTION_SIGNATURE, options->signature},
+                 {OPTION_STATS, options->stats},
+                 {OPTION_REPORT, options->report},
+                 {OPTION_PROFILE, explain->profile},
+                 {OPTION_PROFILE_FOLDED, explain->folded},
+                 {OPTION_ANNOTATE, explain->annotate},
+                 {OPTION_HEAT, explain->heat},
+                 {OPTION_HEAT_LINES, explain->heat_lines},
+                 {OPTION_ITEMS, explain->items},
+                 {OPTION_LOCKSTEP, explain->lockstep},
+                 {OPTION_SERIES, explain->series},
+                 {OPTION_TRACE, explain->trace},
+                 {OPTION_PERFETTO, explain->perfetto},
+                 {OPTION_KONATA, explain->konata},
+                 {OPTION_POST_MORTEM, options->post_mortem},
+                 {OPTION_GDB_SYMBOLS, options->gdb_symbols},
+                 {OPTION_CHECKPOINT, options->checkpoint.write}};
+  trax_files files = {0};
+  char name[40];
+  trax_files_input(&files, NULL, options->program);
+  if (options->config && !is_preset(options->config))
+    trax_files_input(&files, NULL, options->config);
+  trax_files_input(&files, NULL, options->checkpoint.resume);
+  for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++) {
+    snprintf(name, sizeof name, "--%s", table[outputs[i].id].name);
+    trax_files_output(&files, name, outputs[i].path);
   }
-  return TRAX_OK;
+  for (size_t i = 0; i < options->assignment_count; i++) {
+    const struct trax_assignment *assignment = &options->assignments[i];
+    if (assignment->kind == TRAX_ASSIGN_BIND)
+      trax_files_input(&files, NULL, assignment->value);
+    else if (assignment->kind == TRAX_ASSIGN_DUMP)
+      trax_files_output(&files, "--dump", assignment->value);
+  }
+  trax_status status = trax_files_check(&files, error);
+  trax_files_release(&files);
+  return status;
 }
 
 trax_status trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
@@ -503,7 +510,7 @@ trax_status trax_options_parse(struct trax_options *options, int count, char **a
     return trax_fail(error, "--post-mortem needs the fast or the functional engine");
   if (options->gdb && options->engine != TRAX_ENGINE_FAST)
     return trax_fail(error, "--gdb debugs in the fast engine, not in the one that --engine names");
-  return check_explain(options, error) == TRAX_OK ? check_outputs(options, error) : TRAX_ERROR;
+  return check_explain(options, error) == TRAX_OK ? check_files(options, error) : TRAX_ERROR;
 }
 
 void trax_options_free(struct trax_options *options) {

@@ -6,6 +6,7 @@
 
 #include "host.h"
 #include "statistics.h"
+#include "trax/version.h"
 #include "util.h"
 
 #define MEMBERS(X)                                                                                                     \

@@ -9,6 +9,8 @@
 #include "LLVMTrax.h"
 #include "TraxTargetInfo.h"
 #include "TraxToolChain.h"
+#include "trax/files.h"
+#include "trax/version.h"
 #include "clang/Basic/DiagnosticDriver.h"
 #include "clang/Basic/DiagnosticOptions.h"
 #include "clang/Driver/Compilation.h"
@@ -120,6 +122,23 @@ int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   return Result;
 }
 
+/// An output of the jobs, or the file of dependencies, that is one of the inputs, and what two jobs write, is an error.
+void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
+  trax_files Files = {};
+  trax_error Reason;
+  for (const std::string &Input : C.getArgs().getAllArgValues(options::OPT_INPUT))
+    trax_files_input(&Files, nullptr, Input.c_str());
+  for (const Command &Job : C.getJobs())
+    for (const std::string &Output : Job.getOutputFilenames())
+      if (!Output.empty() && !llvm::is_contained(C.getTempFiles(), Output))
+        trax_files_output(&Files, "-o", Output.c_str());
+  if (const llvm::opt::Arg *Dependencies = C.getArgs().getLastArg(options::OPT_MF))
+    trax_files_output(&Files, "-MF", Dependencies->getValue());
+  if (trax_files_check(&Files, &Reason) != TRAX_OK)
+    Diags.Report(Diags.getCustomDiagID(DiagnosticsEngine::Error, "%0")) << Reason.message;
+  trax_files_release(&Files);
+}
+
 /// Does what the command line says. ForTrax if that is known to be the target before the arguments are looked at.
 int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
   const ArgVector Given = Args;
@@ -170,6 +189,7 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
   if (C && ForTrax) {
     if (!C->containsError())
       trax::checkOptions(*C);
+    checkFiles(*C, Diags);
     Linker = std::make_unique<trax::Linker>(C->getDefaultToolChain(), Stack, Installed.RuntimeDir);
     Linker->replaceJobs(*C);
   }

@@ -2,7 +2,6 @@
 #include "ld.h"
 
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 const char *ld_foreign_format(const uint8_t *bytes, size_t size) {
@@ -44,20 +43,15 @@ static void load_pending(ld_context *ctx) {
   ctx->pending.count = 0;
 }
 
-static bool is_output(const ld_context *ctx, const char *path) {
-  struct stat input, output;
-  return stat(ctx->options.output, &output) == 0 && stat(path, &input) == 0 && input.st_dev == output.st_dev &&
-         input.st_ino == output.st_ino;
-}
-
 static void add_input(ld_context *ctx, const ld_input *input) {
   const char *path = input->is_library ? find_library(ctx, input->name) : input->name;
   const uint8_t *bytes;
   size_t size;
   if (!path || !ld_read_file(ctx, path, &bytes, &size))
     return;
-  if (is_output(ctx, path))
-    ld_error(ctx, "%s: is an input and the output", path);
+  trax_error error;
+  if (trax_files_check_input(&ctx->files, path, &error) != TRAX_OK)
+    ld_error(ctx, "%s", error.message);
   if (ld_is_archive(bytes, size)) {
     ld_archive_add(ctx, path, bytes, size, input->whole_archive);
     return;

@@ -18,6 +18,7 @@
 #define TRAX_LD_H
 
 #include "trax/abi.h"
+#include "trax/files.h"
 
 #include <elf.h>
 #include <libelf.h>
@@ -132,6 +133,7 @@ typedef struct ld_options {
   uint32_t text_start;
   unsigned error_limit;    /* 0: none */
   unsigned response_files; /* read so far */
+  LD_VECTOR(const char *) response_paths;
   bool allow_multiple_definition;
   uint32_t stack_size; /* bytes that the stack may take; 0: what local memory has */
   ld_stack_check stack_check;
@@ -402,6 +404,7 @@ int ld_main(int argc, char **argv);
 
 struct ld_context {
   ld_options options;
+  trax_files files;        /* what is read beside the inputs, and what is written */
   jmp_buf out_of_memory;   /* where the link ends then */
   struct ld_chunk *chunks; /* memory */
   unsigned error_count, warning_count;

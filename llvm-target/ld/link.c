@@ -1,5 +1,6 @@
 /* The whole linker as a function: relocatable objects and archives in, an executable for the TP out. */
 #include "ld.h"
+#include "trax/version.h"
 
 #include <stdlib.h>
 
@@ -8,8 +9,23 @@ static bool build_executable(ld_context *ctx) {
          ld_build_image(ctx) && ld_relocate(ctx);
 }
 
+/* Objects and archives are compared with the outputs when it is known where they are. */
+static bool check_files(ld_context *ctx) {
+  const ld_options *options = &ctx->options;
+  trax_error error;
+  trax_files_output(&ctx->files, "-o", options->output);
+  trax_files_output(&ctx->files, "-Map", options->map_path);
+  trax_files_input(&ctx->files, NULL, options->ordering_path);
+  for (size_t i = 0; i < options->response_paths.count; i++)
+    trax_files_input(&ctx->files, NULL, options->response_paths.items[i]);
+  if (trax_files_check(&ctx->files, &error) == TRAX_OK)
+    return true;
+  ld_error(ctx, "%s", error.message);
+  return false;
+}
+
 static bool link_program(ld_context *ctx) {
-  if (!ld_load_inputs(ctx) || !ld_finish_symbols(ctx))
+  if (!check_files(ctx) || !ld_load_inputs(ctx) || !ld_finish_symbols(ctx))
     return false;
   if (!ctx->options.relocatable)
     ld_split_merge_sections(ctx);

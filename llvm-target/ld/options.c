@@ -442,6 +442,7 @@ static void expand(ld_context *ctx, argument_list *arguments, const char *argume
   const uint8_t *bytes;
   size_t size;
   unsigned *files = &ctx->options.response_files;
+  ld_push(ctx, &ctx->options.response_paths, path);
   if (*files > MAX_RESPONSE_FILES) /* an error that was reported */
     return;
   if (depth > MAX_RESPONSE_DEPTH) {

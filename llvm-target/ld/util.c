@@ -71,6 +71,7 @@ char *ld_format(ld_context *ctx, const char *format, ...) {
 }
 
 void ld_free_all(ld_context *ctx) {
+  trax_files_release(&ctx->files);
   for (size_t i = 0; i < ctx->elves.count; i++)
     elf_end(ctx->elves.items[i]);
   while (ctx->chunks) {

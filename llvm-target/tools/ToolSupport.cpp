@@ -1,6 +1,8 @@
 //===- ToolSupport.cpp - What the command-line tools share ---------------===//
 #include "ToolSupport.h"
 #include "LLVMTrax.h"
+#include "trax/files.h"
+#include "trax/version.h"
 #include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/CommandLine.h"
 #include "llvm/Support/Path.h"
@@ -14,7 +16,7 @@ static std::string ToolName = "trax";
 const Target &trax::startTool(int Argc, char **Argv, StringRef Overview) {
   ToolName = sys::path::filename(Argv[0]).str();
   LLVMInitializeTrax();
-  cl::SetVersionPrinter([](raw_ostream &OS) { OS << ToolName << " (TRaX toolchain), LLVM " LLVM_VERSION_STRING "\n"; });
+  cl::SetVersionPrinter([](raw_ostream &OS) { OS << ToolName << " " TRAX_VERSION ", LLVM " LLVM_VERSION_STRING "\n"; });
   cl::ParseCommandLineOptions(Argc, Argv, Overview);
   std::string Message;
   const Target *T = TargetRegistry::lookupTarget("trax", Message);
@@ -30,6 +32,18 @@ void trax::fail(const Twine &Message) {
 
 void trax::fail(Error E, StringRef File) {
   fail("'" + File + "': " + toString(std::move(E)));
+}
+
+void trax::checkFiles(ArrayRef<std::string> Inputs, const std::string &Output) {
+  trax_files Files = {};
+  trax_error Reason;
+  for (const std::string &Input : Inputs)
+    trax_files_input(&Files, nullptr, Input.c_str());
+  trax_files_output(&Files, "-o", Output.c_str());
+  const trax_status Status = trax_files_check(&Files, &Reason);
+  trax_files_release(&Files);
+  if (Status != TRAX_OK)
+    fail(Reason.message);
 }
 
 void trax::writeOutput(StringRef File, StringRef Bytes) {

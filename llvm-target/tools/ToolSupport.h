@@ -2,6 +2,7 @@
 #ifndef TRAX_TOOLS_TOOLSUPPORT_H
 #define TRAX_TOOLS_TOOLSUPPORT_H
 
+#include "llvm/ADT/ArrayRef.h"
 #include "llvm/ADT/STLFunctionalExtras.h"
 #include "llvm/ADT/StringRef.h"
 #include "llvm/Support/Error.h"
@@ -20,6 +21,9 @@ const llvm::Target &startTool(int Argc, char **Argv, llvm::StringRef Overview);
 /// Reports "TOOL: error: MESSAGE" and exits with status 1.
 [[noreturn]] void fail(const llvm::Twine &Message);
 [[noreturn]] void fail(llvm::Error E, llvm::StringRef File);
+
+/// Fails if one of the inputs is the output. Called before any work, and again when all that was included is known.
+void checkFiles(llvm::ArrayRef<std::string> Inputs, const std::string &Output);
 
 /// Puts the bytes into the file by way of a temporary beside it; "-" is the standard output.
 void writeOutput(llvm::StringRef File, llvm::StringRef Bytes);

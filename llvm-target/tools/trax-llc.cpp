@@ -65,6 +65,7 @@ int main(int Argc, char **Argv) {
   if (!Level)
     trax::fail(Twine("invalid optimization level -O") + Twine(OptLevel));
 
+  trax::checkFiles({Input}, Output);
   LLVMContext Context;
   bool HasErrors = false;
   Context.setDiagnosticHandler(std::make_unique<Diagnostics>(&HasErrors));

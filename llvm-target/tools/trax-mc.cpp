@@ -153,6 +153,7 @@ static bool disassemble(const Target &T, Machine &M, raw_pwrite_stream &OS) {
 
 int main(int Argc, char **Argv) {
   const Target &T = trax::startTool(Argc, Argv, "TRaX assembler and disassembler\n");
+  trax::checkFiles({Input}, Output);
   ErrorOr<std::unique_ptr<MemoryBuffer>> Buffer = MemoryBuffer::getFileOrSTDIN(Input, /*IsText=*/true);
   if (std::error_code EC = Buffer.getError())
     trax::fail("'" + Input + "': " + EC.message());
@@ -165,6 +166,10 @@ int main(int Argc, char **Argv) {
   raw_svector_ostream OS(Bytes);
   if (!(Disassemble ? disassemble(T, M, OS) : assemble(T, M, OS)))
     return 1;
+  std::vector<std::string> Included;
+  for (unsigned I = 1; I < M.Sources.getNumBuffers(); ++I) // numbers begin with 1, which is the input
+    Included.push_back(M.Sources.getMemoryBuffer(I + 1)->getBufferIdentifier().str());
+  trax::checkFiles(Included, Output);
   trax::writeOutput(Output, Bytes);
   return 0;
 }

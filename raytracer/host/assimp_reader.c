@@ -15,6 +15,9 @@ struct file_system {
   struct aiFileIO io;
   const char *main_name; /* as given to assimp: without .xz or .gz */
   struct scene_bytes main_file;
+  const trax_files *files; /* of the command */
+  trax_error *error;       /* why a file that was opened must not be read */
+  bool refused;
   uint32_t missing;
   char first_missing[256];
 };
@@ -90,6 +93,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     }
     open->data = open->owned = bytes.data;
     open->size = bytes.size;
+    system->refused = system->refused || trax_files_check_input(system->files, name, system->error) != TRAX_OK;
   }
   open->file = (struct aiFile){.ReadProc = read_file,
                                .WriteProc = refuse_write,
@@ -258,7 +262,8 @@ static trax_status copy_geometry(struct assimp_import *import) {
 trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
                                    struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
-  struct file_system system = {.io = {.OpenProc = open_file, .CloseProc = close_file}};
+  struct file_system system = {
+      .io = {.OpenProc = open_file, .CloseProc = close_file}, .files = options->files, .error = error};
   system.io.UserData = (aiUserData)&system;
   char *name = scene_unpacked_name(path);
   if (!name)
@@ -271,7 +276,9 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
   if (result == TRAX_OK) {
     /* No steps yet: they trust the indices. */
     scene = aiImportFileEx(name, 0, &system.io);
-    if (!scene || !scene->mRootNode) {
+    if (system.refused) {
+      result = TRAX_ERROR;
+    } else if (!scene || !scene->mRootNode) {
       const char *reason = aiGetErrorString();
       result = scene_fail(error, "%s: not a mesh that can be read: %s", path,
                           reason && reason[0] ? reason : "the importer gives no reason");

@@ -1,4 +1,4 @@
-/* Whole files in and out: transparent decompression, replacement at once. */
+/* Whole files: transparent decompression. */
 #include "internal.h"
 
 #include <errno.h>
@@ -16,13 +16,14 @@
 static const size_t max_file_size = (size_t)4 << 30;
 
 trax_status scene_fail(trax_error *error, const char *format, ...) {
+  char message[sizeof error->message] = "";
   if (error) {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
+    vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
   }
-  return TRAX_ERROR;
+  return trax_fail(error, "%s", message);
 }
 
 trax_status scene_out_of_memory(trax_error *error, const char *what) {
@@ -260,70 +261,4 @@ char *scene_unpacked_name(const char *path) {
   if (name && length > 3 && (!strcmp(path + length - 3, ".xz") || !strcmp(path + length - 3, ".gz")))
     name[length - 3] = 0;
   return name;
-}
-
-static bool write_all(int descriptor, const unsigned char *bytes, size_t size) {
-  while (size > 0) {
-    ssize_t wrote = write(descriptor, bytes, size);
-    if (wrote < 0 && errno == EINTR)
-      continue;
-    if (wrote <= 0)
-      return false;
-    bytes += wrote;
-    size -= (size_t)wrote;
-  }
-  return true;
-}
-
-trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error) {
-  struct stat status;
-  if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-    int descriptor = open(path, O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0)
-      return scene_fail(error, "%s: cannot write: %s", path, strerror(errno));
-    bool wrote = write_all(descriptor, bytes, size);
-    int reason = errno;
-    if (close(descriptor) != 0 && wrote) {
-      wrote = false;
-      reason = errno;
-    }
-    return wrote ? TRAX_OK : scene_fail(error, "%s: cannot write: %s", path, strerror(reason));
-  }
-
-  /* A symbolic link stays one: its target is replaced. */
-  char *target = realpath(path, NULL);
-  const char *final = target ? target : path;
-  size_t length = strlen(final) + sizeof ".XXXXXX";
-  char *temporary = malloc(length);
-  if (!temporary) {
-    free(target);
-    return scene_out_of_memory(error, path);
-  }
-  snprintf(temporary, length, "%s.XXXXXX", final);
-  trax_status result = TRAX_OK;
-  int descriptor = mkstemp(temporary);
-  if (descriptor < 0)
-    result = scene_fail(error, "%s: cannot create: %s", path, strerror(errno));
-  else {
-    mode_t mask = umask(0);
-    umask(mask);
-    bool wrote =
-        fchmod(descriptor, target ? status.st_mode & 0777 : 0666 & ~mask) == 0 && write_all(descriptor, bytes, size);
-    int reason = errno;
-    if (close(descriptor) != 0 && wrote) {
-      wrote = false;
-      reason = errno;
-    }
-    if (wrote && rename(temporary, final) != 0) {
-      wrote = false;
-      reason = errno;
-    }
-    if (!wrote) {
-      unlink(temporary);
-      result = scene_fail(error, "%s: cannot write: %s", path, strerror(reason));
-    }
-  }
-  free(temporary);
-  free(target);
-  return result;
 }

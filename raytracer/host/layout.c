@@ -1,5 +1,6 @@
 /* From a mesh and its tree to the bytes of a scene file. */
 #include "internal.h"
+#include "trax/output.h"
 
 #include <stdlib.h>
 #include <string.h>

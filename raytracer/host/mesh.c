@@ -29,6 +29,10 @@ void trax_mesh_release(struct trax_mesh *mesh) {
 
 static const char generated_prefix[] = "generate:";
 
+bool trax_mesh_is_generated(const char *path) {
+  return strncmp(path, generated_prefix, sizeof generated_prefix - 1) == 0;
+}
+
 const struct trax_material trax_default_material = {.diffuse = {0.75f, 0.75f, 0.75f}, .ior = 1, .opacity = 1};
 
 /* What is made, not read: "forest" or "forest:SEED". */
@@ -55,7 +59,7 @@ static trax_status generate(struct trax_mesh *mesh, const char *path, struct tra
 trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
                             struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
-  if (strncmp(path, generated_prefix, sizeof generated_prefix - 1) == 0)
+  if (trax_mesh_is_generated(path))
     return generate(mesh, path, report, error);
   char *name = scene_unpacked_name(path);
   if (!name)
@@ -90,10 +94,7 @@ enum { mesh_arrays = 8 };
 
 static void list_arrays(struct mesh_array arrays[mesh_arrays], struct trax_mesh *mesh) {
   unsigned n = 0;
-#define ARRAY(name, count)                                                                                             \
-  arrays[n++] = (struct mesh_array) {                                                                                  \
-    (void **)&mesh->name, (count) * sizeof *mesh->name                                                                 \
-  }
+#define ARRAY(name, count) arrays[n++] = (struct mesh_array){(void **)&mesh->name, (count) * sizeof *mesh->name}
   ARRAY(vertices, (size_t)mesh->vertex_count);
   ARRAY(triangles, (size_t)mesh->triangle_count);
   ARRAY(materials, (size_t)mesh->material_count);

@@ -256,7 +256,12 @@ trax_status scene_read_mtl(struct scene_material_list *list, struct scene_textur
       snprintf(textures->report->first_missing_file, sizeof textures->report->first_missing_file, "%s", path);
     return TRAX_OK;
   }
-  trax_status result = check_text(&file, path, error);
+  trax_status result = trax_files_check_input(textures->options->files, path, error);
+  if (result != TRAX_OK) {
+    free(file.data);
+    return result;
+  }
+  result = check_text(&file, path, error);
   if (result != TRAX_OK)
     return result;
   struct library library = {.path = path,

@@ -74,7 +74,7 @@ struct shares {
   struct share {
     uint32_t source;
     float weight;
-  } *shares;
+  } * shares;
 };
 
 static bool list_shares(struct shares *shares, const struct axis *axis) {
@@ -218,17 +218,19 @@ static trax_status load_image(const struct scene_textures *textures, struct scen
   if (!path)
     return scene_out_of_memory(error, name);
   trax_error reason;
+  trax_status result = TRAX_OK;
   if (scene_load_referred(&file, path) != TRAX_OK) {
     if (report->missing_files++ == 0)
       snprintf(report->first_missing_file, sizeof report->first_missing_file, "%s", path);
   } else {
-    *good = scene_decode_image(image, &file, path, &reason) == TRAX_OK;
-    if (!*good && report->bad_images++ == 0)
+    result = trax_files_check_input(textures->options->files, path, error);
+    *good = result == TRAX_OK && scene_decode_image(image, &file, path, &reason) == TRAX_OK;
+    if (result == TRAX_OK && !*good && report->bad_images++ == 0)
       snprintf(report->first_bad_image, sizeof report->first_bad_image, "%.255s", reason.message);
     free(file.data);
   }
   free(path);
-  return TRAX_OK;
+  return result;
 }
 
 /* The mask's alpha, or its brightest channel where it has none, becomes the image's; the nearest one where sizes

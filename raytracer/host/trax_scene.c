@@ -1,5 +1,8 @@
 /* trax-scene: from mesh files to a scene file. */
+#include "trax/names.h"
+#include "trax/output.h"
 #include "trax/scene.h"
+#include "trax/version.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -52,7 +55,8 @@ static const char usage[] =
     "      --crease DEGREES         edges sharper than this stay edges, up to 180 (default %d)\n"
     "      --no-source-ids          leave out each triangle's number in the mesh\n"
     "  -q, --quiet                  no progress and no notes\n"
-    "  -h, --help                   this text\n";
+    "  -h, --help                   this text\n"
+    "      --version                prints the version\n";
 
 enum { max_overrides = 256 };
 
@@ -301,7 +305,8 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     cache,
     smooth,
     crease,
-    no_ids
+    no_ids,
+    version
   };
   static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                           {"check", required_argument, NULL, check},
@@ -328,9 +333,16 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"no-source-ids", no_argument, NULL, no_ids},
                                           {"quiet", no_argument, NULL, 'q'},
                                           {"help", no_argument, NULL, 'h'},
+                                          {"version", no_argument, NULL, version},
                                           {0}};
-  for (int option, index = 0; (option = getopt_long(argc, argv, "o:qh", options, &index)) != -1;) {
+  opterr = 0;
+  for (int option, index = 0; (option = getopt_long(argc, argv, ":o:qh", options, &index)) != -1;) {
     bool good = true;
+    trax_error error;
+    if (optarg && !*optarg) {
+      complain("--%s: the value is empty", option == 'o' ? "output" : options[index].name);
+      return 1;
+    }
     switch (option) {
     case 'o':
       arguments->output = optarg;
@@ -413,8 +425,13 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     case 'h':
       printf(usage, 1u << TRAX_TEXTURE_MAX_LOG2, TRAX_SCENE_MAX_LEAF, TRAX_SCENE_MAX_DEPTH, TRAX_DEFAULT_CREASE);
       return 0;
+    case version:
+      puts("trax-scene " TRAX_VERSION);
+      return 0;
     default:
-      good = false; /* getopt_long has said why */
+      trax_wrong_option(options, argv, option, &error);
+      complain("%s", error.message);
+      good = false;
     }
     if (!good)
       return 1;
@@ -434,11 +451,21 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     complain("%s", arguments->mesh_count ? "no output; give one with -o" : "no mesh; try --help");
     return 1;
   }
-  if (arguments->output && arguments->stats_json && strcmp(arguments->output, arguments->stats_json) == 0) {
-    complain("--output and --stats-json would both write %s", arguments->output);
-    return 1;
-  }
   return -1;
+}
+
+/* Before anything is read. What the meshes refer to is compared when it is found. */
+static trax_status check_files(trax_files *files, const struct arguments *arguments, trax_error *error) {
+  for (size_t i = 0; i < arguments->mesh_count; i++)
+    if (!trax_mesh_is_generated(arguments->meshes[i]))
+      trax_files_input(files, NULL, arguments->meshes[i]);
+  trax_files_input(files, NULL, arguments->check);
+  trax_files_output(files, "--output", arguments->output);
+  trax_files_output(files, "--stats-json", arguments->stats_json);
+  if (trax_files_check(files, error) != TRAX_OK ||
+      (arguments->output && trax_output_check(arguments->output, error) != TRAX_OK))
+    return TRAX_ERROR;
+  return arguments->stats_json ? trax_output_check(arguments->stats_json, error) : TRAX_OK;
 }
 
 /* --- the program --- */
@@ -540,8 +567,13 @@ int main(int argc, char **argv) {
     arguments.import.progress_context = arguments.build.progress_context = &progress;
   }
   arguments.import.interrupt = arguments.build.interrupt = &interrupted;
+  trax_files files = {0};
+  arguments.import.files = &files;
   trax_error error = {{0}};
-  trax_status result = run(&arguments, &progress, &error);
+  trax_status result = check_files(&files, &arguments, &error);
+  if (result == TRAX_OK)
+    result = run(&arguments, &progress, &error);
+  trax_files_release(&files);
   if (result == TRAX_INTERRUPTED) {
     fputs("trax-scene: interrupted; nothing was written\n", stderr);
     end_by_signal();

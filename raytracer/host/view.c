@@ -1,6 +1,7 @@
 /* View files (libconfig): reading and writing. */
 #include "trax/view.h"
 #include "internal.h"
+#include "trax/output.h"
 
 #include <libconfig.h>
 #include <math.h>

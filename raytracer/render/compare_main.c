@@ -1,6 +1,8 @@
 /* trax-compare: do two pictures agree? */
 #include "core/machine.h"
 #include "render.h"
+#include "trax/names.h"
+#include "trax/version.h"
 
 #include <getopt.h>
 #include <stdlib.h>
@@ -73,6 +75,7 @@ int main(int argc, char **argv) {
                                           {NULL, 0, NULL, 0}};
   double within = 0, at_least = 100;
   bool quiet = false;
+  trax_error error;
   opterr = 0;
   for (int which; (which = getopt_long(argc, argv, ":qh", options, NULL)) != -1;)
     switch (which) {
@@ -94,8 +97,8 @@ int main(int argc, char **argv) {
       puts("trax-compare " TRAX_VERSION);
       return 0;
     default:
-      fprintf(stderr, "trax-compare: error: %s: unknown option or missing value\n", argv[optind - 1]);
-      return 1;
+      trax_wrong_option(options, argv, which, &error);
+      return fail(error.message);
     }
   if (argc - optind != 2)
     return fail("expected two pictures; trax-compare --help shows how");

@@ -148,6 +148,20 @@ static void quote(FILE *out, const char *word) {
   fputc('\'', out);
 }
 
+/* Of --keep: the buffers, in the order in which they were bound, since addresses depend on it. */
+static const struct {
+  const char *symbol, *file;
+} kept_buffers[] = {{"scene", "scene.trax"},
+                    {"plain_nodes", "nodes.bin"},
+                    {"plain_triangles", "triangles.bin"},
+                    {"params", "params.bin"}};
+enum { KEPT_BUFFERS = sizeof kept_buffers / sizeof *kept_buffers };
+
+const char *kept_file(size_t number) {
+  static const char *const others[] = {"program.elf", "run.sh", NULL};
+  return number < KEPT_BUFFERS ? kept_buffers[number].file : others[number - KEPT_BUFFERS];
+}
+
 /* The files that the program reads, and the command that runs it on them. */
 static trax_status keep_inputs(const struct options *options, const struct trax_frame *frame,
                                const struct trax_program *program, trax_machine *machine, trax_error *error) {
@@ -155,13 +169,6 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
     return trax_fail(error, "%s: %s", options->keep, strerror(errno));
   const struct trax_image *image = trax_host_of(machine)->image;
   const uint32_t paths = trax_image_symbol(image, "paths") ? trax_path_bytes(machine, frame) : 0;
-  static const struct {
-    const char *symbol, *file;
-  } inputs[] = {{"scene", "scene.trax"},
-                {"plain_nodes", "nodes.bin"},
-                {"plain_triangles", "triangles.bin"},
-                {"params", "params.bin"}}; /* in the order in which they were bound: addresses depend on it */
-  const size_t input_count = sizeof inputs / sizeof *inputs;
   char *text = NULL;
   size_t size = 0;
   FILE *command = open_memstream(&text, &size);
@@ -177,15 +184,15 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
     quote(command, options->settings[i].value);
   }
   trax_status status = TRAX_OK;
-  for (size_t i = 0; i < input_count && status == TRAX_OK; i++) {
+  for (size_t i = 0; i < KEPT_BUFFERS && status == TRAX_OK; i++) {
     const uint8_t *bytes;
     uint32_t input_bytes;
-    if (!trax_image_symbol(image, inputs[i].symbol))
+    if (!trax_image_symbol(image, kept_buffers[i].symbol))
       continue;
-    fprintf(command, " --bind %s=%s", inputs[i].symbol, inputs[i].file);
-    status = trax_machine_read_buffer(machine, inputs[i].symbol, &bytes, &input_bytes, error);
+    fprintf(command, " --bind %s=%s", kept_buffers[i].symbol, kept_buffers[i].file);
+    status = trax_machine_read_buffer(machine, kept_buffers[i].symbol, &bytes, &input_bytes, error);
     if (status == TRAX_OK)
-      status = write_bytes(options->keep, inputs[i].file, bytes, input_bytes, error);
+      status = write_bytes(options->keep, kept_buffers[i].file, bytes, input_bytes, error);
   }
   fprintf(command, " --alloc image=%u --dump image=image.raw --progress-total %u \"$@\" ",
           trax_frame_image_bytes(frame), frame->params->width * frame->params->height);
@@ -269,6 +276,8 @@ static trax_status run_program(struct trax_picture *picture, const struct option
                                const struct trax_frame *frame, const struct trax_program *program,
                                struct progress *progress, const volatile int *interrupt,
                                struct program_figures *figures, trax_error *error) {
+  if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
+    return TRAX_ERROR;
   trax_config *config = trax_config_create();
   trax_status status = config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
   trax_machine *machine = status == TRAX_OK ? trax_machine_create(config, error) : NULL;

@@ -17,6 +17,9 @@ trax_status emulated_config(trax_config *config, const struct options *options, 
 /* What the installation has, next to this program: ../FOLDER/NAME with its suffix. False if it cannot be read. */
 bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix);
 
+/* The files that --keep and --prepare write, by number; NULL behind the last one. */
+const char *kept_file(size_t number);
+
 /* The picture, and what the options want to know of the run. With --report two pictures, by the general program and by
    the specialised one, and *agrees becomes false if they differ. */
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,

@@ -77,6 +77,21 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
 
 static const char camera_prefix[] = "file:";
 
+bool is_camera(const char *view) {
+  return strncmp(view, camera_prefix, sizeof camera_prefix - 1) == 0;
+}
+
+trax_status find_view(char path[TRAX_PATH_SIZE], const char *view, trax_error *error) {
+  if (access(view, F_OK) != 0 && !strchr(view, '/')) {
+    if (installed_file(path, "share/trax/views", view, ".view"))
+      return TRAX_OK;
+    return trax_fail(error, "--view %s: there is no such file, and trax comes with no such view", view);
+  }
+  if (snprintf(path, TRAX_PATH_SIZE, "%s", view) >= TRAX_PATH_SIZE)
+    return trax_fail(error, "--view: the path is too long");
+  return TRAX_OK;
+}
+
 static trax_status take_camera(struct trax_view *view, const struct inputs *inputs, const char *name,
                                trax_error *error) {
   for (uint32_t i = 0; i < inputs->camera_count; i++) {
@@ -99,19 +114,14 @@ static trax_status take_camera(struct trax_view *view, const struct inputs *inpu
 static trax_status load_view(struct trax_view *view, const struct options *options, const struct inputs *inputs,
                              trax_error *error) {
   const struct trax_scene_header *header = inputs->scene.header;
-  const bool camera = options->view && strncmp(options->view, camera_prefix, sizeof camera_prefix - 1) == 0;
+  const bool camera = options->view && is_camera(options->view);
   if (!options->view || camera) {
     trax_view_frame(view, header->bounds_min, header->bounds_max,
                     (float)options->frame.width / (float)options->frame.height);
     return camera ? take_camera(view, inputs, options->view + sizeof camera_prefix - 1, error) : TRAX_OK;
   }
   char path[TRAX_PATH_SIZE];
-  if (access(options->view, F_OK) != 0 && !strchr(options->view, '/')) {
-    if (installed_file(path, "share/trax/views", options->view, ".view"))
-      return trax_view_read(view, path, error);
-    return trax_fail(error, "--view %s: there is no such file, and trax comes with no such view", options->view);
-  }
-  return trax_view_read(view, options->view, error);
+  return find_view(path, options->view, error) == TRAX_OK ? trax_view_read(view, path, error) : TRAX_ERROR;
 }
 
 /* What single options say takes the place of the view's. */

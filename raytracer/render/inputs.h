@@ -19,4 +19,9 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, st
 void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
 void inputs_release(struct inputs *inputs);
 
+/* Does --view name a camera of the meshes, and no file? */
+bool is_camera(const char *view);
+/* The file that it names otherwise. */
+trax_status find_view(char path[TRAX_PATH_SIZE], const char *view, trax_error *error);
+
 #endif

@@ -2,6 +2,7 @@
 #include "bench_accuracy.h"
 #include "core/machine.h"
 #include "emulated.h"
+#include "files.h"
 #include "hits.h"
 #include "host/util.h"
 #include "inputs.h"
@@ -213,17 +214,6 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   return status;
 }
 
-/* PICTURE.png becomes PICTURE-0001.png; from malloc. */
-static char *numbered(const char *path, unsigned number) {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-  const size_t length = dot && dot > (slash ? slash + 1 : path) ? (size_t)(dot - path) : strlen(path);
-  const size_t size = strlen(path) + sizeof "-0001";
-  char *name = malloc(size);
-  if (name)
-    snprintf(name, size, "%.*s-%04u%s", (int)length, path, number, path + length);
-  return name;
-}
-
 static trax_status render(const struct options *options, struct progress *progress, bool *agrees, trax_error *error) {
   struct inputs inputs = {0};
   struct trax_view view;
@@ -265,7 +255,12 @@ int main(int argc, char **argv) {
     signal(SIGTERM, on_interrupt);
     signal(SIGPIPE, on_broken_pipe);
     signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
-    trax_status status = render(&options, &progress, &agrees, &error);
+    trax_files files = {0};
+    options.import.files = &files;
+    trax_status status = check_files(&files, &options, &error);
+    if (status == TRAX_OK)
+      status = render(&options, &progress, &agrees, &error);
+    trax_files_release(&files);
     progress_clear(&progress);
     if (status == TRAX_INTERRUPTED) {
       fprintf(stderr, "trax-render: interrupted\n");

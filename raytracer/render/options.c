@@ -1,13 +1,12 @@
 #include "options.h"
 
-#include "core/machine.h"
-#include "host/util.h"
+#include "trax/names.h"
+#include "trax/version.h"
 
 #include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const char usage[] =
     "Usage: trax-render [options] MESH [MESH ...] -o PICTURE.png\n"
@@ -15,7 +14,7 @@ static const char usage[] =
     "Renders meshes, or one scene file (.trax), on the emulated ray-tracing accelerator: a ray from the eye through\n"
     "every pixel, and a shadow ray towards one point light. generate:forest[:SEED] is a mesh made on the spot.\n"
     "\n"
-    "  -o, --output FILE       the picture: linear floats for .pfm and .exr, else a PNG\n"
+    "  -o, --output FILE       the picture: linear floats for .pfm and .exr, a PNG for .png\n"
     "      --size WxH          its size in pixels, 1x1 to 16384x16384 (default 1280x720)\n"
     "      --view FILE|NAME    eye, direction, field of view and light: a file, or one that comes with trax;\n"
     "                          without it the whole scene is framed; file:NAME is a camera of a glTF file, file: its\n"
@@ -215,11 +214,6 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"help", no_argument, NULL, 'h'},
                                              {"version", no_argument, NULL, OPT_VERSION},
                                              {NULL, 0, NULL, 0}};
-
-static const char *option_name(const void *context, size_t i) {
-  (void)context;
-  return long_options[i].name;
-}
 
 /* An unsigned decimal number without sign or space, at *text, which moves behind it. */
 static bool parse_number(const char **text, unsigned long limit, unsigned *value) {
@@ -565,46 +559,6 @@ static trax_status take_option(struct options *options, int which, const char *v
   }
 }
 
-static trax_status wrong_option(char **argv, int which, trax_error *error) {
-  const char *text = argv[optind - 1];
-  if (which == ':')
-    return trax_fail(error, "%s needs a value", text);
-  bool is_long = strncmp(text, "--", 2) == 0;
-  if (!is_long) /* one letter, perhaps among others */
-    return trax_fail(error, "unknown option -%c", optopt);
-  if (optopt)
-    return trax_fail(error, "%s: the option takes no value", text);
-  char name[64];
-  snprintf(name, sizeof name, "%.*s", (int)strcspn(text + 2, "="), text + 2);
-  const char *nearest = trax_nearest_name(name, sizeof long_options / sizeof *long_options - 1, option_name, NULL);
-  return nearest ? trax_fail(error, "unknown or ambiguous option --%s; did you mean --%s?", name, nearest)
-                 : trax_fail(error, "unknown or ambiguous option --%s", name);
-}
-
-/* Of two outputs in one file the second would replace the first. What is no file, such as /dev/null, takes any number.
- */
-static trax_status check_outputs(const struct options *options, trax_error *error) {
-  const struct {
-    const char *name, *path;
-  } outputs[] = {{"output", options->output},
-                 {"id-picture", options->id_picture},
-                 {"stats", options->stats},
-                 {"profile", options->explain.profile},
-                 {"profile-folded", options->explain.folded},
-                 {"cost-picture", options->cost_picture},
-                 {"cost-values", options->cost_values}};
-  enum { COUNT = sizeof outputs / sizeof *outputs };
-  for (unsigned i = 0; i < COUNT; i++) {
-    struct stat existing;
-    if (!outputs[i].path || (stat(outputs[i].path, &existing) == 0 && !S_ISREG(existing.st_mode)))
-      continue;
-    for (unsigned j = i + 1; j < COUNT; j++)
-      if (outputs[j].path && strcmp(outputs[i].path, outputs[j].path) == 0)
-        return trax_fail(error, "--%s and --%s would both write %s", outputs[i].name, outputs[j].name, outputs[i].path);
-  }
-  return TRAX_OK;
-}
-
 static trax_status check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -614,9 +568,6 @@ static trax_status check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (!options->output && !options->prepare)
     return trax_fail(error, "no picture given: -o PICTURE.png");
-  if ((options->output && trax_picture_check_name(options->output, error) != TRAX_OK) ||
-      check_outputs(options, error) != TRAX_OK)
-    return TRAX_ERROR;
   if (options->bench_accuracy) {
     if (options->engine != ENGINE_FAST || options->program || options->no_specialise)
       return trax_fail(error, "--bench-accuracy chooses engines and programs itself");
@@ -703,9 +654,13 @@ enum options_result options_parse(struct options *options, int argc, char **argv
                                         .samples = 1,
                                         .shadows = true}};
   opterr = 0;
-  for (int which; (which = getopt_long(argc, argv, ":o:qh", long_options, NULL)) != -1;) {
+  for (int which, index = 0; (which = getopt_long(argc, argv, ":o:qh", long_options, &index)) != -1;) {
     if (which == '?' || which == ':') {
-      wrong_option(argv, which, error);
+      trax_wrong_option(long_options, argv, which, error);
+      return OPTIONS_WRONG;
+    }
+    if (optarg && !*optarg) {
+      trax_fail(error, "--%s: the value is empty", which == 'o' ? "output" : long_options[index].name);
       return OPTIONS_WRONG;
     }
     if (which == 'h' || which == OPT_VERSION) {

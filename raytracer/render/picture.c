@@ -129,15 +129,6 @@ bool trax_picture_is_float(const char *path) {
   return ends_with(path, ".pfm") || ends_with(path, ".exr");
 }
 
-trax_status trax_picture_check_name(const char *path, trax_error *error) {
-  static const char *const others[] = {".bmp", ".gif", ".hdr", ".jpeg", ".jpg", ".pbm",  ".pgm",
-                                       ".pnm", ".ppm", ".svg", ".tga",  ".tif", ".tiff", ".webp"};
-  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-    if (ends_with(path, others[i]))
-      return trax_fail(error, "%s: pictures are .png, .pfm or .exr", path);
-  return TRAX_OK;
-}
-
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error) {
   trax_output output;
   if (trax_picture_is_float(path))

@@ -142,8 +142,6 @@ trax_status trax_picture_take(struct trax_picture *picture, const struct trax_fr
    (2); aside and renamed. */
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error);
 bool trax_picture_is_float(const char *path);
-/* Refuses names that say that the file is of a format which is not written. */
-trax_status trax_picture_check_name(const char *path, trax_error *error);
 /* A PNG, brought to 8-bit RGBA without touching its gamma, or a PFM or EXR (radiance.h), by its first bytes. */
 trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error);
 /* The same of a file in memory. */

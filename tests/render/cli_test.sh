@@ -33,12 +33,12 @@ native="--engine native --view $source/box.view"
 refuse 'no mesh' "$render"
 refuse 'no mesh' "$render" -o x.png
 refuse 'no picture given' "$render" "$box"
-refuse '--output and --cost-picture would both write x.png' "$render" "$box" -o x.png --cost-picture x.png
-refuse '--stats and --profile would both write x.json' "$render" "$box" -o x.png --stats x.json --profile x.json
-refuse 'unknown.*--siez; did you mean --size' "$render" "$box" -o x.png --siez 10x10
+refuse 'x.png: is written twice, by --output and by --cost-picture' "$render" "$box" -o x.png --cost-picture x.png
+refuse 'x.json: is written twice, by --stats and by --profile' "$render" "$box" -o x.png --stats x.json --profile x.json
+refuse 'unknown option --siez; did you mean --size?' "$render" "$box" -o x.png --siez 10x10
 refuse 'unknown option -z' "$render" "$box" -o x.png -z
 refuse '--size needs a value' "$render" "$box" -o x.png --size
-refuse '--quiet=1: the option takes no value' "$render" "$box" -o x.png --quiet=1
+refuse '--quiet takes no value' "$render" "$box" -o x.png --quiet=1
 for size in '' 0x10 10x0 10 10x 10x10x10 -1x5 16385x1 1x16385 1e3x10 99999999999999999999x1 ' 1x1'; do
   refuse '--size' "$render" "$box" -o x.png --size "$size"
 done
@@ -246,7 +246,7 @@ refuse 'odd.pfm: not a readable PFM' "$compare" odd.pfm pixels.png
 printf 'PF\n99999 99999\n-1.0\n' >vast.pfm
 refuse 'vast.pfm: a picture of 99999 x 99999' "$compare" vast.pfm pixels.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.exr $native
-refuse 'x.JPG: pictures are .png, .pfm or .exr' "$render" "$box" -o x.JPG $native
+refuse 'x.JPG: there is no writer for .JPG, only for .png, .pfm and .exr' "$render" "$box" -o x.JPG $native
 
 # Which triangle a pixel shows: the same by the twin and by Embree in nearly all of a small picture.
 accept "$render" "$box" -o h.png $native --size 32x24 --id-picture ids.png --compare

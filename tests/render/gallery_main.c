@@ -1,6 +1,7 @@
 /* render-gallery DIRECTORY [PARTS]: gallery.trax with those parts, a sum of gallery.h's (63: all), and gallery.view
    with all lights. The directory is made if it is not there. For tests of programs, and to look at. */
 #include "gallery.h"
+#include "trax/output.h"
 
 #include <stdlib.h>
 #include <sys/stat.h>

@@ -143,13 +143,13 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--texture-size", "8192"}, "--texture-size: '8192' is not"},
       {{good, "-o", scene, "--normals", "round"}, "--normals: 'round' is not file, smooth or flat"},
       {{good, "-o", scene, "--normals", "flat", "--crease", "30"}, "--crease without --smooth or --normals"},
-      {{good, "-o", scene, "--stats-json", scene}, "--output and --stats-json would both write"},
-      {{good, "-o", scene, "--unknown"}, "unrecognized option '--unknown'"},
+      {{good, "-o", scene, "--stats-json", scene}, "is written twice, by --output and by --stats-json"},
+      {{good, "-o", scene, "--unknown"}, "unknown option --unknown"},
       {{lost, "-o", scene}, "trax-scene: error: "},
       {{good, lost, "-o", scene}, "lost.ply: cannot open: No such file"},
       {{flat, "-o", scene}, "flat.obj: no triangles are left: all are of zero area"},
       {{nan, "-o", scene}, "nan.obj: 1 of 1 triangles have a vertex that is NaN"},
-      {{good, "-o", nowhere}, "where.trax: cannot create"},
+      {{good, "-o", nowhere}, "where.trax: cannot be written"},
       {{"--check", good}, "triangle.obj: not a scene file"},
   };
   unsigned files = count_files();

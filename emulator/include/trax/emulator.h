@@ -15,6 +15,8 @@
 #ifndef TRAX_EMULATOR_H
 #define TRAX_EMULATOR_H
 
+#include "trax/status.h" /* trax_status, trax_error */
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -23,18 +25,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum trax_status {
-  TRAX_OK = 0,
-  TRAX_ERROR,       /* bad input: the message names the place */
-  TRAX_FAULT,       /* the guest did what it must not; trax_machine_print_fault tells */
-  TRAX_INTERRUPTED, /* options.interrupt became true; statistics are partial */
-  TRAX_STUCK        /* the watchdog: max_cycles passed; statistics are partial */
-} trax_status;
-
-typedef struct trax_error {
-  char message[1024];
-} trax_error;
 
 /* --- configuration: emulator/host/config.c; keys are listed by trax_config_describe and in docs/emulator.md --- */
 typedef struct trax_config trax_config;

@@ -12,6 +12,8 @@ import pathlib
 import sys
 import urllib.parse
 
+from trax_eval.util import Problem, check_files
+
 from . import tables
 from .charts import all_figures
 from .claims import AGREES, DIFFERS, claims, median, table2_deviations
@@ -152,16 +154,19 @@ def write(path, text):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
     parser.add_argument("results", type=pathlib.Path, metavar="RESULTS.json")
-    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE.html", help="the page (default: report.html beside the results)")
+    parser.add_argument("-o", "--output", metavar="FILE.html", help="the page (default: report.html beside the results)")
     parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR", help="the paper's tables (default: those that come with trax)")
     parser.add_argument("--gnuplot", default="gnuplot", metavar="PROGRAM", help="what draws the figures")
     options = parser.parse_args(arguments)
-    output = options.output or options.results.with_name("report.html")
+    output = pathlib.Path(options.output) if options.output else options.results.with_name("report.html")
     try:
+        if options.output == "":
+            raise Problem("--output: the value is empty")
+        check_files([options.results], [output])
         results, paper = read_results(options.results), Paper(options.paper)
         folder = output.absolute().parent
         write(output, page(results, paper, options.results.absolute().parent, folder, options.gnuplot))
-    except (ResultsError, PlotError) as error:
+    except (Problem, ResultsError, PlotError) as error:
         print(f"trax-eval report: error: {error}", file=sys.stderr)
         return 1
     except OSError as error:

@@ -11,12 +11,12 @@ import time
 from . import runners
 from .jobs import clean_scratch, is_done, make_job, prepare_inputs, write_job
 from .paper import Paper
-from .results import collect, write_plan
+from .results import collect, plan_file, write_plan
 from .scenes import scene_file
 from .sweep import MODES, PROGRAMS, parse_size, read_sweep
 from .tables import print_tables
 from .tools import Tools
-from .util import Problem
+from .util import Problem, check_files
 from .values import Areas
 
 HELP = """\
@@ -71,10 +71,16 @@ def help_text(data):
     return HELP % ("Experiments:\n" + "\n".join(lines) + "\n")
 
 
+def path_argument(text):
+    if not text:
+        raise Problem("--output: the value is empty")
+    return pathlib.Path(text)
+
+
 def parse(arguments):
     parser = Parser(prog="trax-eval", add_help=False, allow_abbrev=False)
     parser.add_argument("words", nargs="*")
-    parser.add_argument("-o", "--output", default="out/eval", type=pathlib.Path)
+    parser.add_argument("-o", "--output", default="out/eval", type=path_argument)
     parser.add_argument("--program", default=",".join(PROGRAMS))
     parser.add_argument("--size")
     parser.add_argument("--mode", choices=MODES)
@@ -179,6 +185,7 @@ def evaluate(options, tools, data, command):
     files, folder = choose(options, data)
     sweeps = [read_sweep(path, size=options.size, mode=options.mode, programs=options.programs) for path in files]
     check_machines(sweeps, tools)
+    check_files(files, [*(plan_file(options.output, sweep) for sweep in sweeps), options.output / "results.json", options.output / "report.html"])
     out = options.output.resolve()
     clean_scratch(out)
     planner = Planner(out, tools, folder, options.quiet)

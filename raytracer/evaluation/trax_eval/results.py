@@ -39,6 +39,11 @@ def machine_of(point, tools):
     return {"config": point.chip, "set": effective(point, tools), "machine": dict(point.machine())}
 
 
+def plan_file(out, sweep):
+    modes = {"quick"} if sweep.quick else {point.mode for point in sweep.points} - {"exact"}
+    return out / "sweeps" / ".".join([sweep.name, *sorted(modes), "json"])  # exact runs stay in the results beside estimates of the same sweep
+
+
 def write_plan(out, sweep, keys, tools):
     """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the reason why there is none."""
     points = []
@@ -47,9 +52,7 @@ def write_plan(out, sweep, keys, tools):
         points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, **machine_of(point, tools),
                        "preset": machine_of(preset_of(point, tools), tools), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
                        "error": reason})
-    modes = {"quick"} if sweep.quick else {point.mode for point in sweep.points} - {"exact"}
-    file = ".".join([sweep.name, *sorted(modes), "json"])  # exact runs stay in the results beside estimates of the same sweep
-    write_json(out / "sweeps" / file, {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
+    write_json(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
                                                        "claim": sweep.claim, "file": sweep.file, "points": points})
 
 

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import socket
+import stat
 import threading
 
 
@@ -47,6 +48,30 @@ def write_file(path, data):
     except OSError as error:
         beside.unlink(missing_ok=True)
         raise Problem(f"{path}: {error.strerror}") from error
+
+
+def identity(path):
+    """Which file a path names, whatever its spelling; None of what is no regular file, which may be written any number of times."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return os.path.realpath(path)
+    return (found.st_dev, found.st_ino) if stat.S_ISREG(found.st_mode) else None
+
+
+def check_files(inputs, outputs):
+    """No output may be an input, and none may be written twice. As base/files.c has it for the programs in C."""
+    known = {identity(path): path for path in inputs}
+    written = {}
+    for path in outputs:
+        which = identity(path)
+        if which is None:
+            continue
+        if which in known:
+            raise Problem(f"{path}: is an input and the output" + ("" if str(path) == str(known[which]) else f"; it is the same file as {known[which]}"))
+        if which in written:
+            raise Problem(f"{written[which]}: is written twice" + ("" if str(path) == str(written[which]) else f" as {path}"))
+        written[which] = path
 
 
 def write_json(path, value):

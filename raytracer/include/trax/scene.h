@@ -12,8 +12,9 @@
 #ifndef TRAX_SCENE_H
 #define TRAX_SCENE_H
 
-#include "trax/emulator.h" /* trax_status, trax_error */
+#include "trax/files.h"
 #include "trax/scene_format.h"
+#include "trax/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -87,11 +88,12 @@ trax_status trax_override_diffuse(struct trax_material_override *override, char 
 trax_status trax_override_material(struct trax_material_override *override, char *text, trax_error *error);
 
 struct trax_import_options {
-  bool drop_nonfinite;   /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
-  bool keep_degenerate;  /* keep triangles of exactly zero area, which no ray can hit */
-  bool no_textures;      /* images are not read; of materials remain their colours */
-  unsigned texture_size; /* texels a side, at most; a power of two up to 4096, which is the default, 0 */
-  bool in_process;       /* no child process around the importer: for debuggers and sanitizers */
+  bool drop_nonfinite;     /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
+  bool keep_degenerate;    /* keep triangles of exactly zero area, which no ray can hit */
+  bool no_textures;        /* images are not read; of materials remain their colours */
+  unsigned texture_size;   /* texels a side, at most; a power of two up to 4096, which is the default, 0 */
+  const trax_files *files; /* of the command, none of whose outputs may be what meshes refer to; may be NULL */
+  bool in_process;         /* no child process around the importer: for debuggers and sanitizers */
   const struct trax_material_override *overrides; /* applied in order */
   size_t override_count;
   trax_scene_progress *progress; /* may be NULL */
@@ -121,6 +123,9 @@ void trax_import_print_notes(const struct trax_import_report *report, const char
 
 /* Of what has no material: light grey, Lambert's. */
 extern const struct trax_material trax_default_material;
+
+/* Is it made, and no file: "generate:forest"? */
+bool trax_mesh_is_generated(const char *path);
 
 /* Reads and merges the files: anything assimp knows (PLY, OBJ with MTL, glTF and GLB among them), plain or compressed
    as .xz or .gz; or "generate:forest", see docs/raytracer.md. Node transforms are applied and polygons cut into
@@ -229,9 +234,7 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 
-/* Writes a whole file: to a temporary beside path, which is then renamed, so that path is replaced at once or stays as
-   it was. A symbolic link stays one; what is no regular file is written to directly. */
-trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error);
+/* path is replaced at once or stays as it was (trax/output.h). */
 trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);
 
 /* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every box is exact

@@ -18,7 +18,7 @@
 #ifndef TRAX_VIEW_H
 #define TRAX_VIEW_H
 
-#include "trax/emulator.h" /* trax_status, trax_error */
+#include "trax/status.h"
 
 #include <stdbool.h>
 #include <stdint.h>

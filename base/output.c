@@ -1,8 +1,10 @@
-#include "util.h"
+#include "trax/output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +13,21 @@ static mode_t usual_mode(void) {
   mode_t mask = umask(0);
   umask(mask);
   return 0666 & ~mask;
+}
+
+int trax_output_descriptor(const char *path) {
+  static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+  if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
+    return STDOUT_FILENO;
+  if (strcmp(path, "/dev/stderr") == 0)
+    return STDERR_FILENO;
+  for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+    const char *number = path + strlen(folders[i]);
+    if (strncmp(path, folders[i], strlen(folders[i])) == 0 && *number && strlen(number) < 8 &&
+        strspn(number, "0123456789") == strlen(number))
+      return atoi(number);
+  }
+  return -1;
 }
 
 static trax_status fail_closed(trax_output *output, int code, trax_error *error) {
@@ -23,9 +40,15 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
   *output = (trax_output){.path = strdup(path)};
   if (!output->path)
     return trax_fail(error, "%s: out of memory", path);
-  if (strcmp(path, "-") == 0) {
+  const int shared = trax_output_descriptor(path);
+  if (shared == STDOUT_FILENO) {
     output->file = stdout;
     return TRAX_OK;
+  }
+  if (shared >= 0) { /* opened anew, a file would be written from its beginning */
+    const int copy = dup(shared);
+    output->file = copy < 0 ? NULL : fdopen(copy, "ab");
+    return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
   struct stat existing;
   if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode)) {
@@ -105,6 +128,9 @@ void trax_output_discard(trax_output *output) {
 
 trax_status trax_output_check(const char *path, trax_error *error) {
   struct stat existing;
+  const int shared = trax_output_descriptor(path);
+  if (shared >= 0)
+    return fcntl(shared, F_GETFL) >= 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
   /* Opening a pipe or a device may wait or do something: only asked for permission. */
   if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode))
     return access(path, W_OK) == 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
@@ -113,4 +139,37 @@ trax_status trax_output_check(const char *path, trax_error *error) {
   if (status == TRAX_OK)
     trax_output_discard(&output);
   return status;
+}
+
+trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fwrite(bytes, 1, size, output.file); /* a failure shows again when the file is closed */
+  return trax_output_commit(&output, error);
+}
+
+/* Where the ending begins, behind its dot; NULL: there is none. */
+static const char *ending_of(const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+  return dot && dot > name ? dot + 1 : NULL;
+}
+
+trax_status trax_output_name_check(const char *path, const char *endings, trax_error *error) {
+  const char *ending = ending_of(path);
+  struct stat existing;
+  if (!ending || trax_output_descriptor(path) >= 0 ||
+      (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode)))
+    return TRAX_OK;
+  char allowed[64] = "";
+  size_t used = 0;
+  for (const char *at = endings; *at && used < sizeof allowed;) {
+    const size_t length = strcspn(at, " ");
+    if (strlen(ending) == length && strncasecmp(ending, at, length) == 0)
+      return TRAX_OK;
+    const char *separator = at == endings ? "" : at[length] ? ", " : " and ";
+    used += (size_t)snprintf(allowed + used, sizeof allowed - used, "%s.%.*s", separator, (int)length, at);
+    at += length + (at[length] == ' ');
+  }
+  return trax_fail(error, "%s: there is no writer for .%s, only for %s", path, ending, allowed);
 }

@@ -1,0 +1,44 @@
+/* Files that are written whole. */
+#ifndef TRAX_OUTPUT_H
+#define TRAX_OUTPUT_H
+
+#include "trax/status.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A file that appears under its name only when it is complete: written beside it and renamed. What is not a regular
+   file (a device, a pipe) is written directly. "-" and /dev/stdout are standard output, whatever that is; /dev/stderr
+   and /dev/fd/N likewise. */
+typedef struct trax_output {
+  FILE *file; /* NULL: closed */
+  char *path;
+  char *temporary; /* NULL: path is written directly */
+} trax_output;
+
+trax_status trax_output_open(trax_output *output, const char *path, trax_error *error);
+/* Closes and renames. On an error nothing is left behind, and an earlier file of that name is untouched. */
+trax_status trax_output_commit(trax_output *output, trax_error *error);
+void trax_output_discard(trax_output *output);
+/* Can path be written? Asked before a long run, so that its results are not lost. */
+trax_status trax_output_check(const char *path, trax_error *error);
+
+/* Is there a writer for the ending of a path? endings: as "png pfm exr", in any case. A name without an ending, and
+   what is no file, such as /dev/null, has the first one's. */
+trax_status trax_output_name_check(const char *path, const char *endings, trax_error *error);
+
+/* All of it at once. */
+trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error);
+
+/* The descriptor of this process that a path names: 1 of "-" and /dev/stdout, 2 of /dev/stderr, N of /dev/fd/N; -1: it
+   names a file. */
+int trax_output_descriptor(const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

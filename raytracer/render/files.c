@@ -1,0 +1,93 @@
+/* What trax-render reads and writes, compared before it begins (trax/files.h). */
+#include "files.h"
+
+#include "emulated.h"
+#include "inputs.h"
+#include "trax/output.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+char *numbered(const char *path, unsigned number) {
+  const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+  const size_t length = dot && dot > (slash ? slash + 1 : path) ? (size_t)(dot - path) : strlen(path);
+  const size_t size = strlen(path) + sizeof "-0001";
+  char *name = malloc(size);
+  if (name)
+    snprintf(name, size, "%.*s-%04u%s", (int)length, path, number, path + length);
+  return name;
+}
+
+static bool is_preset(const char *name) {
+  for (const char *const *preset = trax_config_presets(); *preset; preset++)
+    if (strcmp(*preset, name) == 0)
+      return true;
+  return false;
+}
+
+static trax_status add_inputs(trax_files *files, const struct options *options, trax_error *error) {
+  for (size_t i = 0; i < options->mesh_count; i++)
+    if (!trax_mesh_is_generated(options->meshes[i]))
+      trax_files_input(files, NULL, options->meshes[i]);
+  trax_files_input(files, NULL, options->program);
+  if (options->config && !is_preset(options->config))
+    trax_files_input(files, NULL, options->config);
+  char view[TRAX_PATH_SIZE];
+  if (!options->view || is_camera(options->view))
+    return TRAX_OK;
+  const trax_status status = find_view(view, options->view, error);
+  if (status == TRAX_OK)
+    trax_files_input(files, NULL, view);
+  return status;
+}
+
+static void add_in_folder(trax_files *files, const char *option, const char *folder, const char *name) {
+  char path[TRAX_PATH_SIZE];
+  if (snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path) /* a longer one is refused later */
+    trax_files_output(files, option, path);
+}
+
+static trax_status add_picture(trax_files *files, const struct options *options, trax_error *error) {
+  static const char *const tables[] = {"accuracy.md", "accuracy.csv", "accuracy.json", "accuracy.gnuplot",
+                                       "accuracy.svg"};
+  for (size_t i = 0; options->bench_accuracy && i < sizeof tables / sizeof *tables; i++)
+    add_in_folder(files, "--output", options->output, tables[i]);
+  if (!options->bench_accuracy && options->frames == 1)
+    trax_files_output(files, "--output", options->output);
+  for (unsigned i = 0; i < options->frames && options->frames > 1; i++) {
+    char *path = numbered(options->output, i + 1);
+    if (!path)
+      return trax_fail(error, "out of memory");
+    trax_files_output(files, "--output", path);
+    free(path);
+  }
+  return TRAX_OK;
+}
+
+static trax_status check_endings(const struct options *options, trax_error *error) {
+  const struct {
+    const char *path, *endings;
+  } outputs[] = {{options->bench_accuracy ? NULL : options->output, "png pfm exr"},
+                 {options->id_picture, "png"},
+                 {options->cost_picture, "png"},
+                 {options->cost_values, "csv pfm"}};
+  for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++)
+    if (outputs[i].path && trax_output_name_check(outputs[i].path, outputs[i].endings, error) != TRAX_OK)
+      return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+trax_status check_files(trax_files *files, const struct options *options, trax_error *error) {
+  if (add_inputs(files, options, error) != TRAX_OK || add_picture(files, options, error) != TRAX_OK)
+    return TRAX_ERROR;
+  trax_files_output(files, "--write-view", options->write_view);
+  trax_files_output(files, "--id-picture", options->id_picture);
+  trax_files_output(files, "--stats", options->stats);
+  trax_files_output(files, "--profile", options->explain.profile);
+  trax_files_output(files, "--profile-folded", options->explain.folded);
+  trax_files_output(files, "--cost-picture", options->cost_picture);
+  trax_files_output(files, "--cost-values", options->cost_values);
+  for (size_t i = 0; options->keep && kept_file(i); i++)
+    add_in_folder(files, options->prepare ? "--prepare" : "--keep", options->keep, kept_file(i));
+  return trax_files_check(files, error) == TRAX_OK ? check_endings(options, error) : TRAX_ERROR;
+}

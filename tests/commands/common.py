@@ -1,0 +1,63 @@
+"""What the tests of this folder share: a command is run, and nothing that was there before is another afterwards."""
+
+import hashlib
+import os
+import subprocess
+import sys
+
+BIN = sys.argv[1]
+VERSION = sys.argv[2]
+failures = 0
+
+
+def fail(text):
+    global failures
+    failures += 1
+    print(f"FAILED: {text}", flush=True)
+
+
+def run(program, *words, **how):
+    how = {"stdin": subprocess.DEVNULL, "timeout": 120} | how
+    return subprocess.run([f"{BIN}/{program}", *words], capture_output=True, text=True, **how)
+
+
+def contents():
+    """Every file below this folder, with what a command could change of it."""
+    found = {}
+    for folder, _, names in os.walk("."):
+        for name in names:
+            path = os.path.join(folder, name)
+            if os.path.islink(path):
+                found[path] = os.readlink(path)
+            elif os.path.isfile(path):
+                with open(path, "rb") as file:
+                    found[path] = os.stat(path).st_ino, hashlib.sha256(file.read()).hexdigest()
+    return found
+
+
+def refused(message, program, *words, **how):
+    """Status 1, the message, or one of several, and every file as it was."""
+    message = (message,) if isinstance(message, str) else message
+    before, shown = contents(), f"{program} {' '.join(words)}"
+    ended = run(program, *words, **how)
+    if ended.returncode != 1:
+        fail(f"{shown}: status {ended.returncode}: {ended.stdout} {ended.stderr}")
+    elif not any(text in ended.stderr for text in message):
+        fail(f"{shown}: not '{message}', but: {ended.stderr}")
+    if ended.stdout:
+        fail(f"{shown}: printed {ended.stdout}")
+    if contents() != before:
+        changed = {path for path, _ in set(contents().items()) ^ set(before.items())}
+        fail(f"{shown}: changed {sorted(changed)}")
+
+
+def accepted(program, *words, **how):
+    ended = run(program, *words, **how)
+    if ended.returncode != 0:
+        fail(f"{program} {' '.join(words)}: status {ended.returncode}: {ended.stderr}")
+    return ended
+
+
+def end():
+    print("all as expected" if not failures else f"{failures} failures")
+    sys.exit(failures > 0)
