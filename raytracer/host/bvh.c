@@ -28,6 +28,9 @@ struct built_node {
   uint32_t triangles[];
 };
 
+/* cancel.cpp; does not return. */
+void scene_cancel_builder(void);
+
 struct build_context {
   const struct trax_build_options *options;
   const struct trax_mesh *mesh;
@@ -110,7 +113,9 @@ static bool on_progress(void *pointer, double fraction) {
   const struct trax_build_options *options = ((struct build_context *)pointer)->options;
   if (options->progress)
     options->progress(options->progress_context, "BVH", fraction);
-  return !(options->interrupt && *options->interrupt);
+  if (scene_is_interrupted(options->interrupt))
+    scene_cancel_builder();
+  return true;
 }
 
 /* All triangles, or of those at one place the first only; returns how many. */
@@ -378,6 +383,8 @@ static trax_status make_tree(struct scene_tree *tree, struct built_node *root, c
   tree->nodes = malloc(2 * (size_t)root->below * sizeof *tree->nodes);
   bool good = numbering.triangles && tree->nodes && number_nodes(&numbering, root, 0);
   free(numbering.triangles);
+  if (good && scene_is_interrupted(options->interrupt))
+    return TRAX_INTERRUPTED;
   return good ? TRAX_OK : scene_out_of_memory(error, "BVH");
 }
 
@@ -505,7 +512,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     arguments.userPtr = &context;
     struct built_node *root = rtcBuildBVH(&arguments);
     enum RTCError code = rtcGetDeviceError(device);
-    if (options->interrupt && *options->interrupt)
+    if (scene_is_interrupted(options->interrupt))
       result = TRAX_INTERRUPTED;
     else if (code == RTC_ERROR_OUT_OF_MEMORY)
       result = scene_out_of_memory(error, "BVH");

@@ -11,6 +11,11 @@
 trax_status scene_fail(trax_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 trax_status scene_out_of_memory(trax_error *error, const char *what);
 
+/* What takes longer than a tenth of a second on a large scene asks now and then, and between its steps. */
+static inline bool scene_is_interrupted(const volatile int *interrupt) {
+  return interrupt && *interrupt;
+}
+
 /* --- files.c --- */
 
 struct scene_bytes {
@@ -256,7 +261,7 @@ struct scene_tree {
         struct scene_box box;                    /* of the triangles' parts that are in this leaf */
       };
     };
-  } *nodes; /* depth first, the root first */
+  } * nodes; /* depth first, the root first */
   uint32_t node_count, inner_count, max_leaf;
   uint32_t max_depth;      /* as in the file's header */
   uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
@@ -280,7 +285,7 @@ struct scene_links {
     uint32_t parent;    /* SCENE_NO_LINK: it is the root */
     uint32_t child[2];  /* SCENE_NO_LINK: it is a leaf */
     uint32_t height;    /* most inner nodes from here to a leaf; of a leaf that will be divided more than 0 */
-  } *nodes;
+  } * nodes;
   uint32_t count, root;
   uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */
 };
@@ -324,7 +329,7 @@ struct scene_order {
 
 /* cache_lines: of the direct-mapped cache it is made for; below 8 the order is depth first. */
 trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree *tree, enum trax_node_layout layout,
-                              uint32_t cache_lines, trax_error *error);
+                              uint32_t cache_lines, const volatile int *interrupt, trax_error *error);
 void scene_order_release(struct scene_order *order);
 
 #endif

@@ -334,8 +334,12 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
     free(layout.numbers);
     if (result != TRAX_OK) {
       free(bytes);
-      return TRAX_ERROR;
+      return result;
     }
+  }
+  if (scene_is_interrupted(options->interrupt)) {
+    free(bytes);
+    return TRAX_INTERRUPTED;
   }
   memcpy(bytes, &header, sizeof header);
   header.checksum = (uint32_t)crc32_z(0, bytes, end);
@@ -383,9 +387,12 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   struct scene_order order = {0};
   if (!tree.split && result == TRAX_OK)
     result = scene_order_duplicates(&tree, mesh, error);
+  if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
+    result = TRAX_INTERRUPTED;
   if (result == TRAX_OK)
-    result = scene_order_nodes(&order, &tree, options->nodes,
-                               options->cache_lines ? options->cache_lines : default_cache_lines, error);
+    result =
+        scene_order_nodes(&order, &tree, options->nodes,
+                          options->cache_lines ? options->cache_lines : default_cache_lines, options->interrupt, error);
   if (result == TRAX_OK) {
     result = make_palette(&palette, mesh, mesh->uvs != NULL, error);
     if (result == TRAX_OK)

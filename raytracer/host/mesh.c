@@ -144,7 +144,7 @@ static trax_status wait_for_child(pid_t child, const char *path, const volatile 
       break;
     if (ended < 0 && errno != EINTR)
       return scene_fail(error, "%s: cannot wait for the importer: %s", path, strerror(errno));
-    if (interrupt && *interrupt) {
+    if (scene_is_interrupted(interrupt)) {
       kill(child, SIGKILL);
       while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
@@ -153,7 +153,7 @@ static trax_status wait_for_child(pid_t child, const char *path, const volatile 
     if (ended == 0)
       nanosleep(&pause, NULL);
   }
-  if (interrupt && *interrupt)
+  if (scene_is_interrupted(interrupt))
     return TRAX_INTERRUPTED;
   if (WIFSIGNALED(status))
     return scene_fail(error, "%s: the importer crashed on it (%s): the file is damaged or not a mesh", path,
@@ -386,6 +386,8 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
                                                                                 error);
     if (result == TRAX_OK)
       result = filter(&part, options, paths[i], &part_report, error);
+    if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
+      result = TRAX_INTERRUPTED;
     if (result == TRAX_OK) {
       scene_mend_normals(&part, &part_report);
       scene_mend_uvs(&part, &part_report);

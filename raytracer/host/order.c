@@ -22,6 +22,7 @@ struct placing {
   unsigned char *done; /* of each group: it is in the sequence */
   uint32_t placed;
   uint32_t treelet; /* groups in one */
+  const volatile int *interrupt;
 };
 
 static bool is_inner(const struct scene_tree *tree, uint32_t node) {
@@ -105,6 +106,8 @@ enum { MOST_BELOW = TRAX_MAX_WIDTH }; /* of wide nodes one is a group; of two bi
 /* The treelet below root and, recursively, those below it; each level of recursion is at least one of the tree.
    frontier has room for (MOST_BELOW - 1) * treelet + 1 groups for every level. */
 static void place_treelets(struct placing *placing, uint32_t root, uint32_t *frontier) {
+  if (scene_is_interrupted(placing->interrupt))
+    return;
   uint32_t count = 1;
   frontier[0] = root;
   for (uint32_t taken = 0; taken < placing->treelet && count > 0;) {
@@ -209,14 +212,14 @@ static void assign_positions(const struct placing *placing, uint32_t group_size)
 }
 
 trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree *tree, enum trax_node_layout layout,
-                              uint32_t cache_lines, trax_error *error) {
+                              uint32_t cache_lines, const volatile int *interrupt, trax_error *error) {
   const size_t count = tree->node_count;
   const uint32_t bytes = trax_node_formats[layout].bytes, group_size = bytes < LINE_BYTES ? LINE_BYTES / bytes : 1;
   *order = (struct scene_order){malloc((count + 1) * sizeof(uint32_t)), malloc((count + 1) * sizeof(uint32_t)),
                                 malloc((count + 1) * sizeof(uint32_t))};
   const bool depth_first = cache_lines < 8 || tree->inner_count == 0;
   cache_lines = cache_lines * LINE_BYTES / (group_size * bytes); /* from here on, what a group takes */
-  struct placing placing = {.tree = tree, .order = order, .treelet = cache_lines / 2};
+  struct placing placing = {.tree = tree, .order = order, .treelet = cache_lines / 2, .interrupt = interrupt};
   const size_t frontier_size = (MOST_BELOW - 1) * (size_t)placing.treelet + 1;
   placing.areas = malloc((count + 1) * sizeof *placing.areas);
   placing.sequence = malloc((count + 1) * sizeof *placing.sequence);
@@ -236,8 +239,14 @@ trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree
     measure_areas(placing.areas, boxes, tree);
     make_groups(order, tree, placing.areas, group_size);
     place_treelets(&placing, 0, frontier);
-    assign_lines(order->position, &placing, ranked, cache_lines, cache_lines / 4);
-    assign_positions(&placing, group_size);
+    if (!scene_is_interrupted(interrupt)) {
+      assign_lines(order->position, &placing, ranked, cache_lines, cache_lines / 4);
+      assign_positions(&placing, group_size);
+    }
+  }
+  if (result == TRAX_OK && scene_is_interrupted(interrupt)) {
+    result = TRAX_INTERRUPTED;
+    scene_order_release(order);
   }
   free(placing.areas);
   free(placing.sequence);

@@ -227,7 +227,7 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, const str
     for (uint32_t i = 0; i < links->count && result == TRAX_OK; i++) {
       if (i % 4096 == 0 && options->progress)
         options->progress(options->progress_context, "BVH, improved", (pass + (double)i / links->count) / passes);
-      if (options->interrupt && *options->interrupt)
+      if (scene_is_interrupted(options->interrupt))
         result = TRAX_INTERRUPTED;
       else if (ranked[i].node != links->root && !reinsert(&search, ranked[i].node))
         result = scene_out_of_memory(error, "BVH");

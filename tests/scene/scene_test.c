@@ -503,6 +503,45 @@ static void test_statistics(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* --- interrupts --- */
+
+struct interrupter {
+  const char *step; /* interrupted at its second call */
+  unsigned calls, later;
+  volatile int interrupt;
+};
+
+static void count_calls(void *context, const char *step, double fraction) {
+  (void)fraction;
+  struct interrupter *interrupter = context;
+  interrupter->later += interrupter->interrupt != 0;
+  if (strcmp(step, interrupter->step) == 0 && ++interrupter->calls == 2)
+    interrupter->interrupt = 1;
+}
+
+/* Each step of a build ends where it finds out, and not when it is done: Embree's builder does not ask. */
+static void test_interrupts(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  mesh_soup(&mesh, 50000, 0.01f, 7);
+  static const char *const steps[] = {"BVH", "BVH, improved"};
+  for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+    for (int splits = 0; splits < 2; splits++) {
+      struct interrupter interrupter = {.step = steps[i]};
+      struct trax_scene scene;
+      trax_error error;
+      const struct trax_build_options options = {.passes = 1,
+                                                 .splits = splits ? 2 : 0,
+                                                 .progress = count_calls,
+                                                 .progress_context = &interrupter,
+                                                 .interrupt = &interrupter.interrupt};
+      assert_int_equal(trax_scene_build(&scene, &mesh, &options, &error), TRAX_INTERRUPTED);
+      assert_true(interrupter.interrupt);
+      assert_int_equal(interrupter.later, 0);
+    }
+  trax_mesh_release(&mesh);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_shapes),         cmocka_unit_test(test_awkward_meshes),
@@ -510,7 +549,7 @@ int main(void) {
       cmocka_unit_test(test_determinism),    cmocka_unit_test(test_passes),
       cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_normals),
       cmocka_unit_test(test_empty),          cmocka_unit_test(test_write_and_read),
-      cmocka_unit_test(test_statistics),
+      cmocka_unit_test(test_statistics),     cmocka_unit_test(test_interrupts),
   };
   return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }
