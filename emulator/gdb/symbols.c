@@ -116,7 +116,7 @@ trax_status trax_gdb_write_symbols(const char *executable, const char *path, tra
   if (!image)
     return TRAX_ERROR;
   trax_image_close(image);
-  if (trax_read_file(executable, TRAX_IMAGE_LIMIT, &copy.bytes, &copy.size, error) != TRAX_OK)
+  if (trax_image_read(executable, &copy.bytes, &copy.size, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_output output;
   trax_status status = renumber(&copy, error);

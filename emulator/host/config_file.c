@@ -13,8 +13,6 @@
 #include "config.h"
 #include "util.h"
 
-#define FILE_LIMIT ((size_t)1 << 20) /* bytes; a whole machine is three thousand */
-
 /* What libconfig would get wrong silently or fatally: integers wrap around at 32 bits, and an included directory ends
    the process. Also a text file has no NUL. */
 static trax_status check_text(const char *path, const char *text, size_t size, trax_error *error) {
@@ -194,7 +192,7 @@ static trax_status apply_all(struct trax_config *config, const char *path, const
 trax_status trax_config_read_file(struct trax_config *config, const char *path, trax_error *error) {
   uint8_t *bytes;
   size_t size;
-  if (trax_read_file(path, FILE_LIMIT, &bytes, &size, error) != TRAX_OK)
+  if (trax_read_file(path, TRAX_TEXT_LIMIT, &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
   const char *text = (const char *)bytes;
   trax_status status = check_text(path, text, size, error);

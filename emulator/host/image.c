@@ -258,8 +258,68 @@ static trax_status read_symbols(trax_image *image, const Elf32_Ehdr *header, tra
   return TRAX_OK;
 }
 
+/* An executable is at most this large: all of memory as initialised data, and as much again of debug information. */
+#define IMAGE_LIMIT ((size_t)8 << 30)
+
+static void reach(size_t *end, uint64_t offset, uint64_t bytes) {
+  const uint64_t here = offset + bytes;
+  if (here > *end)
+    *end = here < IMAGE_LIMIT ? (size_t)here : IMAGE_LIMIT;
+}
+
+/* Where the tables of headers end. */
+static size_t end_of_tables(const trax_input *input) {
+  Elf32_Ehdr header;
+  memcpy(&header, input->bytes, sizeof header);
+  size_t end = sizeof header;
+  reach(&end, header.e_phoff, (uint64_t)header.e_phnum * sizeof(Elf32_Phdr));
+  reach(&end, header.e_shoff, (uint64_t)header.e_shnum * sizeof(Elf32_Shdr));
+  return end;
+}
+
+/* Where the last of what the headers describe ends. */
+static size_t end_of_contents(const trax_input *input, size_t end) {
+  Elf32_Ehdr header;
+  memcpy(&header, input->bytes, sizeof header);
+  for (size_t i = 0, at; i < header.e_phnum && (at = header.e_phoff + i * sizeof(Elf32_Phdr)) < input->size; i++) {
+    Elf32_Phdr segment = {0};
+    if (input->size - at >= sizeof segment)
+      memcpy(&segment, input->bytes + at, sizeof segment);
+    reach(&end, segment.p_offset, segment.p_filesz);
+  }
+  for (size_t i = 0, at; i < header.e_shnum && (at = header.e_shoff + i * sizeof(Elf32_Shdr)) < input->size; i++) {
+    Elf32_Shdr section = {.sh_type = SHT_NOBITS};
+    if (input->size - at >= sizeof section)
+      memcpy(&section, input->bytes + at, sizeof section);
+    if (section.sh_type != SHT_NOBITS)
+      reach(&end, section.sh_offset, section.sh_size);
+  }
+  return end;
+}
+
+trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, trax_error *error) {
+  trax_input input;
+  trax_status status = trax_input_open(&input, path, error);
+  if (status == TRAX_OK)
+    status = trax_input_read(&input, sizeof(Elf32_Ehdr), error);
+  const trax_image beginning = {.path = (char *)path, .bytes = input.bytes, .size = input.size};
+  if (status == TRAX_OK && check_identification(&beginning, NULL) == TRAX_OK) {
+    const size_t tables = end_of_tables(&input);
+    status = trax_input_read(&input, tables, error);
+    if (status == TRAX_OK)
+      status = trax_input_read(&input, end_of_contents(&input, tables), error);
+  }
+  if (status == TRAX_OK) {
+    *bytes = input.bytes;
+    *size = input.size;
+    input.bytes = NULL;
+  }
+  trax_input_close(&input);
+  return status;
+}
+
 static trax_status read_image(trax_image *image, trax_error *error) {
-  if (trax_read_file(image->path, TRAX_IMAGE_LIMIT, &image->bytes, &image->size, error) != TRAX_OK ||
+  if (trax_image_read(image->path, &image->bytes, &image->size, error) != TRAX_OK ||
       check_identification(image, error) != TRAX_OK)
     return TRAX_ERROR;
   elf_version(EV_CURRENT);

@@ -53,7 +53,8 @@ struct trax_source_line {
    as long as the image. */
 size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line *lines, size_t capacity);
 
-/* An executable is at most this large: all of memory as initialised data, and as much again of debug information. */
-#define TRAX_IMAGE_LIMIT ((size_t)8 << 30)
+/* The bytes of an executable as far as its headers say that it goes, from malloc: a device that never ends is read no
+   further. What is no executable is left to trax_image_open to refuse. */
+trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, trax_error *error);
 
 #endif

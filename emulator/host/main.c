@@ -11,35 +11,25 @@
 #include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
+#include "trax/signals.h"
 #include "trax/version.h"
 #include "util.h"
 #include "watchdog.h"
 
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
 
-static volatile sig_atomic_t interrupted; /* the signal's number */
 static volatile sig_atomic_t reader_gone; /* nobody reads standard output, or another pipe, any more */
 
-static void on_signal(int number) {
-  interrupted = number;
-}
-
 static void on_broken_pipe(int number) {
-  interrupted = number;
+  trax_signal = number;
   reader_gone = 1;
 }
 
 /* The first signal ends the run with what it has so far, the second one the process. A pipe that nobody reads ends a
    run whose program writes to it, but not what is still to be written to other files after a run. */
 static void catch_signals(void) {
-  struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
-  sigemptyset(&action.sa_mask);
-  const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-  for (size_t i = 0; i < sizeof signals / sizeof *signals; ++i) {
-    struct sigaction before;
-    if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-      sigaction(signals[i], &action, NULL);
-  }
+  trax_catch_signals();
+  trax_catch_signal(SIGQUIT); /* prints where every thread is */
   struct sigaction broken_pipe = {.sa_handler = on_broken_pipe};
   sigemptyset(&broken_pipe.sa_mask);
   sigaction(SIGPIPE, &broken_pipe, NULL);
@@ -48,8 +38,8 @@ static void catch_signals(void) {
 
 static int complain(const trax_error *error) {
   fflush(stdout);
-  fprintf(stderr, "trax-sim: error: %s\n", error->message);
-  return EXIT_ERROR;
+  fprintf(stderr, "trax-sim: %s%s\n", trax_signal ? "" : "error: ", error->message);
+  return trax_signal ? EXIT_SIGNAL + trax_signal : EXIT_ERROR;
 }
 
 static trax_status configure(trax_config *config, const struct trax_options *options, trax_error *error) {
@@ -109,7 +99,7 @@ static trax_status debug(trax_machine *machine, trax_run_options *options, unsig
   if (gdb) {
     status = trax_machine_run(machine, options, error);
     if (trax_gdb_killed(gdb))
-      interrupted = SIGKILL; /* what the debugger's `kill` means */
+      trax_signal = SIGKILL; /* what the debugger's `kill` means */
   } else if (status == TRAX_OK) {
     status = TRAX_ERROR;
   }
@@ -123,7 +113,7 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
   trax_run_options run_options = {.output = stdout,
                                   .max_cycles = options->max_cycles,
                                   .total_items = options->total_items,
-                                  .interrupt = &interrupted,
+                                  .interrupt = &trax_signal,
                                   .engine = options->engine,
                                   .host_threads = options->host_threads,
                                   .sampling = options->sampling};
@@ -217,7 +207,7 @@ static int compare_modes(const trax_config *config, const struct trax_options *o
   trax_error error;
   catch_signals();
   if ((options->stats && trax_output_check(options->stats, &error) != TRAX_OK) ||
-      trax_bench_modes(config, options, load, &interrupted, stdout, &error) != TRAX_OK)
+      trax_bench_modes(config, options, load, &trax_signal, stdout, &error) != TRAX_OK)
     return complain(&error);
   return EXIT_SUCCESS;
 }
@@ -246,7 +236,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
   }
   struct trax_post_mortem *post_mortem = NULL;
   if (options->engine != TRAX_ENGINE_REFERENCE) /* NULL is found out when it is asked for */
-    post_mortem = trax_post_mortem_create(machine, &interrupted, options->post_mortem != NULL, &error);
+    post_mortem = trax_post_mortem_create(machine, &trax_signal, options->post_mortem != NULL, &error);
   status = run(machine, options, &error);
   int result = trax_machine_exit_status(machine) & 0xFF;
   switch (status) {
@@ -261,9 +251,9 @@ static int simulate(const trax_config *config, const struct trax_options *option
   case TRAX_STUCK:
     fflush(stdout);
     fprintf(stderr, "trax-sim: %s%s\n", error.message, machine->has_run ? "; the statistics are partial" : "");
-    if (interrupted == SIGQUIT && post_mortem && trax_post_mortem_text(post_mortem))
+    if (trax_signal == SIGQUIT && post_mortem && trax_post_mortem_text(post_mortem))
       fputs(trax_post_mortem_text(post_mortem), stderr);
-    result = status == TRAX_STUCK ? EXIT_STUCK : EXIT_SIGNAL + interrupted;
+    result = status == TRAX_STUCK ? EXIT_STUCK : EXIT_SIGNAL + trax_signal;
     break;
   case TRAX_ERROR:
     result = complain(&error);
@@ -340,5 +330,7 @@ int main(int count, char **arguments) {
   }
   trax_config_destroy(config);
   trax_options_free(&options);
+  if (trax_signal && trax_signal != SIGKILL && result == EXIT_SIGNAL + trax_signal)
+    trax_end_by_signal();
   return result;
 }

@@ -5,9 +5,11 @@
 
 const fuzz_case *fuzz_files;
 
-trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error);
-trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error);
-trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path);
+trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
+                                   trax_error *error);
+trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
+                                   trax_error *error);
+trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits);
 
 /* A NUL is behind the last byte, or there is no byte more than there should be: a sanitizer sees what is read beyond.
  */
@@ -26,14 +28,19 @@ static trax_status load(struct scene_bytes *bytes, const char *path, size_t more
   return TRAX_OK;
 }
 
-trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error) {
+trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
+                                   trax_error *error) {
+  (void)limits;
   return load(bytes, path, 0, error);
 }
 
-trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error) {
+trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
+                                   trax_error *error) {
+  (void)limits;
   return load(bytes, path, 1, error);
 }
 
-trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path) {
+trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits) {
+  (void)limits;
   return load(bytes, path, 0, NULL);
 }

@@ -15,6 +15,7 @@ struct file_system {
   struct aiFileIO io;
   const char *main_name; /* as given to assimp: without .xz or .gz */
   struct scene_bytes main_file;
+  struct scene_limits limits;
   const trax_files *files; /* of the command */
   trax_error *error;       /* why a file that was opened must not be read */
   bool refused;
@@ -85,7 +86,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     open->size = system->main_file.size;
   } else {
     struct scene_bytes bytes;
-    if (scene_load_referred(&bytes, name) != TRAX_OK) {
+    if (scene_load_referred(&bytes, name, system->limits) != TRAX_OK) {
       if (system->missing++ == 0)
         snprintf(system->first_missing, sizeof system->first_missing, "%s", name);
       free(open);
@@ -262,15 +263,17 @@ static trax_status copy_geometry(struct assimp_import *import) {
 trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
                                    struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
-  struct file_system system = {
-      .io = {.OpenProc = open_file, .CloseProc = close_file}, .files = options->files, .error = error};
+  struct file_system system = {.io = {.OpenProc = open_file, .CloseProc = close_file},
+                               .limits = scene_limits_of(options->unpack_limit),
+                               .files = options->files,
+                               .error = error};
   system.io.UserData = (aiUserData)&system;
   char *name = scene_unpacked_name(path);
   if (!name)
     return scene_out_of_memory(error, path);
   system.main_name = name;
   const struct aiScene *scene = NULL;
-  trax_status result = scene_load_file(&system.main_file, path, error);
+  trax_status result = scene_load_file(&system.main_file, path, system.limits, error);
   if (result == TRAX_OK && system.main_file.size == 0)
     result = scene_fail(error, "%s: the file is empty", path);
   if (result == TRAX_OK) {

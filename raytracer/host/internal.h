@@ -2,6 +2,7 @@
 #ifndef TRAX_SCENE_INTERNAL_H
 #define TRAX_SCENE_INTERNAL_H
 
+#include "trax/input.h"
 #include "trax/scene.h"
 
 /* Larger coordinates are treated as infinite: Embree takes none beyond 1.844e18. */
@@ -23,14 +24,34 @@ struct scene_bytes {
   size_t size;
 };
 
+/* Of a file, in bytes: as it is, and unpacked or from a pipe or a device. */
+struct scene_limits {
+  size_t plain, unpacked;
+};
+
+/* Of meshes, scenes and images. Nothing beyond 4 GiB makes a scene that 32-bit offsets can address. */
+static inline struct scene_limits scene_limits_of(size_t unpack_limit) {
+  return (struct scene_limits){(size_t)4 << 30, unpack_limit ? unpack_limit : TRAX_DEFAULT_UNPACK_LIMIT};
+}
+
+/* Of what people write. */
+#define SCENE_TEXT_LIMITS ((struct scene_limits){TRAX_TEXT_LIMIT, TRAX_TEXT_LIMIT})
+
 /* Reads a whole file, unpacking it if it begins as an .xz or .gz file does. */
-trax_status scene_load_file(struct scene_bytes *bytes, const char *path, trax_error *error);
+trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits, trax_error *error);
+
+/* --- unpack.c --- */
+
+/* In place of a packed file's bytes those that were packed; others stay as they are. Nothing is left after an error. */
+trax_status scene_unpack(struct scene_bytes *bytes, size_t limit, const char *path, trax_error *error);
+
+/* --- files.c --- */
 
 /* extension with its dot; upper and lower case are the same. */
 bool scene_has_extension(const char *name, const char *extension);
 
 /* The same as scene_load_file, with a NUL behind the last byte that size does not count. */
-trax_status scene_load_text(struct scene_bytes *bytes, const char *path, trax_error *error);
+trax_status scene_load_text(struct scene_bytes *bytes, const char *path, struct scene_limits limits, trax_error *error);
 
 /* Puts a NUL behind the last byte, which size does not count. When out of memory the bytes are released. */
 trax_status scene_terminate(struct scene_bytes *bytes);
@@ -45,7 +66,7 @@ bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacit
 char *scene_referred_path(const char *referrer, const char *name);
 
 /* Reads such a file. No device and no pipe, which may never end. */
-trax_status scene_load_referred(struct scene_bytes *bytes, const char *path);
+trax_status scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits);
 
 /* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
 char *scene_unpacked_name(const char *path);

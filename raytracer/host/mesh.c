@@ -1,6 +1,7 @@
 /* Meshes: import in a child process, merge, refuse or drop what no ray can hit. */
 #define _GNU_SOURCE /* memfd_create */
 #include "internal.h"
+#include "trax/signals.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -117,8 +118,7 @@ static bool write_arrays(FILE *out, struct trax_mesh *mesh) {
 
 static _Noreturn void run_child(FILE *out, const char *path, const struct trax_import_options *options) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  signal(SIGINT, SIG_DFL);
-  signal(SIGTERM, SIG_DFL);
+  trax_default_signals();
   setrlimit(RLIMIT_CPU, &(struct rlimit){max_import_seconds, max_import_seconds});
   /* What a crashing importer prints is of no use to the user. */
   int null = open("/dev/null", O_WRONLY);

@@ -251,7 +251,7 @@ static trax_status begin_material(struct library *library, char *rest) {
 trax_status scene_read_mtl(struct scene_material_list *list, struct scene_textures *textures, const char *path,
                            trax_error *error) {
   struct scene_bytes file;
-  if (scene_load_referred(&file, path) != TRAX_OK || scene_terminate(&file) != TRAX_OK) {
+  if (scene_load_referred(&file, path, SCENE_TEXT_LIMITS) != TRAX_OK || scene_terminate(&file) != TRAX_OK) {
     if (textures->report->missing_files++ == 0)
       snprintf(textures->report->first_missing_file, sizeof textures->report->first_missing_file, "%s", path);
     return TRAX_OK;

@@ -234,7 +234,7 @@ trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, const struc
                            struct trax_import_report *report, trax_error *error) {
   *mesh = (struct trax_mesh){0};
   struct scene_bytes file;
-  trax_status result = scene_load_text(&file, path, error);
+  trax_status result = scene_load_text(&file, path, scene_limits_of(options->unpack_limit), error);
   if (result == TRAX_OK)
     result = check_text(&file, path, error);
   if (result != TRAX_OK)

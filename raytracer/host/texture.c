@@ -219,7 +219,7 @@ static trax_status load_image(const struct scene_textures *textures, struct scen
     return scene_out_of_memory(error, name);
   trax_error reason;
   trax_status result = TRAX_OK;
-  if (scene_load_referred(&file, path) != TRAX_OK) {
+  if (scene_load_referred(&file, path, scene_limits_of(textures->options->unpack_limit)) != TRAX_OK) {
     if (report->missing_files++ == 0)
       snprintf(report->first_missing_file, sizeof report->first_missing_file, "%s", path);
   } else {

@@ -2,6 +2,7 @@
 #include "trax/names.h"
 #include "trax/output.h"
 #include "trax/scene.h"
+#include "trax/signals.h"
 #include "trax/version.h"
 
 #include <errno.h>
@@ -51,6 +52,8 @@ static const char usage[] =
     "      --intersection-cost X    of a triangle\n"
     "      --cache-lines N          order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first\n"
     "      --smooth                 normals for smooth shading, the same as --normals file\n"
+    "      --unpack-limit SIZE      of packed files and of pipes, unpacked; K, M and G are powers of 1024 (default "
+    "1G)\n"
     "      --normals WHICH          file: the mesh's own, computed where it has none; smooth: computed; flat: none\n"
     "      --crease DEGREES         edges sharper than this stay edges, up to 180 (default %d)\n"
     "      --no-source-ids          leave out each triangle's number in the mesh\n"
@@ -69,29 +72,6 @@ struct arguments {
   struct trax_import_options import;
   struct trax_build_options build;
 };
-
-/* --- interruption --- */
-
-static volatile sig_atomic_t interrupted; /* the signal's number */
-
-static void on_signal(int number) {
-  interrupted = number;
-}
-
-static void catch_signals(void) {
-  struct sigaction action = {.sa_handler = on_signal};
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-  sigaction(SIGHUP, &action, NULL);
-  signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
-}
-
-/* Ends as if the signal had not been caught, so that a shell sees it. */
-static void end_by_signal(void) {
-  signal(interrupted, SIG_DFL);
-  raise(interrupted);
-}
 
 /* --- progress, on a terminal --- */
 
@@ -305,6 +285,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
     cache,
     smooth,
     crease,
+    unpack_limit,
     no_ids,
     version
   };
@@ -330,6 +311,7 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
                                           {"cache-lines", required_argument, NULL, cache},
                                           {"smooth", no_argument, NULL, smooth},
                                           {"crease", required_argument, NULL, crease},
+                                          {"unpack-limit", required_argument, NULL, unpack_limit},
                                           {"no-source-ids", no_argument, NULL, no_ids},
                                           {"quiet", no_argument, NULL, 'q'},
                                           {"help", no_argument, NULL, 'h'},
@@ -415,6 +397,11 @@ static int parse_arguments(struct arguments *arguments, int argc, char **argv) {
       break;
     case crease:
       good = parse_crease(optarg, &arguments->build.crease_degrees);
+      break;
+    case unpack_limit:
+      good = trax_parse_size(optarg, &arguments->import.unpack_limit);
+      if (!good)
+        complain("--unpack-limit: '%s' is not a size from 1 byte to 4G", optarg);
       break;
     case no_ids:
       arguments->build.without_source_ids = true;
@@ -524,9 +511,10 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
 static trax_status run(const struct arguments *arguments, struct progress *progress, trax_error *error) {
   struct trax_scene scene = {0};
   struct figures figures = {.scene = &scene};
-  trax_status result = arguments->check ? trax_scene_read(&scene, arguments->check, error)
-                                        : import_and_build(&scene, &figures, arguments, error);
-  if (result == TRAX_OK && interrupted)
+  trax_status result = arguments->check
+                           ? trax_scene_read_within(&scene, arguments->check, arguments->import.unpack_limit, error)
+                           : import_and_build(&scene, &figures, arguments, error);
+  if (result == TRAX_OK && trax_signal)
     result = TRAX_INTERRUPTED;
   if (result == TRAX_OK && arguments->output)
     result = trax_scene_write(&scene, arguments->output, error);
@@ -560,13 +548,14 @@ int main(int argc, char **argv) {
   int status = parse_arguments(&arguments, argc, argv);
   if (status >= 0)
     return end_of_output(status);
-  catch_signals();
+  trax_catch_signals();
+  signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
   struct progress progress = {0};
   if (!arguments.quiet && isatty(STDERR_FILENO)) {
     arguments.import.progress = arguments.build.progress = draw_progress;
     arguments.import.progress_context = arguments.build.progress_context = &progress;
   }
-  arguments.import.interrupt = arguments.build.interrupt = &interrupted;
+  arguments.import.interrupt = arguments.build.interrupt = &trax_signal;
   trax_files files = {0};
   arguments.import.files = &files;
   trax_error error = {{0}};
@@ -574,9 +563,9 @@ int main(int argc, char **argv) {
   if (result == TRAX_OK)
     result = run(&arguments, &progress, &error);
   trax_files_release(&files);
-  if (result == TRAX_INTERRUPTED) {
+  if (result != TRAX_OK && trax_signal) {
     fputs("trax-scene: interrupted; nothing was written\n", stderr);
-    end_by_signal();
+    trax_end_by_signal();
   }
   if (result != TRAX_OK) {
     complain("%s", error.message);

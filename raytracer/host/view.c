@@ -269,7 +269,7 @@ static unsigned find_include(const char *text) {
 
 trax_status trax_view_read(struct trax_view *view, const char *path, trax_error *error) {
   struct scene_bytes file; /* libconfig aborts on what cannot be read as a file, as on a directory */
-  trax_status result = scene_load_file(&file, path, error);
+  trax_status result = scene_load_file(&file, path, SCENE_TEXT_LIMITS, error);
   if (result != TRAX_OK)
     return result;
   char *text = memchr(file.data, 0, file.size) ? NULL : realloc(file.data, file.size + 1);

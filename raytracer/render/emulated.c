@@ -203,7 +203,7 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
   uint8_t *elf = NULL;
   size_t elf_bytes;
   if (status == TRAX_OK)
-    status = trax_read_file(program->path, TRAX_IMAGE_LIMIT, &elf, &elf_bytes, error);
+    status = trax_image_read(program->path, &elf, &elf_bytes, error);
   if (status == TRAX_OK)
     status = write_bytes(options->keep, "program.elf", elf, elf_bytes, error);
   free(elf);

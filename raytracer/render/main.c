@@ -9,19 +9,13 @@
 #include "options.h"
 #include "progress.h"
 #include "render.h"
+#include "trax/signals.h"
 
 #include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-  interrupted = 1;
-  signal(signal_number, SIG_DFL); /* a second one ends the program at once */
-}
 
 static volatile sig_atomic_t reader_gone; /* nobody reads standard output any more: pictures are written all the same */
 
@@ -46,8 +40,7 @@ static trax_status run_on_host(struct trax_picture *picture, bool reference, uns
                                const struct trax_frame *frame, struct progress *progress, bool quiet,
                                trax_error *error) {
   struct step step = {progress, reference ? "reference" : "native twin"};
-  struct trax_render_run run = {
-      .progress = show_step, .progress_context = &step, .interrupt = (const volatile int *)&interrupted};
+  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
   double begun = seconds_now();
   trax_status status = reference ? trax_render_reference(picture, frame, &run, error)
                                  : trax_render_twin(picture, frame, threads, &run, error);
@@ -64,8 +57,7 @@ static trax_status find_hits(struct trax_hits *hits, enum finder finder, unsigne
                              const struct trax_frame *frame, struct progress *progress, trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
   struct step step = {progress, names[finder]};
-  struct trax_render_run run = {
-      .progress = show_step, .progress_context = &step, .interrupt = (const volatile int *)&interrupted};
+  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
   trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
                        : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, error)
                                              : trax_hits_exact(hits, frame, &run, error);
@@ -188,14 +180,14 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   trax_scale_view(view, *scaled);
   trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
   if (status == TRAX_OK && options->bench_accuracy)
-    return bench_accuracy(options, &inputs->scene, view, progress, (const volatile int *)&interrupted, error);
+    return bench_accuracy(options, &inputs->scene, view, progress, &trax_signal, error);
   if (status == TRAX_OK) {
     *scaled += exponent;
     status = trax_frame_init(&frame, &inputs->scene, view, &options->frame, error);
   }
   if (status == TRAX_OK)
     status = options->engine <= ENGINE_REFERENCE
-                 ? emulate(&picture, options, &frame, progress, (const volatile int *)&interrupted, agrees, error)
+                 ? emulate(&picture, options, &frame, progress, &trax_signal, agrees, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
                                options->quiet, error);
   if (status == TRAX_OK && output)
@@ -220,7 +212,7 @@ static trax_status render(const struct options *options, struct progress *progre
   int scaled = 0;
   trax_status status = check_outputs(options, error);
   if (status == TRAX_OK)
-    status = inputs_load(&inputs, options, progress, (const volatile int *)&interrupted, error);
+    status = inputs_load(&inputs, options, progress, &trax_signal, error);
   if (status == TRAX_OK && options->write_view) {
     inputs_view(&view, &inputs, options, 0);
     status = trax_view_write(&view, options->write_view, error);
@@ -251,8 +243,7 @@ int main(int argc, char **argv) {
     struct progress progress;
     bool agrees = true;
     progress_init(&progress, "trax-render", options.quiet);
-    signal(SIGINT, on_interrupt);
-    signal(SIGTERM, on_interrupt);
+    trax_catch_signals();
     signal(SIGPIPE, on_broken_pipe);
     signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
     trax_files files = {0};
@@ -262,9 +253,10 @@ int main(int argc, char **argv) {
       status = render(&options, &progress, &agrees, &error);
     trax_files_release(&files);
     progress_clear(&progress);
-    if (status == TRAX_INTERRUPTED) {
+    if (status != TRAX_OK && trax_signal) {
+      options_release(&options);
       fprintf(stderr, "trax-render: interrupted\n");
-      exit_status = 130;
+      trax_end_by_signal();
     } else if (status != TRAX_OK) {
       fprintf(stderr, "trax-render: error: %s\n", error.message);
       exit_status = 1;

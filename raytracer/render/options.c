@@ -34,6 +34,7 @@ static const char usage[] =
     "      --diffuse [NAME=]R,G,B  their colour, linear, 0 to 1 (repeatable)\n"
     "      --no-textures       reads no images; colours remain\n"
     "      --texture-size N    at most N texels a side, a power of two up to 4096\n"
+    "      --unpack-limit SIZE  of packed files and of pipes, unpacked; K, M and G are powers of 1024 (default 1G)\n"
     "      --nodes KIND        of the meshes' tree: binary, quantised, quantised8, wide, wide-quantised,\n"
     "                          wide-quantised8 or auto, as trax-scene has them (default auto; for another\n"
     "                          --program binary)\n"
@@ -112,6 +113,7 @@ enum {
   OPT_DIFFUSE,
   OPT_NO_TEXTURES,
   OPT_TEXTURE_SIZE,
+  OPT_UNPACK_LIMIT,
   OPT_NODES,
   OPT_SPLITS,
   OPT_NORMALS,
@@ -173,6 +175,7 @@ static const struct option long_options[] = {{"output", required_argument, NULL,
                                              {"splits", optional_argument, NULL, OPT_SPLITS},
                                              {"nodes", required_argument, NULL, OPT_NODES},
                                              {"texture-size", required_argument, NULL, OPT_TEXTURE_SIZE},
+                                             {"unpack-limit", required_argument, NULL, OPT_UNPACK_LIMIT},
                                              {"normals", required_argument, NULL, OPT_NORMALS},
                                              {"paths", required_argument, NULL, OPT_PATHS},
                                              {"seed", required_argument, NULL, OPT_SEED},
@@ -422,6 +425,10 @@ static trax_status take_option(struct options *options, int which, const char *v
                        1u << TRAX_TEXTURE_MAX_LOG2);
     return TRAX_OK;
   }
+  case OPT_UNPACK_LIMIT:
+    return trax_parse_size(value, &options->import.unpack_limit)
+               ? TRAX_OK
+               : trax_fail(error, "--unpack-limit %s: expected a size from 1 byte to 4G", value);
   case OPT_NORMALS:
     return take_normals(options, value, error);
   case OPT_PATHS:

@@ -87,11 +87,19 @@ struct trax_material_override {
 trax_status trax_override_diffuse(struct trax_material_override *override, char *text, trax_error *error);
 trax_status trax_override_material(struct trax_material_override *override, char *text, trax_error *error);
 
+/* Bytes that a packed file, or one without a size (a pipe), may have if nothing else is said: docs/raytracer.md,
+   "Limits". */
+#define TRAX_DEFAULT_UNPACK_LIMIT ((size_t)1 << 30)
+
+/* "700M", "2G", "65536": bytes, K, M and G being powers of 1024; 1 to 4 GiB. False: it is no such size. */
+bool trax_parse_size(const char *text, size_t *bytes);
+
 struct trax_import_options {
   bool drop_nonfinite;     /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
   bool keep_degenerate;    /* keep triangles of exactly zero area, which no ray can hit */
   bool no_textures;        /* images are not read; of materials remain their colours */
   unsigned texture_size;   /* texels a side, at most; a power of two up to 4096, which is the default, 0 */
+  size_t unpack_limit;     /* bytes; 0: TRAX_DEFAULT_UNPACK_LIMIT */
   const trax_files *files; /* of the command, none of whose outputs may be what meshes refer to; may be NULL */
   bool in_process;         /* no child process around the importer: for debuggers and sanitizers */
   const struct trax_material_override *overrides; /* applied in order */
@@ -241,6 +249,8 @@ trax_status trax_scene_write(const struct trax_scene *scene, const char *path, t
    and every triangle within its leaf's, or those of several leaves together. A scene that was accepted cannot lead a
    traversal astray. */
 trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
+/* unpack_limit: as of an import. */
+trax_status trax_scene_read_within(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
 
 /* The same checks on bytes in memory, which the caller keeps; name stands in the messages. On success *scene, if
    not NULL, views the bytes, and need not be released. bytes must be 64-byte aligned. */

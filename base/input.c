@@ -1,0 +1,92 @@
+#include "trax/input.h"
+
+#include "trax/signals.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { POLL_MS = 100, FIRST = 1 << 16 };
+
+static trax_status interrupted(const trax_input *input, trax_error *error) {
+  trax_fail(error, "%s: interrupted while it was read", input->path);
+  return TRAX_INTERRUPTED;
+}
+
+trax_status trax_input_open(trax_input *input, const char *path, trax_error *error) {
+  /* Without O_NONBLOCK the opening of a pipe would wait for its writer, and a signal that comes just before would not
+     end that. */
+  *input = (trax_input){.path = path, .descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+  struct stat status;
+  if (input->descriptor < 0 || fstat(input->descriptor, &status) != 0)
+    return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+  if (S_ISDIR(status.st_mode))
+    return trax_fail(error, "%s: cannot be read: %s", path, strerror(EISDIR));
+  input->is_regular = S_ISREG(status.st_mode);
+  return TRAX_OK;
+}
+
+/* Room for one more byte, and the NUL. */
+static bool grow(trax_input *input, size_t most) {
+  if (input->size < input->capacity)
+    return true;
+  size_t capacity = input->capacity ? input->capacity * 2 : FIRST;
+  capacity = capacity < most ? capacity : most;
+  uint8_t *bytes = realloc(input->bytes, capacity + 1);
+  if (!bytes)
+    return false;
+  input->bytes = bytes;
+  input->capacity = capacity;
+  return true;
+}
+
+trax_status trax_input_read(trax_input *input, size_t size, trax_error *error) {
+  while (input->size < size) {
+    if (!grow(input, size))
+      return trax_fail(error, "%s: out of memory after %zu bytes", input->path, input->size);
+    struct pollfd wait = {.fd = input->descriptor, .events = POLLIN};
+    const int ready = poll(&wait, 1, POLL_MS);
+    if (trax_signal)
+      return interrupted(input, error);
+    if (ready <= 0)
+      continue;
+    const size_t room = input->capacity < size ? input->capacity : size;
+    const ssize_t got = read(input->descriptor, input->bytes + input->size, room - input->size);
+    if (got == 0)
+      break;
+    if (got < 0 && errno != EINTR && errno != EAGAIN)
+      return trax_fail(error, "%s: cannot be read: %s", input->path, strerror(errno));
+    input->size += got > 0 ? (size_t)got : 0;
+  }
+  if (!input->bytes && !(input->bytes = malloc(1)))
+    return trax_fail(error, "%s: out of memory", input->path);
+  input->bytes[input->size] = 0;
+  return TRAX_OK;
+}
+
+void trax_input_close(trax_input *input) {
+  if (input->descriptor >= 0)
+    close(input->descriptor);
+  free(input->bytes);
+  *input = (trax_input){.descriptor = -1};
+}
+
+trax_status trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error) {
+  trax_input input;
+  trax_status status = trax_input_open(&input, path, error);
+  if (status == TRAX_OK)
+    status = trax_input_read(&input, limit + 1, error); /* the byte that proves it too large */
+  if (status == TRAX_OK && input.size > limit)
+    status = trax_fail(error, "%s: more than %zu bytes", path, limit);
+  if (status == TRAX_OK) {
+    *bytes = input.bytes;
+    *size = input.size;
+    input.bytes = NULL;
+  }
+  trax_input_close(&input);
+  return status;
+}

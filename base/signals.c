@@ -1,0 +1,58 @@
+#include "trax/signals.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+volatile sig_atomic_t trax_signal;
+
+static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+enum { COUNT = sizeof numbers / sizeof *numbers };
+
+static void on_signal(int number) {
+  if (!trax_signal)
+    trax_signal = number;
+  trax_default_signals(); /* the next one, whichever it is, ends the program */
+}
+
+void trax_catch_signal(int number) {
+  struct sigaction before, action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+  sigemptyset(&action.sa_mask);
+  if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+    sigaction(number, &action, NULL);
+}
+
+void trax_catch_signals(void) {
+  for (size_t i = 0; i < COUNT; i++)
+    trax_catch_signal(numbers[i]);
+}
+
+void trax_default_signals(void) {
+  for (size_t i = 0; i < COUNT; i++) {
+    struct sigaction before;
+    if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler == on_signal)
+      signal(numbers[i], SIG_DFL);
+  }
+}
+
+void trax_end_by_signal(void) {
+  const int number = trax_signal;
+  fflush(stdout);
+  setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); /* SIGQUIT has been answered */
+  signal(number, SIG_DFL);
+  raise(number);
+  _Exit(128 + number); /* it is blocked */
+}
+
+void trax_hold_signals(sigset_t *before) {
+  sigset_t held;
+  sigemptyset(&held);
+  for (size_t i = 0; i < COUNT; i++)
+    sigaddset(&held, numbers[i]);
+  sigprocmask(SIG_BLOCK, &held, before);
+}
+
+void trax_allow_signals(const sigset_t *before) {
+  sigprocmask(SIG_SETMASK, before, NULL);
+}
