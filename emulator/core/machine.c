@@ -184,7 +184,10 @@ static trax_status report_outcome(const struct trax_machine *machine, const trax
       trax_fail(error, "the program has not ended after %" PRIu64 " cycles", machine->stats.cycles);
     break;
   case TRAX_INTERRUPTED:
-    trax_fail(error, "interrupted in cycle %" PRIu64, machine->stats.cycles);
+    if (options->engine == TRAX_ENGINE_FUNCTIONAL) /* it has no cycles */
+      trax_fail(error, "interrupted in instruction %" PRIu64, machine->stats.instructions);
+    else
+      trax_fail(error, "interrupted in cycle %" PRIu64, machine->stats.cycles);
     break;
   default:
     break;
@@ -248,6 +251,8 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
   machine->stats.host_seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
   if (machine->status == TRAX_ERROR)
     return TRAX_ERROR;
+  machine->at_limit = machine->status == TRAX_STUCK && options->max_cycles &&
+                      (options->engine == TRAX_ENGINE_FUNCTIONAL || machine->stats.cycles >= options->max_cycles);
   const bool exact = options->engine != TRAX_ENGINE_FUNCTIONAL && options->engine != TRAX_ENGINE_SAMPLED;
   if (collect(machine, exact && !options->slots, error))
     return machine->status = TRAX_ERROR;

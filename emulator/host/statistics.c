@@ -135,8 +135,8 @@ bool trax_stats_identity(const struct trax_stats *stats) {
   return sum == stats->threads * stats->cycles;
 }
 
-const char *trax_status_name(trax_status status) {
-  switch (status) {
+const char *trax_ending_name(const struct trax_machine *machine) {
+  switch (machine->status) {
   case TRAX_OK:
     return "finished";
   case TRAX_FAULT:
@@ -144,7 +144,7 @@ const char *trax_status_name(trax_status status) {
   case TRAX_INTERRUPTED:
     return "interrupted";
   case TRAX_STUCK:
-    return "stuck";
+    return machine->at_limit ? "limit" : "stuck";
   case TRAX_ERROR:
     break;
   }
@@ -316,13 +316,22 @@ static void print_sampling(const struct trax_sampling_stats *sampling, FILE *out
           sampling->of_slots ? "rays and items" : "instructions, operations, rays and items");
 }
 
+static void print_ending(const trax_machine *machine, FILE *out) {
+  if (machine->status == TRAX_OK)
+    fprintf(out, "run      finished, exit status %d\n", trax_machine_exit_status(machine));
+  else if (machine->status == TRAX_STUCK)
+    fprintf(out, "run      stopped %s, before the program ended (partial)\n",
+            machine->at_limit ? "at its limit (--max-cycles)" : "by the watchdog");
+  else
+    fprintf(out, "run      %s (partial)\n", trax_ending_name(machine));
+}
+
 void trax_stats_print(const trax_machine *machine, FILE *out) {
   const struct trax_host *host = trax_host_of(machine);
   fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
   fprintf(out, "chip     %ux%u at %u MHz, %.12g GB/s\n", machine->config.chip.tms, machine->config.chip.tps_per_tm,
           machine->config.chip.clock_mhz, machine->config.memory.bandwidth_gbps);
-  fprintf(out, "run      %s%s, exit status %d\n", trax_status_name(machine->status),
-          machine->status == TRAX_OK ? "" : " (partial)", trax_machine_exit_status(machine));
+  print_ending(machine, out);
   print_sampling(&machine->stats.sampling, out);
   print_group(machine, out, "Run", TRAX_GROUP_RUN, false);
   print_group(machine, out, "Thread-cycles by cause", TRAX_GROUP_CAUSE, false);

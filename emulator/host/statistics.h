@@ -41,8 +41,8 @@ bool trax_stats_identity(const struct trax_stats *stats);
 /* The JSON's members that are not figures, one row each. */
 void trax_stats_describe_members(FILE *out);
 
-/* "finished", "fault", "interrupted", "stuck", "error" */
-const char *trax_status_name(trax_status status);
+/* How the run ended: "finished", "fault", "interrupted", "limit", "stuck", "error". */
+const char *trax_ending_name(const struct trax_machine *machine);
 
 /* Share of the cycles in which a channel's bus was taken. */
 double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel);

@@ -12,9 +12,9 @@
 #define MEMBERS(X)                                                                                                     \
   X("trax_sim", "version of the emulator")                                                                             \
   X("program", "the executable, as it was named")                                                                      \
-  X("status", "how the run ended: finished, fault, interrupted, or stuck (max-cycles passed)")                         \
+  X("status", "how the run ended: finished, fault, interrupted, limit (max-cycles passed), or stuck (the watchdog)")   \
   X("partial", "true if the program did not finish: the figures are those up to its last cycle")                       \
-  X("exit_status", "of the program; 1 for a fault, 134 for an abort")                                                  \
+  X("exit_status", "of the program; 1 for a fault, 134 for an abort; null if it has not ended")                        \
   X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line, message " \
              "of an abort")                                                                                            \
   X("sampled",                                                                                                         \
@@ -245,9 +245,11 @@ static trax_status dump(const trax_machine *machine, FILE *out, trax_error *erro
   const struct trax_host *host = trax_host_of(machine);
   put(&document, root, "trax_sim", json_string(TRAX_VERSION));
   put(&document, root, "program", text_value(host ? trax_image_path(host->image) : ""));
-  put(&document, root, "status", json_string(trax_status_name(machine->status)));
+  put(&document, root, "status", json_string(trax_ending_name(machine)));
   put(&document, root, "partial", json_boolean(machine->status != TRAX_OK));
-  put(&document, root, "exit_status", json_integer(trax_machine_exit_status(machine)));
+  put(&document, root, "exit_status",
+      machine->status == TRAX_OK || machine->status == TRAX_FAULT ? json_integer(trax_machine_exit_status(machine))
+                                                                  : json_null());
   if (machine->status == TRAX_FAULT)
     put_fault(&document, machine);
   trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, &document);

@@ -125,7 +125,8 @@ cmp -s stats.txt again.txt || fail "two runs differ"
 run 1 --stats stats.json null.elf
 grep -q '"status": "fault"' stats.json || fail "stats.json of a fault"
 run 124 --stats stats.json --max-cycles 1000 spin.elf
-grep -q '"status": "stuck"' stats.json || fail "stats.json of a stuck program"
+grep -q '"status": "limit"' stats.json || fail "stats.json of a program that was stopped at its limit"
+grep -q '"exit_status": null' stats.json || fail "stats.json of a program without an exit status"
 grep -q '"cycles": 1000,' stats.json || fail "stats.json: --max-cycles"
 
 # --- without time

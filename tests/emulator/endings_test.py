@@ -209,7 +209,7 @@ class Signals(unittest.TestCase):
                 process = self.start("--engine", engine, "--stats", "s.json", "--report", "r.txt", "print.elf")
                 process.send_signal(number)
                 status, err = self.end(process)
-                self.assertEqual(status, 128 + number, f"{engine} {number}")
+                self.assertEqual(status, -number, f"{engine} {number}")
                 self.assertIn("interrupted in cycle", err)
                 self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
                 with open("r.txt") as file:
@@ -239,7 +239,7 @@ class Signals(unittest.TestCase):
     def test_host_threads(self):
         process = self.start("--config", "4x32", "--host-threads", "3", "--stats", "s.json", "print.elf")
         process.send_signal(signal.SIGINT)
-        self.assertEqual(self.end(process)[0], 130)
+        self.assertEqual(self.end(process)[0], -signal.SIGINT)
         self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
         os.remove("s.json")
 
@@ -247,7 +247,7 @@ class Signals(unittest.TestCase):
         process = self.start("--config", "1x32", "print.elf")
         process.send_signal(signal.SIGQUIT)
         status, err = self.end(process)
-        self.assertEqual(status, 131)
+        self.assertEqual(status, -signal.SIGQUIT)
         self.assertRegex(err, r"32 threads, 0 ended\n(\d+ threads? in outer.*\n    threads? .*\n)+$")
 
     def test_second_signal(self):
@@ -332,7 +332,7 @@ class Progress(unittest.TestCase):
             os.close(master)
             if time.monotonic() > deadline:
                 process.kill()
-        self.assertEqual(process.wait(timeout=60), 130)
+        self.assertEqual(process.wait(timeout=60), -signal.SIGINT)
         return written.decode()
 
     def test_line(self):

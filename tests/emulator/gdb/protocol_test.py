@@ -497,7 +497,7 @@ class Protocol(unittest.TestCase):
         client.resume("vCont;s:1;c")
         client.process.send_signal(signal.SIGINT)
         self.assertEqual(client.receive()[:3], "X02")
-        self.assertEqual(client.end()[2], 130)
+        self.assertEqual(client.end()[2], -signal.SIGINT)
         self.assertEqual(read_figures(stats)["partial"], True)
 
     def test_signal_while_waiting(self):
@@ -506,7 +506,7 @@ class Protocol(unittest.TestCase):
         process.stderr.readline()
         process.send_signal(signal.SIGTERM)
         self.assertIn(b"interrupted before a debugger came", process.communicate(timeout=60)[1])
-        self.assertEqual(process.returncode, 128 + 15)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
         self.assertFalse(os.path.exists(stats))
 
     def refused(self, *arguments):
