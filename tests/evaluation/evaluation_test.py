@@ -171,6 +171,13 @@ REFUSED = [
     ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),
     ('{"name": "../x"}', "name: expected letters"),
     ('{"chips": "4x32"}', "name: expected letters"),
+    ('{"name": "x"}', 'it is no sweep without "scenes" and "chips"'),
+    ('{"name": "x", "scenes": "paper"}', 'it is no sweep without "chips"'),
+    ('{"name": "x", "chips": "4x32", "title": "\\ud800"}', "no text"),
+    ('{"name": "x", "chips": "4x32\\u0000"}', "no text"),
+    ('{"name": "x", "chips": "4x32", "set": {"memory.bandwidth_gbps": 1e999}}', "1e999 is no number"),
+    ('{"name": "x", "chips": "4x32", "set": {%s}}' % ", ".join(f'"a{i}": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]' for i in range(20)), "more than 100000 combinations"),
+    ('{"name": "x", "chips": "4x32", "title": "%s"}' % (1100000 * "x"), "more than 1048576 bytes"),
     ("[]", "expected an object"),
     ('{"name": "x",', "sweep.json:1:"),
     ("[" * 100000, "sweep.json"),
@@ -178,13 +185,10 @@ REFUSED = [
 
 
 def test_refusals(evaluation, scratch):
-    bunny = {"scenes": [{"name": "bunny", "meshes": [BUNNY]}]}
+    complete = {"scenes": [{"name": "bunny", "meshes": [BUNNY]}], "chips": "4x32"}
     for text, message in REFUSED:
-        try:  # what is wrong is to be found before any scene is asked for
-            value = json.loads(text)
-            text = json.dumps(bunny | value) if isinstance(value, dict) and "scenes" not in value and "NaN" not in text and text.count("icache.banks") < 2 else text
-        except (ValueError, RecursionError):
-            pass
+        if text.startswith('{"name": ') and text.endswith("}") and "without" not in message:  # nothing else is wrong
+            text = text[:-1] + "".join(f', "{key}": {json.dumps(value)}' for key, value in complete.items() if f'"{key}"' not in text) + "}"
         run = evaluation.run(text, "refused")
         check(run.returncode == 1 and "Traceback" not in run.stderr, f"{text[:60]}: exit status {run.returncode}: {run.stderr[-300:]}")
         check(message in run.stderr and "sweep.json" in run.stderr, f"{text[:60]}: {run.stderr.strip()!r} has not {message!r}")
@@ -195,7 +199,7 @@ def test_refusals(evaluation, scratch):
         check(run.returncode == 1 and message in run.stderr and "Traceback" not in run.stderr, f"{words}: {run.stderr.strip()!r} has not {message!r}")
     check(not list((scratch / "refused").rglob("*.json")), "what was refused left files")
     # Scenes that are not there: the others are run, and the status tells.
-    run = evaluation.run({"name": "x", "scenes": ["conference", {"name": "bunny", "meshes": [BUNNY]}], "programs": "ours", "size": "8x8"}, "partly")
+    run = evaluation.run({"name": "x", "scenes": ["conference", {"name": "bunny", "meshes": [BUNNY]}], "chips": "4x32", "programs": "ours", "size": "8x8"}, "partly")
     check(run.returncode == 1 and "neither conference.ply nor conference.ply.xz is there" in run.stderr, f"a missing scene: {run.stderr}")
     check(sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"], "the other scene was not run")
 
@@ -245,15 +249,15 @@ def test_experiments(evaluation, scratch):
 # --- killed
 
 
-def simulators(folder):
-    """Processes of trax-sim that write below the folder."""
+def simulators(folder, program="trax-sim"):
+    """Processes of the program that write below the folder."""
     found = []
     for entry in pathlib.Path("/proc").iterdir():
         try:
             words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else [b""]
         except OSError:
             continue
-        if words[0].endswith(b"trax-sim") and any(str(folder).encode() in word for word in words):
+        if words[0].endswith(program.encode()) and any(str(folder).encode() in word for word in words):
             found.append(int(entry.name))
     return found
 
@@ -305,14 +309,24 @@ def test_kill(evaluation, scratch, kills):
 
 
 def test_interrupt(evaluation, scratch):
-    process = subprocess.Popen(evaluation.command(dict(SMALL, size="400x240"), "interrupted", "--jobs", "2"), stdout=subprocess.DEVNULL,
-                               stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 60
-    while not simulators(scratch / "interrupted") and time.monotonic() < deadline:
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    errors = process.communicate(timeout=60)[1]
-    check(process.returncode == 130 and "the same command goes on" in errors and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
+    """Each signal ends the command, by itself, and what it has started: a simulator, an importer; and while it waits for a pipe."""
+    os.mkfifo(scratch / "pipe.json")
+    slow, large = dict(SMALL, size="400x240"), {"name": "w", "chips": "4x32", "scenes": [{"name": "large", "meshes": ["generate:forest"]}]}
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        for name, sweep in (("simulated", slow), ("imported", large), ("read", None)):
+            command = evaluation.command(sweep, "interrupted", "--jobs", "2") if sweep else [evaluation.program, str(scratch / "pipe.json"), "-o", str(scratch / "interrupted")]
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            wanted, deadline = {"simulated": "trax-sim", "imported": "trax-scene", "read": None}[name], time.monotonic() + 60
+            while wanted and not simulators(scratch / "interrupted", wanted) and time.monotonic() < deadline:
+                time.sleep(0.01)
+            time.sleep(0.5 if name == "read" else 0.1)
+            process.send_signal(number)
+            errors = process.communicate(timeout=60)[1]
+            check(process.returncode == -number and "the same command goes on" in errors and "Traceback" not in errors, f"{name}, interrupted: {process.returncode}: {errors}")
+            check(not wanted or not simulators(scratch / "interrupted", wanted), f"{name}, interrupted: a {wanted} lives on")
+            left = [path for folder in ("scratch", "scenes") for path in (scratch / "interrupted" / folder).glob("*") if not path.name.endswith(".trax")]
+            check(not left, f"{name}, interrupted: {left} are left")
+            shutil.rmtree(scratch / "interrupted/scenes", ignore_errors=True)
     check(not list((scratch / "interrupted/runs").glob("*.error")), "an interrupt is no failure of a run")
 
 
@@ -350,7 +364,7 @@ def test_hosts(evaluation, scratch):
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     errors = process.communicate(timeout=60)[1]
-    check(process.returncode == 130 and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
+    check(process.returncode == -signal.SIGINT and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
     wait_for_simulators(scratch / "hosts-interrupted", 15)
 
 

@@ -8,6 +8,7 @@ import math
 import pathlib
 
 FORMAT = "trax-eval-results"
+FILE_LIMIT = 1 << 28  # bytes; those of all experiments are a hundredth
 PROGRAMS = ("era", "ours")
 # The paper's scenes: its column of Table 2, and the scene that is rendered here.
 SCENES = {"conference": "conference", "crytek": "crytek-sponza", "dragon": "dragon", "fairy": "forest"}
@@ -209,13 +210,19 @@ class Results:
 
 def read_results(path):
     try:
-        text = pathlib.Path(path).read_text(encoding="utf-8")
+        with open(path, "rb") as file:
+            data = file.read(FILE_LIMIT + 1)
+        if len(data) > FILE_LIMIT:
+            raise ResultsError(f"{path}: more than {FILE_LIMIT} bytes")
+        text = data.decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ResultsError(f"{path}: cannot be read: {error}") from None
     try:
         return Results(json.loads(text))
     except json.JSONDecodeError as error:
         raise ResultsError(f"{path}:{error.lineno}:{error.colno}: is not JSON: {error.msg}") from None
+    except ValueError as error:  # a number of thousands of digits
+        raise ResultsError(f"{path}: {error}") from None
     except RecursionError:
         raise ResultsError(f"{path}: is nested too deeply") from None
     except ResultsError as error:

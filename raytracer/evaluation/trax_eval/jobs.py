@@ -25,6 +25,7 @@ import tempfile
 import time
 import zlib
 
+from .tools import run_tool
 from .util import Problem, hash_bytes, hash_file, hash_value, read_json, write_file, write_json
 
 FORMAT = 1
@@ -37,17 +38,17 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in 
 QUICK_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of: quick runs choose by it what to simulate
 
 
-def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False):
+def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False, only_look=False):
     """The files that a program reads for a picture; returns their description, which is part of the job. queues: of pixels, or None for a program that
-    knows nothing of them."""
-    scratch = new_scratch(out)
+    knows nothing of them. only_look: nothing is kept."""
+    scratch = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
         command += ["--write-view", f"{scratch}/picture.view"] if quick else []
         command += ["--view", view] if view else []
         command += ["--program", tools.era_program()] if program == "era" else []
         command += ["--queues", str(queues)] if queues else []
-        run = subprocess.run(command, capture_output=True, text=True)
+        run = run_tool(command)
         if run.returncode != 0:
             raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
         words = shlex.split(pathlib.Path(scratch, "run.sh").read_text().splitlines()[-1])
@@ -67,7 +68,7 @@ def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False):
             shutil.copyfile(scene, pathlib.Path(scratch, "whole.trax"))
             description["quick"] = [program, *([file, hash_file(pathlib.Path(scratch, file))] for file in QUICK_FILES)]
         place = out / "inputs" / hash_value(description)
-        if not place.exists():
+        if not only_look and not place.exists():
             (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
             os.chmod(scratch, 0o755)
             for _, file, content in description["buffers"]:
@@ -118,9 +119,13 @@ def make_job(tools, inputs, point):
     }
 
 
+def key_of(job):
+    return hash_value(job)
+
+
 def write_job(out, job):
     """Returns the job's key."""
-    key = hash_value(job)
+    key = key_of(job)
     path = out / "jobs" / f"{key}.json"
     if not path.exists():
         write_json(path, job)

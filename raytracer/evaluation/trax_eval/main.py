@@ -9,14 +9,14 @@ import sys
 import time
 
 from . import runners
-from .jobs import clean_scratch, is_done, make_job, prepare_inputs, write_job
+from .jobs import clean_scratch, is_done, key_of, make_job, prepare_inputs, write_job
 from .paper import Paper
 from .results import collect, plan_file, write_plan
 from .scenes import scene_file
 from .sweep import MODES, PROGRAMS, parse_size, read_sweep
 from .tables import print_tables
 from .tools import Tools
-from .util import Problem, check_files
+from .util import Problem, check_files, hash_value
 from .values import Areas
 
 HELP = """\
@@ -43,13 +43,13 @@ variable TRAX_SCENES, or else ./scenes).
       --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
                         with intervals (trax-render --sampled); pictures of less than 640x360, if --size is not
                         given, have a sixth of their pixels instead, all of which are simulated
-      --dry-run         prints the runs that are missing, and ends
+      --dry-run         prints the runs that are missing, and ends; imports no scene and writes nothing
       --all             every experiment, and the report
   -q, --quiet           neither progress nor tables
   -h, --help
       --version
 
-Exit status: 0 if all runs that were asked for are there, 1 if some are not, 130 after an interrupt.
+Exit status: 0 if all runs that were asked for are there, 1 if some are not. Interrupts end it and what it has started.
 """
 
 
@@ -127,8 +127,8 @@ def choose(options, data):
 class Planner:
     """From points to keys of jobs. Scenes are imported and inputs prepared once each."""
 
-    def __init__(self, out, tools, folder, quiet):
-        self.out, self.tools, self.folder, self.quiet = out, tools, folder, quiet
+    def __init__(self, out, tools, folder, quiet, only_look):
+        self.out, self.tools, self.folder, self.quiet, self.only_look = out, tools, folder, quiet, only_look
         self.made = {}
 
     def once(self, what, function):
@@ -151,16 +151,23 @@ class Planner:
         scene = sweep.scenes[point.scene]
         self.note(f"{point.scene}, {point.size}, {point.program}")
         path = self.once(("scene", tuple(scene["meshes"]), point.program),
-                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, point.program))
+                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, point.program, self.only_look))
+        if path is None:
+            return None
         quick = point.mode == "quick"
         queues = self.tools.shape(point.chip, point.machine())[0] if point.program == "ours" else None  # as trax-render has it
         return self.once((path, scene["view"], point.size, point.program, queues, quick),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, queues, quick))
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, queues, quick, self.only_look))
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""
         try:
-            return write_job(self.out, make_job(self.tools, self.inputs(sweep, point), point)), None
+            inputs = self.inputs(sweep, point)
+            if inputs is None:  # none of its runs has been made
+                machine = self.tools.configuration(point.chip, point.machine())
+                return "-" + hash_value([point.scene, point.program, machine, point.size, point.mode, point.series, point.lockstep]), None
+            job = make_job(self.tools, inputs, point)
+            return key_of(job) if self.only_look else write_job(self.out, job), None
         except Problem as problem:
             return None, str(problem)
 
@@ -187,8 +194,12 @@ def evaluate(options, tools, data, command):
     check_machines(sweeps, tools)
     check_files(files, [*(plan_file(options.output, sweep) for sweep in sweeps), options.output / "results.json", options.output / "report.html"])
     out = options.output.resolve()
-    clean_scratch(out)
-    planner = Planner(out, tools, folder, options.quiet)
+    if out.exists() and not out.is_dir():
+        raise Problem(f"{out}: is no folder")
+    if not options.dry_run:
+        out.mkdir(parents=True, exist_ok=True)
+        clean_scratch(out)
+    planner = Planner(out, tools, folder, options.quiet, options.dry_run)
     plans, labels, without = [], {}, 0
     for sweep in sweeps:
         keys = {point: planner.key(sweep, point) for point in sweep.points}
@@ -196,7 +207,7 @@ def evaluate(options, tools, data, command):
         labels |= {key: label(point) for point, (key, _) in keys.items() if key}
         without += sum(key is None for key, _ in keys.values())
     if options.dry_run:
-        missing = [f"{key} {name}" for key, name in labels.items() if not is_done(out, key)]
+        missing = [f"{'(new)' if key.startswith('-') else key} {name}" for key, name in labels.items() if not is_done(out, key)]
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
         return 0
     for sweep, keys in plans:
@@ -226,7 +237,10 @@ def run_one_job(arguments, tools):
     parser.add_argument("--threads", type=int, default=1)
     options = parser.parse_intermixed_args(arguments)
     if options.list:
-        options.key = options.list.read_text().split()[int(os.environ["SLURM_ARRAY_TASK_ID"])]
+        task, keys = os.environ.get("SLURM_ARRAY_TASK_ID", ""), options.list.read_text(errors="replace").split()
+        if not task.isdecimal() or int(task) >= len(keys):
+            raise Problem(f'job: {options.list} has no task "{task}" (SLURM_ARRAY_TASK_ID)')
+        options.key = keys[int(task)]
     if not options.key:
         raise Problem("job: no key was given")
     error = runners.try_job(options.out.resolve(), tools, options.key, options.threads)
@@ -249,20 +263,42 @@ def dispatch(arguments, tools, data):
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 
-def terminate(number, frame):
-    raise KeyboardInterrupt
+class Interrupted(BaseException):
+    """By the signal whose number is its argument."""
+
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def interrupt(number, frame):
+    for other in SIGNALS:  # a second one ends it at once
+        if signal.getsignal(other) is interrupt:
+            signal.signal(other, signal.SIG_DFL)
+    raise Interrupted(number)
+
+
+def end_by_signal(number):
+    """As every program of the project: docs/architecture.md, "Signals"."""
+    print("trax-eval: interrupted; the same command goes on", file=sys.stderr)
+    sys.stdout.flush()
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
 
 
 def main(arguments, folder, data):
-    signal.signal(signal.SIGTERM, terminate)
+    for number in SIGNALS:
+        if signal.getsignal(number) is not signal.SIG_IGN:  # nohup
+            signal.signal(number, interrupt)
     try:
         return dispatch(arguments, Tools(folder), data)
     except Problem as problem:
         print(f"trax-eval: error: {problem}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
-        print("trax-eval: interrupted; the same command goes on", file=sys.stderr)
-        return 130
+    except Interrupted as interrupted:
+        end_by_signal(*interrupted.args)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except OSError as error:  # of a folder or file that cannot be used, as of -o on a full disk
+        print(f"trax-eval: error: {f'{error.filename}: ' if error.filename else ''}{error.strerror}", file=sys.stderr)
         return 1

@@ -7,7 +7,7 @@ import shlex
 
 from .jobs import error_of, read_csv, result_of
 from .sweep import CHIPS, PROGRAMS
-from .util import read_json, write_json
+from .util import Problem, read_json, write_json
 from .values import ratio, values_of
 
 FORMAT, VERSION = "trax-eval-results", 1
@@ -111,6 +111,8 @@ def collect(out, tools, areas, command, seconds):
     runs, sweeps, series = {}, [], []
     for path in sorted((out / "sweeps").glob("[!.]*.json")):
         plan = read_json(path)
+        if not isinstance(plan, dict) or not isinstance(plan.get("points"), list):
+            raise Problem(f"{path}: trax-eval has not written this; -o is to be a folder of its own")
         if not any(sweep["name"] == plan["name"] for sweep in sweeps):
             sweeps.append({name: value for name, value in plan.items() if name != "points"})
         for number, point in enumerate(plan["points"]):

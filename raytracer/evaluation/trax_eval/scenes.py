@@ -2,8 +2,8 @@
 
 import os
 import pathlib
-import subprocess
 
+from .tools import run_tool
 from .util import Problem, hash_file, hash_value
 
 # The paper's four, in the order of Table 2, and one more. Meshes are in the directory of scenes, also as .xz.
@@ -36,19 +36,24 @@ def neighbours(mesh):
 IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary", "--splits=1", "--passes", "0"]}
 
 
-def scene_file(out, tools, directory, name, scene, program):
-    """The scene file of a scene; imported once for the same meshes and the same importer. NAME.trax in the directory comes first."""
+def scene_file(out, tools, directory, name, scene, program, only_look=False):
+    """The scene file of a scene; imported once for the same meshes and the same importer. NAME.trax in the directory comes first. only_look: None if it
+    has not been imported."""
     built = directory / f"{name}.trax"
     if built.is_file():
         return built.resolve()
     meshes = [find_mesh(directory, mesh) for mesh in scene["meshes"]]
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
+    if only_look and not any((out / "scenes").glob("*.trax")):
+        return None
     options = IMPORT_OPTIONS[program]
     key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
+    if only_look and not path.exists():
+        return None
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        run = subprocess.run([tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", path], capture_output=True, text=True)
+        run = run_tool([tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", path])
         if run.returncode != 0:
             raise Problem(f"{name}: {run.stderr.strip() or f'trax-scene ended with status {run.returncode}'}")
     return path

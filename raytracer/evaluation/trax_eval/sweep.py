@@ -7,7 +7,7 @@ import math
 import re
 
 from .scenes import CATALOGUE, SETS
-from .util import Problem, canonical, read_json
+from .util import Problem, TEXT_LIMIT, canonical, read_json
 
 CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()  # in the order of Table 2
 # Of each program what its machine has beside what the sweep sets. The era program compares floats as floats; that the adders
@@ -99,11 +99,13 @@ class Reader:
                 if not values or not all(isinstance(value, (bool, int, float)) for value in values):
                     self.fail(f"set.{key}", f"expected a number or a list of numbers, is {canonical(group[key])}")
                 axes.append([(key, value) for value in values])
+            if len(combinations) + math.prod(map(len, axes)) > MOST_RUNS:
+                self.fail("set", f"more than {MOST_RUNS} combinations")
             combinations += itertools.product(*axes)
         return [tuple(combination) for combination in combinations]
 
     def scenes(self):
-        value = self.value.get("scenes", "paper")
+        value = self.value["scenes"]
         chosen = {}
         for item in value if isinstance(value, list) else [value]:
             if isinstance(item, dict):
@@ -133,6 +135,7 @@ class Reader:
         return chosen
 
 
+MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
 KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep")
 
 
@@ -146,7 +149,7 @@ def parse_size(text):
 def read_sweep(path, *, size=None, mode=None, programs=None):
     """The sweep in a file. size, mode and programs: what the command line says instead of the file. With the mode "quick" a small picture, whose size
     the command line does not say, has a sixth of its pixels, and is simulated exactly."""
-    value = read_json(path)
+    value = read_json(path, TEXT_LIMIT)
     reader = Reader(path, value)
     if not isinstance(value, dict):
         reader.fail(None, "expected an object")
@@ -157,6 +160,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     name = reader.text("name", "")
     if not re.fullmatch(r"[\w.+-]+", name):
         reader.fail("name", "expected letters, digits and . + - _")
+    missing = [key for key in ("scenes", "chips") if key not in value]
+    if missing:
+        reader.fail(None, f"it is no sweep without {' and '.join(map(quoted, ([key] for key in missing)))}: what is rendered, and on which chips")
     chosen_size = reader.text("size", size or "1280x720")
     if not parse_size(chosen_size):
         reader.fail("size", f'expected "WIDTHxHEIGHT", each 1 to 16384, is "{chosen_size}"')
@@ -175,14 +181,18 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
         chosen_mode = "exact"
         chosen_size = "x".join(str(max(1, round(QUICK_SIDE * side))) for side in parse_size(chosen_size))
     scenes = reader.scenes()
-    chips = reader.strings("chips", "4x32", None)
+    chips = reader.strings("chips", None)
     chips = CHIPS if chips == ["paper"] else chips
     chosen_programs = reader.strings("programs", list(PROGRAMS), tuple(PROGRAMS))
     if programs:
         chosen_programs = [program for program in chosen_programs if program in programs]
+    settings = reader.settings()
+    runs = len(scenes) * len(chosen_programs) * len(chips) * len(settings)
+    if runs > MOST_RUNS:
+        reader.fail(None, f"it asks for {runs} runs; at most {MOST_RUNS} are allowed")
     points = [
         Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep)
-        for scene, program, chip, settings in itertools.product(scenes, chosen_programs, chips, reader.settings())
+        for scene, program, chip, settings in itertools.product(scenes, chosen_programs, chips, settings)
     ]
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"),
                  reader.text("y_per", ""), str(path), scenes, points, mode == "quick")

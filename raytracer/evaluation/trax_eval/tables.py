@@ -54,11 +54,12 @@ class Index:
 def stat(run, name):
     """A statistic, with dots in its name; None if there is no run, or if it failed."""
     if name.startswith("values."):
-        return (run or {}).get("values", {}).get(name.removeprefix("values."))
+        value = (run or {}).get("values", {}).get(name.removeprefix("values."))
+        return value if isinstance(value, (int, float)) else None
     value = (run or {}).get("stats")
     for part in name.split("."):
         value = value.get(part) if isinstance(value, dict) else None
-    return value
+    return value if isinstance(value, (int, float)) else None
 
 
 def interval(run):

@@ -8,6 +8,18 @@ import subprocess
 from .util import Problem, hash_file
 
 
+def run_tool(command):
+    """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not finished."""
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace")
+    try:
+        out, errors = process.communicate()
+    except BaseException:
+        process.terminate()
+        process.wait()
+        raise
+    return subprocess.CompletedProcess(command, process.returncode, out, errors)
+
+
 class Tools:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -34,7 +46,7 @@ class Tools:
         command = [self.path("trax-sim"), "--config", chip]
         for key, value in settings:
             command += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
-        run = subprocess.run([*command, "--print-config"], capture_output=True, text=True)
+        run = run_tool([*command, "--print-config"])
         if run.returncode != 0:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
         return run.stdout

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 import os
 import pathlib
 import socket
@@ -91,15 +92,40 @@ def refuse_constant(text):
     raise ValueError(f"{text} is no number of JSON")
 
 
-def read_json(path):
+def finite(text):
+    value = float(text)
+    return value if math.isfinite(value) else refuse_constant(text)
+
+
+def check_texts(value):
+    """What a file of JSON can say and no name, path or argument can have."""
+    if isinstance(value, str) and ("\0" in value or any("\ud800" <= letter <= "\udfff" for letter in value)):
+        raise ValueError(f"{json.dumps(value)} is no text: it has a character of no encoding, or NUL")
+    if isinstance(value, dict):
+        value = [*value, *value.values()]
+    for item in value if isinstance(value, list) else ():
+        check_texts(item)
+
+
+TEXT_LIMIT, FILE_LIMIT = 1 << 20, 1 << 28  # bytes of what people write, and of what this program does; the largest has a hundredth
+
+
+def read_json(path, limit=FILE_LIMIT):
     try:
-        text = pathlib.Path(path).read_text(encoding="utf-8")
-        return json.loads(text, object_pairs_hook=refuse_duplicates, parse_constant=refuse_constant)
+        with open(path, "rb") as file:
+            data = file.read(limit + 1)
+        if len(data) > limit:
+            raise Problem(f"{path}: more than {limit} bytes")
+        value = json.loads(data.decode("utf-8"), object_pairs_hook=refuse_duplicates, parse_constant=refuse_constant, parse_float=finite)
+        check_texts(value)
+        return value
     except OSError as error:
         raise Problem(f"{path}: {error.strerror}") from error
     except json.JSONDecodeError as error:
         raise Problem(f"{path}:{error.lineno}:{error.colno}: {error.msg}") from error
-    except (ValueError, RecursionError) as error:
+    except RecursionError:
+        raise Problem(f"{path}: is nested too deeply") from None
+    except ValueError as error:
         raise Problem(f"{path}: {error}") from error
 
 

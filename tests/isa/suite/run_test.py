@@ -112,12 +112,13 @@ with tempfile.TemporaryDirectory() as folder:
     closed = subprocess.run(f"{RUN} --suite {SUITE} --coverage | head -1", shell=True, capture_output=True, text=True)
     if closed.stderr or not closed.stdout.startswith("#"):
         fail("nobody reads", closed.stderr)
-    interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    time.sleep(0.7)
-    interrupted.send_signal(signal.SIGINT)
-    _, err = interrupted.communicate(timeout=10)
-    if interrupted.returncode != 130 or err:
-        fail(f"interrupted: status {interrupted.returncode}", err.decode())
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(0.7)
+        interrupted.send_signal(number)
+        _, err = interrupted.communicate(timeout=10)
+        if interrupted.returncode != -number or err:
+            fail(f"interrupted: status {interrupted.returncode}", err.decode())
     os.chdir("/")
 print(f"{failures} failures")
 sys.exit(failures > 0)

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""trax-eval with bad sweeps, folders and options: a message and exit status 1 or 2, never a traceback, never a hang.
+
+    tests/evaluation/mutants_test.py --bin build/bin [--seed N] [--count N]
+
+Sweeps are mutated in this process, which calls the command's own functions; folders and options are those of the program."""
+
+import argparse
+import contextlib
+import copy
+import importlib
+import io
+import json
+import os
+import pathlib
+import random
+import resource
+import subprocess
+import sys
+import tempfile
+
+GOOD = {"name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2", "scenes": [{"name": "y", "meshes": ["generate:forest"], "view": "forest"}],
+        "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]}, "size": "8x8", "mode": "exact", "series": 100, "lockstep": False}
+ODD = [None, True, False, 0, -1, 1.5, 1e300, 10 ** 400, "", "x", "..", "/", "\n", "\0", "\ud800", "é" * 5000, [], [[]], [None], ["x"], {}, {"name": 0}, {"": [0]}, [{}],
+       {"a": {"b": [1]}}, list(range(300)), [[[[[[[]]]]]]]]
+failures = 0
+
+
+def check(condition, text):
+    global failures
+    if not condition:
+        failures += 1
+        print(f"FAILED: {text}", flush=True)
+
+
+def mutated(source):
+    """A text that is a sweep but for one to three changes, in its values or in its bytes."""
+    value = copy.deepcopy(GOOD)
+    for _ in range(source.randint(1, 3)):
+        place, path = value, []
+        while isinstance(place, (dict, list)) and place and (not path or source.random() < 0.5):
+            key = source.choice(list(place)) if isinstance(place, dict) else source.randrange(len(place))
+            path.append((place, key))
+            place = place[key]
+        if not path:
+            continue
+        holder, key = path[-1]
+        action = source.random()
+        if action < 0.2:
+            del holder[key]
+        elif action < 0.3 and isinstance(holder, dict):
+            holder[str(source.choice(ODD))[:50]] = source.choice(ODD)
+        else:
+            holder[key] = copy.deepcopy(source.choice(ODD))
+    data = bytearray(json.dumps(value, ensure_ascii=source.random() < 0.5).encode("utf-8", "surrogatepass"))
+    for _ in range(source.choice((0, 0, 0, 1, 3))):
+        data[source.randrange(len(data))] = source.randrange(256)
+    return bytes(data[: source.randrange(len(data))] if source.random() < 0.05 else data)
+
+
+def test_sweeps(folder, scratch, seed, count):
+    sys.path[:0] = [str(folder.parent / "lib/trax/evaluation")]
+    main = importlib.import_module("trax_eval.main")
+    sys.dont_write_bytecode = True
+    source, taken = random.Random(seed), 0
+    path = scratch / "sweep.json"
+    for number in range(count):
+        text = mutated(source)
+        path.write_bytes(text)
+        errors, out = io.StringIO(), io.StringIO()
+        try:
+            with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(out):
+                status = main.main([str(path), str(scratch), "--dry-run", "-q", "-o", str(scratch / "none")], folder, folder.parent / "lib/trax/evaluation")
+            taken += status == 0
+            check(status in (0, 1) and (status == 0 or errors.getvalue().startswith("trax-eval: ")), f"seed {seed}, sweep {number}: {status}, {errors.getvalue()!r}: {text[:300]}")
+        except Exception as error:  # what would be a traceback
+            check(False, f"seed {seed}, sweep {number}: {error!r}: {text[:600]}")
+    check(0 < taken < count, f"{taken} of {count} mutants are sweeps all the same")
+    check(not (scratch / "none").exists(), "--dry-run wrote something")
+
+
+def test_commands(folder, scratch):
+    """Folders and files that cannot be used, through the program itself."""
+    program = str(folder / "trax-eval")
+    good, deep = scratch / "good.json", scratch / "deep.json"
+    good.write_text(json.dumps(GOOD | {"series": 0, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
+    deep.write_text('{"name":' + "[" * 200000)
+    (scratch / "binary.json").write_bytes(bytes(range(256)) * 64)
+    (scratch / "zero.json").symlink_to("/dev/zero")
+    (scratch / "folder.json").mkdir()
+    (scratch / "loop.json").symlink_to("loop.json")
+    (scratch / "file").write_text("x")
+    (scratch / "mesh.ply").write_text("ply\n")
+    foreign = scratch / "foreign"
+    (foreign / "sweeps").mkdir(parents=True)
+    (foreign / "sweeps/a.json").write_text(json.dumps(GOOD))
+    for place in ("jobs", "inputs", "runs", "scratch", "scenes", "sweeps"):
+        (scratch / f"blocked-{place}").mkdir()
+        (scratch / f"blocked-{place}" / place).write_text("x")
+    empty = scratch / "empty"
+    empty.mkdir()
+    results = scratch / "results.json"
+    results.write_text(json.dumps({"format": "trax-eval-results", "version": 1, "runs": [{"scene": "\ud800", "points": [{}]}], "sweeps": [], "series": []}))
+    refused = [[good, "-o", ""], [good, "-o", scratch / "file"], [good, "-o", scratch / "file/below"], [good, "-o", "/dev/null/x"], [good, "-o", "/proc/x"], [good, "-o", "x" * 300],
+               [good, "-o", foreign], *([good, "-o", scratch / f"blocked-{place}"] for place in ("jobs", "inputs", "runs", "scratch", "scenes", "sweeps")),
+               *([scratch / f"{name}.json"] for name in ("deep", "binary", "zero", "folder", "loop", "none")), [good, scratch / "nowhere"], [good, scratch / "file"],
+               [good, scratch / ("x" * 300)], ["table1", empty, "--size", "8x8"], [good, empty, empty], ["--all", good], [good, "--jobs", "x"], [good, "--jobs", "99999999999999999999"],
+               [good, "--size", "8x" + 5000 * "8"], [good, "--program", ""], [good, "--mode", ""], ["job"], ["job", "x", "y"], ["job", empty, "y"], ["job", empty, "--list", "none"],
+               ["job", empty, "--list", "/dev/null"], ["report"], ["report", "/dev/zero"], ["report", empty], ["report", scratch / "binary.json"], ["report", deep], ["report", results],
+               ["report", good, "-o", "/dev/null/x"]]
+    environment = {name: value for name, value in os.environ.items() if name != "SLURM_ARRAY_TASK_ID"} | {"TRAX_SCENES": str(scratch / "nowhere")}
+    for words in refused:
+        more = [] if "-o" in words or words[0] in ("report", "job") else ["-o", scratch / "out"]
+        run = subprocess.run([program, *words, *more], capture_output=True, text=True, timeout=100, cwd=scratch, env=environment)
+        check(run.returncode in (1, 2) and run.stderr and "Traceback" not in run.stderr, f"{[str(word)[:80] for word in words]}: {run.returncode}: {run.stderr[-600:]}")
+    # A disk that is full wherever it fills up: files may have so many bytes.
+    for limit in (0, 100, 4096, 100000):
+        run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True, timeout=100, env=environment,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        check(run.returncode == 1 and "Traceback" not in run.stderr, f"files of {limit} bytes: {run.returncode}: {run.stderr[-600:]}")
+    run = subprocess.run([program, good, empty, "-o", scratch / "out"], capture_output=True, text=True, timeout=100, env=environment)
+    check(run.returncode == 0 and "Traceback" not in run.stderr, f"axes that are no numbers: {run.returncode}: {run.stderr[-600:]}")
+    run = subprocess.run([program, "report", scratch / "out/results.json", "-o", scratch / "page.html"], capture_output=True, text=True, timeout=100)
+    check(run.returncode == 0 and "Traceback" not in run.stderr, f"the report of it: {run.returncode}: {run.stderr[-600:]}")
+
+
+def test_dry_run(folder, scratch):
+    """It needs no importer, no compiler and no renderer where nothing has been imported, and imports nothing."""
+    bare = scratch / "bare"
+    (bare / "bin").mkdir(parents=True)
+    (bare / "lib").symlink_to(folder.parent / "lib")
+    for name in ("trax-eval", "trax-sim"):
+        (bare / "bin" / name).write_bytes((folder / name).read_bytes())
+        (bare / "bin" / name).chmod(0o755)
+    (bare / "scenes").mkdir()
+    for name in ("conference.ply", "crytek-sponza.ply", "dragon.ply", "dragon_box.obj", "sibenik.ply"):
+        (bare / "scenes" / name).write_text("no mesh")
+    run = subprocess.run([bare / "bin/trax-eval", "--all", bare / "scenes", "--dry-run", "-o", bare / "out"], capture_output=True, text=True, timeout=100, env=os.environ | {"PATH": "/nowhere:" + str(pathlib.Path(sys.executable).parent)})
+    check(run.returncode == 0 and run.stdout.count("conference") > 100 and not run.stderr, f"--all --dry-run: {run.returncode}: {run.stderr[-600:]}")
+    check(not (bare / "out").exists(), "--dry-run wrote something")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--bin", type=pathlib.Path, required=True)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=300)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
+        scratch, folder = pathlib.Path(temporary).resolve(), options.bin.resolve()
+        test_commands(folder, scratch)
+        test_dry_run(folder, scratch)
+        test_sweeps(folder, scratch, options.seed, options.count)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
