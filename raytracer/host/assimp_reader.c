@@ -138,6 +138,9 @@ static trax_status check_indices(const struct aiScene *scene, const char *path, 
       const struct aiFace *face = &part->mFaces[f];
       if (face->mNumIndices == 0)
         return scene_fail(error, "%s: mesh %u: face %u has no vertices", path, m, f);
+      if (face->mNumIndices > SCENE_ASSIMP_POLYGON)
+        return scene_fail(error, "%s: mesh %u: face %u has %u vertices; in files of this kind polygons have at most %d",
+                          path, m, f, face->mNumIndices, SCENE_ASSIMP_POLYGON);
       for (unsigned i = 0; i < face->mNumIndices; i++)
         if (face->mIndices[i] >= part->mNumVertices)
           return scene_fail(error, "%s: mesh %u: face %u: vertex index %u is out of range (%u vertices)", path, m, f,

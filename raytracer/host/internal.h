@@ -181,12 +181,19 @@ struct scene_polygon_work {
   uint32_t *ring;
   uint32_t (*triangles)[3];
   uint32_t capacity;
+  uint64_t steps; /* that all polygons of the file have taken */
 };
 
+/* What the polygons of a file may take together: seconds. */
+#define SCENE_POLYGON_STEPS ((uint64_t)1 << 29)
+/* The most vertices of a polygon of formats that assimp reads, which cuts it itself in a time that is quadratic or
+ * worse. */
+#define SCENE_ASSIMP_POLYGON 4096
+
 /* Cuts a simple polygon, convex or not, into count - 2 triangles over its own corners, from 0; *triangles is valid
-   until the next call. False when out of memory. */
-bool scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], const uint32_t *corners, uint32_t count,
-                       const uint32_t (**triangles)[3]);
+   until the next call. Returns NULL, or why it was not cut. */
+const char *scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], const uint32_t *corners,
+                              uint32_t count, const uint32_t (**triangles)[3]);
 void scene_polygon_work_release(struct scene_polygon_work *work);
 
 /* --- mesh.c --- */

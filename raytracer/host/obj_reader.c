@@ -191,8 +191,10 @@ static trax_status read_face(struct obj_reader *reader, char *rest) {
   if (corners->count == 3)
     return add_triangle(reader, in_order);
   const uint32_t(*triangles)[3];
-  if (!scene_cut_polygon(&reader->polygon_work, reader->mesh->vertices, corners->vertices, corners->count, &triangles))
-    return scene_out_of_memory(reader->error, reader->path);
+  const char *problem =
+      scene_cut_polygon(&reader->polygon_work, reader->mesh->vertices, corners->vertices, corners->count, &triangles);
+  if (problem)
+    return fail_here(reader, problem, NULL);
   for (uint32_t i = 0; i + 2 < corners->count; i++) {
     trax_status result = add_triangle(reader, triangles[i]);
     if (result != TRAX_OK)

@@ -378,8 +378,9 @@ static trax_status add_face(struct ply_reader *reader, uint32_t count) {
   if (count == 3)
     return add_triangle(reader, list[0], list[1], list[2]);
   const uint32_t(*triangles)[3];
-  if (!scene_cut_polygon(&reader->polygon_work, reader->mesh->vertices, list, count, &triangles))
-    return scene_out_of_memory(reader->error, reader->path);
+  const char *problem = scene_cut_polygon(&reader->polygon_work, reader->mesh->vertices, list, count, &triangles);
+  if (problem)
+    return fail_here(reader, problem);
   trax_status result = TRAX_OK;
   for (uint32_t i = 0; i + 2 < count && result == TRAX_OK; i++)
     result = add_triangle(reader, list[triangles[i][0]], list[triangles[i][1]], list[triangles[i][2]]);

@@ -452,8 +452,8 @@ static void test_not_scenes(void **state) {
   trax_error error;
   const struct {
     const char *path, *message;
-  } bad[] = {{test_path("nowhere.trax"), "nowhere.trax: cannot open: No such file"},
-             {test_directory(), "cannot read: Is a directory"},
+  } bad[] = {{test_path("nowhere.trax"), "nowhere.trax: cannot be read: No such file"},
+             {test_directory(), "cannot be read: Is a directory"},
              {test_text("empty.trax", ""), "empty.trax: not a scene file"},
              {test_text("tiny.trax", "TRXS"), "tiny.trax: cut off: 4 bytes"},
              {test_text("text.trax", "This is not a scene."), "text.trax: not a scene file"}};

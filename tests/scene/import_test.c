@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <time.h>
 #include <zlib.h>
 
 /* The corners of triangle i of a mesh. */
@@ -271,6 +273,130 @@ static void test_concave_polygons(void **state) {
   }
 }
 
+/* As PLY: so many faces, which all are the same polygon. */
+static const char *large_polygon(const float (*points)[2], unsigned count, unsigned faces) {
+  char *text = malloc(300 + (size_t)count * (40 + 8 * faces)), *to = text;
+  assert_non_null(text);
+  to += sprintf(to,
+                "ply\nformat ascii 1.0\nelement vertex %u\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face %u\nproperty list uint uint vertex_indices\nend_header\n",
+                count, faces);
+  for (unsigned i = 0; i < count; i++)
+    to += sprintf(to, "%.9g %.9g 0\n", (double)points[i][0], (double)points[i][1]);
+  for (unsigned face = 0; face < faces; face++) {
+    to += sprintf(to, "%u", count);
+    for (unsigned i = 0; i < count; i++)
+      to += sprintf(to, " %u", i);
+    *to++ = '\n';
+  }
+  const char *path = test_file("large.ply", text, (size_t)(to - text));
+  free(text);
+  return path;
+}
+
+static double processor_seconds(void) {
+  return (double)clock() / CLOCKS_PER_SEC;
+}
+
+/* 200,000 corners: a circle, half of whose corners are pushed in, a comb and a spiral of 600 turns are cut in a moment.
+   A file of many is refused at the place where it has taken too long. */
+static void test_large_polygons(void **state) {
+  (void)state;
+  enum { count = 200000 };
+  static float points[count][2];
+  for (int shape = 0; shape < 3; shape++) {
+    double area = 0, sum = 0;
+    for (int i = 0; i < count; i++) {
+      const double angle = 6.283185307179586 * i / count, radius = i % 2 ? 1 : 0.999;
+      const int turn = i < count / 2 ? i : count - 1 - i, within = i < count / 2 ? 0 : 1;
+      const double shapes[3][2] = {{radius * cos(angle), radius * sin(angle)},
+                                   {i < count - 2    ? i
+                                    : i == count - 2 ? count
+                                                     : 0,
+                                    i >= count - 2 ? -10 : i % 2},
+                                   {(turn - within) * cos(turn / 50.0), (turn - within) * sin(turn / 50.0)}};
+      points[i][0] = (float)shapes[shape][0], points[i][1] = (float)shapes[shape][1];
+    }
+    for (int i = 0; i < count; i++) {
+      const float *a = points[i], *b = points[i + 1 < count ? i + 1 : 0];
+      area += ((double)a[0] * (double)b[1] - (double)a[1] * (double)b[0]) / 2;
+    }
+    const char *path = large_polygon((const float(*)[2])points, count, 1);
+    struct trax_mesh mesh;
+    const double began = processor_seconds();
+    import_good(&mesh, path, NULL);
+    assert_true(processor_seconds() - began < 10);
+    assert_in_range(mesh.triangle_count, count - 1000, count - 2); /* but for those of zero area */
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+      const float *a = corner(&mesh, t, 0), *b = corner(&mesh, t, 1), *c = corner(&mesh, t, 2);
+      sum += fabs(((double)b[0] - a[0]) * ((double)c[1] - a[1]) - ((double)b[1] - a[1]) * ((double)c[0] - a[0])) / 2;
+    }
+    assert_true(fabs(sum - fabs(area)) < 1e-4 * fabs(area)); /* they cover it once */
+    trax_mesh_release(&mesh);
+  }
+  for (int i = 0; i < count; i++)
+    points[i][0] = (float)(i < count - 2    ? i
+                           : i == count - 2 ? count
+                                            : 0),
+    points[i][1] = (float)(i >= count - 2 ? -10 : i % 2);
+  const char *path = large_polygon((const float(*)[2])points, count, 8);
+  struct trax_mesh mesh;
+  trax_error error;
+  const double began = processor_seconds();
+  const struct trax_import_options options = {.in_process = true};
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
+  assert_true(processor_seconds() - began < 30);
+  assert_contains(error.message, "large.ply:200012: a polygon that takes too long to be cut into triangles");
+}
+
+/* What a packed file would unpack to is refused where it becomes too much, whatever its header says. */
+static void test_unpack_limit(void **state) {
+  (void)state;
+  static const char head[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 1\nproperty list uchar uint vertex_indices\nend_header\n"
+                             "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const char *path = test_file("bomb.ply.gz", "", 0);
+  gzFile file = gzopen(path, "wb1");
+  assert_non_null(file);
+  assert_int_equal(gzwrite(file, head, sizeof head - 1), (int)sizeof head - 1);
+  static const char blanks[1 << 16];
+  for (int i = 0; i < 20 * 16; i++) /* 20 MiB behind the mesh, where nobody looks */
+    assert_int_equal(gzwrite(file, blanks, sizeof blanks), (int)sizeof blanks);
+  assert_int_equal(gzclose(file), Z_OK);
+  struct trax_mesh mesh;
+  trax_error error;
+  struct trax_import_options options = {.in_process = true, .unpack_limit = 19 << 20};
+  struct rusage before, after;
+  getrusage(RUSAGE_SELF, &before);
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
+  getrusage(RUSAGE_SELF, &after);
+  assert_contains(error.message, "bomb.ply.gz: unpacks to more than 19922944 bytes (--unpack-limit)");
+  assert_true(after.ru_maxrss - before.ru_maxrss < 3 * 19 << 10);
+  size_t size;
+  static const struct {
+    const char *text;
+    size_t size;
+  } sizes[] = {{"1", 1},
+               {"700M", (size_t)700 << 20},
+               {"4G", (size_t)4 << 30},
+               {"65536", 65536},
+               {"3K", 3072},
+               {"0", 0},
+               {"", 0},
+               {"5G", 0},
+               {"-1", 0},
+               {"1X", 0},
+               {"1MB", 0},
+               {"99999999999999999999", 0},
+               {" 1", 0},
+               {"1.5G", 0}};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    assert_int_equal(trax_parse_size(sizes[i].text, &size), sizes[i].size != 0);
+    if (sizes[i].size)
+      assert_int_equal(size, sizes[i].size);
+  }
+}
+
 static const struct trax_mesh_material *material_of(const struct trax_mesh *mesh, uint32_t triangle) {
   return &mesh->materials[mesh->triangles[triangle].material];
 }
@@ -489,10 +615,10 @@ static void test_bad_files(void **state) {
   trax_error error;
   const char *path = test_path("nowhere.ply");
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
-  assert_contains(error.message, "nowhere.ply: cannot open: No such file");
+  assert_contains(error.message, "nowhere.ply: cannot be read: No such file");
   path = test_directory();
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
-  assert_contains(error.message, "cannot read: Is a directory");
+  assert_contains(error.message, "cannot be read: Is a directory");
   path = test_file("zeros.obj", "v 0 0 0\n\0\0", 10);
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
   assert_contains(error.message, "zeros.obj: not a mesh: binary data");
@@ -541,11 +667,15 @@ static void test_forest(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_forest),     cmocka_unit_test(test_text_formats),     cmocka_unit_test(test_binary_ply),
-      cmocka_unit_test(test_ply_types),  cmocka_unit_test(test_compressed),       cmocka_unit_test(test_gltf),
-      cmocka_unit_test(test_obj_syntax), cmocka_unit_test(test_concave_polygons), cmocka_unit_test(test_materials),
-      cmocka_unit_test(test_merge),      cmocka_unit_test(test_degenerate),       cmocka_unit_test(test_nonfinite),
-      cmocka_unit_test(test_bad_meshes), cmocka_unit_test(test_bad_files),        cmocka_unit_test(test_interrupt),
+      cmocka_unit_test(test_forest),         cmocka_unit_test(test_text_formats),
+      cmocka_unit_test(test_binary_ply),     cmocka_unit_test(test_ply_types),
+      cmocka_unit_test(test_compressed),     cmocka_unit_test(test_gltf),
+      cmocka_unit_test(test_obj_syntax),     cmocka_unit_test(test_concave_polygons),
+      cmocka_unit_test(test_large_polygons), cmocka_unit_test(test_unpack_limit),
+      cmocka_unit_test(test_materials),      cmocka_unit_test(test_merge),
+      cmocka_unit_test(test_degenerate),     cmocka_unit_test(test_nonfinite),
+      cmocka_unit_test(test_bad_meshes),     cmocka_unit_test(test_bad_files),
+      cmocka_unit_test(test_interrupt),
   };
   return cmocka_run_group_tests_name("scene import", tests, NULL, NULL);
 }

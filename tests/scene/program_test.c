@@ -146,7 +146,7 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--stats-json", scene}, "is written twice, by --output and by --stats-json"},
       {{good, "-o", scene, "--unknown"}, "unknown option --unknown"},
       {{lost, "-o", scene}, "trax-scene: error: "},
-      {{good, lost, "-o", scene}, "lost.ply: cannot open: No such file"},
+      {{good, lost, "-o", scene}, "lost.ply: cannot be read: No such file"},
       {{flat, "-o", scene}, "flat.obj: no triangles are left: all are of zero area"},
       {{nan, "-o", scene}, "nan.obj: 1 of 1 triangles have a vertex that is NaN"},
       {{good, "-o", nowhere}, "where.trax: cannot be written"},

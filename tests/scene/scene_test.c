@@ -470,9 +470,9 @@ static void test_write_and_read(void **state) {
   assert_true(S_ISCHR(status.st_mode));
 
   assert_int_equal(trax_scene_write(&scene, test_path("no/where.trax"), &error), TRAX_ERROR);
-  assert_contains(error.message, "no/where.trax: cannot create: No such file");
+  assert_contains(error.message, "no/where.trax: cannot be written: No such file");
   assert_int_equal(trax_scene_write(&scene, "/dev/full", &error), TRAX_ERROR);
-  assert_contains(error.message, "/dev/full: cannot write: No space left");
+  assert_contains(error.message, "/dev/full: cannot be written: No space left");
   assert_int_equal(trax_scene_write(&scene, test_directory(), &error), TRAX_ERROR);
   assert_int_equal(count_files(), files);
   trax_scene_release(&scene);

@@ -131,7 +131,7 @@ static void test_errors(void **state) {
   struct trax_view view;
   trax_error error;
   assert_int_equal(trax_view_read(&view, test_path("nowhere.view"), &error), TRAX_ERROR);
-  assert_contains(error.message, "nowhere.view: cannot open");
+  assert_contains(error.message, "nowhere.view: cannot be read");
   assert_int_equal(trax_view_read(&view, test_directory(), &error), TRAX_ERROR);
   assert_int_equal(trax_view_read(&view, test_file("zeros.view", "eye\0", 4), &error), TRAX_ERROR);
   assert_contains(error.message, "zeros.view:1: not text");
