@@ -178,13 +178,13 @@ static void check_dcache(struct checker *checker, const struct trax_tm *tm, stru
     const struct trax_mshr *mshr = &dcache->mshr[i];
     expect(checker, find_mshr(dcache, mshr->line) == i && mshr->passing <= 1,
            "TM %u, miss register %" PRIu32 ": line %" PRIu32 ", passing %u", tm->number, i, mshr->line, mshr->passing);
-    for (uint32_t waiter = mshr->first_waiter; waiter != UINT16_MAX && !checker->failed;
-         waiter = dcache->next_waiter[waiter]) {
+    for (uint32_t waiter = mshr->first_waiter; waiter != UINT16_MAX; waiter = dcache->next_waiter[waiter]) {
       const uint32_t tp = waiter / TRAX_NUM_REGISTERS;
       const uint64_t bit = (uint64_t)1 << waiter % TRAX_NUM_REGISTERS;
-      if (expect(checker, tp < tm->tps && !(wanted->registers[tp] & bit),
-                 "TM %u, miss register %" PRIu32 ": %" PRIu32 " waits", tm->number, i, waiter))
-        wanted->registers[tp] |= bit;
+      if (!expect(checker, tp < tm->tps && !(wanted->registers[tp] & bit),
+                  "TM %u, miss register %" PRIu32 ": %" PRIu32 " waits", tm->number, i, waiter))
+        return;
+      wanted->registers[tp] |= bit;
     }
   }
 }
@@ -383,10 +383,12 @@ static void check_lines_listed(struct checker *checker, const struct trax_l2 *l2
     expect(checker, checker->lines_listed[l2->used[i]] == (i < l2->used_count),
            "second-level cache: miss register %u is in no list, or without a line", l2->used[i]);
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    for (trax_request_id id = l2->coming[i].first; id != TRAX_NO_REQUEST && !checker->failed;
-         id = l2->mshr[id - TRAX_LINE_REQUEST].request.next)
-      if (expect(checker, id >= TRAX_LINE_REQUEST, "coming line: request 0x%" PRIx32, id))
-        expect(checker, l2->mshr[id - TRAX_LINE_REQUEST].arrival != TRAX_NEVER, "coming line 0x%" PRIx32, id);
+    for (trax_request_id id = l2->coming[i].first; id != TRAX_NO_REQUEST;) { /* a list of ids that are known */
+      if (!expect(checker, id >= TRAX_LINE_REQUEST && l2->mshr[id - TRAX_LINE_REQUEST].arrival != TRAX_NEVER,
+                  "coming line: request 0x%" PRIx32, id))
+        return;
+      id = l2->mshr[id - TRAX_LINE_REQUEST].request.next;
+    }
 }
 
 static void check_memory(struct checker *checker) {
