@@ -6,7 +6,7 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { default_cache_lines = 256 }; /* 16 kB of 64-byte lines: the paper's TM */
+enum { default_cache_lines = 256 }; /* 16 kB of 64-byte lines, the paper's TM: where no chip is known */
 
 struct layout {
   const struct trax_mesh *mesh;

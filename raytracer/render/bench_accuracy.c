@@ -215,6 +215,7 @@ static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *c
   return (struct trax_accuracy_run){
       .specialise = {.root = bench->root,
                      .cache = bench->options->cache,
+                     .icache_bytes = config->icache.bytes,
                      .queues = bench->options->queues ? bench->options->queues : config->chip.tms,
                      .interrupt = bench->interrupt},
       .config = config,

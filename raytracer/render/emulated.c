@@ -58,15 +58,24 @@ static trax_status general_program(struct trax_program *program, const struct op
   return TRAX_OK;
 }
 
+/* What of the chip decides about the program. */
+struct chosen {
+  unsigned queues;
+  uint32_t icache_bytes;
+};
+
 /* The specialised program, or, with a note, the general one. */
 static trax_status find_program(struct trax_program *program, const struct options *options,
-                                const struct trax_frame *frame, unsigned queues, const volatile int *interrupt,
-                                trax_error *error) {
+                                const struct trax_frame *frame, const struct chosen *chosen,
+                                const volatile int *interrupt, trax_error *error) {
   if (options->program || options->no_specialise)
     return general_program(program, options, frame, error);
   char root[TRAX_PATH_SIZE], note[256] = "";
-  struct trax_specialise_options specialise = {
-      .root = root, .cache = options->cache, .queues = queues, .interrupt = interrupt};
+  struct trax_specialise_options specialise = {.root = root,
+                                               .cache = options->cache,
+                                               .icache_bytes = chosen->icache_bytes,
+                                               .queues = chosen->queues,
+                                               .interrupt = interrupt};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
   program->specialised = false;
@@ -86,7 +95,9 @@ trax_status emulated_config(trax_config *config, const struct options *options, 
   if (status != TRAX_OK)
     return status;
   /* The machine's memory grows with what is rendered, unless it is set. */
-  uint64_t bytes = frame->scene->size + frame->params_size + trax_frame_image_bytes(frame) + more_bytes;
+  uint64_t bytes = more_bytes;
+  if (frame)
+    bytes += frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);
   uint64_t mib = (bytes >> 20) + 2;
   if (mib > 1024) {
     char text[32];
@@ -98,16 +109,26 @@ trax_status emulated_config(trax_config *config, const struct options *options, 
   return status == TRAX_OK ? trax_config_check(config, error) : status;
 }
 
-static trax_status count_queues(unsigned *queues, const struct options *options, const struct trax_frame *frame,
-                                trax_error *error) {
-  *queues = options->queues;
-  if (*queues)
-    return TRAX_OK;
+static trax_status choose(struct chosen *chosen, const struct options *options, const struct trax_frame *frame,
+                          trax_error *error) {
   trax_config *config = trax_config_create();
   const trax_status status =
       config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
   if (status == TRAX_OK)
-    *queues = config->chip.tms;
+    *chosen = (struct chosen){options->queues ? options->queues : config->chip.tms, config->icache.bytes};
+  trax_config_destroy(config);
+  return status;
+}
+
+trax_status emulated_cache_lines(unsigned *lines, const struct options *options, trax_error *error) {
+  enum { LINE_BYTES = 64, MOST_LINES = 4096 };
+  trax_config *config = trax_config_create();
+  const trax_status status =
+      config ? emulated_config(config, options, NULL, 0, error) : trax_fail(error, "out of memory");
+  if (status == TRAX_OK) {
+    const uint32_t count = config->dcache.bytes / LINE_BYTES;
+    *lines = count < 1 ? 1 : count < MOST_LINES ? count : MOST_LINES;
+  }
   trax_config_destroy(config);
   return status;
 }
@@ -367,10 +388,10 @@ trax_status emulate(struct trax_picture *picture, const struct options *options,
                     struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
   struct trax_program program;
   progress_show(progress, "compiling", -1, NULL);
-  unsigned queues;
-  trax_status status = count_queues(&queues, options, frame, error);
+  struct chosen chosen;
+  trax_status status = choose(&chosen, options, frame, error);
   if (status == TRAX_OK)
-    status = find_program(&program, options, frame, queues, interrupt, error);
+    status = find_program(&program, options, frame, &chosen, interrupt, error);
   if (status != TRAX_OK)
     return status;
   if (!options->report)

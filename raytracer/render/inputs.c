@@ -36,7 +36,10 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
   trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
   struct trax_mesh mesh = {0};
   struct trax_import_report report;
-  trax_status status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
+  trax_status status =
+      options->engine <= ENGINE_REFERENCE ? emulated_cache_lines(&build.cache_lines, options, error) : TRAX_OK;
+  if (status == TRAX_OK)
+    status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
   if (status == TRAX_OK && !options->quiet) {
     progress_clear(progress);
     trax_import_print_notes(&report, "trax-render", stderr);

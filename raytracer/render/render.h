@@ -104,6 +104,7 @@ struct trax_specialise_options {
   const char *root;              /* where trax is installed: bin, lib/trax */
   const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
+  uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */
   unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
   bool record;                   /* it tells what trax/record.h says, too; not for measuring time: its stack is in
                                     global memory */

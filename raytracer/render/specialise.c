@@ -22,7 +22,7 @@
 
 static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
 enum { FLAG_COUNT = sizeof flags / sizeof *flags, MOST_FLAGS = FLAG_COUNT + 3 };
-enum { CACHED_CODE = 4096 }; /* bytes: the paper's instruction cache */
+enum { PAPERS_CACHE = 4096 }; /* bytes: its instruction cache */
 
 /* The flags above and those that were chosen. What is recorded takes more stack than a TP has memory for. */
 static size_t chosen_flags(const char *chosen[MOST_FLAGS], const struct trax_method *method, bool record) {
@@ -160,7 +160,7 @@ static void hash_library(XXH3_state_t *state, const char *path) {
 #define WAYS_TO_COMPILE "2"
 
 static trax_status make_key(char key[33], const char *root, const char *constants, const char *const *chosen,
-                            size_t chosen_count, trax_error *error) {
+                            size_t chosen_count, uint32_t icache_bytes, trax_error *error) {
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
@@ -174,6 +174,8 @@ static trax_status make_key(char key[33], const char *root, const char *constant
   hash_library(state, TRAX_LLVM_LIBRARY);
   for (size_t i = 0; i < chosen_count; i++)
     XXH3_128bits_update(state, chosen[i], strlen(chosen[i]) + 1);
+  if (icache_bytes != PAPERS_CACHE)
+    XXH3_128bits_update(state, &icache_bytes, sizeof icache_bytes);
   XXH3_128bits_update(state, constants, strlen(constants));
   const XXH128_hash_t hash = XXH3_128bits_digest(state);
   snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
@@ -349,16 +351,17 @@ static trax_status compile(const char *root, const char *constants, const char *
   return result;
 }
 
-static bool fits_cache(const char *program) {
+static bool fits_cache(const char *program, uint32_t icache_bytes) {
   struct trax_program_size size;
   trax_error ignored;
-  return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= CACHED_CODE;
+  return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= icache_bytes;
 }
 
 /* Into the cache, aside and renamed: the first of the ways for which there is stack enough. What is larger than the
    instruction cache, but for paths, which are anyway, is compiled for less code. */
 static trax_status build(const char *root, const char *constants, const char *program, const char *const *chosen,
-                         size_t chosen_count, uint32_t features, const volatile int *interrupt, trax_error *error) {
+                         size_t chosen_count, uint32_t features, uint32_t icache_bytes, const volatile int *interrupt,
+                         trax_error *error) {
   char temporary[TRAX_PATH_SIZE];
   if (!join(temporary, program, "", "XXXXXX"))
     return trax_fail(error, "%s: the path is too long", program);
@@ -378,7 +381,7 @@ static trax_status build(const char *root, const char *constants, const char *pr
   for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {
     struct places way = ways[i];
     status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
-    if (status != TRAX_OK || paths || fits_cache(temporary))
+    if (status != TRAX_OK || paths || fits_cache(temporary, icache_bytes))
       continue;
     way.small = true;
     status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
@@ -411,6 +414,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   trax_error reason;
   const char *chosen[MOST_FLAGS];
   const size_t chosen_count = chosen_flags(chosen, &frame->method, options->record);
+  const uint32_t icache_bytes = options->icache_bytes ? options->icache_bytes : PAPERS_CACHE;
   const struct trax_node_format *format = &trax_node_formats[frame->params->node_layout];
   if (format->width > 2 && frame->method.stack)
     return trax_fail(error, "--stack: a traversal of %s nodes has a whole stack", format->name);
@@ -424,7 +428,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   char *constants = constants_text(frame, options->queues);
   if (!constants)
     return trax_fail(error, "out of memory");
-  trax_status status = make_key(key, options->root, constants, chosen, chosen_count, &reason);
+  trax_status status = make_key(key, options->root, constants, chosen, chosen_count, icache_bytes, &reason);
   if (status == TRAX_OK && !make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
@@ -437,8 +441,8 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
     status = trax_write_file(header, constants, strlen(constants), &reason);
     if (status == TRAX_OK)
-      status =
-          build(options->root, header, elf, chosen, chosen_count, frame->params->features, options->interrupt, &reason);
+      status = build(options->root, header, elf, chosen, chosen_count, frame->params->features, icache_bytes,
+                     options->interrupt, &reason);
     if (status == TRAX_OK)
       prune(cache);
     else
