@@ -17,6 +17,7 @@
 #include "camera.h"
 #include "light.h"
 #include "material.h"
+#include "record.h"
 #include "run.h"
 #include "sampler.h"
 #include "shade.h"
@@ -322,6 +323,7 @@ PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct p
       texel = texture_of_hit(scene.data, material->texture, &hit);
     if (pass_hole(run, path, shadow, &surface, material, &hit, texel.alpha))
       return shadow ? RAY_SHADOW : RAY_ON;
+    RECORD_SEEN(run, path, shadow, &hit);
     if (!shadow)
       meet_surface(run, path, &surface, material, &hit, texel.colour);
   } else if (!found && shadow) {

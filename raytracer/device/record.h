@@ -34,6 +34,9 @@ static inline void record_hit(const struct trax_render_params *run, struct pixel
 }
 
 #define RECORD_HIT(run, pixel, sample, hit) record_hit(run, pixel, sample, hit)
+/* The same of a path's first surface that is no hole. */
+#define RECORD_SEEN(run, path, shadow, hit)                                                                            \
+  ((shadow) || (path)->depth ? (void)0 : record_hit(run, (struct pixel){(path)->pixel}, (path)->sample, hit))
 #define RECORD_SHADOW(run, pixel, sample, blocked)                                                                     \
   (record_sample(run, pixel, sample)->shadow = (blocked) ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT)
 #define RECORD_CHANNELS(red, green, blue) (record_channels = (struct trax_pixel_record){{red, green, blue}})
@@ -41,6 +44,7 @@ static inline void record_hit(const struct trax_render_params *run, struct pixel
 
 #else
 #define RECORD_HIT(run, pixel, sample, hit) ((void)0)
+#define RECORD_SEEN(run, path, shadow, hit) ((void)0)
 #define RECORD_SHADOW(run, pixel, sample, blocked) ((void)0)
 #define RECORD_CHANNELS(red, green, blue) ((void)0)
 #define RECORD_PIXEL(run, pixel) ((void)0)

@@ -240,14 +240,18 @@ static double statistic(const trax_machine *machine, const char *name) {
   return value;
 }
 
-static void print_machine(const trax_machine *machine) {
+/* doubt: about the prediction of a sampled run; may be NULL. */
+static void print_machine(const trax_machine *machine, const char *doubt) {
   printf("cycles      %.0f (%.3f ms)\n", statistic(machine, "cycles"), 1e3 * statistic(machine, "seconds"));
   const struct trax_sampling_stats *sampling = &machine->stats.sampling;
   if (sampling->is_sampled) {
     printf("sampled     %.0f to %.0f cycles with 95 %% confidence, %.1f %% of the slots in %llu ranges simulated\n",
            sampling->low, sampling->high, 100.0 * (double)sampling->detailed_slots / sampling->asked_slots.slots,
            (unsigned long long)sampling->windows);
-    printf("predicted   %.0f cycles, before any was simulated\n", sampling->predicted);
+    printf("predicted   %.0f cycles, before any was simulated", sampling->predicted);
+    if (doubt)
+      printf("; uncertain: the model is not fitted to %s", doubt);
+    putchar('\n');
   }
   printf("rays        %.0f, %.2f million per second\n", statistic(machine, "rays"), statistic(machine, "mrps"));
 }
@@ -332,6 +336,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
       status = trax_simulated_run(picture, frame, machine, &run, error);
     machine->stats.sampling.asked_slots.costs = NULL;
     machine->stats.sampling.asked_slots.handed_out = NULL;
+    const char *const doubt = options->program ? "another program" : sampling.doubt;
     trax_picture_sampling_release(&sampling);
     progress_clear(progress);
     if (status == TRAX_FAULT)
@@ -339,7 +344,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     if (status == TRAX_OK && figures)
       status = measure(figures, program, machine, error);
     if (status == TRAX_OK && !figures && !options->quiet)
-      print_machine(machine);
+      print_machine(machine, doubt);
     if (status == TRAX_OK && options->stats)
       status = trax_stats_write_json(machine, options->stats, error);
     if (status == TRAX_OK && run.costs)

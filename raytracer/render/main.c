@@ -53,11 +53,12 @@ static trax_status run_on_host(struct trax_picture *picture, bool reference, uns
 enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
 
 /* What the rays hit. */
-static trax_status find_hits(struct trax_hits *hits, enum finder finder, unsigned threads,
+static trax_status find_hits(struct trax_hits *hits, enum finder finder, bool holes, unsigned threads,
                              const struct trax_frame *frame, struct progress *progress, trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
   struct step step = {progress, names[finder]};
-  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
+  struct trax_render_run run = {
+      .progress = show_step, .progress_context = &step, .interrupt = &trax_signal, .holes = holes};
   trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
                        : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, error)
                                              : trax_hits_exact(hits, frame, &run, error);
@@ -71,7 +72,7 @@ static trax_status compare_hits(const struct trax_frame *frame, struct progress 
   struct trax_hits_difference difference;
   trax_status status = TRAX_OK;
   for (int finder = BY_TWIN; finder <= WITHOUT_ERROR && status == TRAX_OK; finder++)
-    status = find_hits(&hits[finder], finder, 0, frame, progress, error);
+    status = find_hits(&hits[finder], finder, false, 0, frame, progress, error);
   if (status == TRAX_OK) {
     trax_hits_judge(&difference, &hits[BY_TWIN], &hits[WITHOUT_ERROR], frame);
     const uint64_t beyond = difference.holes + difference.wrong;
@@ -94,8 +95,8 @@ static trax_status write_hits(const struct options *options, const struct trax_f
                               trax_error *error) {
   struct trax_hits hits = {0};
   struct trax_picture picture = {0};
-  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, options->threads, frame,
-                                 progress, error);
+  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, true, options->threads,
+                                 frame, progress, error);
   if (status == TRAX_OK)
     status = trax_hits_picture(&picture, &hits, frame, error);
   if (status == TRAX_OK)

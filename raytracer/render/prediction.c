@@ -386,6 +386,30 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
   return status;
 }
 
+/* What the model knows of: cores, lines, the bus and its latency. */
+static bool is_modelled(const char *key) {
+  static const char *const modelled[] = {"chip.",           "dcache.bytes",         "dcache.line_bytes",
+                                         "dcache.ways",     "dcache.lru",           "memory.bandwidth_gbps",
+                                         "memory.size_mib", "memory.latency_cycles"};
+  for (size_t i = 0; i < sizeof modelled / sizeof *modelled; i++)
+    if (strncmp(key, modelled[i], strlen(modelled[i])) == 0)
+      return true;
+  return false;
+}
+
+const char *trax_prediction_doubt(const struct trax_frame *frame, bool other_program,
+                                  const struct trax_config *config) {
+  if (other_program)
+    return "another program";
+  if (frame->params->features & TRAX_PATH_FEATURES)
+    return "another workload";
+  for (size_t i = 0; i < trax_config_key_count; i++)
+    if (!is_modelled(trax_config_keys[i].name) &&
+        trax_config_value(config, &trax_config_keys[i]) != trax_config_keys[i].initial)
+      return trax_config_keys[i].name;
+  return NULL;
+}
+
 void trax_prediction_release(struct trax_prediction *prediction) {
   free(prediction->cycles);
   free(prediction->handed_out);

@@ -21,6 +21,9 @@ struct trax_prediction {
 trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture *picture,
                          const struct trax_frame *frame, uint32_t queues, const struct trax_config *config,
                          uint32_t scene_address, struct trax_render_run *run, trax_error *error);
+/* Why the model, whose constants were fitted to the device program for the paper's workload on the paper's chips, may
+   be off by more than there: the name of a configuration key or of what else is different; NULL: it fits. */
+const char *trax_prediction_doubt(const struct trax_frame *frame, bool other_program, const struct trax_config *config);
 void trax_prediction_release(struct trax_prediction *prediction);
 
 #endif

@@ -124,8 +124,9 @@ static void reference_pixel(struct reference *reference, uint32_t x, uint32_t y,
   if (reference->hits) {
     const struct vector camera = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
     struct exact_hit hit;
-    const bool found =
-        reference_hit(reference, from(params->eye), (struct double3){camera.x, camera.y, camera.z}, &hit);
+    const struct double3 eye = from(params->eye), direction = {camera.x, camera.y, camera.z};
+    const bool found = reference->run->holes ? reference_seen(reference, eye, direction, &hit)
+                                             : reference_hit(reference, eye, direction, &hit);
     reference->hits->triangles[index] = found ? hit.triangle : TRAX_NO_TRIANGLE;
     ++*rays;
     return;

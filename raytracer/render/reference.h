@@ -36,6 +36,10 @@ static inline bool reference_needs(const struct reference *reference, enum trax_
 struct double3 reference_path(const struct reference *reference, struct pixel pixel, uint32_t sample,
                               struct trax_exact_sample *seen, uint64_t *rays);
 
+/* Of a ray from the eye: the nearest hit that is no hole. */
+bool reference_seen(const struct reference *reference, struct double3 eye, struct double3 direction,
+                    struct exact_hit *hit);
+
 /* reference_material.c: what surfaces do with light, in the formulas of the publications. Directions are of unit length
    and lead away from the surface. */
 struct reference_surface {

@@ -181,6 +181,17 @@ static bool find_surface(struct surface *surface, const struct sample *sample, s
   }
 }
 
+bool reference_seen(const struct reference *reference, struct double3 eye, struct double3 direction,
+                    struct exact_hit *hit) {
+  uint64_t rays = 0;
+  const struct sample sample = {.reference = reference, .params = reference->frame->params, .rays = &rays};
+  struct surface surface;
+  double distance;
+  const bool seen = find_surface(&surface, &sample, eye, direction, &distance);
+  *hit = surface.hit;
+  return seen;
+}
+
 static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
                           double distance) {
   if (!reference_needs(sample->reference, TRAX_FEATURE_SHADOWS))

@@ -174,8 +174,9 @@ double trax_difference_percent(const struct trax_difference *difference); /* of 
 struct trax_render_run {
   void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
   void *progress_context;
-  const volatile int *interrupt;    /* polled; may be NULL */
-  uint64_t rays;                    /* out: rays traced; 0 with accesses, which know of them slot by slot */
+  const volatile int *interrupt; /* polled; may be NULL */
+  uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
+  bool holes;                    /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
 };
 

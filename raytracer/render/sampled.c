@@ -51,6 +51,7 @@ trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, s
   const trax_status status = predict(sampling, picture, frame, machine, !by_tiles, queues, run, error);
   if (status != TRAX_OK)
     return status;
+  sampling->doubt = trax_prediction_doubt(frame, !by_tiles, &machine->config);
   sampling->slots.counter = counter->address;
   sampling->slots.costs = sampling->prediction.cycles;
   sampling->slots.queues = queues;

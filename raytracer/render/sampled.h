@@ -8,6 +8,7 @@
 struct trax_picture_sampling {
   trax_slot_sampling slots; /* fraction or error, and seed, are the caller's */
   struct trax_prediction prediction;
+  const char *doubt; /* trax_prediction_doubt */
 };
 
 /* Fills in the rest, for a machine that the program is loaded into; the picture is the native twin's. Errors: the

@@ -130,6 +130,14 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   return run_twin(picture, twin, frame, threads, run, error);
 }
 
+/* What says where holes are. */
+#define HOLES                                                                                                          \
+  (TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(MATERIALS))
+
+static bool has_holes(const struct trax_frame *frame) {
+  return frame->params->features & (TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED));
+}
+
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error) {
   const size_t pixels = (size_t)frame->params->width * frame->params->height;
@@ -140,14 +148,17 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
   *hits = (struct trax_hits){.width = frame->params->width, .height = frame->params->height};
   hits->triangles = malloc(pixels * sizeof *hits->triangles);
   plain.params = malloc(frame->params_size);
-  record = (struct trax_buffer){calloc(1, record_bytes), (unsigned)record_bytes};
+  record = (struct trax_buffer){record_bytes > UINT32_MAX ? NULL : calloc(1, record_bytes), (unsigned)record_bytes};
   trax_status status = TRAX_OK;
-  if (!hits->triangles || !plain.params || !record.data || record_bytes > UINT32_MAX)
+  if (record_bytes > UINT32_MAX)
+    status = trax_fail(error, "what %zu pixels hit takes %.1f GB to record; 32-bit offsets end at 4.29", pixels,
+                       (double)record_bytes * 1e-9);
+  else if (!hits->triangles || !plain.params || !record.data)
     status = trax_fail(error, "out of memory for what %zu pixels hit", pixels);
   else {
     /* One ray a pixel and no shading that matters. */
     memcpy(plain.params, frame->params, frame->params_size);
-    plain.params->features &= TRAX_FEATURE_BIT(EXACT);
+    plain.params->features &= TRAX_FEATURE_BIT(EXACT) | (run->holes && has_holes(frame) ? HOLES : 0);
     plain.params->samples = 1;
     status = run_twin(&picture, trax_twin_recording, &plain, threads, run, error);
   }
