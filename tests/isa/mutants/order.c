@@ -40,7 +40,7 @@ static const struct {
     [NEVER_LEAVES] = {"sw", "a store reaches memory only when its thread stores again, or ends"},
 };
 
-enum { COUNT = sizeof texts / sizeof *texts, DELAY = 60 /* cycles */, CACHED = 1024 /* words */ };
+enum { COUNT = sizeof texts / sizeof *texts, DELAY = 300 /* cycles: longer than a fence */, CACHED = 1024 /* words */ };
 
 unsigned trax_order_mutants(void) {
   return COUNT;

@@ -219,7 +219,7 @@ def own_rules(statement):
         yield "TRAP(RA, IMM); if (IMM != 0 && !fault) NEXT_PC = PC + 8;", "the next instruction is left out"
     elif statement == "FENCE(IMM);":
         yield f"{statement} NEXT_PC = PC + 8;", "the next instruction is left out"
-        yield f"{statement} RD ^= 1; reg[0] = 0;", "a register is changed"
+        yield f"{statement} reg[5] ^= 1;", "a register is changed"
     elif statement == "HALT();":
         yield "(void)0;", "the thread goes on"
         yield "HALT(); for (uint32_t i = 0; i < tm->tps; i++) if (!tm->tp[i].ended) end(tm, &tm->tp[i], 0);", "all threads of the TM end"
