@@ -38,8 +38,9 @@ static void catch_signals(void) {
 
 static int complain(const trax_error *error) {
   fflush(stdout);
-  fprintf(stderr, "trax-sim: %s%s\n", trax_signal ? "" : "error: ", error->message);
-  return trax_signal ? EXIT_SIGNAL + trax_signal : EXIT_ERROR;
+  const bool interrupted = trax_signal && !reader_gone;
+  fprintf(stderr, "trax-sim: %s%s\n", interrupted ? "" : "error: ", error->message);
+  return interrupted ? EXIT_SIGNAL + trax_signal : EXIT_ERROR;
 }
 
 static trax_status configure(trax_config *config, const struct trax_options *options, trax_error *error) {
@@ -330,7 +331,7 @@ int main(int count, char **arguments) {
   }
   trax_config_destroy(config);
   trax_options_free(&options);
-  if (trax_signal && trax_signal != SIGKILL && result == EXIT_SIGNAL + trax_signal)
+  if (trax_signal && trax_signal != SIGKILL && trax_signal != SIGPIPE && result == EXIT_SIGNAL + trax_signal)
     trax_end_by_signal();
   return result;
 }

@@ -26,10 +26,15 @@
 #include "llvm/Support/InitLLVM.h"
 #include "llvm/Support/Path.h"
 #include "llvm/Support/Process.h"
+#include "llvm/Support/Signals.h"
 #include "llvm/Support/TargetSelect.h"
 #include "llvm/Support/Timer.h"
 #include "llvm/Support/VirtualFileSystem.h"
 #include "llvm/TargetParser/Host.h"
+
+#include <cstdlib>
+#include <string>
+#include <unistd.h>
 
 using namespace clang;
 using namespace clang::driver;
@@ -106,6 +111,9 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
 
 /// Runs the jobs. A compiler that crashed leaves what is needed to reproduce it, as clang does.
 int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
+  for (const char *Temporary : C.getTempFiles()) // the driver removes them itself only if it ends by itself
+    llvm::sys::RemoveFileOnSignal(Temporary);
+  setenv("TRAX_LD_PARENT", std::to_string(getpid()).c_str(), /*overwrite=*/1); // the linker ends with this process
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {

@@ -1,6 +1,8 @@
 /* Memory, maps, files and diagnostics. */
 #include "ld.h"
 
+#include "trax/signals.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -227,8 +229,11 @@ bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t 
     return ok;
   }
   char *temporary = ld_format(ctx, "%s.tmpXXXXXX", path);
+  sigset_t before;
+  trax_hold_signals(&before);
   int fd = mkstemp(temporary);
   if (fd < 0) {
+    trax_allow_signals(&before);
     ld_error(ctx, "%s: cannot write: %s", path, strerror(errno));
     return false;
   }
@@ -244,10 +249,11 @@ bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t 
     ok = false;
     reason = errno;
   }
-  if (!ok) {
+  if (!ok)
     unlink(temporary);
+  trax_allow_signals(&before);
+  if (!ok)
     ld_error(ctx, "%s: cannot write: %s", path, strerror(reason));
-  }
   return ok;
 }
 

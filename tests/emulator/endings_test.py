@@ -210,10 +210,10 @@ class Signals(unittest.TestCase):
                 process.send_signal(number)
                 status, err = self.end(process)
                 self.assertEqual(status, -number, f"{engine} {number}")
-                self.assertIn("interrupted in cycle", err)
+                self.assertRegex(err, "interrupted in instruction [1-9]" if engine == "functional" else "interrupted in cycle [1-9]")
                 self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
                 with open("r.txt") as file:
-                    self.assertIn("partial", file.read())
+                    self.assertIn("run      interrupted (partial)\n", file.read())
                 self.assertEqual(self.litter("s.json", "r.txt"), [])
                 for name in ("s.json", "r.txt"):
                     os.remove(name)
@@ -225,6 +225,10 @@ class Signals(unittest.TestCase):
         status, out, err = run("--alloc", "input=64000000", "--alloc", "output=64000000", "--dump", "output=d.bin", "--max-cycles",
                                "1000", "copy.elf")
         self.assertEqual(status, 124)
+        run("--report", "r.txt", "--max-cycles", "1000", "print.elf")
+        with open("r.txt") as file:
+            self.assertIn("run      stopped at its limit (--max-cycles), before the program ended (partial)\n", file.read())
+        os.remove("r.txt")
         with open("d.bin") as file:
             self.assertEqual(file.read(), "of before")
         os.remove("d.bin")
