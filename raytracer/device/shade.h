@@ -106,8 +106,8 @@ static inline __attribute__((always_inline)) void find_surface_exactly(struct su
     bound = way_bound, base = eye, inside = way;
   surface->inverse_length = trax_rsqrt(dot(n, n));
   struct vector out = times(bound * surface->inverse_length, n);
-  int32_t far = greatest_magnitude(way) & 0x7F800000;
-  struct vector back = times(at_most(bits_float(0x7E800000 - far) * bound, 1), way);
+  int32_t depth = greatest_magnitude(way) & 0x7F800000;
+  struct vector back = times(at_most(bits_float(0x7E800000 - depth) * bound, 1), way);
   surface->point = plus(base, plus(inside, minus(out, back)));
   surface->behind = plus(base, minus(inside, out));
   surface->turned = away != 0;

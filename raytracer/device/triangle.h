@@ -175,10 +175,11 @@ hit_triangle_exactly(const struct triangle_ray *ray, const char *triangle, bool 
   if (!may_hit_triangle(ray, triangle) || !exact_hit(&copy, (const float *)(const void *)triangle, &answer))
     return false;
   int32_t distance_bits = float_bits(answer.distance);
+  const char *other = hit->triangle;
   if (distance_bits > hit->distance_bits)
     return false;
   if (!any) {
-    if (distance_bits == hit->distance_bits && (!hit->triangle || !comes_first(triangle, hit->triangle)))
+    if (distance_bits == hit->distance_bits && (!other || !comes_first(triangle, other)))
       return false;
     *hit = (struct hit){distance_bits, triangle, answer.weight1, answer.weight2};
   }

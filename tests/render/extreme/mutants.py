@@ -34,6 +34,13 @@ MUTANTS = [
     ("one-word", "stack.h", "trail->second = trail->upper_second;", "trail->second = 0;", "deepest"),
     ("no-offset", "shade.h", "float offset = bound * inverse_length", "float offset = 0 * inverse_length", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
+    ("exact-bound", "triangle.h", "* 0x1p-17f + 0x1p-38f", "* 0", "room-1e9"),
+    ("exact-scale", "triangle.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),
+    ("exact-borrow", "exact.h", "carry = turned ? *at != 0 : both == 0;", "carry = 0;", "room-1e18"),
+    ("exact-order", "exact.h", "sign ^ odd << 31", "sign", "room-1e9"),
+    ("exact-side", "shade.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "both-turned"),
+    ("exact-point", "shade.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "both"),
+    ("exact-way", "shade.h", "if (HITS_ARE_EXACT)\n    way = scale_way", "if (0)\n    way = scale_way", "tiny-lit"),
     ("no-slack", "shade.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
 ]
 
