@@ -33,6 +33,9 @@ bool trax_needs_exact(const struct trax_scene *scene, const float eye[3]) {
     const struct trax_triangle *triangle = &scene->triangles[i];
     const struct double3 a = minus(from(triangle->v0), origin), b = minus(from(triangle->v1), origin),
                          c = minus(from(triangle->v2), origin);
+    const struct double3 normal = cross(minus(b, a), minus(c, a));
+    if (greatest(normal) == 0)
+      continue; /* without area, which no ray hits */
     const double size = fmax(greatest(minus(b, a)), greatest(minus(c, a)));
     const double farthest = fmax(greatest(a), fmax(greatest(b), greatest(c)));
     if (size < TRAX_LEAST_SIZE)

@@ -170,7 +170,7 @@ static void test_range(void **state) {
   struct trax_mesh mesh = {0};
   const struct trax_view view = view_from(0, 0, 0, 0, -0.2f, -1, 80, 0, 0.5f, 0);
   const float lengths[] = {3e7f, 1e8f, 1e9f, 1.7e18f};
-  const uint64_t holes[] = {50, 1000, 1000, 1000};
+  const uint64_t holes[] = {1, 50, 50, 50};
   for (int i = 0; i < 4; i++) {
     const float length = lengths[i];
     mesh_box(&mesh, (float[]){-length, -2, -length}, (float[]){length, length, length}, 0);
@@ -179,7 +179,7 @@ static void test_range(void **state) {
   /* The near boxes, too. */
   mesh_box(&mesh, (float[]){-1, -1, -4}, (float[]){0.2f, 0.1f, -3}, 0);
   mesh_box(&mesh, (float[]){-1e9f, -2, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
-  check_range(&mesh, view, 1000, 0);
+  check_range(&mesh, view, 50, 0);
   mesh_box(&mesh, (float[]){-1e-9f, -1e-9f, -4e-9f}, (float[]){0.2e-9f, 0.1e-9f, -3e-9f}, 0);
   mesh_box(&mesh, (float[]){-1e18f, -1e18f, -1e18f}, (float[]){1e18f, 1e18f, 1e18f}, 0);
   check_range(&mesh, view, 0, 10);
