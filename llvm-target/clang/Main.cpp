@@ -32,8 +32,10 @@
 #include "llvm/Support/VirtualFileSystem.h"
 #include "llvm/TargetParser/Host.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <string>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 using namespace clang;
@@ -91,6 +93,16 @@ bool hasArgument(llvm::ArrayRef<const char *> Args, StringRef Name) {
   return llvm::any_of(Args.drop_front(), [&](const char *Given) { return Given && Name == Given; });
 }
 
+/// Who ends the driver that waits for this process ends it, too.
+void endWithParent() {
+  const char *Parent = getenv("TRAX_PARENT");
+  if (!Parent || atol(Parent) != long(getppid()))
+    return;
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (atol(Parent) != long(getppid()))
+    raise(SIGTERM);
+}
+
 /// Runs a -cc1 or -cc1as command line in this process.
 int runTool(llvm::SmallVectorImpl<const char *> &Args) {
   llvm::cl::ResetAllOptionOccurrences(); // -mllvm options of an earlier compilation in this process
@@ -113,7 +125,7 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
 int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   for (const char *Temporary : C.getTempFiles()) // the driver removes them itself only if it ends by itself
     llvm::sys::RemoveFileOnSignal(Temporary);
-  setenv("TRAX_LD_PARENT", std::to_string(getpid()).c_str(), /*overwrite=*/1); // the linker ends with this process
+  setenv("TRAX_PARENT", std::to_string(getpid()).c_str(), /*overwrite=*/1); // what is started ends with this process
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {
@@ -226,6 +238,8 @@ int main(int Argc, char **Argv) {
   initializeTargets();
 
   ArgVector Args(Argv, Argv + Argc);
+  if (Args.size() > 1 && StringRef(Args[1]).starts_with("-cc1"))
+    endWithParent();
   if (Args.size() > 1 && StringRef(Args[1]).starts_with("-cc1"))
     return runTool(Args);
 

@@ -8,7 +8,7 @@
 
 /* Who ends the compiler that waits for this linker ends it, too. */
 static void end_with_parent(void) {
-  const char *parent = getenv("TRAX_LD_PARENT");
+  const char *parent = getenv("TRAX_PARENT");
   if (!parent || atol(parent) != (long)getppid())
     return;
   prctl(PR_SET_PDEATHSIG, SIGTERM);
