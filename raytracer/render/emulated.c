@@ -75,11 +75,14 @@ static trax_status find_program(struct trax_program *program, const struct optio
                                                .cache = options->cache,
                                                .icache_bytes = chosen->icache_bytes,
                                                .queues = chosen->queues,
-                                               .interrupt = interrupt};
+                                               .interrupt = interrupt,
+                                               .transient = options->frames > 1};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
   program->specialised = false;
   trax_status status = trax_program_specialise(program, frame, &specialise, note, error);
+  if (status == TRAX_OK && program->specialised && *note && !options->quiet)
+    fprintf(stderr, "trax-render: note: %s\n", note);
   if (status != TRAX_OK || program->specialised)
     return status;
   if (!options->quiet)

@@ -106,13 +106,15 @@ struct trax_specialise_options {
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */
   unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
+  bool transient;                /* of one of many pictures, as of a turntable: other programs stay in the cache */
   bool record;                   /* it tells what trax/record.h says, too; not for measuring time: its stack is in
                                     global memory */
 };
 
 /* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
-   TRAX_OK with why in note, and *program is as it was. TRAX_ERROR: a cache that was asked for cannot be written, or
-   nothing else will do, since the frame's method is not the default or the program is to record. */
+   TRAX_OK with why in note, and *program is as it was; note also tells of a damaged one that was made anew. TRAX_ERROR:
+   a cache that was asked for cannot be written, or nothing else will do, since the frame's method is not the default or
+   the program is to record. */
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 

@@ -2,6 +2,7 @@
    and kept under the hash of all that it is made from. */
 #include "core/machine.h"
 #include "host/util.h"
+#include "program_cache.h"
 #include "render.h"
 
 #include <dirent.h>
@@ -16,9 +17,6 @@
 #include <time.h>
 #include <unistd.h>
 #include <xxhash.h>
-
-/* More are not kept: a program is some 30 kB, most of it debug information. */
-#define MOST_PROGRAMS 256
 
 static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
 enum { FLAG_COUNT = sizeof flags / sizeof *flags, MOST_FLAGS = FLAG_COUNT + 3 };
@@ -44,11 +42,6 @@ static const char *const ingredients[] = {
     "lib/trax/libgcc.a", "lib/trax/libm.a", "lib/trax/include/trax.h",
 };
 static const char *const source_folders[] = {"lib/trax/raytracer", "lib/trax/raytracer/trax"};
-
-static bool join(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix) {
-  int length = snprintf(path, TRAX_PATH_SIZE, "%s/%s%s", folder, name, suffix);
-  return length > 0 && length < TRAX_PATH_SIZE;
-}
 
 /* --- the constants --- */
 
@@ -112,7 +105,7 @@ static trax_status hash_file(XXH3_state_t *state, const char *root, const char *
   char path[TRAX_PATH_SIZE];
   uint8_t *bytes;
   size_t size;
-  if (!join(path, root, name, ""))
+  if (!join_path(path, root, name, ""))
     return trax_fail(error, "%s: the path is too long", name);
   if (trax_read_file(path, (size_t)1 << 30, &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -131,7 +124,7 @@ static int is_file(const struct dirent *entry) {
 static trax_status hash_folder(XXH3_state_t *state, const char *root, const char *name, trax_error *error) {
   char path[TRAX_PATH_SIZE];
   struct dirent **entries;
-  if (!join(path, root, name, ""))
+  if (!join_path(path, root, name, ""))
     return trax_fail(error, "%s: the path is too long", name);
   const int count = scandir(path, &entries, is_file, alphasort);
   if (count < 0)
@@ -140,8 +133,8 @@ static trax_status hash_folder(XXH3_state_t *state, const char *root, const char
   for (int i = 0; i < count; i++) {
     char file[TRAX_PATH_SIZE];
     if (status == TRAX_OK)
-      status = join(file, name, entries[i]->d_name, "") ? hash_file(state, root, file, error)
-                                                        : trax_fail(error, "%s: the path is too long", name);
+      status = join_path(file, name, entries[i]->d_name, "") ? hash_file(state, root, file, error)
+                                                             : trax_fail(error, "%s: the path is too long", name);
     free(entries[i]);
   }
   free(entries);
@@ -157,7 +150,7 @@ static void hash_library(XXH3_state_t *state, const char *path) {
 }
 
 /* Another number whenever programs are compiled in other ways from the same ingredients. */
-#define WAYS_TO_COMPILE "2"
+#define WAYS_TO_COMPILE "3"
 
 static trax_status make_key(char key[33], const char *root, const char *constants, const char *const *chosen,
                             size_t chosen_count, uint32_t icache_bytes, trax_error *error) {
@@ -181,78 +174,6 @@ static trax_status make_key(char key[33], const char *root, const char *constant
   snprintf(key, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
   XXH3_freeState(state);
   return status;
-}
-
-/* --- the cache --- */
-
-bool trax_program_cache(char path[TRAX_PATH_SIZE]) {
-  const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-  if (base && base[0] == '/') /* others are to be ignored: XDG Base Directory Specification */
-    return join(path, base, "trax/programs", "");
-  return home && home[0] == '/' && join(path, home, ".cache/trax/programs", "");
-}
-
-static bool make_folders(const char *path) {
-  char part[TRAX_PATH_SIZE];
-  if (snprintf(part, sizeof part, "%s", path) >= (int)sizeof part)
-    return false;
-  for (char *slash = part + 1; (slash = strchr(slash, '/')); *slash++ = '/') {
-    *slash = '\0';
-    if (mkdir(part, 0777) != 0 && errno != EEXIST)
-      return false;
-  }
-  return (mkdir(part, 0777) == 0 || errno == EEXIST) && access(path, W_OK | X_OK) == 0;
-}
-
-struct kept {
-  char name[64];
-  struct timespec used;
-};
-
-static int by_use(const void *a, const void *b) {
-  const struct kept *x = a, *y = b;
-  if (x->used.tv_sec != y->used.tv_sec)
-    return x->used.tv_sec < y->used.tv_sec ? 1 : -1;
-  return x->used.tv_nsec < y->used.tv_nsec ? 1 : x->used.tv_nsec > y->used.tv_nsec ? -1 : strcmp(x->name, y->name);
-}
-
-/* Removes what has not been used longest, and what was never finished. What another process removes at the same time is
- * gone all the same. */
-static void prune(const char *cache) {
-  DIR *folder = opendir(cache);
-  struct kept *kept = NULL;
-  size_t count = 0, capacity = 0;
-  for (const struct dirent *entry; folder && (entry = readdir(folder));) {
-    const size_t length = strlen(entry->d_name);
-    struct stat status;
-    if (length < 32 + 4 || memcmp(entry->d_name + 32, ".elf", 4) != 0 ||
-        fstatat(dirfd(folder), entry->d_name, &status, 0) != 0)
-      continue;
-    if (length > 32 + 4) { /* not renamed: a compilation that is under way, or was killed */
-      if (status.st_mtim.tv_sec + 3600 < time(NULL))
-        unlinkat(dirfd(folder), entry->d_name, 0);
-      continue;
-    }
-    if (count == capacity) {
-      struct kept *more = realloc(kept, (capacity = 2 * capacity + 64) * sizeof *kept);
-      if (!more)
-        break;
-      kept = more;
-    }
-    memcpy(kept[count].name, entry->d_name, length + 1);
-    kept[count++].used = status.st_mtim;
-  }
-  if (count > MOST_PROGRAMS) {
-    qsort(kept, count, sizeof *kept, by_use);
-    for (size_t i = MOST_PROGRAMS; i < count; i++) {
-      unlinkat(dirfd(folder), kept[i].name, 0);
-      memcpy(kept[i].name + 32, ".h", 3);
-      unlinkat(dirfd(folder), kept[i].name, 0);
-    }
-  }
-  free(kept);
-  if (folder)
-    closedir(folder);
 }
 
 /* --- compiling --- */
@@ -280,14 +201,21 @@ struct places {
 };
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
-static trax_status compile(const char *root, const char *constants, const char *output, const char *const *chosen,
+static trax_status compile(const char *root, const struct cache_work *work, const char *const *chosen,
                            size_t chosen_count, const struct places *places, const volatile int *interrupt,
                            trax_error *error) {
+  char maps[2][2 * TRAX_PATH_SIZE + 32];
   char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
-  if (!join(clang, root, "bin/clang", "") || !join(include, root, "lib/trax/raytracer", "") ||
-      !join(source, root, "lib/trax/raytracer/main.c", ""))
+  if (!join_path(clang, root, "bin/clang", "") || !join_path(include, root, "lib/trax/raytracer", "") ||
+      !join_path(source, root, "lib/trax/raytracer/main.c", ""))
     return trax_fail(error, "%s: the path is too long", root);
-  const char *arguments[MOST_FLAGS + 18], **next = arguments;
+  /* The program shall not depend on the name of a folder that is soon gone. */
+  const int cache = (int)(strrchr(work->folder, '/') - work->folder);
+  for (int i = 0; i < 2; i++) { /* relative to the compilation's folder, it has a dot in front */
+    const char *dot = i ? "./" : "";
+    snprintf(maps[i], sizeof maps[i], "-fdebug-prefix-map=%s%s=%s%.*s", dot, work->folder, dot, cache, work->folder);
+  }
+  const char *arguments[MOST_FLAGS + 20], **next = arguments;
   *next++ = clang;
   for (size_t i = 0; i < chosen_count; i++)
     *next++ = chosen[i];
@@ -303,11 +231,13 @@ static trax_status compile(const char *root, const char *constants, const char *
     *next++ = "-mstack=global";
     *next++ = "-mstack-size=2k";
   }
+  *next++ = maps[0];
+  *next++ = maps[1];
   *next++ = "-include";
-  *next++ = constants;
+  *next++ = work->header;
   *next++ = source;
   *next++ = "-o";
-  *next++ = output;
+  *next++ = work->program;
   *next = NULL;
 
   FILE *said = tmpfile();
@@ -357,19 +287,11 @@ static bool fits_cache(const char *program, uint32_t icache_bytes) {
   return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= icache_bytes;
 }
 
-/* Into the cache, aside and renamed: the first of the ways for which there is stack enough. What is larger than the
-   instruction cache, but for paths, which are anyway, is compiled for less code. */
-static trax_status build(const char *root, const char *constants, const char *program, const char *const *chosen,
+/* The first of the ways for which there is stack enough. What is larger than the instruction cache, but for paths,
+   which are anyway, is compiled for less code. */
+static trax_status build(const char *root, const struct cache_work *work, const char *const *chosen,
                          size_t chosen_count, uint32_t features, uint32_t icache_bytes, const volatile int *interrupt,
                          trax_error *error) {
-  char temporary[TRAX_PATH_SIZE];
-  if (!join(temporary, program, "", "XXXXXX"))
-    return trax_fail(error, "%s: the path is too long", program);
-  temporary[strlen(program)] = '.';
-  const int descriptor = mkstemp(temporary);
-  if (descriptor < 0)
-    return trax_fail(error, "%s: %s", temporary, strerror(errno));
-  close(descriptor);
   static const struct places ways[] = {{.paths_local = true},
                                        {.params_in_memory = true, .paths_local = true},
                                        {0},
@@ -380,18 +302,14 @@ static trax_status build(const char *root, const char *constants, const char *pr
   trax_status status = TRAX_ERROR;
   for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {
     struct places way = ways[i];
-    status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
-    if (status != TRAX_OK || paths || fits_cache(temporary, icache_bytes))
+    status = compile(root, work, chosen, chosen_count, &way, interrupt, error);
+    if (status != TRAX_OK || paths || fits_cache(work->program, icache_bytes))
       continue;
     way.small = true;
-    status = compile(root, constants, temporary, chosen, chosen_count, &way, interrupt, error);
+    status = compile(root, work, chosen, chosen_count, &way, interrupt, error);
     if (status == TRAX_ERROR)
-      status = compile(root, constants, temporary, chosen, chosen_count, &ways[i], interrupt, error);
+      status = compile(root, work, chosen, chosen_count, &ways[i], interrupt, error);
   }
-  if (status == TRAX_OK && rename(temporary, program) != 0)
-    status = trax_fail(error, "%s: %s", program, strerror(errno));
-  if (status != TRAX_OK)
-    unlink(temporary);
   return status;
 }
 
@@ -410,7 +328,7 @@ static trax_status note_or_error(const struct trax_method *method, bool record, 
 
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error) {
-  char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE], header[TRAX_PATH_SIZE];
+  char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE];
   trax_error reason;
   const char *chosen[MOST_FLAGS];
   const size_t chosen_count = chosen_flags(chosen, &frame->method, options->record);
@@ -429,24 +347,32 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (!constants)
     return trax_fail(error, "out of memory");
   trax_status status = make_key(key, options->root, constants, chosen, chosen_count, icache_bytes, &reason);
-  if (status == TRAX_OK && !make_folders(cache)) {
+  if (status == TRAX_OK && !cache_make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
       free(constants);
       return trax_fail(error, "--cache %s", reason.message);
     }
   }
-  if (status == TRAX_OK && (!join(elf, cache, key, ".elf") || !join(header, cache, key, ".h")))
+  if (status == TRAX_OK && !join_path(elf, cache, key, ".elf"))
     status = trax_fail(&reason, "%s: the path is too long", cache);
-  if (status == TRAX_OK && utimensat(AT_FDCWD, elf, NULL, 0) != 0) { /* not there; otherwise it is used just now */
-    status = trax_write_file(header, constants, strlen(constants), &reason);
+  const enum cache_entry entry = status == TRAX_OK ? cache_find(elf, key, options->transient) : CACHE_ABSENT;
+  if (status == TRAX_OK && entry != CACHE_GOOD) {
+    struct cache_work work;
+    status = cache_begin(&work, cache, key, &reason);
+    if (status == TRAX_OK) {
+      status = trax_write_file(work.header, constants, strlen(constants), &reason);
+      if (status == TRAX_OK)
+        status = build(options->root, &work, chosen, chosen_count, frame->params->features, icache_bytes,
+                       options->interrupt, &reason);
+      if (status == TRAX_OK)
+        status = cache_commit(&work, cache, key, options->transient, &reason);
+      cache_end(&work);
+    }
     if (status == TRAX_OK)
-      status = build(options->root, header, elf, chosen, chosen_count, frame->params->features, icache_bytes,
-                     options->interrupt, &reason);
-    if (status == TRAX_OK)
-      prune(cache);
-    else
-      unlink(header);
+      cache_prune(cache, key);
+    if (status == TRAX_OK && entry == CACHE_BAD)
+      snprintf(note, 256, "%.200s was damaged, and is made anew", elf);
   }
   free(constants);
   if (status == TRAX_INTERRUPTED)

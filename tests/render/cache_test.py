@@ -1,0 +1,216 @@
+"""The cache of compiled programs heals itself, and what stands in its way costs a note, never a picture.
+
+Usage: cache_test.py BIN
+"""
+
+import glob
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.dirname(os.path.abspath(__file__))
+failures = 0
+backgrounds = 0
+
+
+def fail(text):
+    global failures
+    failures += 1
+    print(f"FAILED: {text}", flush=True)
+
+
+def command(cache, *words):
+    return [f"{BIN}/trax-render", f"{SOURCE}/box.obj", "--view", f"{SOURCE}/box.view", "--size", "16x9", "--config", "1x32", "--cache", cache, *words]
+
+
+def render(cache, *words, **how):
+    return subprocess.run(command(cache, "-o", "x.png", *words), capture_output=True, text=True, timeout=120, **how)
+
+
+def pixels():
+    with open("x.png", "rb") as file:
+        return file.read()
+
+
+def clean(cache, programs):
+    """Only whole entries, so many."""
+    names = sorted(os.listdir(cache))
+    keys = {name[:32] for name in names}
+    if len(keys) != programs or names != sorted(f"{key}.{ending}" for key in keys for ending in ("elf", "h")):
+        fail(f"{programs} programs should be in the cache, not {names}")
+
+
+def expect(ended, what, note=None):
+    if ended.returncode != 0 or pixels() != picture:
+        fail(f"{what}: status {ended.returncode}, {'the' if pixels() == picture else 'another'} picture: {ended.stderr}")
+    lines = ended.stderr.splitlines()
+    if note is None and lines or note is not None and (len(lines) != 1 or not lines[0].startswith("trax-render: note: ") or note not in lines[0]):
+        fail(f"{what}: not one note with '{note}': {ended.stderr}")
+
+
+def damages(entry, whole, other):
+    """What a power loss or a stranger may leave: (name, how it is made)."""
+    def put(data):
+        def make():
+            with open(entry, "wb") as file:
+                file.write(data)
+        return make
+
+    for size in (0, 1, 100, len(whole) // 2, len(whole) - 33, len(whole) - 32, len(whole) - 1):
+        yield f"cut to {size} bytes", put(whole[:size])
+    for place in (4, 100, len(whole) // 2, len(whole) - 40, len(whole) - 20, len(whole) - 1):
+        yield f"bit flipped at {place}", put(whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1:])
+    yield "zeros", put(bytes(len(whole)))
+    yield "zeros at its end", put(whole[:4096] + bytes(len(whole) - 4096))
+    yield "longer", put(whole + b"\0")
+    yield "text", put(b"not a program\n" * 100)
+    yield "another program", put(open(f"{BIN}/../lib/trax/trax-raytracer.elf", "rb").read())
+    yield "another entry", put(other)
+    yield "a folder", lambda: os.mkdir(entry)
+    yield "a pipe", lambda: os.mkfifo(entry)
+    yield "a device", lambda: os.symlink("/dev/zero", entry)
+    yield "a link to itself", lambda: os.symlink(os.path.basename(entry), entry)
+
+    def folder():
+        os.mkdir(entry)
+        open(f"{entry}/file", "w").close()
+    yield "a folder with a file", folder
+
+
+def remove(entry):
+    if os.path.isdir(entry) and not os.path.islink(entry):
+        shutil.rmtree(entry)
+    elif os.path.lexists(entry):
+        os.remove(entry)
+
+
+def healing():
+    global picture
+    if render("cache").returncode != 0:
+        fail("the first picture")
+    picture = pixels()
+    clean("cache", 1)
+    entry, = glob.glob("cache/*.elf")
+    with open(entry, "rb") as file:
+        whole = file.read()
+    if render("other", "--background", "000000").returncode != 0:
+        fail("another picture")
+    with open(glob.glob("other/*.elf")[0], "rb") as file:
+        other = file.read()
+    for name, make in damages(entry, whole, other):
+        remove(entry)
+        make()
+        expect(render("cache"), name, "was damaged, and is made anew")
+        with open(entry, "rb") as file:
+            if file.read() != whole:
+                fail(f"{name}: the program made anew is another one")
+        expect(render("cache"), f"{name}, once more")
+        for left in glob.glob("cache/*.elf.*"):
+            if name != "a folder with a file" or glob.glob(f"{left}/*.was/file") == []:
+                fail(f"{name}: left {left}")
+            shutil.rmtree(left)
+        clean("cache", 1)
+    with open(entry, "wb") as file:
+        file.write(whole[:100])
+    ended = render("cache", "--quiet")
+    if ended.returncode or ended.stderr or ended.stdout:
+        fail(f"--quiet tells of a damaged program: {ended}")
+    header = entry[:-3] + "h"
+    remove(entry)
+    os.remove(header)
+    os.mkdir(header)
+    expect(render("cache"), "a folder for the constants")
+    clean("cache", 1)
+
+
+def together():
+    """Processes that find the same damage, or make the same program, do not disturb each other, even if one of them fails."""
+    entry, = glob.glob("cache/*.elf")
+    for turn in range(3):
+        with open(entry, "wb") as file:
+            file.write(b"damaged")
+        processes = [subprocess.Popen(command("cache", "-o", f"x{number}.png", "-q"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                     for number in range(4)]
+        for number, process in enumerate(processes):
+            said, _ = process.communicate(timeout=120)
+            with open(f"x{number}.png", "rb") as file:
+                if process.returncode or said or file.read() != picture:
+                    fail(f"four at once: status {process.returncode}: {said}")
+        clean("cache", 1)
+    # One that is stopped while the other compiles takes nothing away from it.
+    for turn in range(6):
+        shutil.rmtree("cache")
+        first = subprocess.Popen(command("cache", "-o", "x0.png", "-q"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        second = subprocess.Popen(command("cache", "-o", "x.png"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.04 * (turn + 1))
+        first.send_signal(signal.SIGTERM)
+        first.wait(timeout=60)
+        said = second.communicate(timeout=120)[1]
+        if second.returncode or said or pixels() != picture:
+            fail(f"beside one that was stopped: status {second.returncode}: {said}")
+        clean("cache", 1)
+
+
+def no_room():
+    """Files of no more than so many bytes, as on a disk that is full: the general program renders, and nothing is left behind."""
+    entry, = glob.glob("cache/*.elf")
+    for limit in (12000, 30000, os.path.getsize(entry) - 20):
+        shutil.rmtree("full", ignore_errors=True)
+        ended = render("full", "--stats", "/dev/null", preexec_fn=lambda: (resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))))
+        expect(ended, f"files of {limit} bytes", "the general program renders")
+        if os.path.exists("full") and os.listdir("full"):
+            fail(f"files of {limit} bytes: left {os.listdir('full')}")
+    if os.geteuid() != 0:
+        return
+    os.makedirs("small", exist_ok=True)
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=8k", "none", "small"], stderr=subprocess.DEVNULL).returncode:
+        return
+    try:
+        expect(render("small"), "a full disk", "the general program renders")
+        if os.listdir("small"):
+            fail(f"a full disk: left {os.listdir('small')}")
+        subprocess.run(["mount", "-o", "remount,ro", "small"], check=True)
+        ended = render("small")
+        if ended.returncode != 1 or "--cache small cannot be written: Read-only file system" not in ended.stderr:
+            fail(f"a cache that was asked for and cannot be written: {ended}")
+        os.environ["XDG_CACHE_HOME"] = os.path.abspath("small")
+        ended = subprocess.run([word for word in command("", "-o", "x.png") if word not in ("--cache", "")], capture_output=True, text=True)
+        expect(ended, "a cache that cannot be written", "the general program renders")
+    finally:
+        subprocess.run(["umount", "small"], check=True)
+
+
+def turntable():
+    """Each picture of a turntable has a program of its own; those of other pictures stay."""
+    cache = "turning"
+    os.makedirs(cache)
+    for number in range(250):
+        path = f"{cache}/{number:032x}.elf"
+        open(path, "w").close()
+        os.utime(path, (1e9 + number, 1e9 + number))
+    ended = subprocess.run(command(cache, "-o", "turn.png", "--frames", "12", "-q"), capture_output=True, text=True)
+    if ended.returncode or len(glob.glob("turn-*.png")) != 12:
+        fail(f"a turntable: {ended}")
+    kept = [name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]
+    if len(kept) != 250:
+        fail(f"a turntable took {250 - len(kept)} programs of other pictures out of the cache")
+    time.sleep(11) # as long as a program may be about to be loaded
+    if render(cache, "--background", "000002").returncode:
+        fail("a picture after a turntable")
+    programs = glob.glob(f"{cache}/*.elf")
+    if len(programs) != 256 or len([name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]) != 250:
+        fail(f"after a turntable {len(programs)} programs are in the cache")
+
+
+with tempfile.TemporaryDirectory() as directory:
+    os.chdir(directory)
+    for part in (healing, together, no_room, turntable):
+        part()
+    os.chdir("/")
+print("all as expected" if not failures else f"{failures} failures")
+sys.exit(failures > 0)
