@@ -1,4 +1,5 @@
 #include "trax/names.h"
+#include "trax/options.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -19,6 +19,7 @@
 
 #include "core/machine.h"
 #include "trax/isa.h"
+#include "trax/version.h"
 
 enum { TEXT = 0x1000, TABLE = 0x10000, TABLE_BYTES = 0x10000 };
 
@@ -231,11 +232,10 @@ static uint64_t number(const char *option, const char *text) {
 int main(int count, char **arguments) {
   static const struct bench_case builtin[] = {{"integers", integers}, {"floats", floats}, {"walk", walk}};
   static const struct bench_case program = {"program", NULL};
-  static const struct option options[] = {{"chips", required_argument, NULL, 'c'},
-                                          {"max-cycles", required_argument, NULL, 'm'},
-                                          {"repeats", required_argument, NULL, 'r'},
-                                          {"no-reference", no_argument, &no_reference, 1},
-                                          {NULL, 0, NULL, 0}};
+  static const struct option options[] = {
+      {"chips", required_argument, NULL, 'c'},   {"max-cycles", required_argument, NULL, 'm'},
+      {"repeats", required_argument, NULL, 'r'}, {"no-reference", no_argument, &no_reference, 1},
+      {"version", no_argument, NULL, 'v'},       {NULL, 0, NULL, 0}};
   for (int option; (option = getopt_long(count, arguments, "+", options, NULL)) != -1;) {
     if (option == 'c')
       chips = optarg;
@@ -243,6 +243,8 @@ int main(int count, char **arguments) {
       max_cycles = number("max-cycles", optarg);
     else if (option == 'r')
       repeats = (unsigned)number("repeats", optarg);
+    else if (option == 'v')
+      return puts("engine-bench " TRAX_VERSION) < 0;
     else if (option)
       return EXIT_FAILURE;
   }

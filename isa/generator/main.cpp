@@ -11,6 +11,7 @@
 
 #include "llvm/TableGen/Main.h"
 #include "Isa.h"
+#include "trax/version.h"
 #include "llvm/Support/CommandLine.h"
 #include "llvm/Support/InitLLVM.h"
 
@@ -50,6 +51,7 @@ static bool emit(raw_ostream &OS, RecordKeeper &Records) {
 
 int main(int argc, char **argv) {
   InitLLVM X(argc, argv);
+  cl::SetVersionPrinter([](raw_ostream &OS) { OS << "trax-isa-gen " TRAX_VERSION "\n"; });
   cl::ParseCommandLineOptions(argc, argv, "C tables and the manual from the ISA description\n");
   return TableGenMain(argv[0], &emit);
 }

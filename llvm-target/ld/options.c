@@ -1,5 +1,6 @@
 /* The command line: one table of options, from which parsing and --help both work; response files. */
 #include "ld.h"
+#include "trax/names.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -187,6 +188,19 @@ static const option *find_option(const char *argument, const char **value) {
     }
   }
   return NULL;
+}
+
+static const char *option_name(const void *context, size_t i) {
+  (void)context;
+  return option_table[i].name;
+}
+
+/* What a mistyped option probably means, as it is spelled; NULL if none is near. */
+static const char *nearest_option(ld_context *ctx, const char *argument) {
+  const char *name = argument + (argument[1] == '-' ? 2 : 1);
+  const char *mistyped = ld_format(ctx, "%.*s", (int)strcspn(name, "="), name);
+  const char *nearest = trax_nearest_name(mistyped, OPTION_COUNT, option_name, NULL);
+  return nearest && nearest[1] ? ld_format(ctx, "%s%s", isupper((unsigned char)*nearest) ? "-" : "--", nearest) : NULL;
 }
 
 static void add_defsym(ld_context *ctx, const char *text) {
@@ -484,6 +498,10 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
   bool whole_archive = false, only_files = false;
   for (size_t i = 0; i < arguments.count; i++) {
     const char *argument = arguments.items[i];
+    if (argument[0] == '\0') {
+      ld_error(ctx, "the name of an input file is empty");
+      continue;
+    }
     if (only_files || argument[0] != '-' || argument[1] == '\0') {
       ld_input input = {.name = argument, .whole_archive = whole_archive};
       ld_push(ctx, &options->inputs, input);
@@ -496,7 +514,11 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
     const char *value;
     const option *option = find_option(argument, &value);
     if (!option) {
-      ld_error(ctx, "unknown option '%s'", argument);
+      const char *nearest = nearest_option(ctx, argument);
+      if (nearest)
+        ld_error(ctx, "unknown option '%s'; did you mean '%s'?", argument, nearest);
+      else
+        ld_error(ctx, "unknown option '%s'", argument);
       continue;
     }
     if (option->argument != NONE && !value) {

@@ -16,7 +16,8 @@ static std::string ToolName = "trax";
 const Target &trax::startTool(int Argc, char **Argv, StringRef Overview) {
   ToolName = sys::path::filename(Argv[0]).str();
   LLVMInitializeTrax();
-  cl::SetVersionPrinter([](raw_ostream &OS) { OS << ToolName << " " TRAX_VERSION ", LLVM " LLVM_VERSION_STRING "\n"; });
+  cl::SetVersionPrinter(
+      [](raw_ostream &OS) { OS << ToolName << " " TRAX_VERSION " (TRaX toolchain), LLVM " LLVM_VERSION_STRING "\n"; });
   cl::ParseCommandLineOptions(Argc, Argv, Overview);
   std::string Message;
   const Target *T = TargetRegistry::lookupTarget("trax", Message);

@@ -118,7 +118,26 @@ static trax_status read_index(const struct obj_reader *reader, const char *word,
   return TRAX_OK;
 }
 
-/* "7", "7/1", "7//3" or "7/1/3". Indices of attributes of which the file has none at all mean nothing. */
+/* What follows a slash, which may be nothing. An index into attributes of which the file has none at all means nothing.
+ */
+static trax_status read_attribute_index(const struct obj_reader *reader, const char *word, const char **rest,
+                                        uint32_t count, const char *kind, uint32_t *index) {
+  if (**rest != '/')
+    return TRAX_OK;
+  ++*rest;
+  if (**rest == '\0' || **rest == '/')
+    return TRAX_OK;
+  if (count)
+    return read_index(reader, word, rest, count, kind, index);
+  char *end;
+  const long long number = strtoll(*rest, &end, 10);
+  if (end == *rest || (*end && *end != '/') || number == 0)
+    return scene_fail(reader->error, "%s:%u: not a %s index: '%.100s'", reader->path, reader->line, kind, word);
+  *rest = end;
+  return TRAX_OK;
+}
+
+/* "7", "7/1", "7//3" or "7/1/3". */
 static trax_status read_corner(struct obj_reader *reader, const char *word) {
   struct corner_list *corners = &reader->corners;
   const uint32_t at = corners->count;
@@ -129,17 +148,12 @@ static trax_status read_corner(struct obj_reader *reader, const char *word) {
   corners->uvs[at] = corners->normals[at] = absent;
   const char *rest = word;
   trax_status result = read_index(reader, word, &rest, reader->mesh->vertex_count, "vertex", &corners->vertices[at]);
-  if (result == TRAX_OK && *rest == '/' && *++rest && *rest != '/') {
-    if (reader->uvs.count)
-      result = read_index(reader, word, &rest, reader->uvs.count, "texture coordinate", &corners->uvs[at]);
-    else
-      rest += strcspn(rest, "/");
-  }
-  if (result == TRAX_OK && *rest == '/' && *++rest && reader->normals.count) {
-    result = read_index(reader, word, &rest, reader->normals.count, "normal", &corners->normals[at]);
-    if (result == TRAX_OK && *rest)
-      return fail_here(reader, "not a vertex:", word);
-  }
+  if (result == TRAX_OK)
+    result = read_attribute_index(reader, word, &rest, reader->uvs.count, "texture coordinate", &corners->uvs[at]);
+  if (result == TRAX_OK)
+    result = read_attribute_index(reader, word, &rest, reader->normals.count, "normal", &corners->normals[at]);
+  if (result == TRAX_OK && *rest)
+    return fail_here(reader, "not a vertex:", word);
   corners->count++;
   return result;
 }

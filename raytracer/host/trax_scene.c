@@ -1,5 +1,5 @@
 /* trax-scene: from mesh files to a scene file. */
-#include "trax/names.h"
+#include "trax/options.h"
 #include "trax/output.h"
 #include "trax/scene.h"
 #include "trax/signals.h"

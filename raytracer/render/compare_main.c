@@ -1,7 +1,7 @@
 /* trax-compare: do two pictures agree? */
 #include "core/machine.h"
 #include "render.h"
-#include "trax/names.h"
+#include "trax/options.h"
 #include "trax/version.h"
 
 #include <getopt.h>

@@ -1,6 +1,6 @@
 #include "options.h"
 
-#include "trax/names.h"
+#include "trax/options.h"
 #include "trax/version.h"
 
 #include <errno.h>

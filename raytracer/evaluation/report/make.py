@@ -158,10 +158,12 @@ def main(arguments=None):
     parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR", help="the paper's tables (default: those that come with trax)")
     parser.add_argument("--gnuplot", default="gnuplot", metavar="PROGRAM", help="what draws the figures")
     options = parser.parse_args(arguments)
-    output = pathlib.Path(options.output) if options.output else options.results.with_name("report.html")
+    output = pathlib.Path(options.output or "report.html")
     try:
-        if options.output == "":
-            raise Problem("--output: the value is empty")
+        if options.output == "" or not options.results.name:
+            raise Problem("--output: the value is empty" if options.results.name else "the name of the results is empty")
+        if not options.output:
+            output = options.results.with_name("report.html")
         check_files([options.results], [output])
         results, paper = read_results(options.results), Paper(options.paper)
         folder = output.absolute().parent

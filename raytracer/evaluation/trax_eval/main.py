@@ -97,7 +97,7 @@ def parse(arguments):
     for program in options.programs:
         if program not in PROGRAMS:
             raise Problem(f"--program {program}: allowed are {' and '.join(PROGRAMS)}")
-    if options.size and not parse_size(options.size):
+    if options.size is not None and not parse_size(options.size):
         raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
     if not 1 <= options.jobs <= 4096:
         raise Problem(f"--jobs {options.jobs}: expected a number from 1 to 4096")

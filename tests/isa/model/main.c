@@ -1,5 +1,7 @@
 /* trax-isa-model: runs an executable as docs/isa.md says, and writes its signature. */
 #include "model.h"
+#include "trax/files.h"
+#include "trax/version.h"
 
 #include <argp.h>
 #include <errno.h>
@@ -50,6 +52,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case ARGP_KEY_ARG:
     if (options->image)
       argp_error(state, "one image, not '%s' too", text);
+    if (!*text)
+      argp_error(state, "the image's name is empty");
     options->image = text;
     return 0;
   case ARGP_KEY_END:
@@ -147,7 +151,18 @@ int main(int argc, char **argv) {
       .tms = 1, .tps = 1, .memory_mib = 1024, .precision = 24, .limit = 1000000000, .manual = MODEL_MANUAL};
   struct model_error error;
   argp_err_exit_status = 1;
+  argp_program_version = "trax-isa-model " TRAX_VERSION;
   argp_parse(&argp, argc, argv, 0, NULL, &options);
+  trax_files files = {0};
+  trax_error wrong;
+  trax_files_input(&files, NULL, options.image);
+  trax_files_input(&files, NULL, options.manual);
+  trax_files_output(&files, "--signature", options.signature);
+  if (trax_files_check(&files, &wrong) != TRAX_OK) {
+    fprintf(stderr, "trax-isa-model: error: %s\n", wrong.message);
+    return 1;
+  }
+  trax_files_release(&files);
   struct model_isa *isa = model_isa_read(options.manual, &error);
   struct model_machine *machine =
       isa ? model_create(isa, options.tms, options.tps, (uint64_t)options.memory_mib << 20, &error) : NULL;

@@ -11,6 +11,7 @@
 #define _DEFAULT_SOURCE /* fork, open_memstream, strsep */
 #include "core/machine.h"
 #include "mutants.h"
+#include "trax/version.h"
 
 #include <signal.h>
 #include <stdarg.h>
@@ -312,6 +313,10 @@ static void run_mutants(unsigned jobs) {
 }
 
 int main(int argc, char **argv) {
+  if (argc == 2 && strcmp(argv[1], "--version") == 0) {
+    puts("trax-isa-mutants " TRAX_VERSION);
+    return 0;
+  }
   if (argc == 2 && strcmp(argv[1], "--list") == 0) {
     for (unsigned number = 1; number <= mutant_count(); number++) {
       struct trax_mutant_text text = {.image = ""};
@@ -321,7 +326,7 @@ int main(int argc, char **argv) {
     return 0;
   }
   if (argc != 4)
-    fail("usage: trax-isa-mutants --list | TESTS MEMORY_MIB JOBS");
+    fail("usage: trax-isa-mutants --list | --version | TESTS MEMORY_MIB JOBS");
   memory_mib = argv[2];
   scratch = argv[1];
   mutant_count(); /* the tables are made before the processes part */

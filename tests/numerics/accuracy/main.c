@@ -20,6 +20,7 @@
 
 #include "../operands.h"
 #include "accuracy.h"
+#include "trax/version.h"
 
 static void fail(const char *format, ...) {
   va_list arguments;
@@ -300,6 +301,9 @@ int main(int argc, char **argv) {
       output = argv[++i];
     } else if (!strcmp(argv[i], "--check") && i + 1 < argc) {
       against = argv[++i];
+    } else if (!strcmp(argv[i], "--version")) {
+      puts("trax-accuracy " TRAX_VERSION);
+      return 0;
     } else if (!strcmp(argv[i], "--sample")) {
       sample = number_argument(argv[i], argv[i + 1], CHUNK, WHOLE - 1);
       i++;

@@ -1,0 +1,91 @@
+"""Every program tells the project's version; a message begins with the name that it is about, even if that is empty; an option that
+is none and one that is not said far enough are told apart.
+
+Usage: messages_test.py BIN VERSION
+"""
+
+import os
+import re
+import tempfile
+
+from common import BIN, VERSION, accepted, end, fail, refused, run
+
+PROGRAMS = ["clang", "clang++", "trax-clang", "trax-clang++", "trax-compare", "trax-eval", "trax-ld", "trax-llc", "trax-mc", "trax-objdump",
+            "trax-render", "trax-scene", "trax-sim", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "trax-accuracy", "engine-bench"]
+
+
+def versions():
+    found = {name for name in os.listdir(BIN) if name.startswith("trax-") and not name.endswith(("-replay", "-fuzzer"))}
+    if not found <= set(PROGRAMS):
+        fail(f"programs that are not asked: {found - set(PROGRAMS)}")
+    for name in PROGRAMS:
+        if not os.path.exists(f"{BIN}/{name}"):
+            continue
+        out = accepted(name, "--version").stdout
+        if not re.search(rf"(^|[ ]){re.escape(VERSION)}([ ,\n]|$)", out, re.MULTILINE):
+            fail(f"{name} --version: {out}")
+    if VERSION not in accepted("trax-eval", "report", "--version").stdout:
+        fail("trax-eval report --version")
+
+
+def empty_names():
+    """No message begins with a colon, whatever is empty."""
+    with open("a.obj", "w") as file:
+        file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    commands = [
+        ["trax-sim", ""], ["trax-sim", "--config", "", "x"], ["trax-sim", "--bind", "a=", "x"], ["trax-sim", "--resume=", "x"],
+        ["trax-render", "", "-o", "x.png"], ["trax-render", "a.obj", "-o", ""], ["trax-render", "a.obj", "-o", "x.png", "--view", ""],
+        ["trax-render", "a.obj", "-o", "x.png", "--config", ""], ["trax-render", "a.obj", "-o", "x.png", "--program="],
+        ["trax-render", "a.obj", "-o", "x.png", "--write-view="], ["trax-render", "a.obj", "-o", "x.png", "--keep="],
+        ["trax-render", "a.obj", "-o", "x.png", "--set", ""], ["trax-render", "a.obj", "--prepare", ""],
+        ["trax-render", "a.obj", "-o", "x.png", "--material", ""], ["trax-render", "a.obj", "-o", "x.png", "--cache="],
+        ["trax-scene", "", "-o", "x.trax"], ["trax-scene", "a.obj", "-o", ""], ["trax-scene", "a.obj", "-o", "x", "--stats-json", ""],
+        ["trax-scene", "--check", ""], ["trax-scene", "a.obj", "-o", "x", "--diffuse", ""], ["trax-compare", "", ""], ["trax-compare", "a.obj", ""],
+        ["trax-ld", ""], ["trax-ld", "a.obj", "-o", ""], ["trax-ld", "-l", "", "a.obj"], ["trax-ld", "@"], ["trax-ld", "-Map=", "a.obj"],
+        ["trax-mc", ""], ["trax-llc", ""], ["trax-objdump", ""], ["clang", "--target=trax", ""], ["clang", "--target=trax", "-c", "a.c", "-o", ""],
+        ["trax-isa-model", ""], ["trax-eval", ""], ["trax-eval", "table1", "", "-o", ""], ["trax-eval", "report", ""], ["trax-eval", "report", "x.json", "-o", ""],
+        ["trax-eval", "table1", "--size", ""]]
+    for program, *words in commands:
+        ended = run(program, *words)
+        if ended.returncode == 0 or not ended.stderr:
+            fail(f"{program} {words}: status {ended.returncode}")
+        for line in ended.stderr.splitlines():
+            if re.match(r"([\w+-]+: )?((fatal )?error: )?:|.*: : ", line) or "Traceback" in line:
+                fail(f"{program} {words}: {line}")
+    refused('"": cannot ', "trax-scene", "", "-o", "x.trax")
+    refused('"": cannot ', "trax-sim", "")
+
+
+def options():
+    render, scene = ("trax-render", "a.obj", "-o", "x.png"), ("trax-scene", "a.obj", "-o", "x.trax")
+    refused("unknown option --siez; did you mean --size?", *render, "--siez", "1x1")
+    refused("--st is ambiguous: --stats, --stack", *render, "--st", "x")
+    refused("unknown option --quite-another", *render, "--quite-another=3")
+    refused("unknown option -z", *render, "-qz")
+    refused("--quiet takes no value", *render, "--quiet=1")
+    refused("-o needs a value", "trax-render", "a.obj", "-o")
+    refused("--size needs a value", *render, "--size")
+    refused("unknown option --depht; did you mean --depth?", *scene, "--depht", "2")
+    refused("--s is ambiguous: --stats, --stats-json, --splits, --smooth", *scene, "--s")
+    refused("unknown option -x", *scene, "-x")
+    refused("--quiet takes no value", *scene, "--quiet=1")
+    refused("--leaf needs a value", *scene, "--leaf")
+    refused("unknown option --wihtin; did you mean --within?", "trax-compare", "a", "b", "--wihtin", "2")
+    refused("unknown option --outputs", "trax-compare", "a", "b", "--outputs")
+    refused("--within needs a value", "trax-compare", "a", "b", "--within")
+    refused("unknown option --reprot; did you mean --report?", "trax-sim", "--reprot", "x", "y")
+    refused("unknown option '--gc-section'; did you mean '--gc-sections'?", "trax-ld", "a.obj", "--gc-section")
+    refused("unknown option '--nothing-like-it'", "trax-ld", "a.obj", "--nothing-like-it")
+    for program, *words in (render, scene, ("trax-compare", "a", "b")):
+        for option in ("--zzz", "--siez=1", "--wihtin"):
+            ended = run(program, *words, option)
+            if "ambiguous" in ended.stderr:
+                fail(f"{program} {option} is called ambiguous: {ended.stderr}")
+
+
+with tempfile.TemporaryDirectory() as directory:
+    os.chdir(directory)
+    for part in (versions, empty_names, options):
+        part()
+    os.chdir("/")
+end()
