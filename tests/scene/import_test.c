@@ -544,6 +544,13 @@ static const struct bad_mesh {
     {"low.obj", "v 0 0 0\nv 1 0 0\nf 1 2 -3\n", "low.obj:3: vertex index -3 is out of range (2 so far"},
     {"zero.obj", "v 0 0 0\nf 0 1 1\n", "zero.obj:2: not a vertex index: '0'"},
     {"huge.obj", "v 0 0 0\nf 1 1 99999999999999999999\n", "huge.obj:2: vertex index 9999"},
+    /* The numbers of what the file does not have mean nothing, but they are numbers, and three at most. */
+    {"slashes.obj", "v 0 0 0\nf 1//// 1 1\n", "slashes.obj:2: not a vertex: '1////'"},
+    {"three.obj", "v 0 0 0\nf 1 1/// 1\n", "three.obj:2: not a vertex: '1///'"},
+    {"fourth.obj", "v 0 0 0\nf 1/2/3/4 1 1\n", "fourth.obj:2: not a vertex: '1/2/3/4'"},
+    {"fourth2.obj", "v 0 0 0\nvt 0 0\nf 1/1//2 1 1\n", "fourth2.obj:3: not a vertex: '1/1//2'"},
+    {"letter.obj", "v 0 0 0\nf 1/a 1 1\n", "letter.obj:2: not a texture coordinate index: '1/a'"},
+    {"letter2.obj", "v 0 0 0\nf 1//a 1 1\n", "letter2.obj:2: not a normal index: '1//a'"},
     {"word.obj", "v 0 0 0\nf 1 1 one\n", "word.obj:2: not a vertex index: 'one'"},
     {"tail.obj", "v 0 0 0\nf 1 1 1x\n", "tail.obj:2: not a vertex index: '1x'"},
     {"short.obj", "v 0 0 0\nf 1 1\n", "short.obj:2: a face needs at least three vertices"},
