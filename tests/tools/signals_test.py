@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""What every program does with signals while it waits or works, and with inputs that never end: docs/architecture.md, "Signals".
+
+    tests/tools/signals_test.py build/bin"""
+
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+failures = 0
+
+
+def check(condition, text):
+    global failures
+    if not condition:
+        failures += 1
+        print(f"FAILED: {text}", flush=True)
+
+
+def waits(program, scratch):
+    """Command lines that wait for a pipe whose writer does not come."""
+    mesh, pipe = scratch / "triangle.obj", scratch / "pipe"
+    return {"trax-render": ([mesh, "--view", pipe, "-o", "p.png"], [mesh, "--config", pipe, "-o", "p.png"], [pipe, "-o", "p.png"]),
+            "trax-scene": ([pipe, "-o", "s.trax"], ["--check", pipe]), "trax-sim": ([pipe], ["--config", pipe, "none"], ["--gdb-symbols", "s.elf", pipe]),
+            "trax-compare": ([pipe, pipe],), "trax-eval": ([scratch / "pipe.json"], ["report", pipe])}[program]
+
+
+def children(pid):
+    listed = subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True).stdout
+    return [int(word) for word in listed.split()]
+
+
+def living(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def interrupted(command, scratch, folder, number, ready):
+    """Ends by the signal, soon, with its children, and leaves nothing."""
+    folder.mkdir()
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=os.environ | {"TMPDIR": str(folder)})
+    deadline = time.monotonic() + 60
+    while not ready(process) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(2 if "trax-eval" in command[0] else 0.3)  # an interpreter that starts is not ours
+    started = children(process.pid)
+    process.send_signal(number)
+    try:
+        errors = process.communicate(timeout=60)[1]
+    except subprocess.TimeoutExpired:
+        process.kill()
+        errors = "it goes on"
+    what = " ".join(str(word) for word in command).replace(str(scratch), "")
+    check(process.returncode == -number, f"{what}: {process.returncode} instead of {-number}: {errors[-300:]}")
+    check("error" not in errors and "Traceback" not in errors, f"{what}: {errors[-300:]}")
+    deadline = time.monotonic() + 10
+    while (any(map(living, started)) or list(folder.iterdir())) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    check(not any(map(living, started)), f"{what}: children live on")
+    check(not list(folder.iterdir()), f"{what}: left {list(folder.iterdir())}")
+
+
+def test_signals(programs, scratch):
+    os.mkfifo(scratch / "pipe")
+    os.mkfifo(scratch / "pipe.json")
+    source = scratch / "large.c"
+    source.write_text("".join(f"int f{i}(int a,int b){{int s=0;for(int i=0;i<a;i++){{s+=i*b^{i};if(s&1)s*=3;}}return s;}}\n" for i in range(2000)) + "int main(void){return 0;}\n")
+    place = 0
+    for number in SIGNALS:
+        for program in ("trax-render", "trax-scene", "trax-sim", "trax-compare", "trax-eval"):
+            for words in waits(program, scratch):
+                place += 1
+                interrupted([str(programs / program), *map(str, words)], scratch, scratch / f"at-{place}", number, lambda process: True)
+        place += 1
+        interrupted([str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"], scratch, scratch / f"at-{place}", number,
+                    lambda process: children(process.pid))
+
+
+def test_limits(programs, scratch):
+    """/dev/zero in the place of each small input: refused, in memory that is small."""
+    mesh = str(scratch / "triangle.obj")
+    for words, limit in ((["trax-sim", "/dev/zero"], 64), (["trax-sim", "--config", "/dev/zero", "none"], 64), (["trax-sim", "--gdb-symbols", "s.elf", "/dev/zero"], 64),
+                         (["trax-render", mesh, "--view", "/dev/zero", "-o", "p.png"], 512), (["trax-render", mesh, "--config", "/dev/zero", "-o", "p.png"], 512),
+                         (["trax-scene", "/dev/zero", "--unpack-limit", "8M", "-o", "s.trax"], 256), (["trax-scene", "--check", "/dev/zero", "--unpack-limit", "8M"], 256)):
+        process = subprocess.Popen([str(programs / words[0]), *words[1:]], cwd=scratch, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 60)))
+        errors = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        check(process.returncode == 1 and "error: /dev/zero: " in errors, f"{words}: {process.returncode}: {errors[-300:]}")
+        check(usage.ru_maxrss < limit << 10, f"{words}: {usage.ru_maxrss} kB")
+
+
+def main():
+    programs = pathlib.Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory() as temporary:
+        scratch = pathlib.Path(temporary).resolve()
+        (scratch / "triangle.obj").write_text(TRIANGLE)
+        test_limits(programs, scratch)
+        test_signals(programs, scratch)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
