@@ -319,7 +319,7 @@ def test_interrupt(evaluation, scratch):
             wanted, deadline = {"simulated": "trax-sim", "imported": "trax-scene", "read": None}[name], time.monotonic() + 60
             while wanted and not simulators(scratch / "interrupted", wanted) and time.monotonic() < deadline:
                 time.sleep(0.01)
-            time.sleep(0.5 if name == "read" else 0.1)
+            time.sleep(2 if name == "read" else 0.1)  # an interpreter that starts is not ours
             process.send_signal(number)
             errors = process.communicate(timeout=60)[1]
             check(process.returncode == -number and "the same command goes on" in errors and "Traceback" not in errors, f"{name}, interrupted: {process.returncode}: {errors}")
