@@ -13,6 +13,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FEW_RUNS, MOST_RUNS = 4000, 1000000  # of those that are to show the forbidden outcome
@@ -22,9 +23,10 @@ SECONDS = 3600
 def compiled(options, name, level, runs, relaxed, directory):
     binary = os.path.join(directory, f"{name}{level}-{runs}{'-relaxed' if relaxed else ''}")
     if not os.path.exists(binary):
+        part = f"{binary}.{threading.get_ident()}"
         subprocess.run([os.path.join(options.build, "bin", "clang"), "--target=trax", level, "-Wall", "-Wextra", "-Werror", f"-DRUNS={runs}",
-                        *(["-DRELAXED"] if relaxed else []), os.path.join(HERE, name + ".c"), "-o", binary + ".part"], check=True)
-        os.rename(binary + ".part", binary)
+                        *(["-DRELAXED"] if relaxed else []), os.path.join(HERE, name + ".c"), "-o", part], check=True)
+        os.rename(part, binary)
     return binary
 
 
