@@ -271,7 +271,7 @@ refuse 'unknown option' "$compare" --nonsense a.png a.png
 grep -q 'differ, by up to' "$out" || fail "the difference is not told: $(cat "$out")"
 
 # --- interrupted: status 130 and no picture
-"$render" "$box" -o interrupted.png $native --size 16384x16384 2>"$err" &
+env --default-signal=INT "$render" "$box" -o interrupted.png $native --size 16384x16384 2>"$err" &
 process=$!
 sleep 1
 kill -INT $process 2>/dev/null
