@@ -8,7 +8,7 @@ bench() {
 }
 
 # Interrupted while it measures: status 130, what was measured is kept, no report; the next run goes on from there.
-"$bin/trax-render" --bench-accuracy "$source/box.obj" --view "$source/box.view" --size 48x27 -o out >.out 2>.err &
+env --default-signal=INT "$bin/trax-render" --bench-accuracy "$source/box.obj" --view "$source/box.view" --size 48x27 -o out >.out 2>.err &
 process=$!
 for _ in $(seq 600); do
   [ "$(find out/measured -name '*.json' 2>/dev/null | wc -l)" -ge 3 ] && break
