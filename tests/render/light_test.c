@@ -1,6 +1,9 @@
 /* The device program's own functions for materials, lights and sampling, one by one, against formulas in binary64. */
 #include "meshes.h"
 
+static _Bool exact; /* which hits the lights below are for */
+#define TRAX_EXACT_HITS exact
+
 #include "../../raytracer/device/path.h"
 
 #include <math.h>
@@ -414,5 +417,7 @@ int main(void) {
       cmocka_unit_test(test_rectangle_against_its_form_factor),
       cmocka_unit_test(test_falloff),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  const int failures = cmocka_run_group_tests_name("hits in binary32", tests, NULL, NULL);
+  exact = true;
+  return failures + cmocka_run_group_tests_name("exact hits", tests, NULL, NULL);
 }

@@ -115,11 +115,14 @@ refuse 'not taken by increments' --sampled --program idle.elf --size 320x180
 printf '#include <trax.h>\nstruct trax_buffer scene, image;\nunsigned next_slot[65];\nint main(void) { return scene.size + image.size + next_slot[64] == 0; }\n' >many.c
 "$bin/clang" --target=trax -O2 many.c -o many.elf || fail "many.c"
 refuse 'next_slot has 65 queues; allowed are 64 at most' --sampled --program many.elf
-for value in 0 1.5 -0.1 nan '' 5%; do
+for value in 0 1.5 -0.1 nan 5%; do
   refuse '--sample-fraction .*: expected' --sampled --sample-fraction "$value"
 done
-for value in 0 51 -1 x ''; do
+for value in 0 51 -1 x; do
   refuse '--sample-error .*: expected' --sampled --sample-error "$value"
+done
+for option in fraction error; do
+  refuse "--sample-$option: the value is empty" --sampled --sample-$option ''
 done
 for option in seed unit warm-up; do
   refuse 'expected a number' --sampled --sample-$option 0
