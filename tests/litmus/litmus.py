@@ -33,7 +33,7 @@ def compiled(options, name, level, runs, relaxed, directory):
 def outcomes(options, binary, machine, seed, broken="none"):
     """(runs, weak, broken), or what went wrong."""
     tms, tps = machine.split("x")
-    done = subprocess.run([os.path.join(options.build, "bin", "isa-weak-model"), "--tms", tms, "--tps", tps, "--limit", "20000000000", binary],
+    done = subprocess.run([os.path.join(options.build, "bin", "isa-weak-model"), "--tms", tms, "--tps", tps, "--limit", "2000000000", binary],
                           env=os.environ | {"TRAX_SEED": str(seed), "TRAX_BREAK": broken}, capture_output=True, text=True, timeout=SECONDS,
                           check=False)
     counts = re.fullmatch(r"(\d+) runs: (\d+) weak, (\d+) broken\n", done.stdout)
@@ -71,7 +71,8 @@ def check(options, name, machine, directory):
         for seed in options.seeds.split(","):
             problem = strong(options, name, level, machine, int(seed), directory)
             problems += [f"{level}, seed {seed}: {problem}"] if problem else []
-        for relaxed in (False, True):
+        # Without fences the library's locks fail too, and what is not inline may wait forever.
+        for relaxed in (False, True) if level == "-O2" else (True,):
             result = without(options, name, level, machine, 0, directory, relaxed)
             if isinstance(result, str):
                 problems.append(f"{level}, {'relaxed' if relaxed else 'fences ignored'}: {result}")

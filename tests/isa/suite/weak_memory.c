@@ -70,13 +70,14 @@ struct queue {
   unsigned speed; /* of 8: how often the thread has its turn */
 };
 struct line {
-  bool present;
+  uint64_t filled; /* 1 + how often the cache had been emptied; 0: never */
   uint32_t address;
   uint8_t bytes[LINE];
 };
 
 static struct queue queues[THREADS];
 static struct line caches[THREADS][LINES]; /* by TM */
+static uint64_t drops[THREADS];            /* how often each was emptied */
 static uint64_t random_state;
 
 void __real_model_execute(struct model_execution *, const struct model_node *);
@@ -126,9 +127,13 @@ static struct line *line_of(uint32_t tm, uint32_t address) {
   return &caches[tm][address / LINE % LINES];
 }
 
+static bool is_present(uint32_t tm, const struct line *line, uint32_t address) {
+  return line->filled == drops[tm] + 1 && line->address == address / LINE * LINE;
+}
+
 static void update_cache(const struct model_thread *thread, const struct waiting *store) {
   struct line *line = line_of(thread->tm, store->address);
-  if (line->present && line->address == store->address / LINE * LINE && broken() != OWN_TM &&
+  if (is_present(thread->tm, line, store->address) && broken() != OWN_TM &&
       !(store->past_cache && broken() == OWN_COPY))
     put(line->bytes + store->address % LINE, store->value, store->bytes);
 }
@@ -184,8 +189,8 @@ static uint32_t with_own(const uint8_t *bytes, const struct queue *queue, uint32
 
 static const uint8_t *cached(struct model_machine *machine, const struct model_thread *thread, uint32_t address) {
   struct line *line = line_of(thread->tm, address);
-  if (!line->present || line->address != address / LINE * LINE || any(64) == 0) {
-    line->present = true;
+  if (!is_present(thread->tm, line, address) || any(64) == 0) {
+    line->filled = drops[thread->tm] + 1;
     line->address = address / LINE * LINE;
     memcpy(line->bytes, machine->memory + line->address, LINE);
   }
@@ -356,8 +361,11 @@ void __wrap_model_execute(struct model_execution *execution, const struct model_
 static void acquire(struct model_machine *machine, struct model_thread *thread) {
   if (broken() != R_WAITS)
     complete_some(machine, thread, ANY_WORD, true, true);
-  for (unsigned i = broken() == R_FILLS; i < LINES && broken() != R_DROPS; i++)
-    caches[thread->tm][i].present = false;
+  if (broken() == R_DROPS)
+    return;
+  drops[thread->tm]++;
+  if (broken() == R_FILLS)
+    caches[thread->tm][0].filled++;
 }
 
 static void release(struct model_machine *machine, struct model_thread *thread) {
