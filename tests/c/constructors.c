@@ -19,7 +19,7 @@ __attribute__((constructor)) static void third(void) {
 int main(void) {
   if (order == 20)
     trax_atomic_inc(&ready);
-  if (trax_atomic_inc(&arrived) == 31)
+  if (__atomic_fetch_add(&arrived, 1, __ATOMIC_ACQ_REL) == trax_threads() - 1)
     printf("%d %d %d %u\n", early, late, order, ready);
   return 0;
 }
