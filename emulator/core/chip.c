@@ -4,7 +4,6 @@
 #include "core/slots.h"
 #include "fast/engine.h"
 #include "fast/functional.h"
-#include "fast/sampled.h"
 #include "fast/windows.h"
 #include "reference/run.h"
 
@@ -31,8 +30,6 @@ trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machin
   chip->engine = trax_fast_best_engine();
   if (chip->engine->create(chip, error))
     return TRAX_ERROR;
-  if (options->engine == TRAX_ENGINE_SAMPLED)
-    return (chip->sampled = trax_sampled_create(chip, options, error)) ? TRAX_OK : TRAX_ERROR;
   if (options->slots && !(chip->slots = trax_slots_create(chip, options->slots, error)))
     return TRAX_ERROR;
   return trax_windows_create(chip, options->host_threads, error);
@@ -43,7 +40,6 @@ void trax_chip_destroy(struct trax_chip *chip) {
   if (chip->engine)
     chip->engine->destroy(chip->fast);
   trax_functional_destroy(chip->functional);
-  trax_sampled_destroy(chip->sampled);
   trax_slots_destroy(chip->slots);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
@@ -145,7 +141,7 @@ trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *option
       *cycles = limit;
       return TRAX_STUCK;
     }
-    if (trax_poll(&poll, t + chip->skipped)) {
+    if (trax_poll(&poll, t)) {
       *cycles = t;
       return TRAX_INTERRUPTED;
     }

@@ -37,10 +37,8 @@ struct trax_chip {
   struct trax_windows *windows;          /* if its TMs run ahead of each other; else NULL */
   struct trax_functional *functional;    /* instead of an engine, where time is not wanted; else NULL */
   const struct trax_ref_chip *reference; /* the reference engine's; else NULL */
-  struct trax_sampled *sampled;          /* if most of the run is executed without time; else NULL */
   struct trax_slots *slots;              /* if most of the run's work is left out; else NULL */
   uint64_t begin;                        /* the run's first cycle; not 0 if it goes on with another's */
-  uint64_t skipped;                      /* cycles estimated for that */
 };
 
 /* How many threads have not ended. */

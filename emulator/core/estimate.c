@@ -1,7 +1,5 @@
 #include "core/estimate.h"
 
-#include "fast/sampled.h"
-
 #include <math.h>
 
 uint32_t trax_estimate_unit(const double *sizes, uint32_t units, double place) {
@@ -14,6 +12,15 @@ uint32_t trax_estimate_unit(const double *sizes, uint32_t units, double place) {
       low = middle + 1;
   }
   return low;
+}
+
+double trax_student_95(uint64_t degrees_of_freedom) {
+  static const double few[] = {0, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179};
+  const double z = 1.959964, n = (double)degrees_of_freedom;
+  if (degrees_of_freedom < sizeof few / sizeof *few)
+    return few[degrees_of_freedom];
+  return z + (pow(z, 3) + z) / (4 * n) + (5 * pow(z, 5) + 16 * pow(z, 3) + 3 * z) / (96 * n * n) +
+         (3 * pow(z, 7) + 19 * pow(z, 5) + 17 * pow(z, 3) - 15 * z) / (384 * n * n * n);
 }
 
 static double mean_of(const double *values, size_t count) {

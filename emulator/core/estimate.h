@@ -25,6 +25,9 @@ uint32_t trax_estimate_unit(const double *sizes, uint32_t units, double place);
    each is drawn from a part of its own of the units. The interval is Student's. */
 struct trax_estimate trax_estimate_total(const double *ratios, size_t count, double total_size);
 
+/* Student's t: with probability 0.95 a value of this distribution lies between minus and plus the result. */
+double trax_student_95(uint64_t degrees_of_freedom);
+
 /* How many draws of that spread give an interval of plus and minus `relative` times the estimate; at least `count`. */
 size_t trax_estimate_draws(const double *ratios, size_t count, double relative);
 

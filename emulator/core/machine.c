@@ -3,7 +3,6 @@
 
 #include "core/chip.h"
 #include "core/slots.h"
-#include "fast/sampled.h"
 #include "reference/run.h"
 
 #include <inttypes.h>
@@ -220,8 +219,6 @@ static trax_status run_chip(struct trax_machine *machine, const trax_run_options
       if (watch->end)
         watch->end(watch, &chip, status, machine->stats.cycles);
     trax_chip_settle(&chip, machine->stats.cycles);
-    if (chip.sampled)
-      trax_sampled_finish(chip.sampled, machine->stats.cycles);
     if (chip.slots && status == TRAX_OK)
       status = trax_slots_finish(chip.slots, machine->stats.cycles, error);
   }
@@ -253,8 +250,8 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
     return TRAX_ERROR;
   machine->at_limit = machine->status == TRAX_STUCK && options->max_cycles &&
                       (options->engine == TRAX_ENGINE_FUNCTIONAL || machine->stats.cycles >= options->max_cycles);
-  const bool exact = options->engine != TRAX_ENGINE_FUNCTIONAL && options->engine != TRAX_ENGINE_SAMPLED;
-  if (collect(machine, exact && !options->slots, error))
+  const bool exact = options->engine != TRAX_ENGINE_FUNCTIONAL && !options->slots;
+  if (collect(machine, exact, error))
     return machine->status = TRAX_ERROR;
   return report_outcome(machine, options, error);
 }

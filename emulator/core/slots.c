@@ -31,7 +31,7 @@ enum {
 
 enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
 
-/* All that is counted, as in fast/sampled.c: the TMs' statistics, the TPs' charges, and beyond the TMs. */
+/* All that is counted: the TMs' statistics, the TPs' charges, and beyond the TMs. */
 enum {
   TM_WORDS = sizeof(struct trax_tm_stats) / sizeof(uint64_t),
   MEMORY_WORDS = sizeof(struct trax_memory_stats) / sizeof(uint64_t)
@@ -481,10 +481,8 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
   struct trax_machine *machine = slots->chip->machine;
   struct trax_sampling_stats *stats = &machine->stats.sampling;
   *stats = (struct trax_sampling_stats){.is_sampled = true,
-                                        .has_interval = true,
-                                        .of_slots = true,
                                         .predicted = slots->asked.costs ? cost_before(slots, slots->asked.slots) : 0,
-                                        .asked_slots = slots->asked,
+                                        .asked = slots->asked,
                                         .low = (double)t,
                                         .high = (double)t,
                                         .detailed_cycles = t,

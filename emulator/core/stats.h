@@ -108,18 +108,13 @@ struct trax_tm_stats {
 #undef TRAX_COUNTER_FIELD
 };
 
-/* What a sampled run (fast/sampled.c, core/slots.c) says about its estimates. */
+/* What a sampled run (core/slots.c) says about its estimates. */
 struct trax_sampling_stats {
   bool is_sampled;
-  bool has_interval; /* there were windows enough, or nothing was estimated */
-  trax_sampling asked;
-  uint64_t windows;
+  trax_slot_sampling asked;
+  uint64_t windows; /* ranges of slots that were measured */
   double low, high; /* cycles: 95 % interval */
-  uint64_t detailed_cycles, detailed_instructions;
-
-  bool of_slots; /* then, instead of `asked`: */
-  trax_slot_sampling asked_slots;
-  uint64_t detailed_slots;
+  uint64_t detailed_cycles, detailed_instructions, detailed_slots;
   double predicted; /* sum of the costs that were guessed; 0: none */
 };
 

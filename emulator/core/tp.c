@@ -68,9 +68,9 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
   case TRAX_SR_THREADS:
     return tm->config->chip.tms * tm->tps;
   case TRAX_SR_CYCLE:
-    return (uint32_t)(t + tm->machine->chip->skipped);
+    return (uint32_t)t;
   case TRAX_SR_CYCLEH:
-    return (uint32_t)((t + tm->machine->chip->skipped) >> 32);
+    return (uint32_t)(t >> 32);
   }
   return 0; /* the decoder lets no other pass */
 }

@@ -1,22 +1,18 @@
 /* The functional mode: what a program computes, without time. Threads take turns of TRAX_TURN instructions or a few
    more (a turn ends with a jump); within a turn every instruction takes effect at once. Caches, units, queues and the
    write-combining buffers do not exist, and the run has no length: cycles are 0, and of the counts only those made from
-   the instructions executed are kept. `rdsr cycle` gives the number of instructions that the thread has executed.
-
-   Sampled simulation (sampled.c) passes the time between its windows in the same way, in shorter turns, and partly with
-   the caches' contents as they would be. */
+   the instructions executed are kept. `rdsr cycle` gives the number of instructions that the thread has executed. */
 #include "fast/functional.h"
 
-#include "core/l2.h"
 #include "core/traps.h"
 #include "trax/semantics.h"
 
 #include <string.h>
 
-enum { TRAX_TURN = 4096, SHORT_TURN = 64 };
+enum { TRAX_TURN = 4096 };
 
 struct instruction {
-  const void *operation; /* where function() executes it */
+  const void *operation; /* where execute_turn() executes it */
   int32_t imm;
   uint8_t op, rd, ra, rb;
 };
@@ -33,19 +29,13 @@ struct text {
   const struct instruction *outside; /* the last */
 };
 
-enum variant { PLAIN, WARMING, VARIANTS };
-
 struct trax_functional {
   struct trax_chip *chip;
-  struct text text[VARIANTS]; /* alike but for the places of the operations */
+  struct text text;
   size_t inst_count;
   int64_t **changes;  /* [tms][inst_count + 1] as in trax_fast_tm */
   uint64_t *executed; /* [threads] */
   int64_t *left;      /* [threads]: of their turns */
-  uint64_t misses;    /* of data */
-  int64_t penalty;    /* instructions that a thread could execute while it waits for one */
-  bool standing;      /* time stands still in cycle `now`; else it is each thread's count of instructions */
-  uint64_t now;
 };
 
 enum stop { STOP_TURN, STOP_SLOW };
@@ -57,62 +47,9 @@ static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
   return text->outside;
 }
 
-static uint64_t time_of(const struct trax_functional *functional, uint64_t executed) {
-  return functional->standing ? functional->now : executed;
-}
-
-/* --- the caches' contents, without their time --- */
-
-/* False if the line was there. */
-static bool touch_line(struct trax_cache_tags *tags, uint32_t line) {
-  if (trax_cache_tags_use(tags, line))
-    return false;
-  trax_cache_tags_install(tags, line);
-  return true;
-}
-
-/* A line that a TM's cache missed. */
-static void touch_l2(struct trax_memory *memory, uint32_t address) {
-  if (memory->l2)
-    touch_line(&memory->l2->tags, trax_line_of(&memory->l2->tags, address));
-}
-
-static inline bool touch_data(struct trax_tm *tm, uint32_t address) {
-  if (!touch_line(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
-    return false;
-  touch_l2(&tm->machine->chip->memory, address);
-  return true;
-}
-
-static inline void touch_text(struct trax_tm *tm, struct trax_icache *icache, uint32_t begin, uint32_t end) {
-  const uint32_t last = trax_line_of(&icache->tags, end);
-  for (uint32_t line = trax_line_of(&icache->tags, begin); line <= last; line++)
-    if (touch_line(&icache->tags, line))
-      touch_l2(&tm->machine->chip->memory, line << icache->tags.line_shift);
-}
-
-/* --- turns --- */
-
-/* Executes the TP's instructions from tp->pc on until `turn` are over, or the next one is for execute_slowly; the
-   second function also takes what they touch into the caches. Without a TP: *operations receives the places of all
-   operations. */
-#define FUNCTION function
-#define TOUCH_DATA(ADDRESS) ((void)0)
-#define TOUCH_TEXT(BEGIN, END) ((void)0)
 #include "fast/functional_turn.h"
 
-#define FUNCTION function_warming
-#define TOUCH_DATA(ADDRESS)                                                                                            \
-  do {                                                                                                                 \
-    if (touch_data(tm, ADDRESS)) {                                                                                     \
-      functional->misses++;                                                                                            \
-      end -= functional->penalty;                                                                                      \
-    }                                                                                                                  \
-  } while (0)
-#define TOUCH_TEXT(BEGIN, END) touch_text(tm, icache, BEGIN, END)
-#include "fast/functional_turn.h"
-
-/* --- what function() leaves to the core --- */
+/* --- what execute_turn() leaves to the core --- */
 
 static void increment(struct trax_functional *functional, struct trax_tp *tp) {
   uint8_t *const place = functional->chip->machine->space.bytes + tp->address;
@@ -126,8 +63,7 @@ static void increment(struct trax_functional *functional, struct trax_tp *tp) {
 static bool execute_slowly(struct trax_functional *functional, struct trax_tm *tm, unsigned number,
                            uint64_t *executed) {
   struct trax_tp *tp = &tm->tp[number];
-  const uint64_t index = (uint64_t)(inst_at(&functional->text[PLAIN], tp->pc) - functional->text[PLAIN].inst);
-  const uint64_t now = time_of(functional, *executed);
+  const uint64_t index = (uint64_t)(inst_at(&functional->text, tp->pc) - functional->text.inst);
   const struct trax_decoded *inst = tp->inst = trax_text_at(tm->text, tp->pc);
   trax_fault_kind kind = TRAX_FAULT_NONE;
   uint32_t address = 0;
@@ -141,12 +77,12 @@ static bool execute_slowly(struct trax_functional *functional, struct trax_tm *t
     kind = trax_tp_check_access(tp, &functional->chip->machine->space, address);
   }
   if (kind) {
-    trax_tm_fault(tm, number, now, kind, address);
+    trax_tm_fault(tm, number, *executed, kind, address);
     return false;
   }
   if (inst->is_atomic)
     increment(functional, tp);
-  if (!trax_tp_execute(tm, number, now))
+  if (!trax_tp_execute(tm, number, *executed))
     return false;
   if (inst->is_nontemporal && tp->address < TRAX_LOCAL_BASE)
     ++*(inst->is_store ? &tm->stats->nontemporal_stores : &tm->stats->nontemporal_loads);
@@ -157,26 +93,23 @@ static bool execute_slowly(struct trax_functional *functional, struct trax_tm *t
 }
 
 /* The thread's turn, longer or shorter by what the one before has left. False if it faulted. */
-static bool take_turn(struct trax_functional *functional, struct trax_tm *tm, unsigned number, int64_t turn,
-                      enum variant variant, uint64_t *executed, int64_t *left) {
+static bool take_turn(struct trax_functional *functional, struct trax_tm *tm, unsigned number, uint64_t *executed,
+                      int64_t *left) {
   struct trax_tp *tp = &tm->tp[number];
-  *left += turn;
+  *left += TRAX_TURN;
   while (*left > 0 && !(tm->ended >> number & 1)) {
-    const uint64_t before = *executed, misses = functional->misses;
-    const enum stop stop = variant == WARMING
-                               ? function_warming(functional, &functional->text[WARMING], tm, tp, *left, executed, NULL)
-                               : function(functional, &functional->text[PLAIN], tm, tp, *left, executed, NULL);
+    const uint64_t before = *executed;
+    const enum stop stop = execute_turn(functional, tm, tp, *left, executed, NULL);
     if (stop == STOP_SLOW && !execute_slowly(functional, tm, number, executed))
       return false;
-    *left -= (int64_t)(*executed - before) + functional->penalty * (int64_t)(functional->misses - misses);
+    *left -= (int64_t)(*executed - before);
   }
   return true;
 }
 
 /* A turn of every thread. *instructions grows by what was executed. Also stops behind a thread that has executed
    `limit` instructions. */
-static trax_status take_turns(struct trax_functional *functional, int64_t turn, enum variant variant, uint64_t limit,
-                              uint64_t *instructions) {
+static trax_status take_turns(struct trax_functional *functional, uint64_t limit, uint64_t *instructions) {
   const struct trax_chip *chip = functional->chip;
   for (uint32_t i = 0; i < chip->tms; i++) {
     struct trax_tm *tm = &chip->tm[i];
@@ -184,8 +117,7 @@ static trax_status take_turns(struct trax_functional *functional, int64_t turn, 
       const size_t thread = (size_t)i * tm->tps + number;
       uint64_t *executed = &functional->executed[thread];
       const uint64_t before = *executed;
-      if (!(tm->ended >> number & 1) &&
-          !take_turn(functional, tm, number, turn, variant, executed, &functional->left[thread]))
+      if (!(tm->ended >> number & 1) && !take_turn(functional, tm, number, executed, &functional->left[thread]))
         return TRAX_FAULT;
       if (*executed >= limit)
         return TRAX_STUCK;
@@ -201,7 +133,7 @@ trax_status trax_functional_run(struct trax_functional *functional, uint64_t lim
                                 bool (*stop)(void *context, uint64_t instructions), void *context) {
   uint64_t instructions = 0, before = 0;
   while (trax_chip_running(functional->chip)) {
-    const trax_status status = take_turns(functional, TRAX_TURN, PLAIN, limit, &instructions);
+    const trax_status status = take_turns(functional, limit, &instructions);
     if (status)
       return status;
     if (instructions - before >= 1000000) { /* not in every turn of a few threads */
@@ -213,27 +145,13 @@ trax_status trax_functional_run(struct trax_functional *functional, uint64_t lim
   return TRAX_OK;
 }
 
-trax_status trax_functional_advance(struct trax_functional *functional, uint64_t instructions, uint32_t penalty,
-                                    uint64_t now, uint64_t *executed) {
-  const uint32_t running = trax_chip_running(functional->chip);
-  functional->standing = true;
-  functional->now = now;
-  functional->penalty = penalty;
-  memset(functional->left, 0, functional->chip->machine->stats.threads * sizeof *functional->left);
-  trax_status status = TRAX_OK;
-  *executed = 0;
-  while (!status && *executed < instructions && trax_chip_running(functional->chip) == running)
-    status = take_turns(functional, SHORT_TURN, WARMING, UINT64_MAX, executed);
-  return status;
-}
-
 void trax_functional_collect(struct trax_functional *functional) {
   for (uint32_t i = 0; i < functional->chip->tms; i++) {
     uint64_t *const instructions = functional->chip->tm[i].stats->instructions;
     int64_t count = 0;
     for (size_t index = 0; index < functional->inst_count; index++) {
       count += functional->changes[i][index];
-      instructions[functional->text[PLAIN].inst[index].op] += (uint64_t)count;
+      instructions[functional->text.inst[index].op] += (uint64_t)count;
     }
     memset(functional->changes[i], 0, functional->inst_count * sizeof *functional->changes[i]);
   }
@@ -273,9 +191,8 @@ static trax_status predecode(struct text *text, size_t total, const struct trax_
 
 struct trax_functional *trax_functional_create(struct trax_chip *chip, trax_error *error) {
   struct trax_functional *functional = calloc(1, sizeof *functional);
-  const void *const *operations[VARIANTS];
-  function(functional, NULL, NULL, NULL, 0, NULL, &operations[PLAIN]);
-  function_warming(functional, NULL, NULL, NULL, 0, NULL, &operations[WARMING]);
+  const void *const *operations;
+  execute_turn(functional, NULL, NULL, 0, NULL, &operations);
   size_t total = 1;
   for (size_t i = 0; i < chip->text.count; i++)
     total += (chip->text.sections[i].end - chip->text.sections[i].begin) / 4 + 1;
@@ -292,9 +209,7 @@ struct trax_functional *trax_functional_create(struct trax_chip *chip, trax_erro
     complete = (functional->changes[i] = calloc(total + 1, sizeof **functional->changes)) != NULL;
   if (!complete)
     trax_fail(error, "out of memory for %zu instructions", total);
-  for (unsigned variant = 0; complete && variant < VARIANTS; variant++)
-    complete = !predecode(&functional->text[variant], total, &chip->text, operations[variant], error);
-  if (complete)
+  if (complete && !predecode(&functional->text, total, &chip->text, operations, error))
     return functional;
   trax_functional_destroy(functional);
   return NULL;
@@ -303,10 +218,8 @@ struct trax_functional *trax_functional_create(struct trax_chip *chip, trax_erro
 void trax_functional_destroy(struct trax_functional *functional) {
   if (!functional)
     return;
-  for (unsigned variant = 0; variant < VARIANTS; variant++) {
-    free(functional->text[variant].sections);
-    free(functional->text[variant].inst);
-  }
+  free(functional->text.sections);
+  free(functional->text.inst);
   for (uint32_t i = 0; functional->changes && i < functional->chip->tms; i++)
     free(functional->changes[i]);
   free(functional->changes);

@@ -15,12 +15,6 @@ void trax_functional_destroy(struct trax_functional *functional); /* which may b
 trax_status trax_functional_run(struct trax_functional *functional, uint64_t limit,
                                 bool (*stop)(void *context, uint64_t instructions), void *context);
 
-/* Goes on for at least `instructions` of all threads together, and at most until a thread has ended, in short turns;
-   time stands still in cycle `now`. The caches' tags follow, and a thread that misses data falls behind by `penalty`
-   instructions. *executed receives the instructions. */
-trax_status trax_functional_advance(struct trax_functional *functional, uint64_t instructions, uint32_t penalty,
-                                    uint64_t now, uint64_t *executed);
-
 /* Adds the instructions executed since the last call to the TMs' statistics. */
 void trax_functional_collect(struct trax_functional *functional);
 

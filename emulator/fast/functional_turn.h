@@ -1,8 +1,9 @@
-/* One thread's turn of the functional mode, for functional.c, which includes this once for each FUNCTION with what it
-   does about the caches: TOUCH_DATA of a global load's address, TOUCH_TEXT of the first and the last pc of what was
-   executed in a row. */
-static enum stop FUNCTION(struct trax_functional *functional, const struct text *text, struct trax_tm *tm,
-                          struct trax_tp *tp, int64_t turn, uint64_t *executed, const void *const **operations) {
+/* One thread's turn of the functional mode; a part of functional.c.
+
+   Executes the TP's instructions from tp->pc on until `turn` are over, or the next one is for execute_slowly. Without a
+   TP: *operations receives the places of all operations. */
+static enum stop execute_turn(struct trax_functional *functional, struct trax_tm *tm, struct trax_tp *tp, int64_t turn,
+                              uint64_t *executed, const void *const **operations) {
   __extension__ static const void *const places[] = {
 #define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
 #include "trax/semantics.inc"
@@ -12,6 +13,7 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
     *operations = places;
     return STOP_TURN;
   }
+  const struct text *const text = &functional->text;
   const struct trax_space *const space = &functional->chip->machine->space;
   const uint64_t accessible = space->size - TRAX_NULL_END;
   const unsigned bits = tm->config->special.precision_bits;
@@ -19,12 +21,10 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
   uint32_t *const reg = tp->reg;
   uint8_t *const local = tp->local;
   int64_t *const changes = functional->changes[tm->number];
-  struct trax_icache *const icache = &tm->icache[number / tm->config->icache.tps_per_cache];
   const struct instruction *const base = text->inst;
   const struct section *const first = text->sections;
   const struct instruction *inst = inst_at(text, tp->pc), *begin = inst;
-  (void)icache;
-  int64_t end = (int64_t)*executed + turn;
+  const int64_t end = (int64_t)*executed + turn;
   uint64_t count = *executed;
   uint32_t address, word, pc = tp->pc;
   if (inst == text->outside)
@@ -43,10 +43,9 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
     word = 0;                                                                                                          \
     if (address & (BYTES - 1))                                                                                         \
       goto slow;                                                                                                       \
-    if (address - TRAX_NULL_END < accessible) {                                                                        \
+    if (address - TRAX_NULL_END < accessible)                                                                          \
       memcpy(&word, space->bytes + address, BYTES);                                                                    \
-      TOUCH_DATA(address);                                                                                             \
-    } else if (address >= TRAX_LOCAL_BASE)                                                                             \
+    else if (address >= TRAX_LOCAL_BASE)                                                                               \
       memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
     else                                                                                                               \
       goto slow;                                                                                                       \
@@ -72,8 +71,7 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
     goto slow;                                                                                                         \
     0u;                                                                                                                \
   }))
-#define SPECIAL_REGISTER(NUMBER)                                                                                       \
-  trax_tp_special_register(tm, number, NUMBER, time_of(functional, count + (uint64_t)(inst - begin)))
+#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, count + (uint64_t)(inst - begin))
 #define TRAP(VALUE, CODE) goto slow
 #define FENCE(KIND) goto slow
 #define HALT() goto slow
@@ -85,7 +83,6 @@ static enum stop FUNCTION(struct trax_functional *functional, const struct text 
     if (next_pc != NOWHERE) {                                                                                          \
       changes[inst + 1 - base]--;                                                                                      \
       count += (uint64_t)(inst + 1 - begin);                                                                           \
-      TOUCH_TEXT(pc, HERE);                                                                                            \
       pc = (uint32_t)next_pc;                                                                                          \
       begin = inst =                                                                                                   \
           pc % 4 == 0 && pc - first->begin < first->bytes ? first->inst + (pc - first->begin) / 4 : inst_at(text, pc); \
@@ -115,8 +112,5 @@ jumped:
   return inst == text->outside ? STOP_SLOW : STOP_TURN;
 }
 
-#undef FUNCTION
-#undef TOUCH_DATA
-#undef TOUCH_TEXT
 #undef HERE
 #undef NOWHERE

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "backtrace.h"
-#include "bench_modes.h"
 #include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
@@ -116,8 +115,7 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
                                   .total_items = options->total_items,
                                   .interrupt = &trax_signal,
                                   .engine = options->engine,
-                                  .host_threads = options->host_threads,
-                                  .sampling = options->sampling};
+                                  .host_threads = options->host_threads};
   if (!options->quiet && isatty(STDERR_FILENO)) {
     run_options.progress = trax_progress_show;
     run_options.progress_context = &line;
@@ -202,15 +200,6 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
 /* --gdb-symbols: from the program, once it has been checked. */
 static trax_status write_symbols(const struct trax_options *options, trax_error *error) {
   return options->gdb_symbols ? trax_gdb_write_symbols(options->program, options->gdb_symbols, error) : TRAX_OK;
-}
-
-static int compare_modes(const trax_config *config, const struct trax_options *options) {
-  trax_error error;
-  catch_signals();
-  if ((options->stats && trax_output_check(options->stats, &error) != TRAX_OK) ||
-      trax_bench_modes(config, options, load, &trax_signal, stdout, &error) != TRAX_OK)
-    return complain(&error);
-  return EXIT_SUCCESS;
 }
 
 static int simulate(const trax_config *config, const struct trax_options *options) {
@@ -324,8 +313,6 @@ int main(int count, char **arguments) {
   } else if (options.print_config) {
     trax_config_print(config, stdout);
     result = flush_standard_output(EXIT_SUCCESS);
-  } else if (options.bench_modes) {
-    result = flush_standard_output(compare_modes(config, &options));
   } else {
     result = simulate(config, &options);
   }

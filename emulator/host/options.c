@@ -40,7 +40,6 @@ enum option_id {
   OPTION_WATCHDOG,
   OPTION_PROGRESS_TOTAL,
   OPTION_ENGINE,
-  OPTION_SAMPLE,
   OPTION_HOST_THREADS,
   OPTION_CHECK_ORDER,
   OPTION_POST_MORTEM,
@@ -50,7 +49,6 @@ enum option_id {
   OPTION_CHECKPOINT_AT,
   OPTION_CHECKPOINT_EVERY,
   OPTION_RESUME,
-  OPTION_BENCH_MODES,
   OPTION_QUIET,
   OPTION_PRINT_CONFIG,
   OPTION_HELP_CONFIG,
@@ -93,9 +91,7 @@ static const struct {
     [OPTION_WATCHDOG] = {"watchdog", "N",
                          "the same when for N cycles no thread ends and no ray, item or output is seen"},
     [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
-    [OPTION_ENGINE] = {"engine", "NAME",
-                       "fast (default), reference (the same, slower), sampled (estimates) or functional (no time)"},
-    [OPTION_SAMPLE] = {"sample", "KEY=N,...", "--engine sampled, with period, window, warm-up, hold or seed set"},
+    [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
     [OPTION_HOST_THREADS] = {"host-threads", "N",
                              "threads of the host for the fast engine; default one for each processor it may use"},
     [OPTION_CHECK_ORDER] = {"check-order", NULL,
@@ -108,7 +104,6 @@ static const struct {
     [OPTION_CHECKPOINT_EVERY] = {"checkpoint-every", "N", "before each multiple of N cycles"},
     [OPTION_RESUME] = {"resume", "FILE",
                        "go on with the run of a checkpoint; the other options are to be as they were"},
-    [OPTION_BENCH_MODES] = {"bench-modes", NULL, "run in every mode, and print what each costs and how far off it is"},
     [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
     [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
     [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
@@ -140,12 +135,23 @@ static const char *option_name(const void *context, size_t i) {
   return table[i].name;
 }
 
+/* Options of earlier versions, with what to use instead. */
+static const struct {
+  const char *name, *instead;
+} removed[] = {
+    {"sample", "for estimates use trax-render --sampled, with --sample-fraction and the like"},
+    {"bench-modes", "run with --engine fast and --engine functional; for estimates use trax-render --sampled"},
+};
+
 static trax_status find_option(const char *name, size_t length, enum option_id *id, trax_error *error) {
   for (unsigned i = 0; i < OPTIONS; ++i)
     if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0) {
       *id = (enum option_id)i;
       return TRAX_OK;
     }
+  for (unsigned i = 0; i < sizeof removed / sizeof *removed; ++i)
+    if (strlen(removed[i].name) == length && strncmp(removed[i].name, name, length) == 0)
+      return trax_fail(error, "--%s has been removed; %s", removed[i].name, removed[i].instead);
   char mistyped[128];
   snprintf(mistyped, sizeof mistyped, "%.*s", (int)(length < 120 ? length : 120), name);
   const char *nearest = trax_nearest_name(mistyped, OPTIONS, option_name, NULL);
@@ -220,37 +226,9 @@ static trax_status set_engine(struct trax_options *options, const char *value, t
     options->engine = TRAX_ENGINE_FAST;
   else if (strcmp(value, "functional") == 0)
     options->engine = TRAX_ENGINE_FUNCTIONAL;
-  else if (strcmp(value, "sampled") == 0)
-    options->engine = TRAX_ENGINE_SAMPLED;
   else
-    return trax_fail(error, "--engine: \"%s\" is none of fast, reference, sampled and functional", value);
-  return TRAX_OK;
-}
-
-/* "period=1000000,seed=3" */
-static trax_status set_sampling(struct trax_options *options, const char *list, trax_error *error) {
-  static const char *const names[] = {"period", "window", "warm-up", "hold", "seed"};
-  uint64_t *const values[] = {&options->sampling.period, &options->sampling.window, &options->sampling.warm_up,
-                              &options->sampling.hold, &options->sampling.seed};
-  options->engine = TRAX_ENGINE_SAMPLED;
-  for (bool more = true; more;) {
-    char item[64];
-    const size_t length = strcspn(list, ",");
-    snprintf(item, sizeof item, "%.*s", (int)(length < sizeof item ? length : sizeof item - 1), list);
-    char *equals = strchr(item, '=');
-    size_t i = sizeof names / sizeof *names;
-    if (equals) {
-      *equals = '\0';
-      for (i = 0; i < sizeof names / sizeof *names && strcmp(item, names[i]) != 0;)
-        i++;
-    }
-    if (i == sizeof names / sizeof *names)
-      return trax_fail(error, "--sample: \"%s\" sets none of period, window, warm-up, hold and seed", item);
-    if (parse_number("sample", equals + 1, 1, (uint64_t)1 << 40, values[i], error) != TRAX_OK)
-      return TRAX_ERROR;
-    more = list[length] == ',';
-    list += length + more;
-  }
+    return trax_fail(error, "--engine: \"%s\" is none of fast, reference and functional%s", value,
+                     strcmp(value, "sampled") == 0 ? "; for estimates use trax-render --sampled" : "");
   return TRAX_OK;
 }
 
@@ -357,8 +335,6 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return parse_number(table[id].name, value, 0, UINT16_MAX, &options->gdb_port, error);
   case OPTION_GDB_SYMBOLS:
     return set_once(id, &options->gdb_symbols, value, error);
-  case OPTION_SAMPLE:
-    return set_sampling(options, value, error);
   case OPTION_CHECKPOINT:
     return set_once(id, &options->checkpoint.write, value, error);
   case OPTION_CHECKPOINT_AT:
@@ -367,9 +343,6 @@ static trax_status apply(struct trax_options *options, enum option_id id, const 
     return parse_number(table[id].name, value, 1, UINT64_MAX, &options->checkpoint.every, error);
   case OPTION_RESUME:
     return set_once(id, &options->checkpoint.resume, value, error);
-  case OPTION_BENCH_MODES:
-    options->bench_modes = true;
-    break;
   case OPTION_QUIET:
     options->quiet = true;
     break;

@@ -29,11 +29,9 @@ struct trax_options {
   unsigned host_threads; /* 0: not given */
   bool gdb;
   uint64_t gdb_port;
-  trax_sampling sampling;
   struct trax_checkpoint_options checkpoint;
   bool quiet;
   bool print_config;
-  bool bench_modes;
   enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;
 };
 

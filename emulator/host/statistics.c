@@ -308,12 +308,8 @@ static void print_sampling(const struct trax_sampling_stats *sampling, FILE *out
     return;
   fprintf(out, "sampled  %" PRIu64 " windows, %" PRIu64 " cycles simulated; ", sampling->windows,
           sampling->detailed_cycles);
-  if (sampling->has_interval)
-    fprintf(out, "the run takes %.0f to %.0f cycles with 95 %% confidence\n", sampling->low, sampling->high);
-  else
-    fprintf(out, "too few windows to say how far off the estimate is\n");
-  fprintf(out, "         all figures are estimates but those of %s\n",
-          sampling->of_slots ? "rays and items" : "instructions, operations, rays and items");
+  fprintf(out, "the run takes %.0f to %.0f cycles with 95 %% confidence\n", sampling->low, sampling->high);
+  fprintf(out, "         all figures are estimates but those of rays and items\n");
 }
 
 static void print_ending(const trax_machine *machine, FILE *out) {

@@ -19,9 +19,8 @@
              "of an abort")                                                                                            \
   X("sampled",                                                                                                         \
     "only of a sampled run: cycles_low and cycles_high, mrps_low and mrps_high, between which these lie with 95 % "    \
-    "confidence (null: too few windows); windows, detailed_cycles, detailed_instructions: what was simulated; exact: " \
-    "the figures that are no estimates; period, window, warm_up, hold, seed, or, where slots are sampled, slots, "     \
-    "queues, detailed_slots, predicted_cycles, fraction, error, unit, warm_up, seed")                                  \
+    "confidence; windows, detailed_cycles, detailed_instructions, detailed_slots: what was simulated; exact: the "     \
+    "figures that are no estimates; slots, queues, predicted_cycles, fraction, error, unit, warm_up, seed")            \
   X("identity", "cause_sum, thread_cycles, and holds: whether they are equal, as they must be")                        \
   X("tms", "for each TM: tm, the figures that are counted in every TM, utilisations and hit rates of its own, and "    \
            "tps: for each TP "                                                                                         \
@@ -120,9 +119,18 @@ static json_t *mrps_at(const trax_machine *machine, double cycles) {
   return json_real((double)machine->stats.total.rays * machine->config.chip.clock_mhz / cycles);
 }
 
-static void put_slots(struct document *document, json_t *object, const trax_machine *machine) {
+static void put_sampling(struct document *document, const trax_machine *machine) {
   const struct trax_sampling_stats *sampling = &machine->stats.sampling;
-  const trax_slot_sampling *asked = &sampling->asked_slots;
+  const trax_slot_sampling *asked = &sampling->asked;
+  json_t *object = json_object();
+  put(document, document->root, "sampled", object);
+  put(document, object, "cycles_low", json_real(sampling->low));
+  put(document, object, "cycles_high", json_real(sampling->high));
+  put(document, object, "mrps_low", mrps_at(machine, sampling->high));
+  put(document, object, "mrps_high", mrps_at(machine, sampling->low));
+  put(document, object, "windows", json_integer((json_int_t)sampling->windows));
+  put(document, object, "detailed_cycles", json_integer((json_int_t)sampling->detailed_cycles));
+  put(document, object, "detailed_instructions", json_integer((json_int_t)sampling->detailed_instructions));
   put(document, object, "slots", json_integer(asked->slots));
   put(document, object, "queues", json_integer(asked->queues));
   put(document, object, "detailed_slots", json_integer((json_int_t)sampling->detailed_slots));
@@ -138,31 +146,6 @@ static void put_slots(struct document *document, json_t *object, const trax_mach
     json_array_append_new(exact, json_string("rays"));
   if (asked->items)
     json_array_append_new(exact, json_string("items"));
-}
-
-static void put_sampling(struct document *document, const trax_machine *machine) {
-  const struct trax_sampling_stats *sampling = &machine->stats.sampling;
-  json_t *object = json_object();
-  put(document, document->root, "sampled", object);
-  put(document, object, "cycles_low", sampling->has_interval ? json_real(sampling->low) : json_null());
-  put(document, object, "cycles_high", sampling->has_interval ? json_real(sampling->high) : json_null());
-  put(document, object, "mrps_low", sampling->has_interval ? mrps_at(machine, sampling->high) : json_null());
-  put(document, object, "mrps_high", sampling->has_interval ? mrps_at(machine, sampling->low) : json_null());
-  put(document, object, "windows", json_integer((json_int_t)sampling->windows));
-  put(document, object, "detailed_cycles", json_integer((json_int_t)sampling->detailed_cycles));
-  put(document, object, "detailed_instructions", json_integer((json_int_t)sampling->detailed_instructions));
-  if (sampling->of_slots) {
-    put_slots(document, object, machine);
-    return;
-  }
-  put(document, object, "period", json_integer((json_int_t)sampling->asked.period));
-  put(document, object, "window", json_integer((json_int_t)sampling->asked.window));
-  put(document, object, "warm_up", json_integer((json_int_t)sampling->asked.warm_up));
-  put(document, object, "hold", json_integer((json_int_t)sampling->asked.hold));
-  put(document, object, "seed", json_integer((json_int_t)sampling->asked.seed));
-  put(document, object, "exact",
-      json_pack("[s, s, s, s, s, s]", "instructions", "instructions_by_unit", "instructions_by_operation", "rays",
-                "items", "flops"));
 }
 
 static void put_identity(struct document *document, const trax_machine *machine) {

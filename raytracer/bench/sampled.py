@@ -5,9 +5,8 @@
                                [--exact DIRECTORY] [--bin build/bin] [--fractions 0.05]
 
 SCENES_DIRECTORY is lean.py's, or holds NAME.trax. For each scene and chip a row for the exact run, for
-trax-render --sampled of each fraction and seed, for the prediction alone, for a picture of a quarter of the width and height
-whose cycles are scaled by the number of pixels, and, with --windows, for trax-sim --engine sampled, which samples time. Times are
-of the host's processor, for one thread, without reading the scene; ratios are of one run of this program, so that other
+trax-render --sampled of each fraction and seed, for the prediction alone, and for a picture of a quarter of the width and height
+whose cycles are scaled by the number of pixels. Times are of the host's processor, for one thread, without reading the scene; ratios are of one run of this program, so that other
 work on the host counts for both. --exact keeps the statistics of exact runs for the next time, under names of all that decides
 them, with their time. The last line counts the intervals that hold the exact cycles.
 """
@@ -64,11 +63,6 @@ class Case:
             kept.write_text(json.dumps({"cycles": statistics["cycles"], "seconds": seconds}))
         return statistics["cycles"], seconds
 
-    def windows(self):
-        stats = self.scratch / "windows.json"
-        seconds = timed(["env", f"TRAX_SIM={self.options.bin.resolve()}/trax-sim", "sh", self.scratch / "inputs/run.sh", "--engine", "sampled", "--quiet", "--stats", stats])
-        return json.loads(stats.read_text()), seconds
-
 
 def main():
     parser = arguments(__doc__, "1280x720")
@@ -78,7 +72,6 @@ def main():
     parser.add_argument("--fractions", default="0.05")
     parser.add_argument("--warm-ups", default="", help="slots before a range, a row for each; default: what trax-render takes")
     parser.add_argument("--exact", type=pathlib.Path)
-    parser.add_argument("--windows", action="store_true")
     options = parser.parse_args()
 
     counts = {}
@@ -102,7 +95,7 @@ def main():
                         hit, all_ = counts.get(how, (0, 0))
                         counts[how] = (hit + holds, all_ + 1)
                         cells += [f"{100 * (low / truth - 1):+.1f} ... {100 * (high / truth - 1):+.1f}", "yes" if holds else "no",
-                                  f"{100 * sampled['detailed_slots'] / sampled['slots']:.1f}" if "slots" in sampled else ""]
+                                  f"{100 * sampled['detailed_slots'] / sampled['slots']:.1f}"]
                     else:
                         cells += ["", "", ""]
                     print("| " + " | ".join(cells) + " |", flush=True)
@@ -122,10 +115,6 @@ def main():
                 small = Case(options, scratch, scene, chip, f"{width // 4}x{height // 4}")
                 statistics, seconds = small.run()
                 row("a sixteenth of the pixels", seconds, statistics["cycles"] * width * height / (width // 4 * (height // 4)))
-                if options.windows:
-                    case = Case(options, scratch, scene, chip, options.size)
-                    statistics, seconds = case.windows()
-                    row("windows of time", seconds, statistics["cycles"], statistics["sampled"])
     for how, (hit, all_) in counts.items():
         print(f"{how}: {hit} of {all_} intervals hold the exact cycles")
 

@@ -249,7 +249,7 @@ static void print_machine(const trax_machine *machine, const char *doubt) {
   const struct trax_sampling_stats *sampling = &machine->stats.sampling;
   if (sampling->is_sampled) {
     printf("sampled     %.0f to %.0f cycles with 95 %% confidence, %.1f %% of the slots in %llu ranges simulated\n",
-           sampling->low, sampling->high, 100.0 * (double)sampling->detailed_slots / sampling->asked_slots.slots,
+           sampling->low, sampling->high, 100.0 * (double)sampling->detailed_slots / sampling->asked.slots,
            (unsigned long long)sampling->windows);
     printf("predicted   %.0f cycles, before any was simulated", sampling->predicted);
     if (doubt)
@@ -337,8 +337,8 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     }
     if (status == TRAX_OK)
       status = trax_simulated_run(picture, frame, machine, &run, error);
-    machine->stats.sampling.asked_slots.costs = NULL;
-    machine->stats.sampling.asked_slots.handed_out = NULL;
+    machine->stats.sampling.asked.costs = NULL;
+    machine->stats.sampling.asked.handed_out = NULL;
     const char *const doubt = options->program ? "another program" : sampling.doubt;
     trax_picture_sampling_release(&sampling);
     progress_clear(progress);

@@ -86,7 +86,6 @@ def simulator():
         refused(INPUT, "trax-sim", "--resume", "state", "--stats", path, "hello.elf")
         refused(INPUT, "trax-sim", "--resume", "state", "--checkpoint", path, "hello.elf")
     refused(INPUT, "trax-sim", "--scene", "in.bin", "--stats", "./in.bin", "hello.elf")
-    refused(INPUT, "trax-sim", "--bench-modes", "--stats", "hello.elf", "hello.elf")
     # What is no file takes any number of outputs, and so does standard output, whatever it is and however it is called.
     for path in ("/dev/null", "-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
         accepted("trax-sim", "--report", path, "--stats", path, "--post-mortem", "/dev/null", "hello.elf")

@@ -136,7 +136,7 @@ fedcba98
 0000002a
 fault null pc 00001018 address 00000004
 end
-for engine in reference fast functional sampled; do
+for engine in reference fast functional; do
   run 1 --engine $engine --signature signature.txt signature.elf
   cmp -s expected.txt signature.txt || fail "signature in the engine $engine"
   rm -f signature.txt
@@ -165,24 +165,6 @@ for key in rays items instructions flops; do
   [ "$(grep -m1 "\"$key\"" timeless.json)" = "$(grep -m1 "\"$key\"" stats.json)" ] || fail "timeless.json: $key"
 done
 grep -q '"cycles": 0,' timeless.json || fail "timeless.json: cycles"
-
-# --- sampled
-run 0 --stats stats.json hello.elf
-run 0 --engine sampled --stats sampled.json --report sampled.txt hello.elf # ends before the first window
-[ "$(grep -m1 '"cycles":' sampled.json)" = "$(grep -m1 '"cycles":' stats.json)" ] || fail "sampled.json: cycles"
-run 0 --config 2x32 --stats stats.json mix.elf
-grep -q '"windows": 0' sampled.json || fail "sampled.json: windows"
-grep -q 'cycles with 95 % confidence' sampled.txt || fail "sampled.txt"
-run 0 --config 2x32 --sample period=2000,window=100,warm-up=100,hold=200,seed=7 --stats sampled.json mix.elf
-for key in rays items instructions flops; do
-  [ "$(grep -m1 "\"$key\":" sampled.json)" = "$(grep -m1 "\"$key\":" stats.json)" ] || fail "sampled.json: $key"
-done
-grep -q '"seed": 7' sampled.json || fail "sampled.json: seed"
-grep -q '"holds": true' sampled.json || fail "sampled.json: identity"
-run 124 --engine sampled spin.elf --max-cycles 1000000
-refuse '--sample: "speed" sets none of period, window, warm-up, hold and seed' --sample speed=3 hello.elf
-refuse '--sample: "0" is not a whole number from 1' --sample window=0 hello.elf
-refuse '--sample: "period" sets none of' --sample period hello.elf
 
 # --- checkpoints: the run goes on as if nothing had been, in every figure and byte
 run 0 --config 4x32 --stats stats.json --bind input=input.bin --alloc output=64 --dump output=output.bin copy.elf
@@ -230,18 +212,6 @@ run 3 --watchdog 10000 exit3.elf
 refuse "--watchdog needs an engine with cycles" --watchdog 5 --engine functional hello.elf
 refuse '--watchdog: "0" is not' --watchdog 0 hello.elf
 
-# --- modes compared
-run 0 --config 2x32 --stats stats.json mix.elf
-run 0 --config 2x32 --bench-modes --stats modes.json mix.elf
-silent
-[ "$(wc -l <out)" -eq 6 ] || fail "not five modes"
-cycles=$(sed -n 's/^  "cycles": \(.*\),/\1/p' stats.json)
-grep -q "^fast .* $cycles" out || fail "the cycles are others than those of a run by itself"
-grep -q "\"cycles\": $cycles" modes.json || fail "modes.json: cycles"
-[ "$(grep -c '"error"' modes.json)" -eq 3 ] || fail "modes.json: three estimates"
-run 1 --bench-modes null.elf
-says "fast: the run does not finish: access to the null page"
-
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
 refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf
@@ -277,7 +247,10 @@ refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: FILE is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse '--engine: "slow" is none of fast, reference, sampled and functional' --engine slow hello.elf
+refuse '--engine: "slow" is none of fast, reference and functional' --engine slow hello.elf
+refuse 'is none of fast, reference and functional; for estimates use trax-render --sampled' --engine sampled hello.elf
+refuse '--sample has been removed; for estimates use trax-render --sampled' --sample window=100 hello.elf
+refuse '--bench-modes has been removed; run with --engine fast and --engine functional' --bench-modes hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
 refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
 refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf
@@ -361,7 +334,7 @@ grep -q '"holds": true' stats.json || fail "stats.json: identity of an interrupt
 no_litter
 
 # Every engine stops; what the fast one leaves goes on.
-for engine in fast sampled functional; do
+for engine in fast functional; do
   checkpoint=
   [ $engine != fast ] || checkpoint="--checkpoint stopped.bin"
   rm -f stats.json
@@ -389,11 +362,9 @@ prints "million cycles, "
 prints " of 100000000000 items ("
 prints " left"
 [ "$(tr '\r' '\n' <out | grep -c 'million instructions/s')" -ge 1 ] || fail "no progress line"
-for engine in sampled functional; do
-  terminal "$sim" --max-cycles $((cycles * 10)) --engine $engine --progress-total 100000000000 spin.elf
-  prints " of 100000000000 items ("
-  prints "million instructions/s"
-done
+terminal "$sim" --max-cycles $((cycles * 10)) --engine functional --progress-total 100000000000 spin.elf
+prints " of 100000000000 items ("
+prints "million instructions/s"
 terminal "$sim" --quiet --max-cycles 3000000 spin.elf
 if grep -q 'million cycles' out; then fail "--quiet shows progress"; fi
 terminal "$sim" hello.elf

@@ -105,11 +105,6 @@ def test_sweep(evaluation, scratch):
     run = evaluation.run(SMALL, "dry", "--dry-run", "--size", "41x24")
     check(f"{RUNS} of {RUNS} runs are missing" in run.stdout, f"--dry-run: {run.stdout}")
 
-    # Estimates have an interval; what needs every cycle stays exact. Pixels in lockstep: one thread wastes nothing.
-    run = evaluation.run(dict(SMALL, series=0, set={}, size="64x36"), "sampled", "--mode", "sampled")
-    check(run.returncode == 0, f"--mode sampled: {run.stderr}")
-    for one in evaluation.results("sampled")["runs"]:
-        check(one["mode"] == "sampled" and one["values"]["mrps_low"] < one["stats"]["mrps"] < one["values"]["mrps_high"], "an interval")
     # Quick runs stand beside the exact ones of the same sweep, with rays that were counted and no picture of the machine's.
     for mode in (["--mode", "exact"], ["--quick"]):
         run = evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", *mode)
@@ -128,7 +123,8 @@ def test_sweep(evaluation, scratch):
     for mode in ([], ["--quick"]):
         check(evaluation.run(dict(SMALL, series=0, set={}), "smaller", *mode).returncode == 0, f"a small picture, {mode}")
     check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(16, 10, "exact"), (40, 24, "exact")], "sizes of small pictures")
-    run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "sampled")
+    # What needs every cycle stays exact. Pixels in lockstep: one thread wastes nothing.
+    run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "quick")
     for one in evaluation.results("lockstep")["runs"]:
         check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")
         check(1 / 32 <= one["values"]["simd_utilisation.32"] <= one["values"]["simd_bound.32"] < 1, "warps of 32")
@@ -165,9 +161,9 @@ REFUSED = [
     ('{"name": "x", "set": {"icache.banks": 4, "icache.banks": 8}}', '"icache.banks" is there twice'),
     ('{"name": "x", "set": {"memory.bandwidth_gbps": NaN}}', "NaN is no number"),
     ('{"name": "x", "size": "0x10"}', "size: expected"),
-    ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "sampled", "quick"'),
+    ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
-    ('{"name": "x", "mode": "sampled", "series": 100}', 'mode: series and lockstep need "exact"'),
+    ('{"name": "x", "mode": "quick", "series": 100}', 'mode: series and lockstep need "exact"'),
     ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),
     ('{"name": "../x"}', "name: expected letters"),
     ('{"chips": "4x32"}', "name: expected letters"),

@@ -133,7 +133,6 @@ MUTANTS = [
     ("core/cache_tags.h", "memset(tags->lines, 0, places * sizeof", "memset(tags->lines, 0, places / 2 * sizeof"),
     ("core/state.c", "  VISIT(tp->writes);\n", ""),
     ("fast/program.c", "return ~1u;", "return ~3u;"),
-    ("fast/sampled.c", "      chip->tm[i].tp[request->tp].increments--;\n", ""),
     ("fast/cycle.c", " || inst->ask == TRAX_ASK_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.

@@ -69,20 +69,10 @@ typedef struct trax_progress {
 /* The first two give the same: every cycle, every count, every byte. The third knows no time: its cycles are 0, and
    max_cycles limits the instructions of a thread. */
 typedef enum trax_engine {
-  TRAX_ENGINE_FAST = 0,   /* emulator/fast */
-  TRAX_ENGINE_REFERENCE,  /* written to be read beside docs/timing.md, many times slower: emulator/reference */
-  TRAX_ENGINE_FUNCTIONAL, /* emulator/fast/functional.c */
-  TRAX_ENGINE_SAMPLED     /* emulator/fast/sampled.c: cycles and what depends on them are estimates */
+  TRAX_ENGINE_FAST = 0,  /* emulator/fast */
+  TRAX_ENGINE_REFERENCE, /* written to be read beside docs/timing.md, many times slower: emulator/reference */
+  TRAX_ENGINE_FUNCTIONAL /* emulator/fast/functional.c */
 } trax_engine;
-
-/* How TRAX_ENGINE_SAMPLED samples (docs/emulator.md, "Sampled simulation"); 0 is the default. */
-typedef struct trax_sampling {
-  uint64_t period;  /* instructions of all threads from one window to the next, to begin with */
-  uint64_t window;  /* cycles of a window */
-  uint64_t warm_up; /* cycles before it that are simulated but not measured */
-  uint64_t hold;    /* cycles that are simulated after the end of a thread */
-  uint64_t seed;    /* of where the first window lies */
-} trax_sampling;
 
 #define TRAX_MAX_SLOT_QUEUES 64
 
@@ -118,8 +108,7 @@ typedef struct trax_run_options {
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
   trax_engine engine;
-  unsigned host_threads; /* of the fast engine, whose results they do not change; 0: trax_host_processors */
-  trax_sampling sampling;
+  unsigned host_threads;           /* of the fast engine, whose results they do not change; 0: trax_host_processors */
   const trax_slot_sampling *slots; /* of the fast engine; NULL: everything is simulated */
 } trax_run_options;
 

@@ -99,7 +99,7 @@ def share(path, content):
 # --- jobs
 
 
-ENGINES = {"exact": "fast", "sampled": "sampled", "quick": "quick"}
+ENGINES = {"exact": "fast", "quick": "quick"}
 
 
 def simulator(engine):
@@ -210,8 +210,7 @@ def command_of(tools, inputs, job, scratch, threads):
     for symbol, file, _ in job["inputs"]["buffers"]:
         command += ["--bind", f"{symbol}={inputs / file}"]
     command += ["--alloc", f"image={job['inputs']['image_bytes']}", "--dump", f"image={scratch}/image.raw"]
-    if job["engine"] == "fast":
-        command += ["--host-threads", str(threads)]
+    command += ["--host-threads", str(threads)]
     if job["series"]:
         command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
     if job["lockstep"]:

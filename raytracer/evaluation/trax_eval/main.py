@@ -39,7 +39,7 @@ variable TRAX_SCENES, or else ./scenes).
       --jobs N          runs at the same time on this host (default: its processors)
       --hosts LIST      --runner parallel: hosts as for its --sshlogin; they see the folders at the same place
       --slurm-options T --runner slurm: more options for sbatch
-      --mode WHICH      exact, sampled or quick, instead of what the sweep says
+      --mode WHICH      exact or quick, instead of what the sweep says
       --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
                         with intervals (trax-render --sampled); pictures of less than 640x360, if --size is not
                         given, have a sixth of their pixels instead, all of which are simulated
