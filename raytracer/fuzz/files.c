@@ -18,7 +18,7 @@ static trax_status load(struct scene_bytes *bytes, const char *path, size_t more
   const fuzz_file *file = fuzz_case_find(fuzz_files, slash ? slash + 1 : path);
   *bytes = (struct scene_bytes){0};
   if (!file)
-    return scene_fail(error, "%s: cannot open: it is not in the case", path);
+    return trax_fail(error, "%s: cannot open: it is not in the case", path);
   bytes->data = calloc(1, file->size + more ? file->size + more : 1);
   if (!bytes->data)
     abort();

@@ -118,8 +118,8 @@ static trax_status check_nodes(const struct aiScene *scene, const struct aiNode 
                                trax_error *error) {
   for (unsigned i = 0; i < node->mNumMeshes; i++)
     if (node->mMeshes[i] >= scene->mNumMeshes)
-      return scene_fail(error, "%s: a node's mesh %u is out of range (%u meshes)", path, node->mMeshes[i],
-                        scene->mNumMeshes);
+      return trax_fail(error, "%s: a node's mesh %u is out of range (%u meshes)", path, node->mMeshes[i],
+                       scene->mNumMeshes);
   for (unsigned i = 0; i < node->mNumChildren; i++)
     if (check_nodes(scene, node->mChildren[i], path, error) != TRAX_OK)
       return TRAX_ERROR;
@@ -130,21 +130,21 @@ static trax_status check_indices(const struct aiScene *scene, const char *path, 
   for (unsigned m = 0; m < scene->mNumMeshes; m++) {
     const struct aiMesh *part = scene->mMeshes[m];
     if (part->mMaterialIndex >= (scene->mNumMaterials ? scene->mNumMaterials : 1))
-      return scene_fail(error, "%s: mesh %u: material %u is out of range (%u materials)", path, m, part->mMaterialIndex,
-                        scene->mNumMaterials);
+      return trax_fail(error, "%s: mesh %u: material %u is out of range (%u materials)", path, m, part->mMaterialIndex,
+                       scene->mNumMaterials);
     if (part->mNumVertices && !part->mVertices)
-      return scene_fail(error, "%s: mesh %u: its vertices have no positions", path, m);
+      return trax_fail(error, "%s: mesh %u: its vertices have no positions", path, m);
     for (unsigned f = 0; f < part->mNumFaces; f++) {
       const struct aiFace *face = &part->mFaces[f];
       if (face->mNumIndices == 0)
-        return scene_fail(error, "%s: mesh %u: face %u has no vertices", path, m, f);
+        return trax_fail(error, "%s: mesh %u: face %u has no vertices", path, m, f);
       if (face->mNumIndices > SCENE_ASSIMP_POLYGON)
-        return scene_fail(error, "%s: mesh %u: face %u has %u vertices; in files of this kind polygons have at most %d",
-                          path, m, f, face->mNumIndices, SCENE_ASSIMP_POLYGON);
+        return trax_fail(error, "%s: mesh %u: face %u has %u vertices; in files of this kind polygons have at most %d",
+                         path, m, f, face->mNumIndices, SCENE_ASSIMP_POLYGON);
       for (unsigned i = 0; i < face->mNumIndices; i++)
         if (face->mIndices[i] >= part->mNumVertices)
-          return scene_fail(error, "%s: mesh %u: face %u: vertex index %u is out of range (%u vertices)", path, m, f,
-                            face->mIndices[i], part->mNumVertices);
+          return trax_fail(error, "%s: mesh %u: face %u: vertex index %u is out of range (%u vertices)", path, m, f,
+                           face->mIndices[i], part->mNumVertices);
     }
   }
   return check_nodes(scene, scene->mRootNode, path, error);
@@ -243,8 +243,8 @@ static trax_status copy_geometry(struct assimp_import *import) {
   uint64_t vertices = 0, triangles = 0;
   count_geometry(scene, scene->mRootNode, &vertices, &triangles);
   if (vertices > UINT32_MAX || triangles > UINT32_MAX)
-    return scene_fail(import->error, "%s: too large: %llu vertices, %llu triangles", import->path,
-                      (unsigned long long)vertices, (unsigned long long)triangles);
+    return trax_fail(import->error, "%s: too large: %llu vertices, %llu triangles", import->path,
+                     (unsigned long long)vertices, (unsigned long long)triangles);
   bool normals = false, uvs = mesh->texture_count > 0;
   for (unsigned i = 0; i < scene->mNumMeshes; i++)
     normals = normals || scene->mMeshes[i]->mNormals;
@@ -278,7 +278,7 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
   const struct aiScene *scene = NULL;
   trax_status result = scene_load_file(&system.main_file, path, system.limits, error);
   if (result == TRAX_OK && system.main_file.size == 0)
-    result = scene_fail(error, "%s: the file is empty", path);
+    result = trax_fail(error, "%s: the file is empty", path);
   if (result == TRAX_OK) {
     /* No steps yet: they trust the indices. */
     scene = aiImportFileEx(name, 0, &system.io);
@@ -286,14 +286,14 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
       result = TRAX_ERROR;
     } else if (!scene || !scene->mRootNode) {
       const char *reason = aiGetErrorString();
-      result = scene_fail(error, "%s: not a mesh that can be read: %s", path,
-                          reason && reason[0] ? reason : "the importer gives no reason");
+      result = trax_fail(error, "%s: not a mesh that can be read: %s", path,
+                         reason && reason[0] ? reason : "the importer gives no reason");
     }
   }
   if (result == TRAX_OK)
     result = check_indices(scene, path, error);
   if (result == TRAX_OK && !(scene = aiApplyPostProcessing(scene, aiProcess_Triangulate)))
-    result = scene_fail(error, "%s: polygons cannot be cut into triangles: %s", path, aiGetErrorString());
+    result = trax_fail(error, "%s: polygons cannot be cut into triangles: %s", path, aiGetErrorString());
   struct assimp_import import = {.path = name,
                                  .gltf = scene_has_extension(name, ".gltf") || scene_has_extension(name, ".glb"),
                                  .scene = scene,

@@ -371,8 +371,8 @@ static trax_status make_tree(struct scene_tree *tree, struct built_node *root, c
                              trax_error *error) {
   struct numbering numbering = {tree, primitives, duplicates, max_depth, max_leaf, NULL};
   if (!measure_built(&numbering, root) || least_height(mesh->triangle_count, max_leaf) > max_depth)
-    return scene_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf",
-                      max_depth, max_leaf);
+    return trax_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf", max_depth,
+                     max_leaf);
   const trax_status improved = improve(&root, max_depth, options, error);
   if (improved != TRAX_OK)
     return improved;
@@ -390,22 +390,22 @@ static trax_status make_tree(struct scene_tree *tree, struct built_node *root, c
 
 static trax_status check_options(const struct trax_build_options *options, trax_error *error) {
   if (options->max_leaf > TRAX_SCENE_MAX_LEAF)
-    return scene_fail(error, "the leaf size is at most %u triangles, not %u", TRAX_SCENE_MAX_LEAF, options->max_leaf);
+    return trax_fail(error, "the leaf size is at most %u triangles, not %u", TRAX_SCENE_MAX_LEAF, options->max_leaf);
   if (options->max_depth > TRAX_SCENE_MAX_DEPTH)
-    return scene_fail(error, "the depth is at most %u nodes, not %u", TRAX_SCENE_MAX_DEPTH, options->max_depth);
+    return trax_fail(error, "the depth is at most %u nodes, not %u", TRAX_SCENE_MAX_DEPTH, options->max_depth);
   if (options->passes > TRAX_SCENE_MAX_PASSES)
-    return scene_fail(error, "the tree is improved in at most %u passes, not %u", TRAX_SCENE_MAX_PASSES,
-                      options->passes);
+    return trax_fail(error, "the tree is improved in at most %u passes, not %u", TRAX_SCENE_MAX_PASSES,
+                     options->passes);
   if (options->cache_lines > 4096) /* the search for the largest node is linear in it */
-    return scene_fail(error, "nodes can be ordered for at most 4096 lines of cache, not %u", options->cache_lines);
+    return trax_fail(error, "nodes can be ordered for at most 4096 lines of cache, not %u", options->cache_lines);
   if (!(options->traversal_cost >= 0 && options->intersection_cost >= 0 && isfinite(options->traversal_cost) &&
         isfinite(options->intersection_cost)))
-    return scene_fail(error, "costs are positive numbers");
+    return trax_fail(error, "costs are positive numbers");
   if (!(options->crease_degrees >= 0 && options->crease_degrees <= 180))
-    return scene_fail(error, "the crease is an angle up to 180 degrees, not %g", (double)options->crease_degrees);
+    return trax_fail(error, "the crease is an angle up to 180 degrees, not %g", (double)options->crease_degrees);
   if (!(options->splits == 0 || (options->splits >= 1 && options->splits <= TRAX_SCENE_MAX_SPLITS)))
-    return scene_fail(error, "splits make room for 1 to %g times the triangles, not %g", (double)TRAX_SCENE_MAX_SPLITS,
-                      (double)options->splits);
+    return trax_fail(error, "splits make room for 1 to %g times the triangles, not %g", (double)TRAX_SCENE_MAX_SPLITS,
+                     (double)options->splits);
   return TRAX_OK;
 }
 
@@ -455,8 +455,8 @@ static bool splits_suit(const struct trax_mesh *mesh) {
 static trax_status check_emitters(const struct trax_mesh *mesh, trax_error *error) {
   for (uint32_t i = 0; i < mesh->triangle_count; i++)
     if (emits(mesh, &mesh->triangles[i]))
-      return scene_fail(error, "no splits where triangles emit light (material '%s')",
-                        mesh->materials[mesh->triangles[i].material].name);
+      return trax_fail(error, "no splits where triangles emit light (material '%s')",
+                       mesh->materials[mesh->triangles[i].material].name);
   return TRAX_OK;
 }
 
@@ -486,7 +486,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   if (!primitives)
     result = scene_out_of_memory(error, "BVH");
   else if (!bvh)
-    result = scene_fail(error, "BVH: Embree cannot be started (error %d)", (int)rtcGetDeviceError(NULL));
+    result = trax_fail(error, "BVH: Embree cannot be started (error %d)", (int)rtcGetDeviceError(NULL));
   else {
     const uint32_t count = fill_primitives(primitives, mesh, splits ? &duplicates : NULL);
     tree->bounds = bounds_of(primitives, count);
@@ -517,7 +517,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     else if (code == RTC_ERROR_OUT_OF_MEMORY)
       result = scene_out_of_memory(error, "BVH");
     else if (!root || context.failed)
-      result = scene_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
+      result = trax_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
     else
       result = make_tree(tree, root, mesh, primitives, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize,
                          options, error);

@@ -81,7 +81,7 @@ trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_e
   for (int axis = 0; axis < 3; axis++)
     direction[axis] = look_at[axis] - view->eye[axis];
   if (!scene_normalise(direction))
-    return scene_fail(error, "the point to look at is the eye itself");
+    return trax_fail(error, "the point to look at is the eye itself");
   memcpy(view->direction, direction, sizeof direction);
   memcpy(view->look_at, look_at, sizeof view->look_at);
   view->has_look_at = true;
@@ -91,9 +91,9 @@ trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_e
 trax_status trax_view_set_up(struct trax_view *view, const float up[3], trax_error *error) {
   float unit[3] = {up[0], up[1], up[2]};
   if (!scene_normalise(unit))
-    return scene_fail(error, "the direction upwards has no length");
+    return trax_fail(error, "the direction upwards has no length");
   if (!scene_make_perpendicular(unit, view->direction))
-    return scene_fail(error, "the direction upwards is that in which the eye looks");
+    return trax_fail(error, "the direction upwards is that in which the eye looks");
   memcpy(view->up, unit, sizeof unit);
   return TRAX_OK;
 }

@@ -41,27 +41,27 @@ static trax_status check_header(const struct checker *checker, const struct trax
   const char *name = checker->name;
   trax_error *error = checker->error;
   if (size < sizeof header->magic || header->magic != TRAX_SCENE_MAGIC)
-    return scene_fail(error, "%s: not a scene file", name);
+    return trax_fail(error, "%s: not a scene file", name);
   if (size < sizeof *header)
-    return scene_fail(error, "%s: cut off: %zu bytes, less than the header's %zu", name, size, sizeof *header);
+    return trax_fail(error, "%s: cut off: %zu bytes, less than the header's %zu", name, size, sizeof *header);
   if (header->version != TRAX_SCENE_VERSION)
-    return scene_fail(error, "%s: scene file version %u; this program reads version %u: import the meshes again", name,
-                      header->version, TRAX_SCENE_VERSION);
+    return trax_fail(error, "%s: scene file version %u; this program reads version %u: import the meshes again", name,
+                     header->version, TRAX_SCENE_VERSION);
   if (header->file_size != size)
-    return scene_fail(error, "%s: %zu bytes, where its header says %u", name, size, header->file_size);
+    return trax_fail(error, "%s: %zu bytes, where its header says %u", name, size, header->file_size);
   struct trax_scene_header unsummed = *header;
   unsummed.checksum = 0;
   uint32_t sum = (uint32_t)crc32_z(0, (const unsigned char *)&unsummed, sizeof unsummed);
   sum = (uint32_t)crc32_z(sum, (const unsigned char *)(header + 1), size - sizeof *header);
   if (sum != header->checksum)
-    return scene_fail(error, "%s: damaged: checksum %08x, where its header says %08x", name, sum, header->checksum);
+    return trax_fail(error, "%s: damaged: checksum %08x, where its header says %08x", name, sum, header->checksum);
   if (header->file_size % TRAX_SCENE_ALIGNMENT != 0)
-    return scene_fail(error, "%s: the size, %u bytes, is not a multiple of %u", name, header->file_size,
-                      TRAX_SCENE_ALIGNMENT);
+    return trax_fail(error, "%s: the size, %u bytes, is not a multiple of %u", name, header->file_size,
+                     TRAX_SCENE_ALIGNMENT);
   if (header->base)
-    return scene_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
+    return trax_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
   if (header->node_layout >= TRAX_NODE_LAYOUTS)
-    return scene_fail(error, "%s: nodes of an unknown layout, %u", name, header->node_layout);
+    return trax_fail(error, "%s: nodes of an unknown layout, %u", name, header->node_layout);
   return TRAX_OK;
 }
 
@@ -74,31 +74,31 @@ static trax_status check_sections(const struct checker *checker, const struct tr
     const uint32_t record_size =
         kind == TRAX_SCENE_NODES ? trax_node_formats[header->node_layout].bytes : section_kinds[kind].record_size;
     if (section->record_size != record_size)
-      return scene_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
-                        section->record_size, record_size);
+      return trax_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
+                       section->record_size, record_size);
     if (section->count == 0 || section->size != (uint64_t)section->count * section->record_size)
-      return scene_fail(checker->error, "%s: %s: %u records do not make %u bytes", checker->name, what, section->count,
-                        section->size);
+      return trax_fail(checker->error, "%s: %s: %u records do not make %u bytes", checker->name, what, section->count,
+                       section->size);
     if (section->offset % TRAX_SCENE_ALIGNMENT != 0 || section->offset < sizeof *header ||
         (uint64_t)section->offset + section->size > header->file_size)
-      return scene_fail(checker->error, "%s: %s: bytes %u to %llu are outside of the file's %u or not aligned",
-                        checker->name, what, section->offset, (unsigned long long)section->offset + section->size,
-                        header->file_size);
+      return trax_fail(checker->error, "%s: %s: bytes %u to %llu are outside of the file's %u or not aligned",
+                       checker->name, what, section->offset, (unsigned long long)section->offset + section->size,
+                       header->file_size);
     for (unsigned other = 0; other < kind; other++) {
       const struct trax_scene_section *before = &header->sections[other];
       if (before->count && section->offset < before->offset + before->size &&
           before->offset < section->offset + section->size)
-        return scene_fail(checker->error, "%s: the sections %s and %s overlap", checker->name,
-                          section_kinds[other].name, what);
+        return trax_fail(checker->error, "%s: the sections %s and %s overlap", checker->name, section_kinds[other].name,
+                         what);
     }
   }
   uint32_t triangles = header->sections[TRAX_SCENE_TRIANGLES].count;
   uint32_t ids = header->sections[TRAX_SCENE_SOURCE_IDS].count;
   if (header->triangle_count != triangles)
-    return scene_fail(checker->error, "%s: %u triangles, where its header says %u", checker->name, triangles,
-                      header->triangle_count);
+    return trax_fail(checker->error, "%s: %u triangles, where its header says %u", checker->name, triangles,
+                     header->triangle_count);
   if (ids && ids != triangles)
-    return scene_fail(checker->error, "%s: %u source ids for %u triangles", checker->name, ids, triangles);
+    return trax_fail(checker->error, "%s: %u source ids for %u triangles", checker->name, ids, triangles);
   /* The device finds what belongs to a triangle at a constant distance from it. */
   const struct trax_scene_section *before = &header->sections[TRAX_SCENE_TRIANGLES];
   static const enum trax_scene_section_kind beside[] = {TRAX_SCENE_NORMALS, TRAX_SCENE_UVS};
@@ -108,11 +108,11 @@ static trax_status check_sections(const struct checker *checker, const struct tr
     if (section->count == 0)
       continue;
     if (section->count != triangles)
-      return scene_fail(checker->error, "%s: %u %s for %u triangles", checker->name, section->count, what, triangles);
+      return trax_fail(checker->error, "%s: %u %s for %u triangles", checker->name, section->count, what, triangles);
     if (section->offset !=
         (before->offset + before->size + TRAX_SCENE_ALIGNMENT - 1) / TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT)
-      return scene_fail(checker->error, "%s: the %s are not right behind the %s", checker->name, what,
-                        section_kinds[before - header->sections].name);
+      return trax_fail(checker->error, "%s: the %s are not right behind the %s", checker->name, what,
+                       section_kinds[before - header->sections].name);
     before = section;
   }
   return TRAX_OK;
@@ -130,23 +130,23 @@ static trax_status check_triangles(const struct checker *checker) {
     const struct trax_triangle *triangle = &view->triangles[i];
     for (int axis = 0; axis < 3; axis++)
       if (!isfinite(triangle->v0[axis]) || !isfinite(triangle->v1[axis]) || !isfinite(triangle->v2[axis]))
-        return scene_fail(checker->error, "%s: triangle %u: a coordinate is not finite", checker->name, i);
+        return trax_fail(checker->error, "%s: triangle %u: a coordinate is not finite", checker->name, i);
     if (triangle->material >= view->material_count)
-      return scene_fail(checker->error, "%s: triangle %u: material %u is out of range (%u materials)", checker->name, i,
-                        triangle->material, view->material_count);
+      return trax_fail(checker->error, "%s: triangle %u: material %u is out of range (%u materials)", checker->name, i,
+                       triangle->material, view->material_count);
   }
   for (uint32_t i = 0; view->normals && i < view->triangle_count; i++)
     for (int corner = 0; corner < 3; corner++) {
       const float *n = view->normals[i].corner[corner];
       const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
       if (!(square > 0.99f && square < 1.01f))
-        return scene_fail(checker->error, "%s: triangle %u: a normal is not of length 1", checker->name, i);
+        return trax_fail(checker->error, "%s: triangle %u: a normal is not of length 1", checker->name, i);
     }
   for (uint32_t i = 0; view->uvs && i < view->triangle_count; i++)
     for (int k = 0; k < 6; k++)
       if (!(fabsf(view->uvs[i].corner[k / 2][k % 2]) <= TRAX_SCENE_MAX_UV))
-        return scene_fail(checker->error, "%s: triangle %u: a texture coordinate is not within %g", checker->name, i,
-                          (double)TRAX_SCENE_MAX_UV);
+        return trax_fail(checker->error, "%s: triangle %u: a texture coordinate is not within %g", checker->name, i,
+                         (double)TRAX_SCENE_MAX_UV);
   return TRAX_OK;
 }
 
@@ -178,7 +178,7 @@ static trax_status check_materials(const struct checker *checker) {
     else if (material->reserved)
       wrong = "the reserved word is not zero";
     if (wrong)
-      return scene_fail(checker->error, "%s: material %u: %s", checker->name, i, wrong);
+      return trax_fail(checker->error, "%s: material %u: %s", checker->name, i, wrong);
   }
   return TRAX_OK;
 }
@@ -189,21 +189,21 @@ static trax_status check_textures(const struct checker *checker) {
   const struct trax_scene_section *texels = &view->header->sections[TRAX_SCENE_TEXELS];
   uint64_t next = texels->offset;
   if (view->texture_count && !view->uvs && view->triangle_count)
-    return scene_fail(checker->error, "%s: textures without texture coordinates", checker->name);
+    return trax_fail(checker->error, "%s: textures without texture coordinates", checker->name);
   for (uint32_t i = 0; i < view->texture_count; i++) {
     const struct trax_texture *texture = &view->textures[i];
     if (texture->log2_width > TRAX_TEXTURE_MAX_LOG2 || texture->log2_height > TRAX_TEXTURE_MAX_LOG2 ||
         texture->flags & ~(uint32_t)(TRAX_TEXTURE_ALPHA | TRAX_TEXTURE_CLAMP))
-      return scene_fail(checker->error, "%s: texture %u: its size or its flags are out of range", checker->name, i);
+      return trax_fail(checker->error, "%s: texture %u: its size or its flags are out of range", checker->name, i);
     if (texture->texels != next)
-      return scene_fail(checker->error, "%s: texture %u: its texels do not begin where those before it end",
-                        checker->name, i);
+      return trax_fail(checker->error, "%s: texture %u: its texels do not begin where those before it end",
+                       checker->name, i);
     next += (uint64_t)sizeof(uint32_t) << (texture->log2_width + texture->log2_height);
     if (next > (uint64_t)texels->offset + texels->size)
-      return scene_fail(checker->error, "%s: texture %u: its texels are beyond the last", checker->name, i);
+      return trax_fail(checker->error, "%s: texture %u: its texels are beyond the last", checker->name, i);
   }
   if (next != (uint64_t)texels->offset + texels->size)
-    return scene_fail(checker->error, "%s: texels of no texture", checker->name);
+    return trax_fail(checker->error, "%s: texels of no texture", checker->name);
   return TRAX_OK;
 }
 
@@ -212,15 +212,15 @@ static trax_status check_leaf(struct checker *checker, trax_scene_ref ref, struc
   uint32_t offset = TRAX_SCENE_REF_OFFSET(ref), count = TRAX_SCENE_REF_COUNT(ref);
   if (offset < checker->triangles_offset || offset - checker->triangles_offset >= checker->triangles_size ||
       (offset - checker->triangles_offset) % sizeof(struct trax_triangle) != 0)
-    return scene_fail(checker->error, "%s: reference %08x is to no triangle", checker->name, ref);
+    return trax_fail(checker->error, "%s: reference %08x is to no triangle", checker->name, ref);
   uint32_t first = (offset - checker->triangles_offset) / (uint32_t)sizeof(struct trax_triangle);
   if (count > view->triangle_count - first)
-    return scene_fail(checker->error, "%s: reference %08x is to triangles behind the last", checker->name, ref);
+    return trax_fail(checker->error, "%s: reference %08x is to triangles behind the last", checker->name, ref);
   /* Leaf order is depth first: each of the file's triangles is in one leaf if every leaf begins where the one before
      ended. */
   if (first != checker->next_triangle)
-    return scene_fail(checker->error, "%s: reference %08x is to triangle %u where %u is next", checker->name, ref,
-                      first, checker->next_triangle);
+    return trax_fail(checker->error, "%s: reference %08x is to triangle %u where %u is next", checker->name, ref, first,
+                     checker->next_triangle);
   checker->next_triangle += count;
   if (count > checker->max_leaf)
     checker->max_leaf = count;
@@ -269,8 +269,8 @@ static void note_parts(struct checker *checker, trax_scene_ref ref, const struct
 }
 
 static trax_status wrong_box(const struct checker *checker, uint32_t place) {
-  return scene_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name,
-                    place / TRAX_MAX_WIDTH, place % TRAX_MAX_WIDTH);
+  return trax_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name,
+                   place / TRAX_MAX_WIDTH, place % TRAX_MAX_WIDTH);
 }
 
 /* The frame must be the one for these boxes; of a leaf's part nobody knows what it was. */
@@ -283,7 +283,7 @@ static trax_status check_frame(const struct checker *checker, uint32_t number, c
     return TRAX_OK;
   scene_node_write(same, checker->view.header->node_layout, boxes, children, count, &box);
   if (memcmp(same, (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes, format->bytes) != 0)
-    return scene_fail(checker->error, "%s: node %u: its frame is not that of its boxes", checker->name, number);
+    return trax_fail(checker->error, "%s: node %u: its frame is not that of its boxes", checker->name, number);
   return TRAX_OK;
 }
 
@@ -300,29 +300,29 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
   const struct trax_node_format *format = &trax_node_formats[checker->view.header->node_layout];
   if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
       (ref - checker->nodes_offset) % format->bytes != 0)
-    return scene_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
+    return trax_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
   uint32_t number = (ref - checker->nodes_offset) / format->bytes;
   if (checker->node_seen[number])
-    return scene_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
+    return trax_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
   checker->node_seen[number] = 1;
   checker->nodes_left--;
   if (depth + 1 > TRAX_SCENE_MAX_DEPTH)
-    return scene_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
+    return trax_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
   if (format->reserved_bytes) {
     static const unsigned char zeros[TRAX_SCENE_ALIGNMENT];
     const unsigned char *reserved = (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes +
                                     format->bytes - format->reserved_bytes;
     if (memcmp(reserved, zeros, format->reserved_bytes) != 0)
-      return scene_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
+      return trax_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
   }
   if (!scene_node_has_frame(&checker->view, number))
-    return scene_fail(checker->error, "%s: node %u: its frame is none", checker->name, number);
+    return trax_fail(checker->error, "%s: node %u: its frame is none", checker->name, number);
   struct scene_box boxes[TRAX_MAX_WIDTH], below[TRAX_MAX_WIDTH];
   trax_scene_ref children[TRAX_MAX_WIDTH];
   bool whole = true;
   const uint32_t count = scene_node_boxes(boxes, children, &checker->view, number);
   if (count < 2)
-    return scene_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
+    return trax_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
   depth += count - 1;
   if (depth > checker->max_depth)
     checker->max_depth = depth;
@@ -346,7 +346,7 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
   none = scene_box_in_frame(&checker->view, number, &none);
   for (uint32_t i = count; i < format->width; i++)
     if (children[i] || !same_box(&boxes[i], &none))
-      return scene_fail(checker->error, "%s: node %u: child %u is none, and one", checker->name, number, i);
+      return trax_fail(checker->error, "%s: node %u: child %u is none, and one", checker->name, number, i);
   checker->ranges[number].end = checker->next_triangle;
   return whole ? check_frame(checker, number, below, children, count) : TRAX_OK;
 }
@@ -369,7 +369,7 @@ static trax_status check_tree(struct checker *checker, const struct trax_scene_h
   struct scene_box bounds = scene_empty_box();
   if (header->triangle_count == 0) {
     if (header->root != 0 || checker->view.node_count != 0)
-      return scene_fail(checker->error, "%s: a tree without triangles", checker->name);
+      return trax_fail(checker->error, "%s: a tree without triangles", checker->name);
     bounds = (struct scene_box){0};
   } else {
     checker->nodes_left = checker->view.node_count;
@@ -387,17 +387,17 @@ static trax_status check_tree(struct checker *checker, const struct trax_scene_h
       return result;
     bounds = checker->bounds;
     if (checker->nodes_left != 0)
-      return scene_fail(checker->error, "%s: %u nodes are not in the tree", checker->name, checker->nodes_left);
+      return trax_fail(checker->error, "%s: %u nodes are not in the tree", checker->name, checker->nodes_left);
     if (checker->next_triangle != header->triangle_count)
-      return scene_fail(checker->error, "%s: %u triangles are in no leaf", checker->name,
-                        header->triangle_count - checker->next_triangle);
+      return trax_fail(checker->error, "%s: %u triangles are in no leaf", checker->name,
+                       header->triangle_count - checker->next_triangle);
   }
   if (checker->max_depth != header->max_depth || checker->max_leaf != header->max_leaf)
-    return scene_fail(checker->error, "%s: depth %u and leaves of %u, where its header says %u and %u", checker->name,
-                      checker->max_depth, checker->max_leaf, header->max_depth, header->max_leaf);
+    return trax_fail(checker->error, "%s: depth %u and leaves of %u, where its header says %u and %u", checker->name,
+                     checker->max_depth, checker->max_leaf, header->max_depth, header->max_leaf);
   for (int axis = 0; axis < 3; axis++)
     if (header->bounds_min[axis] != bounds.min[axis] || header->bounds_max[axis] != bounds.max[axis])
-      return scene_fail(checker->error, "%s: the bounds are not those of its triangles", checker->name);
+      return trax_fail(checker->error, "%s: the bounds are not those of its triangles", checker->name);
   return TRAX_OK;
 }
 

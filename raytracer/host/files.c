@@ -3,27 +3,13 @@
 #include "trax/input.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-trax_status scene_fail(trax_error *error, const char *format, ...) {
-  char message[sizeof error->message] = "";
-  if (error) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-  }
-  return trax_fail(error, "%s", message);
-}
 
 trax_status scene_out_of_memory(trax_error *error, const char *what) {
-  return scene_fail(error, "%s: not enough memory", what);
+  return trax_fail(error, "%s: not enough memory", what);
 }
 
 bool trax_parse_size(const char *text, size_t *bytes) {
@@ -50,7 +36,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
   if (result == TRAX_OK)
     result = trax_input_read(&input, limit + 1, error);
   if (result == TRAX_OK && input.size > limit)
-    result = scene_fail(error, "%s: more than %zu bytes", path, limit);
+    result = trax_fail(error, "%s: more than %zu bytes", path, limit);
   if (result == TRAX_OK) {
     *bytes = (struct scene_bytes){input.bytes, input.size};
     input.bytes = NULL;

@@ -17,8 +17,8 @@ void scene_image_release(struct scene_image *image) {
 
 static trax_status check_size(uint32_t width, uint32_t height, const char *name, trax_error *error) {
   if (width == 0 || height == 0 || width > max_side || height > max_side || (uint64_t)width * height > max_pixels)
-    return scene_fail(error, "%s: an image of %u x %u; at most %u a side and %u in all are read", name, width, height,
-                      (unsigned)max_side, (unsigned)max_pixels);
+    return trax_fail(error, "%s: an image of %u x %u; at most %u a side and %u in all are read", name, width, height,
+                     (unsigned)max_side, (unsigned)max_pixels);
   return TRAX_OK;
 }
 
@@ -26,7 +26,7 @@ static trax_status decode_png(struct scene_image *image, const struct scene_byte
                               trax_error *error) {
   png_image png = {.version = PNG_IMAGE_VERSION};
   if (!png_image_begin_read_from_memory(&png, file->data, file->size))
-    return scene_fail(error, "%s: not a readable PNG: %s", name, png.message);
+    return trax_fail(error, "%s: not a readable PNG: %s", name, png.message);
   trax_status result = check_size(png.width, png.height, name, error);
   if (result == TRAX_OK && !(image->rgba = malloc((size_t)png.width * png.height * 4)))
     result = scene_out_of_memory(error, name);
@@ -35,7 +35,7 @@ static trax_status decode_png(struct scene_image *image, const struct scene_byte
     image->height = png.height;
     png.format = PNG_FORMAT_RGBA;
     if (!png_image_finish_read(&png, NULL, image->rgba, 0, NULL))
-      result = scene_fail(error, "%s: not a readable PNG: %s", name, png.message);
+      result = trax_fail(error, "%s: not a readable PNG: %s", name, png.message);
   }
   png_image_free(&png);
   return result;
@@ -77,7 +77,7 @@ static trax_status decode_jpeg(struct scene_image *image, const struct scene_byt
   failure.manager.emit_message = jpeg_warned;
   if (setjmp(failure.place)) {
     jpeg_destroy_decompress(&jpeg);
-    return scene_fail(error, "%s: not a readable JPEG: %s", name, failure.reason);
+    return trax_fail(error, "%s: not a readable JPEG: %s", name, failure.reason);
   }
   jpeg_create_decompress(&jpeg);
   jpeg.progress = &progress;
@@ -85,7 +85,7 @@ static trax_status decode_jpeg(struct scene_image *image, const struct scene_byt
   jpeg_read_header(&jpeg, TRUE);
   trax_status result = check_size(jpeg.image_width, jpeg.image_height, name, error);
   if (result == TRAX_OK && jpeg.num_components != 1 && jpeg.num_components != 3)
-    result = scene_fail(error, "%s: a JPEG of %d components; grey and colour are read", name, jpeg.num_components);
+    result = trax_fail(error, "%s: a JPEG of %d components; grey and colour are read", name, jpeg.num_components);
   if (result == TRAX_OK) {
     image->width = jpeg.image_width;
     image->height = jpeg.image_height;
@@ -115,7 +115,7 @@ trax_status scene_decode_image(struct scene_image *image, const struct scene_byt
   else if (file->size > sizeof jpeg_magic && !memcmp(file->data, jpeg_magic, sizeof jpeg_magic))
     result = decode_jpeg(image, file, name, error);
   else
-    result = scene_fail(error, "%s: neither a PNG nor a JPEG", name);
+    result = trax_fail(error, "%s: neither a PNG nor a JPEG", name);
   if (result != TRAX_OK)
     scene_image_release(image);
   return result;

@@ -8,8 +8,7 @@
 /* Larger coordinates are treated as infinite: Embree takes none beyond 1.844e18. */
 #define SCENE_MAX_COORDINATE 0x1.8p60f
 
-/* Writes the message and returns TRAX_ERROR. error may be NULL. */
-trax_status scene_fail(trax_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Of the file or the step that is named. */
 trax_status scene_out_of_memory(trax_error *error, const char *what);
 
 /* What takes longer than a tenth of a second on a large scene asks now and then, and between its steps. */

@@ -283,15 +283,15 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
   plan_section(&sections[TRAX_SCENE_MATERIALS], &end, palette->count, sizeof(struct trax_material));
   plan_section(&sections[TRAX_SCENE_TEXTURES], &end, palette->texture_count, sizeof(struct trax_texture));
   if (palette->texel_count > UINT32_MAX / sizeof(uint32_t))
-    return scene_fail(error, "the textures take %.1f GB; --texture-size makes them smaller",
-                      (double)palette->texel_count * sizeof(uint32_t) * 1e-9);
+    return trax_fail(error, "the textures take %.1f GB; --texture-size makes them smaller",
+                     (double)palette->texel_count * sizeof(uint32_t) * 1e-9);
   plan_section(&sections[TRAX_SCENE_TEXELS], &end, (uint32_t)palette->texel_count, sizeof(uint32_t));
   /* Last: nothing on the device reads it. */
   plan_section(&sections[TRAX_SCENE_SOURCE_IDS], &end, options->without_source_ids ? 0 : tree->ref_count,
                sizeof(uint32_t));
   if (end > UINT32_MAX)
-    return scene_fail(error, "%u triangles make a scene of %.1f GB; 32-bit offsets end at 4.29", tree->ref_count,
-                      (double)end * 1e-9);
+    return trax_fail(error, "%u triangles make a scene of %.1f GB; 32-bit offsets end at 4.29", tree->ref_count,
+                     (double)end * 1e-9);
   unsigned char *bytes = aligned_alloc(TRAX_SCENE_ALIGNMENT, end);
   if (!bytes)
     return scene_out_of_memory(error, "scene");
@@ -372,7 +372,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     options = &defaults;
   *scene = (struct trax_scene){0};
   if (mesh->triangle_count == 0 && !options->allow_empty)
-    return scene_fail(error, "the mesh has no triangles");
+    return trax_fail(error, "the mesh has no triangles");
   struct scene_tree tree;
   trax_status result = scene_build_tree(&tree, mesh, options, error);
   if (result != TRAX_OK)

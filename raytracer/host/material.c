@@ -47,7 +47,7 @@ trax_status trax_override_diffuse(struct trax_material_override *override, char 
   *override = (struct trax_material_override){.kind = TRAX_OVERRIDE_DIFFUSE};
   return parse_colour(cut_name(override, text), override->colour, 1)
              ? TRAX_OK
-             : scene_fail(error, "--diffuse: '%s' is not [NAME=]R,G,B with R, G and B from 0 to 1", whole);
+             : trax_fail(error, "--diffuse: '%s' is not [NAME=]R,G,B with R, G and B from 0 to 1", whole);
 }
 
 static bool parse_kind(struct trax_material_override *override, const char *kind) {
@@ -94,10 +94,10 @@ trax_status trax_override_material(struct trax_material_override *override, char
   *override = (struct trax_material_override){0};
   return parse_kind(override, cut_name(override, text))
              ? TRAX_OK
-             : scene_fail(error,
-                          "--material: '%s' is not [NAME=]lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] "
-                          "or emit:R,G,B",
-                          whole);
+             : trax_fail(error,
+                         "--material: '%s' is not [NAME=]lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] "
+                         "or emit:R,G,B",
+                         whole);
 }
 
 static void apply(struct trax_material *surface, const struct trax_material_override *override) {
@@ -138,7 +138,7 @@ trax_status scene_override_materials(struct trax_mesh *mesh, const struct trax_i
       found = true;
     }
     if (!found)
-      return scene_fail(error, "no material is named '%s'", override->name ? override->name : "*");
+      return trax_fail(error, "no material is named '%s'", override->name ? override->name : "*");
   }
   return TRAX_OK;
 }

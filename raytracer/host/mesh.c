@@ -50,8 +50,8 @@ static trax_status generate(struct trax_mesh *mesh, const char *path, struct tra
     good = rest[1] >= '0' && rest[1] <= '9' && *end == '\0' && errno == 0;
   }
   if (!good)
-    return scene_fail(error, "%s: expected %sforest, or %sforest:SEED with a whole number below 2^64", path,
-                      generated_prefix, generated_prefix);
+    return trax_fail(error, "%s: expected %sforest, or %sforest:SEED with a whole number below 2^64", path,
+                     generated_prefix, generated_prefix);
   trax_status result = scene_generate_forest(mesh, seed, error);
   report->source_triangles = mesh->triangle_count;
   return result;
@@ -143,7 +143,7 @@ static trax_status wait_for_child(pid_t child, const char *path, const volatile 
     if (ended == child)
       break;
     if (ended < 0 && errno != EINTR)
-      return scene_fail(error, "%s: cannot wait for the importer: %s", path, strerror(errno));
+      return trax_fail(error, "%s: cannot wait for the importer: %s", path, strerror(errno));
     if (scene_is_interrupted(interrupt)) {
       kill(child, SIGKILL);
       while (waitpid(child, &status, 0) < 0 && errno == EINTR)
@@ -156,10 +156,10 @@ static trax_status wait_for_child(pid_t child, const char *path, const volatile 
   if (scene_is_interrupted(interrupt))
     return TRAX_INTERRUPTED;
   if (WIFSIGNALED(status))
-    return scene_fail(error, "%s: the importer crashed on it (%s): the file is damaged or not a mesh", path,
-                      strsignal(WTERMSIG(status)));
+    return trax_fail(error, "%s: the importer crashed on it (%s): the file is damaged or not a mesh", path,
+                     strsignal(WTERMSIG(status)));
   if (WEXITSTATUS(status) != 0)
-    return scene_fail(error, "%s: the importer failed on it", path);
+    return trax_fail(error, "%s: the importer failed on it", path);
   return TRAX_OK;
 }
 
@@ -168,7 +168,7 @@ static trax_status receive_mesh(struct trax_mesh *mesh, FILE *in, const char *pa
   struct child_result result;
   rewind(in);
   if (fread(&result, sizeof result, 1, in) != 1)
-    return scene_fail(error, "%s: the importer failed on it", path);
+    return trax_fail(error, "%s: the importer failed on it", path);
   if (result.status != TRAX_OK) {
     if (error)
       *error = result.error;
@@ -186,7 +186,7 @@ static trax_status receive_mesh(struct trax_mesh *mesh, FILE *in, const char *pa
     if (!(*arrays[i].records = malloc(arrays[i].size)))
       return scene_out_of_memory(error, path);
     if (fread(*arrays[i].records, arrays[i].size, 1, in) != 1)
-      return scene_fail(error, "%s: the importer's result is incomplete", path);
+      return trax_fail(error, "%s: the importer's result is incomplete", path);
   }
   return TRAX_OK;
 }
@@ -200,7 +200,7 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
   if (!exchange) {
     if (descriptor >= 0)
       close(descriptor);
-    return scene_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
+    return trax_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
   }
   fflush(NULL); /* or the child would write what is buffered a second time */
   trax_status result;
@@ -208,7 +208,7 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
   if (child == 0)
     run_child(exchange, path, options);
   if (child < 0)
-    result = scene_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
+    result = trax_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
   else
     result = wait_for_child(child, path, options->interrupt, error);
   if (result == TRAX_OK)
@@ -246,7 +246,7 @@ static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32
       (uint64_t)mesh->texel_count + part->texel_count,       (uint64_t)mesh->camera_count + part->camera_count};
   for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
     if (counts[i] > UINT32_MAX)
-      return scene_fail(error, "%s: too large together with the files before it", path);
+      return trax_fail(error, "%s: too large together with the files before it", path);
   for (uint32_t i = 0; i < part->triangle_count; i++) {
     struct trax_mesh_triangle *triangle = &part->triangles[i];
     for (int corner = 0; corner < 3; corner++)
@@ -342,10 +342,10 @@ static trax_status filter(struct trax_mesh *mesh, const struct trax_import_optio
     }
   }
   if (nonfinite && !options->drop_nonfinite)
-    return scene_fail(error,
-                      "%s: %u of %u triangles have a vertex that is NaN, infinite or beyond %g; the first is triangle "
-                      "%u (from 0)",
-                      path, nonfinite, mesh->triangle_count, (double)SCENE_MAX_COORDINATE, first_nonfinite);
+    return trax_fail(error,
+                     "%s: %u of %u triangles have a vertex that is NaN, infinite or beyond %g; the first is triangle "
+                     "%u (from 0)",
+                     path, nonfinite, mesh->triangle_count, (double)SCENE_MAX_COORDINATE, first_nonfinite);
   report->nonfinite += nonfinite;
   mesh->triangle_count = kept;
   return TRAX_OK;
@@ -393,7 +393,7 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
       scene_mend_uvs(&part, &part_report);
     }
     if (result == TRAX_OK && total.source_triangles + part_report.source_triangles > UINT32_MAX)
-      result = scene_fail(error, "%s: too large together with the files before it", paths[i]);
+      result = trax_fail(error, "%s: too large together with the files before it", paths[i]);
     if (result == TRAX_OK)
       result = append(mesh, &part, (uint32_t)total.source_triangles, paths[i], error);
     trax_mesh_release(&part);

@@ -45,8 +45,8 @@ uint32_t scene_add_material(struct scene_material_list *list, const char *name) 
 }
 
 static trax_status fail_here(const struct library *library, const char *keyword, const char *reason, const char *what) {
-  return scene_fail(library->error, "%s:%u: %.20s%s%s%.100s%s", library->path, library->line, keyword, reason,
-                    what ? " '" : "", what ? what : "", what ? "'" : "");
+  return trax_fail(library->error, "%s:%u: %.20s%s%s%.100s%s", library->path, library->line, keyword, reason,
+                   what ? " '" : "", what ? what : "", what ? "'" : "");
 }
 
 static struct source unknown_source(void) {

@@ -38,8 +38,8 @@ struct obj_reader {
 };
 
 static trax_status fail_here(const struct obj_reader *reader, const char *reason, const char *what) {
-  return scene_fail(reader->error, "%s:%u: %s%s%.100s%s", reader->path, reader->line, reason, what ? " '" : "",
-                    what ? what : "", what ? "'" : "");
+  return trax_fail(reader->error, "%s:%u: %s%s%.100s%s", reader->path, reader->line, reason, what ? " '" : "",
+                   what ? what : "", what ? "'" : "");
 }
 
 /* mtllib: one file; its name may hold spaces. */
@@ -108,11 +108,11 @@ static trax_status read_index(const struct obj_reader *reader, const char *word,
   char *end;
   long long number = strtoll(*rest, &end, 10);
   if (end == *rest || (*end && *end != '/') || number == 0)
-    return scene_fail(reader->error, "%s:%u: not a %s index: '%.100s'", reader->path, reader->line, kind, word);
+    return trax_fail(reader->error, "%s:%u: not a %s index: '%.100s'", reader->path, reader->line, kind, word);
   long long from_zero = number > 0 ? number - 1 : count + number;
   if (from_zero < 0 || from_zero >= count)
-    return scene_fail(reader->error, "%s:%u: %s index %.*s is out of range (%u so far)", reader->path, reader->line,
-                      kind, (int)(end - *rest > 40 ? 40 : end - *rest), *rest, count);
+    return trax_fail(reader->error, "%s:%u: %s index %.*s is out of range (%u so far)", reader->path, reader->line,
+                     kind, (int)(end - *rest > 40 ? 40 : end - *rest), *rest, count);
   *rest = end;
   *index = (uint32_t)from_zero;
   return TRAX_OK;
@@ -132,7 +132,7 @@ static trax_status read_attribute_index(const struct obj_reader *reader, const c
   char *end;
   const long long number = strtoll(*rest, &end, 10);
   if (end == *rest || (*end && *end != '/') || number == 0)
-    return scene_fail(reader->error, "%s:%u: not a %s index: '%.100s'", reader->path, reader->line, kind, word);
+    return trax_fail(reader->error, "%s:%u: not a %s index: '%.100s'", reader->path, reader->line, kind, word);
   *rest = end;
   return TRAX_OK;
 }
@@ -268,7 +268,7 @@ trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, const struc
   for (unsigned lines; result == TRAX_OK && (lines = next_line(&text, &line)) > 0; reader.line += lines)
     result = read_statement(&reader, line);
   if (result == TRAX_OK && mesh->vertex_count == 0)
-    result = scene_fail(error, "%s: not a mesh: no vertices in what should be an OBJ file", path);
+    result = trax_fail(error, "%s: not a mesh: no vertices in what should be an OBJ file", path);
   if (result == TRAX_OK && mesh->material_count == 0 &&
       scene_add_material(&reader.materials, "") == (uint32_t)no_material)
     result = scene_out_of_memory(error, path);

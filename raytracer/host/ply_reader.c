@@ -81,10 +81,10 @@ static trax_status fail_here(const struct ply_reader *reader, const char *reason
     unsigned line = 1;
     for (const unsigned char *at = reader->start; at < reader->at && at < reader->end; at++)
       line += *at == '\n';
-    return scene_fail(reader->error, "%s:%u: %s", reader->path, line, reason);
+    return trax_fail(reader->error, "%s:%u: %s", reader->path, line, reason);
   }
-  return scene_fail(reader->error, "%s: %s %llu: %s", reader->path, reader->current->name,
-                    (unsigned long long)reader->current_number, reason);
+  return trax_fail(reader->error, "%s: %s %llu: %s", reader->path, reader->current->name,
+                   (unsigned long long)reader->current_number, reason);
 }
 
 /* --- header --- */
@@ -238,7 +238,7 @@ static trax_status read_header(struct ply_reader *reader) {
   char word[max_name];
   bool has_format = false;
   if (!next_word(reader, word) || strcmp(word, "ply") != 0)
-    return scene_fail(reader->error, "%s: not a mesh: no PLY file begins in this way", reader->path);
+    return trax_fail(reader->error, "%s: not a mesh: no PLY file begins in this way", reader->path);
   for (;;) {
     if (!end_line(reader))
       return fail_here(reader, "the file ends in its header");
@@ -490,16 +490,16 @@ static trax_status check_elements(struct ply_reader *reader) {
     }
     vertices += !strcmp(element->name, "vertex");
     if (element->count * least > (uint64_t)(reader->end - reader->at))
-      return scene_fail(reader->error, "%s: cut off: too short for the %llu records of '%s' that its header tells of",
-                        reader->path, (unsigned long long)element->count, element->name);
+      return trax_fail(reader->error, "%s: cut off: too short for the %llu records of '%s' that its header tells of",
+                       reader->path, (unsigned long long)element->count, element->name);
   }
   if (vertices > 1)
-    return scene_fail(reader->error, "%s: more than one element 'vertex'", reader->path);
+    return trax_fail(reader->error, "%s: more than one element 'vertex'", reader->path);
   reader->roles = roles;
   if (vertices == 0 || !has_roles(roles, coordinate_x, coordinate_z))
-    return scene_fail(reader->error, "%s: no vertices with x, y and z", reader->path);
+    return trax_fail(reader->error, "%s: no vertices with x, y and z", reader->path);
   if (!(roles & 1u << indices))
-    return scene_fail(reader->error, "%s: no faces: neither 'face' nor 'tristrips' has vertex indices", reader->path);
+    return trax_fail(reader->error, "%s: no faces: neither 'face' nor 'tristrips' has vertex indices", reader->path);
   return TRAX_OK;
 }
 

@@ -73,7 +73,7 @@ static inline trax_status check_text(struct scene_bytes *file, const char *path,
   if (!memchr(file->data, 0, file->size))
     return TRAX_OK;
   free(file->data);
-  return scene_fail(error, "%s: not a mesh: binary data where text should be", path);
+  return trax_fail(error, "%s: not a mesh: binary data where text should be", path);
 }
 
 /* --- mtl_reader.c --- */

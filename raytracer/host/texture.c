@@ -175,7 +175,7 @@ trax_status scene_add_image(struct scene_textures *textures, const struct scene_
                                       flags};
   const uint32_t width = 1u << texture.log2_width, height = 1u << texture.log2_height, count = width * height;
   if (mesh->texel_count > UINT32_MAX / sizeof(uint32_t) - count)
-    return scene_fail(error, "%s: the textures together are too large; --texture-size makes them smaller", name);
+    return trax_fail(error, "%s: the textures together are too large; --texture-size makes them smaller", name);
   void *grown = realloc(mesh->texels, ((size_t)mesh->texel_count + count) * sizeof *mesh->texels);
   if (!grown)
     return scene_out_of_memory(error, name);

@@ -469,8 +469,7 @@ static trax_status write_json(const char *path, const struct statistic *list, si
   char *line = text ? realloc(text, strlen(text) + 2) : NULL;
   if (!line) {
     free(text);
-    snprintf(error->message, sizeof error->message, "%s: not enough memory", path);
-    return TRAX_ERROR;
+    return trax_fail(error, "%s: not enough memory", path);
   }
   strcat(line, "\n");
   trax_status result = trax_write_file(path, line, strlen(line), error);
@@ -493,10 +492,9 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
     return result;
   double imported = seconds();
   if (mesh.triangle_count == 0 && !arguments->build.allow_empty) {
-    snprintf(error->message, sizeof error->message, "%s: no triangles%s%s; --allow-empty makes a scene without any",
-             arguments->meshes[0], arguments->mesh_count > 1 ? " in it and the other meshes" : "",
-             figures->import.source_triangles ? " are left: all are of zero area or not finite" : "");
-    result = TRAX_ERROR;
+    result = trax_fail(error, "%s: no triangles%s%s; --allow-empty makes a scene without any", arguments->meshes[0],
+                       arguments->mesh_count > 1 ? " in it and the other meshes" : "",
+                       figures->import.source_triangles ? " are left: all are of zero area or not finite" : "");
   } else
     result = trax_scene_build(scene, &mesh, &arguments->build, error);
   trax_mesh_release(&mesh);

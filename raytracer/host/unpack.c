@@ -11,7 +11,7 @@
 #define XZ_WINDOW ((size_t)72 << 20)
 
 static trax_status too_large(size_t limit, const char *path, trax_error *error) {
-  return scene_fail(error, "%s: unpacks to more than %zu bytes (--unpack-limit)", path, limit);
+  return trax_fail(error, "%s: unpacks to more than %zu bytes (--unpack-limit)", path, limit);
 }
 
 /* Makes room for a byte more, and one beyond the limit at most. */
@@ -68,7 +68,7 @@ static trax_status unpack_xz(struct scene_bytes *out, const struct scene_bytes *
       code = lzma_code(&stream, LZMA_FINISH);
       out->size = capacity - stream.avail_out;
       if (code != LZMA_OK && code != LZMA_STREAM_END)
-        result = scene_fail(error, "%s: %s", path, lzma_reason(code));
+        result = trax_fail(error, "%s: %s", path, lzma_reason(code));
     }
   }
   lzma_end(&stream);
@@ -110,14 +110,14 @@ static trax_status unpack_gz(struct scene_bytes *out, const struct scene_bytes *
       if (consumed == in->size)
         break;
       if (inflateReset(&stream) != Z_OK) { /* a further member follows */
-        result = scene_fail(error, "%s: the .gz data is corrupt", path);
+        result = trax_fail(error, "%s: the .gz data is corrupt", path);
         break;
       }
     } else if (code == Z_BUF_ERROR || (code == Z_OK && consumed == in->size && stream.avail_out)) {
-      result = scene_fail(error, "%s: the .gz data ends too early", path);
+      result = trax_fail(error, "%s: the .gz data ends too early", path);
       break;
     } else if (code != Z_OK) {
-      result = scene_fail(error, "%s: the .gz data is corrupt", path);
+      result = trax_fail(error, "%s: the .gz data is corrupt", path);
       break;
     }
   }

@@ -17,8 +17,8 @@ struct reader {
 
 static trax_status fail_at(const struct reader *reader, const config_setting_t *setting, const char *key,
                            const char *reason) {
-  return scene_fail(reader->error, "%s:%u: %s: %s", reader->path, setting ? config_setting_source_line(setting) : 1,
-                    key, reason);
+  return trax_fail(reader->error, "%s:%u: %s: %s", reader->path, setting ? config_setting_source_line(setting) : 1, key,
+                   reason);
 }
 
 /* A key of the file, or of one of its lights: what = "" or "lights[2]." */
@@ -275,19 +275,19 @@ trax_status trax_view_read(struct trax_view *view, const char *path, trax_error 
   char *text = memchr(file.data, 0, file.size) ? NULL : realloc(file.data, file.size + 1);
   if (!text) {
     free(file.data);
-    return scene_fail(error, "%s:1: not text", path);
+    return trax_fail(error, "%s:1: not text", path);
   }
   text[file.size] = 0;
   const unsigned include = find_include(text);
   if (include) {
     free(text);
-    return scene_fail(error, "%s:%u: @include: a view is one file", path, include);
+    return trax_fail(error, "%s:%u: @include: a view is one file", path, include);
   }
   config_t config;
   config_init(&config);
   struct trax_view read = {0};
   if (!config_read_string(&config, text)) {
-    result = scene_fail(error, "%s:%d: %s", path, config_error_line(&config), config_error_text(&config));
+    result = trax_fail(error, "%s:%d: %s", path, config_error_line(&config), config_error_text(&config));
   } else {
     static const char *const keys[] = {"eye", "direction", "look_at", "up", "fov", "light", "lights", NULL};
     const struct reader reader = {path, error};
