@@ -1,7 +1,5 @@
 #include "trax/names.h"
-#include "trax/options.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { LONGEST_NAME = 63 }; /* longer ones get no suggestion */
@@ -47,39 +45,4 @@ const char *trax_nearest_name(const char *mistyped, size_t count, const char *(*
     }
   }
   return result;
-}
-
-static const char *option_name(const void *options, size_t i) {
-  return ((const struct option *)options)[i].name;
-}
-
-/* A long option that is none, or is not said far enough. */
-static trax_status wrong_name(const struct option *options, const char *text, trax_error *error) {
-  char name[64], candidates[600] = "";
-  const int length = (int)strcspn(text, "=");
-  size_t count = 0, used = 0;
-  unsigned matches = 0;
-  snprintf(name, sizeof name, "%.*s", length, text);
-  for (; options[count].name; count++)
-    if (length > 0 && strncmp(options[count].name, text, (size_t)length) == 0 && used < sizeof candidates)
-      used += (size_t)snprintf(candidates + used, sizeof candidates - used, "%s--%s", matches++ ? ", " : "",
-                               options[count].name);
-  if (matches)
-    return trax_fail(error, "--%s is ambiguous: %s", name, candidates);
-  const char *nearest = trax_nearest_name(name, count, option_name, options);
-  return nearest ? trax_fail(error, "unknown option --%s; did you mean --%s?", name, nearest)
-                 : trax_fail(error, "unknown option --%s", name);
-}
-
-trax_status trax_wrong_option(const struct option *options, char **argv, int which, trax_error *error) {
-  const char *text = argv[optind - 1]; /* but for a letter among others, behind which it has not moved */
-  if (which == ':')
-    return strncmp(text, "--", 2) == 0 ? trax_fail(error, "%s needs a value", text)
-                                       : trax_fail(error, "-%c needs a value", optopt);
-  if (!optopt)
-    return wrong_name(options, text + 2, error);
-  for (; options->name; options++)
-    if (options->val == optopt)
-      return trax_fail(error, "--%s takes no value", options->name);
-  return trax_fail(error, "unknown option -%c", optopt);
 }

@@ -21,7 +21,7 @@ struct bench {
   const struct options *options;
   const struct trax_scene *scene;
   const struct trax_view *view;
-  struct progress *progress;
+  trax_progress_line *progress;
   const volatile int *interrupt;
   char root[TRAX_PATH_SIZE];
   uint64_t own_hash; /* of this program, which has the emulator in it */
@@ -128,7 +128,7 @@ static void show_row(void *context, double fraction);
 static void show_step(void *context, uint64_t done, uint64_t total) {
   const struct step *step = context;
   if (step->name)
-    progress_show(step->bench->progress, step->name, (double)done / (double)total, NULL);
+    trax_progress_line_show(step->bench->progress, step->name, (double)done / (double)total, NULL);
   else
     show_row(step->bench, 0);
 }
@@ -207,8 +207,8 @@ static trax_status converge(struct bench *bench, trax_error *error) {
 static void show_row(void *context, double fraction) {
   const struct bench *bench = context;
   const double done = bench->samples_done + fraction * bench->samples_now;
-  progress_show(bench->progress, "measuring", bench->samples > 0 ? done / bench->samples : -1,
-                bench->variants[bench->now].name);
+  trax_progress_line_show(bench->progress, "measuring", bench->samples > 0 ? done / bench->samples : -1,
+                          bench->variants[bench->now].name);
 }
 
 static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *config, const struct trax_exact *exact) {
@@ -303,7 +303,7 @@ static trax_status check_workload(const struct bench *bench, trax_error *error) 
 static trax_status find_rows(struct bench *bench, trax_error *error) {
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < bench->count && status == TRAX_OK; i++) {
-    progress_show(bench->progress, "compiling", (double)i / (double)bench->count, NULL);
+    trax_progress_line_show(bench->progress, "compiling", (double)i / (double)bench->count, NULL);
     status = take_row(bench, i, NULL, false, error);
     if (!bench->done[i])
       bench->samples += bench->variants[i].samples;
@@ -346,7 +346,7 @@ static const char *base_name(const char *path) {
 }
 
 static bool is_moved(const struct camera_options *camera) {
-  return camera->has_eye || camera->has_look_at || camera->has_up || camera->fov > 0 || camera->orbit[0] != 0 ||
+  return camera->eye.given || camera->look_at.given || camera->up.given || camera->fov > 0 || camera->orbit[0] != 0 ||
          camera->orbit[1] != 0 || camera->light_count > 0;
 }
 
@@ -385,7 +385,7 @@ static trax_status report(struct bench *bench, trax_error *error) {
     status = trax_accuracy_draw(&report, options->output, &drawn, error);
   if (status != TRAX_OK)
     return status;
-  progress_clear(bench->progress);
+  trax_progress_line_clear(bench->progress);
   if (!drawn)
     fprintf(stderr,
             "trax-render: note: no diagrams: gnuplot does not run (Debian's gnuplot-nox); "
@@ -399,7 +399,7 @@ static trax_status report(struct bench *bench, trax_error *error) {
 }
 
 trax_status bench_accuracy(const struct options *options, const struct trax_scene *scene, const struct trax_view *view,
-                           struct progress *progress, const volatile int *interrupt, trax_error *error) {
+                           trax_progress_line *progress, const volatile int *interrupt, trax_error *error) {
   struct bench bench = {.options = options, .scene = scene, .view = view, .progress = progress, .interrupt = interrupt};
   if (!installation(bench.root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));

@@ -23,8 +23,8 @@ trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error) 
   for (*what = TRAX_CAUSE_ISSUED + 1; *what < TRAX_CAUSE_HALTED; ++*what)
     if (strcmp(name, trax_cause_names[*what]) == 0)
       return TRAX_OK;
-  return trax_fail(error, "--cost %s: expected cycles, instructions, or a cause as wait_memory (trax-sim --help-stats)",
-                   name);
+  return trax_fail(
+      error, "--cost: '%s' is none of cycles, instructions, and causes as wait_memory (trax-sim --help-stats)", name);
 }
 
 trax_status trax_costs_init(struct trax_costs *costs, uint32_t width, uint32_t height, const char *name,

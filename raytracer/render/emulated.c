@@ -142,7 +142,7 @@ static void show_run(void *context, const trax_progress *status) {
   snprintf(detail, sizeof detail, "%.1f M cycles, %.1f M instructions/s", 1e-6 * (double)status->cycle,
            1e-6 * (double)status->instructions / seconds);
   double fraction = status->total_items ? (double)status->items / (double)status->total_items : -1;
-  progress_show(context, "rendering", fraction, detail);
+  trax_progress_line_show(context, "rendering", fraction, detail);
 }
 
 static trax_status write_bytes(const char *directory, const char *name, const void *bytes, size_t size,
@@ -285,13 +285,13 @@ static trax_status write_costs(const struct trax_costs *costs, const struct opti
 }
 
 static void show_twin(void *context, uint64_t done, uint64_t total) {
-  progress_show(context, "predicting", (double)done / (double)total, NULL);
+  trax_progress_line_show(context, "predicting", (double)done / (double)total, NULL);
 }
 
 /* The picture by the twin, which also tells what parts are worth simulating. */
 static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct trax_picture *picture,
                                   const struct options *options, const struct trax_frame *frame, trax_machine *machine,
-                                  struct progress *progress, const volatile int *interrupt, trax_error *error) {
+                                  trax_progress_line *progress, const volatile int *interrupt, trax_error *error) {
   struct trax_render_run twin = {.progress = show_twin, .progress_context = progress, .interrupt = interrupt};
   sampling->slots = options->sampling;
   if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
@@ -302,7 +302,7 @@ static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct
 /* One picture by one program. figures may be NULL. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_program *program,
-                               struct progress *progress, const volatile int *interrupt,
+                               trax_progress_line *progress, const volatile int *interrupt,
                                struct program_figures *figures, trax_error *error) {
   if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -341,7 +341,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     machine->stats.sampling.asked.handed_out = NULL;
     const char *const doubt = options->program ? "another program" : sampling.doubt;
     trax_picture_sampling_release(&sampling);
-    progress_clear(progress);
+    trax_progress_line_clear(progress);
     if (status == TRAX_FAULT)
       trax_machine_print_fault(machine, stderr);
     if (status == TRAX_OK && figures)
@@ -362,7 +362,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
 /* --- both ways --- */
 
 static trax_status report(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                          const struct trax_program *specialised, struct progress *progress,
+                          const struct trax_program *specialised, trax_progress_line *progress,
                           const volatile int *interrupt, bool *agrees, trax_error *error) {
   struct options plain = *options; /* what explains or keeps the run is about the specialised program */
   plain.stats = plain.keep = plain.cost_picture = plain.cost_values = NULL;
@@ -393,9 +393,9 @@ static trax_status report(struct trax_picture *picture, const struct options *op
 }
 
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
+                    trax_progress_line *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
   struct trax_program program;
-  progress_show(progress, "compiling", -1, NULL);
+  trax_progress_line_show(progress, "compiling", -1, NULL);
   struct chosen chosen;
   trax_status status = choose(&chosen, options, frame, error);
   if (status == TRAX_OK)

@@ -3,7 +3,7 @@
 #define TRAX_RENDER_EMULATED_H
 
 #include "options.h"
-#include "progress.h"
+#include "trax/progress.h"
 
 #include <stdbool.h>
 
@@ -26,6 +26,6 @@ const char *kept_file(size_t number);
 /* The picture, and what the options want to know of the run. With --report two pictures, by the general program and by
    the specialised one, and *agrees becomes false if they differ. */
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    struct progress *progress, const volatile int *interrupt, bool *agrees, trax_error *error);
+                    trax_progress_line *progress, const volatile int *interrupt, bool *agrees, trax_error *error);
 
 #endif

@@ -29,7 +29,6 @@ static trax_status add_inputs(trax_files *files, const struct options *options, 
   for (size_t i = 0; i < options->mesh_count; i++)
     if (!trax_mesh_is_generated(options->meshes[i]))
       trax_files_input(files, NULL, options->meshes[i]);
-  trax_files_input(files, NULL, options->program);
   if (options->config && !is_preset(options->config))
     trax_files_input(files, NULL, options->config);
   char view[TRAX_PATH_SIZE];
@@ -64,30 +63,16 @@ static trax_status add_picture(trax_files *files, const struct options *options,
   return TRAX_OK;
 }
 
-static trax_status check_endings(const struct options *options, trax_error *error) {
-  const struct {
-    const char *path, *endings;
-  } outputs[] = {{options->bench_accuracy ? NULL : options->output, "png pfm exr"},
-                 {options->id_picture, "png"},
-                 {options->cost_picture, "png"},
-                 {options->cost_values, "csv pfm"}};
-  for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++)
-    if (outputs[i].path && trax_output_name_check(outputs[i].path, outputs[i].endings, error) != TRAX_OK)
-      return TRAX_ERROR;
-  return TRAX_OK;
-}
-
 trax_status check_files(trax_files *files, const struct options *options, trax_error *error) {
   if (add_inputs(files, options, error) != TRAX_OK || add_picture(files, options, error) != TRAX_OK)
     return TRAX_ERROR;
-  trax_files_output(files, "--write-view", options->write_view);
-  trax_files_output(files, "--id-picture", options->id_picture);
-  trax_files_output(files, "--stats", options->stats);
-  trax_files_output(files, "--profile", options->explain.profile);
-  trax_files_output(files, "--profile-folded", options->explain.folded);
-  trax_files_output(files, "--cost-picture", options->cost_picture);
-  trax_files_output(files, "--cost-values", options->cost_values);
+  trax_command_files(&render_command, options, files);
   for (size_t i = 0; options->keep && kept_file(i); i++)
     add_in_folder(files, options->prepare ? "--prepare" : "--keep", options->keep, kept_file(i));
-  return trax_files_check(files, error) == TRAX_OK ? check_endings(options, error) : TRAX_ERROR;
+  const bool is_file = options->output && !options->bench_accuracy;
+  if (trax_files_check(files, error) != TRAX_OK ||
+      (is_file && trax_output_name_check(options->output, "png pfm exr", error) != TRAX_OK) ||
+      (is_file && options->frames == 1 && trax_output_check(options->output, error) != TRAX_OK))
+    return TRAX_ERROR;
+  return trax_command_check_outputs(&render_command, options, error);
 }

@@ -185,7 +185,7 @@ void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side)
 
 /* --- features --- */
 
-const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS] = {"watertight", "moller-trumbore"};
+const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS + 1] = {"watertight", "moller-trumbore", NULL};
 
 static uint32_t features_of(const struct trax_frame_options *options, const struct trax_view *view,
                             const struct trax_scene *scene) {

@@ -17,21 +17,20 @@ static bool has_suffix(const char *text, const char *suffix) {
 /* --- the scene --- */
 
 static void show_scene_step(void *context, const char *step, double fraction) {
-  progress_show(context, step, fraction, NULL);
+  trax_progress_line_show(context, step, fraction, NULL);
 }
 
-static trax_status import_scene(struct inputs *inputs, const struct options *options, struct progress *progress,
+static trax_status import_scene(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                                 const volatile int *interrupt, trax_error *error) {
   struct trax_import_options import = options->import;
   import.progress = show_scene_step;
   import.progress_context = progress;
   import.interrupt = interrupt;
-  struct trax_build_options build = {.progress = show_scene_step,
-                                     .progress_context = progress,
-                                     .interrupt = interrupt,
-                                     .smooth = options->frame.smooth,
-                                     .compute_normals = options->compute_normals,
-                                     .passes = options->program ? 0 : TRAX_DEFAULT_PASSES};
+  struct trax_build_options build = options->build;
+  build.progress = show_scene_step;
+  build.progress_context = progress;
+  build.interrupt = interrupt;
+  build.passes = options->program ? 0 : TRAX_DEFAULT_PASSES;
   trax_splits_choose(options->splits ? options->splits : options->program ? "1" : "auto", &build);
   trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
   struct trax_mesh mesh = {0};
@@ -41,7 +40,7 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
   if (status == TRAX_OK)
     status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
   if (status == TRAX_OK && !options->quiet) {
-    progress_clear(progress);
+    trax_progress_line_clear(progress);
     trax_import_print_notes(&report, "trax-render", stderr);
   }
   if (status == TRAX_OK)
@@ -53,7 +52,7 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
   return status;
 }
 
-static trax_status load_scene(struct inputs *inputs, const struct options *options, struct progress *progress,
+static trax_status load_scene(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                               const volatile int *interrupt, trax_error *error) {
   struct trax_scene *scene = &inputs->scene;
   for (size_t i = 0; i < options->mesh_count; i++)
@@ -62,7 +61,7 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
         return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
                          options->meshes[i]);
       if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
-          options->compute_normals || options->nodes || options->splits)
+          options->build.compute_normals || options->nodes || options->splits)
         return trax_fail(error,
                          "%s: a scene file is as trax-scene made it: --material, --diffuse, --no-textures, "
                          "--texture-size, --nodes, --splits and --normals smooth are for meshes",
@@ -130,15 +129,15 @@ static trax_status load_view(struct trax_view *view, const struct options *optio
 /* What single options say takes the place of the view's. */
 static trax_status change_view(struct trax_view *view, const struct camera_options *camera, trax_error *error) {
   const float up[3] = {view->up[0], view->up[1], view->up[2]};
-  if (camera->has_eye)
-    memcpy(view->eye, camera->eye, sizeof view->eye);
+  if (camera->eye.given)
+    memcpy(view->eye, camera->eye.at, sizeof view->eye);
   trax_status status = TRAX_OK;
-  if (camera->has_look_at)
-    status = trax_view_aim(view, camera->look_at, error);
-  else if (camera->has_eye && view->has_look_at)
+  if (camera->look_at.given)
+    status = trax_view_aim(view, camera->look_at.at, error);
+  else if (camera->eye.given && view->has_look_at)
     status = trax_view_aim(view, view->look_at, error);
   if (status == TRAX_OK)
-    status = trax_view_set_up(view, camera->has_up ? camera->up : up, error);
+    status = trax_view_set_up(view, camera->up.given ? camera->up.at : up, error);
   if (camera->fov > 0)
     view->fov = camera->fov;
   if (camera->light_count)
@@ -154,7 +153,7 @@ static trax_status change_view(struct trax_view *view, const struct camera_optio
   return status;
 }
 
-trax_status inputs_load(struct inputs *inputs, const struct options *options, struct progress *progress,
+trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                         const volatile int *interrupt, trax_error *error) {
   *inputs = (struct inputs){0};
   trax_status status = load_scene(inputs, options, progress, interrupt, error);

@@ -3,7 +3,7 @@
 #define TRAX_RENDER_INPUTS_H
 
 #include "options.h"
-#include "progress.h"
+#include "trax/progress.h"
 
 struct inputs {
   struct trax_scene scene;
@@ -13,7 +13,7 @@ struct inputs {
   float centre[3];       /* around which it orbits */
 };
 
-trax_status inputs_load(struct inputs *inputs, const struct options *options, struct progress *progress,
+trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                         const volatile int *interrupt, trax_error *error);
 /* Of the turntable's picture `number`, from 0. */
 void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);

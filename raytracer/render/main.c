@@ -7,8 +7,8 @@
 #include "host/util.h"
 #include "inputs.h"
 #include "options.h"
-#include "progress.h"
 #include "render.h"
+#include "trax/progress.h"
 #include "trax/signals.h"
 
 #include <errno.h>
@@ -27,26 +27,26 @@ static void on_broken_pipe(int signal_number) {
 /* --- the other engines --- */
 
 struct step {
-  struct progress *progress;
+  trax_progress_line *progress;
   const char *name;
 };
 
 static void show_step(void *context, uint64_t done, uint64_t total) {
   const struct step *step = context;
-  progress_show(step->progress, step->name, (double)done / (double)total, NULL);
+  trax_progress_line_show(step->progress, step->name, (double)done / (double)total, NULL);
 }
 
 static trax_status run_on_host(struct trax_picture *picture, bool reference, unsigned threads,
-                               const struct trax_frame *frame, struct progress *progress, bool quiet,
+                               const struct trax_frame *frame, trax_progress_line *progress, bool quiet,
                                trax_error *error) {
   struct step step = {progress, reference ? "reference" : "native twin"};
   struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
-  double begun = seconds_now();
+  double begun = trax_seconds();
   trax_status status = reference ? trax_render_reference(picture, frame, &run, error)
                                  : trax_render_twin(picture, frame, threads, &run, error);
-  progress_clear(progress);
+  trax_progress_line_clear(progress);
   if (status == TRAX_OK && !quiet)
-    printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, seconds_now() - begun);
+    printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, trax_seconds() - begun);
   return status;
 }
 
@@ -54,7 +54,7 @@ enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
 
 /* What the rays hit. */
 static trax_status find_hits(struct trax_hits *hits, enum finder finder, bool holes, unsigned threads,
-                             const struct trax_frame *frame, struct progress *progress, trax_error *error) {
+                             const struct trax_frame *frame, trax_progress_line *progress, trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
   struct step step = {progress, names[finder]};
   struct trax_render_run run = {
@@ -62,11 +62,11 @@ static trax_status find_hits(struct trax_hits *hits, enum finder finder, bool ho
   trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
                        : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, error)
                                              : trax_hits_exact(hits, frame, &run, error);
-  progress_clear(progress);
+  trax_progress_line_clear(progress);
   return status;
 }
 
-static trax_status compare_hits(const struct trax_frame *frame, struct progress *progress, bool *agrees,
+static trax_status compare_hits(const struct trax_frame *frame, trax_progress_line *progress, bool *agrees,
                                 trax_error *error) {
   struct trax_hits hits[3] = {{0}};
   struct trax_hits_difference difference;
@@ -91,8 +91,8 @@ static trax_status compare_hits(const struct trax_frame *frame, struct progress 
   return status;
 }
 
-static trax_status write_hits(const struct options *options, const struct trax_frame *frame, struct progress *progress,
-                              trax_error *error) {
+static trax_status write_hits(const struct options *options, const struct trax_frame *frame,
+                              trax_progress_line *progress, trax_error *error) {
   struct trax_hits hits = {0};
   struct trax_picture picture = {0};
   trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, true, options->threads,
@@ -110,7 +110,7 @@ static trax_status write_hits(const struct options *options, const struct trax_f
 
 /* *agrees: all comparisons came out well. */
 static trax_status compare(const struct trax_picture *picture, const struct trax_frame *frame,
-                           struct progress *progress, bool *agrees, trax_error *error) {
+                           trax_progress_line *progress, bool *agrees, trax_error *error) {
   struct trax_picture other = {0};
   struct trax_difference difference;
   trax_status status = run_on_host(&other, true, 0, frame, progress, true, error);
@@ -148,20 +148,6 @@ static trax_status compare(const struct trax_picture *picture, const struct trax
   return frame->method.triangle == TRAX_TRIANGLE_WATERTIGHT ? compare_hits(frame, progress, agrees, error) : TRAX_OK;
 }
 
-static trax_status check_outputs(const struct options *options, trax_error *error) {
-  const char *const paths[] = {options->frames > 1 || options->bench_accuracy ? NULL : options->output,
-                               options->stats,
-                               options->cost_picture,
-                               options->cost_values,
-                               options->write_view,
-                               options->id_picture};
-  trax_status status = TRAX_OK;
-  for (size_t i = 0; i < sizeof paths / sizeof *paths && status == TRAX_OK; i++)
-    if (paths[i])
-      status = trax_output_check(paths[i], error);
-  return status == TRAX_OK ? trax_explain_check(&options->explain, error) : status;
-}
-
 static void print_outputs(const struct options *options, const char *picture) {
   if (picture)
     printf("picture     %s\n", picture);
@@ -173,7 +159,7 @@ static void print_outputs(const struct options *options, const char *picture) {
 
 /* One picture. *scaled: the power of two by which the scene was scaled so far. */
 static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
-                               const char *output, int *scaled, struct progress *progress, bool *agrees,
+                               const char *output, int *scaled, trax_progress_line *progress, bool *agrees,
                                trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
@@ -207,13 +193,12 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   return status;
 }
 
-static trax_status render(const struct options *options, struct progress *progress, bool *agrees, trax_error *error) {
+static trax_status render(const struct options *options, trax_progress_line *progress, bool *agrees,
+                          trax_error *error) {
   struct inputs inputs = {0};
   struct trax_view view;
   int scaled = 0;
-  trax_status status = check_outputs(options, error);
-  if (status == TRAX_OK)
-    status = inputs_load(&inputs, options, progress, &trax_signal, error);
+  trax_status status = inputs_load(&inputs, options, progress, &trax_signal, error);
   if (status == TRAX_OK && options->write_view) {
     inputs_view(&view, &inputs, options, 0);
     status = trax_view_write(&view, options->write_view, error);
@@ -235,15 +220,15 @@ static trax_status render(const struct options *options, struct progress *progre
 int main(int argc, char **argv) {
   struct options options;
   trax_error error = {""};
-  enum options_result parsed = options_parse(&options, argc, argv, &error);
+  trax_parsed parsed = options_parse(&options, argc, argv, &error);
   int exit_status = 0;
-  if (parsed == OPTIONS_WRONG) {
+  if (parsed == TRAX_PARSED_WRONG) {
     fprintf(stderr, "trax-render: error: %s\n", error.message);
     exit_status = 1;
-  } else if (parsed == OPTIONS_RUN) {
-    struct progress progress;
+  } else if (parsed == TRAX_PARSED_RUN) {
+    trax_progress_line progress;
     bool agrees = true;
-    progress_init(&progress, "trax-render", options.quiet);
+    trax_progress_line_begin(&progress, "trax-render", options.quiet);
     trax_catch_signals();
     signal(SIGPIPE, on_broken_pipe);
     signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
@@ -253,7 +238,7 @@ int main(int argc, char **argv) {
     if (status == TRAX_OK)
       status = render(&options, &progress, &agrees, &error);
     trax_files_release(&files);
-    progress_clear(&progress);
+    trax_progress_line_clear(&progress);
     if (status != TRAX_OK && trax_signal) {
       options_release(&options);
       fprintf(stderr, "trax-render: interrupted\n");

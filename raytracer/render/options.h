@@ -4,6 +4,7 @@
 
 #include "explain/explain.h"
 #include "render.h"
+#include "trax/options.h"
 
 /* The first two simulate the machine, to the same cycle. */
 enum engine { ENGINE_FAST, ENGINE_REFERENCE, ENGINE_NATIVE, ENGINE_EMBREE };
@@ -15,8 +16,10 @@ struct setting {
 
 /* What takes the place of the view's values. */
 struct camera_options {
-  bool has_eye, has_look_at, has_up;
-  float eye[3], look_at[3], up[3];
+  struct point {
+    float at[3];
+    bool given;
+  } eye, look_at, up;
   float fov;      /* degrees; 0: the view's */
   float orbit[2]; /* angle, elevation: degrees */
   float lights[TRAX_VIEW_MAX_LIGHTS][3];
@@ -43,10 +46,9 @@ struct options {
   struct setting *settings; /* keys are copies */
   size_t setting_count;
   struct trax_import_options import; /* materials and textures */
-  struct trax_material_override *overrides;
-  bool compute_normals; /* --normals smooth */
-  const char *nodes;    /* of the tree; NULL: auto */
-  const char *splits;   /* NULL: auto */
+  struct trax_build_options build;   /* normals */
+  const char *nodes;                 /* of the tree; NULL: auto */
+  const char *splits;                /* NULL: auto */
   struct trax_frame_options frame;
   enum engine engine;
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
@@ -57,10 +59,11 @@ struct options {
   bool prepare; /* keep is written, nothing is rendered */
 };
 
-enum options_result { OPTIONS_RUN, OPTIONS_DONE, OPTIONS_WRONG };
+extern const trax_command render_command;
 
-/* OPTIONS_DONE: help or version were printed. OPTIONS_WRONG: *error says what is wrong. */
-enum options_result options_parse(struct options *options, int argc, char **argv, trax_error *error);
+trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error);
+/* Whether they go together. */
+trax_status options_check(const struct options *options, trax_error *error);
 void options_release(struct options *options);
 
 #endif

@@ -20,7 +20,7 @@
 
 /* How the device program computes what its parameters ask for: chosen when it is compiled. Zeros: the default. */
 enum trax_triangle_method { TRAX_TRIANGLE_WATERTIGHT, TRAX_TRIANGLE_MOLLER_TRUMBORE, TRAX_TRIANGLE_METHODS };
-extern const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS]; /* as options give them */
+extern const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS + 1]; /* as options give them; NULL */
 
 struct trax_method {
   enum trax_triangle_method triangle; /* device/triangle.h */

@@ -37,14 +37,14 @@ refuse 'x.png: is written twice, by --output and by --cost-picture' "$render" "$
 refuse 'x.json: is written twice, by --stats and by --profile' "$render" "$box" -o x.png --stats x.json --profile x.json
 refuse 'unknown option --siez; did you mean --size?' "$render" "$box" -o x.png --siez 10x10
 refuse 'unknown option -z' "$render" "$box" -o x.png -z
-refuse '--size needs a value' "$render" "$box" -o x.png --size
+refuse '--size needs WxH' "$render" "$box" -o x.png --size
 refuse '--quiet takes no value' "$render" "$box" -o x.png --quiet=1
 for size in '' 0x10 10x0 10 10x 10x10x10 -1x5 16385x1 1x16385 1e3x10 99999999999999999999x1 ' 1x1'; do
   refuse '--size' "$render" "$box" -o x.png --size "$size"
 done
-refuse '--engine gpu' "$render" "$box" -o x.png --engine gpu
-refuse '--ambient 2' "$render" "$box" -o x.png --ambient 2
-refuse '--ambient nan' "$render" "$box" -o x.png --ambient nan
+refuse "--engine: 'gpu' is none of fast, reference, native and embree" "$render" "$box" -o x.png --engine gpu
+refuse "--ambient: '2' is not" "$render" "$box" -o x.png --ambient 2
+refuse "--ambient: 'nan' is not" "$render" "$box" -o x.png --ambient nan
 for samples in 0 4097 2.5 '' -1; do
   refuse '--samples' "$render" "$box" -o x.png --samples "$samples"
 done
@@ -58,11 +58,11 @@ refuse '--seed is for --paths' "$render" "$box" -o x.png --seed 3
 refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
-refuse '--nodes octal: expected auto, binary, quantised, quantised8, wide, wide-quantised or wide-quantised8' "$render" "$box" -o x.png --nodes octal
-refuse '--texture-size 3: expected a power of two' "$render" "$box" -o x.png --texture-size 3
-refuse '--normals round: expected file' "$render" "$box" -o x.png --normals round
+refuse "--nodes: 'octal' is none of auto, binary, quantised, quantised8, wide, wide-quantised and wide-quantised8" "$render" "$box" -o x.png --nodes octal
+refuse "--texture-size: '3' is not a power of two" "$render" "$box" -o x.png --texture-size 3
+refuse "--normals: 'round' is none of file" "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
-refuse '--set bandwidth: expected KEY=VALUE' "$render" "$box" -o x.png --set bandwidth
+refuse "--set: 'bandwidth' is not of the form KEY=VALUE" "$render" "$box" -o x.png --set bandwidth
 refuse '--threads' "$render" "$box" -o x.png --engine native --threads 0
 refuse '--stats needs the emulator' "$render" "$box" -o x.png --engine native --stats s.json
 refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --config 4x32
@@ -74,9 +74,9 @@ refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise
 refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --cache here
 refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --report
 refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
-refuse '--triangle fast: expected watertight or moller-trumbore' "$render" "$box" -o x.png --triangle fast
-refuse '--queues 65: expected 1 to 64, or tms' "$render" "$box" -o x.png --queues 65
-refuse '--queues 0: expected' "$render" "$box" -o x.png --queues 0
+refuse "--triangle: 'fast' is none of watertight and moller-trumbore" "$render" "$box" -o x.png --triangle fast
+refuse "--queues: '65' is neither tms nor a whole number from 1 to 64" "$render" "$box" -o x.png --queues 65
+refuse "--queues: '0' is neither" "$render" "$box" -o x.png --queues 0
 refuse '--queues needs a program.*--no-specialise' "$render" "$box" -o x.png --queues tms --no-specialise
 refuse '--queues needs the emulator' "$render" "$box" -o x.png --engine native --queues tms
 refuse '--triangle needs a program compiled' "$render" "$box" -o x.png --triangle moller-trumbore --no-specialise
@@ -85,12 +85,12 @@ refuse '--report compares with the general' "$render" "$box" -o x.png --triangle
 refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
 refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
 for entries in 0 63 -1 2x; do
-  refuse '--stack: expected a number from 1 to 62' "$render" "$box" -o x.png --stack $entries
+  refuse "--stack: '$entries' is not a whole number from 1 to 62" "$render" "$box" -o x.png --stack $entries
 done
 refuse '--stack needs a program compiled.*--no-specialise' "$render" "$box" -o x.png --stack 2 --no-specialise
 refuse '--stack needs the emulator' "$render" "$box" -o x.png --stack 2 --engine native
 refuse 'which --stack leaves' "$render" "$box" -o x.png --stack 2 --bench-accuracy
-refuse '--cost time: expected cycles' "$render" "$box" -o x.png --cost-picture c.png --cost time
+refuse "--cost: 'time' is none of cycles" "$render" "$box" -o x.png --cost-picture c.png --cost time
 for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
 done
@@ -102,9 +102,9 @@ for option in eye look-at up light; do
     refuse "--$option" "$render" "$box" -o x.png --$option "$value"
   done
 done
-refuse '--fov 180' "$render" "$box" -o x.png --fov 180
-refuse '--orbit 1,2,3' "$render" "$box" -o x.png --orbit 1,2,3
-refuse '--frames: expected' "$render" "$box" -o x.png --frames 0
+refuse "--fov: '180' is not" "$render" "$box" -o x.png --fov 180
+refuse "--orbit: '1,2,3' is not" "$render" "$box" -o x.png --orbit 1,2,3
+refuse "--frames: '0' is not a whole number" "$render" "$box" -o x.png --frames 0
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --id-picture i.png
 refuse 'and nothing else' "$render" "$box" -o x.png --bench-accuracy --id-picture i.png
@@ -149,7 +149,7 @@ accept "$compare" a.png b.png
 refuse '--nodes, --splits and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
 
 # The picture does not depend on how the tree is stored; the file does.
-refuse '--splits=0.5: expected auto or a number from 1 to 8' "$render" "$box" -o x.png --splits=0.5
+refuse "--splits: '0.5' is neither auto nor a number from 1 to 8" "$render" "$box" -o x.png --splits=0.5
 for nodes in binary quantised quantised8 wide wide-quantised wide-quantised8 auto; do
   accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
   accept "$bin/trax-scene" "$box" -o "split-$nodes.trax" --nodes "$nodes" --splits=4

@@ -116,20 +116,20 @@ printf '#include <trax.h>\nstruct trax_buffer scene, image;\nunsigned next_slot[
 "$bin/clang" --target=trax -O2 many.c -o many.elf || fail "many.c"
 refuse 'next_slot has 65 queues; allowed are 64 at most' --sampled --program many.elf
 for value in 0 1.5 -0.1 nan 5%; do
-  refuse '--sample-fraction .*: expected' --sampled --sample-fraction "$value"
+  refuse '--sample-fraction: .* is not a number above' --sampled --sample-fraction "$value"
 done
 for value in 0 51 -1 x; do
-  refuse '--sample-error .*: expected' --sampled --sample-error "$value"
+  refuse '--sample-error: .* is not per cent' --sampled --sample-error "$value"
 done
 for option in fraction error; do
   refuse "--sample-$option: the value is empty" --sampled --sample-$option ''
 done
 for option in seed unit warm-up; do
-  refuse 'expected a number' --sampled --sample-$option 0
-  refuse 'expected a number' --sampled --sample-$option 2.5
+  refuse 'is not a whole number' --sampled --sample-$option 0
+  refuse 'is not a whole number' --sampled --sample-$option 2.5
   refuse 'are for --sampled' --sample-$option 3
 done
-refuse 'expected a number' --sampled --sample-unit 99999999
+refuse 'is not a whole number' --sampled --sample-unit 99999999
 refuse 'one follows from the other' --sampled --sample-fraction 0.5 --sample-error 2
 refuse 'engine fast' --sampled --engine reference
 refuse 'engine fast' --sampled --engine native

@@ -1,0 +1,85 @@
+#define _GNU_SOURCE /* fopencookie */
+#include "trax/progress.h"
+
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define REDRAW_SECONDS 0.1
+
+double trax_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void trax_progress_line_begin(trax_progress_line *line, const char *program, bool quiet) {
+  *line = (trax_progress_line){.terminal = !quiet && isatty(STDERR_FILENO) ? stderr : NULL, .program = program};
+}
+
+static void print_time_left(FILE *out, double seconds) {
+  const unsigned long whole = (unsigned long)(seconds + 0.5);
+  if (whole >= 3600)
+    fprintf(out, ", %lu:%02lu:%02lu left", whole / 3600, whole / 60 % 60, whole % 60);
+  else
+    fprintf(out, ", %lu:%02lu left", whole / 60, whole % 60);
+}
+
+/* Whether the line is to be drawn. */
+static bool is_due(trax_progress_line *line, const char *step, double fraction, double now) {
+  const bool is_new = strncmp(line->step, step, sizeof line->step - 1) != 0;
+  if (is_new || (line->first < 0 && fraction >= 0)) {
+    line->begun = now;
+    line->first = fraction;
+    line->drawn_at = is_new ? 0 : line->drawn_at;
+    snprintf(line->step, sizeof line->step, "%s", step);
+  }
+  return now - line->drawn_at >= REDRAW_SECONDS;
+}
+
+void trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail) {
+  if (!line->terminal)
+    return;
+  const double now = trax_seconds();
+  if (!is_due(line, step, fraction, now))
+    return;
+  /* One write: an interrupt may end any, and would else leave a line without its beginning. */
+  char text[512];
+  FILE *out = fmemopen(text, sizeof text, "w");
+  if (!out)
+    return;
+  line->drawn_at = now;
+  line->drawn = true;
+  fprintf(out, "\r%s: %s", line->program, line->step);
+  if (detail)
+    fprintf(out, ", %.300s", detail);
+  if (fraction >= 0)
+    fprintf(out, ", %.1f %%", 100 * (fraction < 1 ? fraction : 1));
+  if (line->first >= 0 && fraction > line->first && fraction <= 1 && now - line->begun > 2 * REDRAW_SECONDS)
+    print_time_left(out, (now - line->begun) * (1 - fraction) / (fraction - line->first));
+  fprintf(out, "\033[K"); /* what the line before had more */
+  fclose(out);
+  fputs(text, line->terminal);
+  fflush(line->terminal);
+}
+
+void trax_progress_line_clear(trax_progress_line *line) {
+  if (line->drawn) {
+    fputs("\r\033[K", line->terminal);
+    fflush(line->terminal);
+  }
+  line->drawn = false;
+}
+
+static ssize_t write_beside(void *cookie, const char *bytes, size_t size) {
+  trax_progress_line_clear(cookie);
+  size_t written = fwrite(bytes, 1, size, stdout);
+  return fflush(stdout) == 0 ? (ssize_t)written : 0;
+}
+
+FILE *trax_progress_line_output(trax_progress_line *line) {
+  FILE *output = fopencookie(line, "w", (cookie_io_functions_t){.write = write_beside});
+  if (output)
+    setvbuf(output, NULL, _IOLBF, BUFSIZ);
+  return output;
+}

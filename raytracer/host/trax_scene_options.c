@@ -1,0 +1,120 @@
+#include "trax_scene.h"
+
+#include "trax/scene_options.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static trax_status take_cost(void *target, const trax_option *option, const char *value, trax_error *error) {
+  char *end;
+  const float number = strtof(value, &end);
+  if (end == value || *end || !(number > 0) || !isfinite(number))
+    return trax_option_refuse(option, value, error, "is not a positive number");
+  *(float *)((char *)target + option->offset) = number;
+  return TRAX_OK;
+}
+
+static trax_status take_crease(void *target, const trax_option *option, const char *value, trax_error *error) {
+  char *end;
+  const float number = strtof(value, &end);
+  if (end == value || *end || !(number > 0) || number > 180)
+    return trax_option_refuse(option, value, error, "is not an angle above 0 and up to 180 degrees");
+  *(float *)((char *)target + option->offset) = number;
+  return TRAX_OK;
+}
+
+#define FIELD(member) TRAX_OPTION_FIELD(struct arguments, member)
+#define PARSED(function, member) .parse = (function), .offset = offsetof(struct arguments, member)
+#define NUMBER(member, least_, most_) FIELD(member), .least = (least_), .most = (most_)
+#define OUTPUT(member) FIELD(member), .file = TRAX_OPTION_OUTPUT
+
+/* What the table's texts say in numbers. */
+_Static_assert(1 << TRAX_TEXTURE_MAX_LOG2 == 4096 && TRAX_SCENE_MAX_LEAF == 7 && TRAX_SCENE_MAX_DEPTH == 62, "");
+_Static_assert(TRAX_DEFAULT_CREASE == 60 && TRAX_DEFAULT_PASSES == 2 && TRAX_SCENE_MAX_PASSES == 16, "");
+
+/* clang-format off */
+static const trax_option rows[] = {
+    {"output", 'o', .argument = "SCENE", OUTPUT(output),
+     .meaning = "where to write; an existing file is replaced at once or stays as it is"},
+    {"check", .argument = "SCENE", FIELD(check), .file = TRAX_OPTION_INPUT,
+     .meaning = "no import: check a scene file completely"},
+    {"stats", FIELD(stats), .meaning = "print what was read and built"},
+    {"stats-json", .argument = "FILE", OUTPUT(stats_json), .meaning = "write the same as JSON"},
+    {"diffuse", .argument = "[NAME=]R,G,B", PARSED(trax_take_diffuse, import),
+     .meaning = "linear colour, 0 to 1, of the material NAME, or of all (repeatable)"},
+    {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import),
+     .meaning = "lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or emit:R,G,B, of the\n"
+                "material NAME, or of all (repeatable)"},
+    {"no-textures", FIELD(import.no_textures), .meaning = "read no images; colours remain"},
+    {"texture-size", .argument = "N", PARSED(trax_take_texture_size, import.texture_size),
+     .meaning = "at most N texels a side, a power of two (default 4096)"},
+    {"drop-nonfinite", FIELD(import.drop_nonfinite),
+     .meaning = "leave triangles with NaN or infinite vertices out instead of refusing the mesh"},
+    {"keep-degenerate", FIELD(import.keep_degenerate),
+     .meaning = "keep triangles of exactly zero area, which no ray can hit"},
+    {"allow-empty", FIELD(build.allow_empty), .meaning = "write a scene without triangles if the mesh has none"},
+    {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
+     .meaning = "binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an axis;\n"
+                "quantised8: four, of 256 planes an axis around each node; wide, wide-quantised,\n"
+                "wide-quantised8: the same, up to four boxes a node;\n"
+                "auto (default): quantised, if the grid is fine enough for each large part of the tree"},
+    {"leaf", .argument = "N", NUMBER(build.max_leaf, 1, TRAX_SCENE_MAX_LEAF),
+     .meaning = "at most N triangles in a leaf, 1 to 7"},
+    {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),
+     .meaning = "splits large triangles, which then stand in several leaves: room for FACTOR times\n"
+                "as many, 1 (none) to 8, without FACTOR 1.5; =auto (default): so, if many are askew"},
+    {"passes", .argument = "N", NUMBER(build.passes, 0, TRAX_SCENE_MAX_PASSES),
+     .meaning = "N times over the tree after it was built, to move its parts to where they cost\n"
+                "less, 0 to 16 (default 2)"},
+    {"depth", .argument = "N", NUMBER(build.max_depth, 1, TRAX_SCENE_MAX_DEPTH),
+     .meaning = "at most N nodes from the root to a leaf, 1 to 62"},
+    {"traversal-cost", .argument = "X", PARSED(take_cost, build.traversal_cost),
+     .meaning = "of a node in the surface-area heuristic"},
+    {"intersection-cost", .argument = "X", PARSED(take_cost, build.intersection_cost), .meaning = "of a triangle"},
+    {"cache-lines", .argument = "N", NUMBER(build.cache_lines, 1, 4096),
+     .meaning = "order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first"},
+    {"smooth", FIELD(build.smooth), .meaning = "normals for smooth shading, the same as --normals file"},
+    {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
+     .meaning = "of packed files and of pipes, unpacked; K, M and G are powers of 1024 (default 1G)"},
+    {"normals", .argument = "WHICH", PARSED(trax_take_normals, build),
+     .meaning = "file: the mesh's own, computed where it has none; smooth: computed; flat: none"},
+    {"crease", .argument = "DEGREES", PARSED(take_crease, build.crease_degrees),
+     .meaning = "edges sharper than this stay edges, up to 180 (default 60)"},
+    {"no-source-ids", FIELD(build.without_source_ids), .meaning = "leave out each triangle's number in the mesh"},
+    {"quiet", 'q', FIELD(quiet), .meaning = "no progress and no notes"},
+    TRAX_OPTION_HELP('h'),
+    TRAX_OPTION_VERSION,
+    {0}};
+/* clang-format on */
+
+const trax_command scene_command = {
+    .name = "trax-scene",
+    .synopsis = "[options] MESH... -o SCENE\n--check SCENE [--stats] [--stats-json FILE]",
+    .description =
+        "Imports meshes (PLY, OBJ with MTL, glTF, GLB and what else assimp reads, also as .xz or .gz), merges them, "
+        "builds\n"
+        "the BVH and writes a scene file. The mesh generate:forest[:SEED] is made by the program itself.",
+    .rows = rows,
+    .column = 31};
+
+trax_parsed arguments_parse(struct arguments *arguments, int argc, char **argv, trax_error *error) {
+  *arguments = (struct arguments){.build = {.passes = TRAX_DEFAULT_PASSES}};
+  const trax_parsed parsed = trax_command_parse(&scene_command, arguments, &argc, argv, error);
+  if (parsed != TRAX_PARSED_RUN)
+    return parsed;
+  trax_node_layout_choose(arguments->nodes ? arguments->nodes : "auto", &arguments->build);
+  trax_splits_choose(arguments->splits ? arguments->splits : "auto", &arguments->build);
+  arguments->meshes = argv;
+  arguments->mesh_count = (size_t)argc;
+  if (arguments->check && (arguments->mesh_count || arguments->output))
+    trax_fail(error, "--check takes neither meshes nor an output");
+  else if (arguments->build.crease_degrees > 0 && !arguments->build.smooth)
+    trax_fail(error, "--crease without --smooth or --normals");
+  else if (!arguments->check && !arguments->mesh_count)
+    trax_fail(error, "no mesh; try --help");
+  else if (!arguments->check && !arguments->output)
+    trax_fail(error, "no output; give one with -o");
+  else
+    return TRAX_PARSED_RUN;
+  return TRAX_PARSED_WRONG;
+}

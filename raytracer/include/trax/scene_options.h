@@ -1,0 +1,21 @@
+/* Options that trax-scene and trax-render share: parsers for rows of their tables (trax/options.h). */
+#ifndef TRAX_SCENE_OPTIONS_H
+#define TRAX_SCENE_OPTIONS_H
+
+#include "trax/options.h"
+#include "trax/scene.h"
+
+/* --diffuse and --material; the row's member is a struct trax_import_options, whose overrides are from malloc. */
+trax_status trax_take_diffuse(void *target, const trax_option *option, const char *value, trax_error *error);
+trax_status trax_take_material(void *target, const trax_option *option, const char *value, trax_error *error);
+/* An unsigned. */
+trax_status trax_take_texture_size(void *target, const trax_option *option, const char *value, trax_error *error);
+/* A size_t. */
+trax_status trax_take_unpack_limit(void *target, const trax_option *option, const char *value, trax_error *error);
+/* A const char *, of which trax_node_layout_choose and trax_splits_choose make something: NULL if nothing was given. */
+trax_status trax_take_nodes(void *target, const trax_option *option, const char *value, trax_error *error);
+trax_status trax_take_splits(void *target, const trax_option *option, const char *value, trax_error *error);
+/* A struct trax_build_options. */
+trax_status trax_take_normals(void *target, const trax_option *option, const char *value, trax_error *error);
+
+#endif
