@@ -23,8 +23,10 @@ static bool is_optional(const trax_option *option) {
 
 /* --- which option --- */
 
+/* For suggestions: no mistyped name is near "". */
 static const char *row_name(const void *rows, size_t i) {
-  return ((const trax_option *)rows)[i].name;
+  const trax_option *row = (const trax_option *)rows + i;
+  return row->instead ? "" : row->name;
 }
 
 static const trax_option *find_name(const trax_command *command, const char *text, size_t length, trax_error *error) {
@@ -34,8 +36,14 @@ static const trax_option *find_name(const trax_command *command, const char *tex
   for (const trax_option *row = command->rows; row->name; row++, count++) {
     if (length == 0 || strncmp(row->name, text, length) != 0)
       continue;
+    if (row->name[length] == '\0' && row->instead) {
+      trax_fail(error, "--%s has been removed; %s", row->name, row->instead);
+      return NULL;
+    }
     if (row->name[length] == '\0')
       return row;
+    if (row->instead)
+      continue;
     found = row;
     if (used < sizeof candidates)
       used += (size_t)snprintf(candidates + used, sizeof candidates - used, "%s--%s", matches ? ", " : "", row->name);
@@ -48,7 +56,7 @@ static const trax_option *find_name(const trax_command *command, const char *tex
   const char *nearest = trax_nearest_name(name, count, row_name, command->rows);
   if (matches)
     trax_fail(error, "--%s is ambiguous: %s", name, candidates);
-  else if (nearest)
+  else if (nearest && *nearest)
     trax_fail(error, "unknown option --%s; did you mean --%s?", name, nearest);
   else
     trax_fail(error, "unknown option --%s", name);
@@ -160,6 +168,9 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
     return TRAX_PARSED_WRONG;
   }
   switch (option->kind) {
+  case TRAX_OPTION_SHOW:
+    option->show(stdout);
+    return TRAX_PARSED_DONE;
   case TRAX_OPTION_SHOW_HELP:
     trax_command_help(command, stdout);
     return TRAX_PARSED_DONE;
@@ -240,6 +251,8 @@ void trax_command_help(const trax_command *command, FILE *out) {
   fputs("\n", out);
   const bool letters = has_letters(command);
   for (const trax_option *row = command->rows; row->name; row++) {
+    if (row->instead)
+      continue;
     char letter[] = {'-', row->letter, ',', ' ', '\0'};
     const char *between = !row->argument || is_optional(row) ? "" : " ";
     const int length = fprintf(out, "  %s--%s%s%s",

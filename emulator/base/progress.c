@@ -37,17 +37,17 @@ static bool is_due(trax_progress_line *line, const char *step, double fraction, 
   return now - line->drawn_at >= REDRAW_SECONDS;
 }
 
-void trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail) {
+bool trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail) {
   if (!line->terminal)
-    return;
+    return false;
   const double now = trax_seconds();
   if (!is_due(line, step, fraction, now))
-    return;
+    return false;
   /* One write: an interrupt may end any, and would else leave a line without its beginning. */
   char text[512];
   FILE *out = fmemopen(text, sizeof text, "w");
   if (!out)
-    return;
+    return false;
   line->drawn_at = now;
   line->drawn = true;
   fprintf(out, "\r%s: %s", line->program, line->step);
@@ -61,6 +61,7 @@ void trax_progress_line_show(trax_progress_line *line, const char *step, double 
   fclose(out);
   fputs(text, line->terminal);
   fflush(line->terminal);
+  return true;
 }
 
 void trax_progress_line_clear(trax_progress_line *line) {

@@ -122,16 +122,6 @@ bool trax_explain_wanted(const struct trax_explain_options *options) {
   return wanted;
 }
 
-trax_status trax_explain_check(const struct trax_explain_options *options, trax_error *error) {
-  const char *const files[] = {options->profile, options->folded,   options->annotate, options->trace,
-                               options->konata,  options->perfetto, options->heat,     options->heat_lines,
-                               options->items,   options->lockstep, options->series};
-  for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-    if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
-      return TRAX_ERROR;
-  return TRAX_OK;
-}
-
 static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
   explain->steps = calloc(threads, sizeof *explain->steps);

@@ -41,8 +41,6 @@ enum { TRAX_SERIES_INTERVAL = 10000 };
 
 /* Whether anything is wanted. */
 bool trax_explain_wanted(const struct trax_explain_options *options);
-/* Whether the files can be written. */
-trax_status trax_explain_check(const struct trax_explain_options *options, trax_error *error);
 
 /* options are copied, but not its strings. *explain is NULL if nothing is wanted, and on an error. */
 trax_status trax_explain_begin(struct trax_explain **explain, trax_machine *machine,

@@ -63,6 +63,13 @@ const char *const *trax_config_presets(void) {
   return preset_names;
 }
 
+bool trax_config_is_preset(const char *name) {
+  for (size_t i = 0; i < PRESETS; ++i)
+    if (strcmp(presets[i].name, name) == 0)
+      return true;
+  return false;
+}
+
 static trax_status find_preset(const char *name, size_t *index, trax_error *error) {
   for (*index = 0; *index < PRESETS; ++*index)
     if (strcmp(presets[*index].name, name) == 0)

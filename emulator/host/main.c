@@ -11,7 +11,6 @@
 #include "options.h"
 #include "progress.h"
 #include "trax/signals.h"
-#include "trax/version.h"
 #include "util.h"
 #include "watchdog.h"
 
@@ -51,19 +50,6 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
       return TRAX_ERROR;
   }
   return trax_config_check(config, error);
-}
-
-static trax_status check_outputs(const struct trax_options *options, trax_error *error) {
-  const char *const files[] = {options->stats,       options->report,    options->post_mortem,
-                               options->gdb_symbols, options->signature, options->checkpoint.write};
-  for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
-    if (files[i] && trax_output_check(files[i], error) != TRAX_OK)
-      return TRAX_ERROR;
-  for (size_t i = 0; i < options->assignment_count; ++i)
-    if (options->assignments[i].kind == TRAX_ASSIGN_DUMP &&
-        trax_output_check(options->assignments[i].value, error) != TRAX_OK)
-      return TRAX_ERROR;
-  return trax_explain_check(&options->explain, error);
 }
 
 static trax_status load(trax_machine *machine, const struct trax_options *options, trax_error *error) {
@@ -109,17 +95,19 @@ static trax_status debug(trax_machine *machine, trax_run_options *options, unsig
 }
 
 static trax_status run(trax_machine *machine, const struct trax_options *options, trax_error *error) {
-  struct trax_progress_line line = {.terminal = stderr};
+  trax_progress_line line;
+  trax_progress_line_begin(&line, "trax-sim", options->quiet);
+  struct trax_run_progress progress = {.line = &line, .step = "running"};
   trax_run_options run_options = {.output = stdout,
                                   .max_cycles = options->max_cycles,
                                   .total_items = options->total_items,
                                   .interrupt = &trax_signal,
                                   .engine = options->engine,
                                   .host_threads = options->host_threads};
-  if (!options->quiet && isatty(STDERR_FILENO)) {
-    run_options.progress = trax_progress_show;
-    run_options.progress_context = &line;
-    FILE *shared = isatty(STDOUT_FILENO) ? trax_progress_guest_output(&line) : NULL;
+  if (line.terminal) {
+    run_options.progress = trax_run_progress_show;
+    run_options.progress_context = &progress;
+    FILE *shared = isatty(STDOUT_FILENO) ? trax_progress_line_output(&line) : NULL;
     if (shared)
       run_options.output = shared;
   }
@@ -135,7 +123,7 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
     status = TRAX_ERROR;
   if (run_options.output != stdout)
     fclose(run_options.output);
-  trax_progress_clear(&line);
+  trax_progress_line_clear(&line);
   if (watchdog)
     trax_watchdog_print(watchdog, stderr);
   trax_watchdog_end(watchdog);
@@ -205,7 +193,7 @@ static trax_status write_symbols(const struct trax_options *options, trax_error 
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
   catch_signals();
-  if (check_outputs(options, &error) != TRAX_OK)
+  if (trax_options_check_outputs(options, &error) != TRAX_OK)
     return complain(&error);
   trax_machine *machine = trax_machine_create(config, &error);
   if (!machine)
@@ -263,27 +251,6 @@ static int simulate(const trax_config *config, const struct trax_options *option
   return result == EXIT_SUCCESS && reader_gone ? EXIT_SIGNAL + SIGPIPE : result;
 }
 
-/* Options that print something instead of running a program. */
-static int show(const struct trax_options *options) {
-  switch (options->show) {
-  case TRAX_SHOW_NOTHING:
-    break;
-  case TRAX_SHOW_HELP:
-    trax_options_help(stdout);
-    break;
-  case TRAX_SHOW_CONFIG_KEYS:
-    trax_config_describe(stdout);
-    break;
-  case TRAX_SHOW_STATS:
-    trax_stats_describe(stdout);
-    break;
-  case TRAX_SHOW_VERSION:
-    printf("trax-sim %s\n", TRAX_VERSION);
-    break;
-  }
-  return EXIT_SUCCESS;
-}
-
 static int flush_standard_output(int result) {
   trax_error error;
   if (fflush(stdout) == 0 && !ferror(stdout))
@@ -297,15 +264,16 @@ static int flush_standard_output(int result) {
 int main(int count, char **arguments) {
   trax_error error;
   struct trax_options options;
-  if (trax_options_parse(&options, count, arguments, &error) != TRAX_OK) {
+  const trax_parsed parsed = trax_options_parse(&options, count, arguments, &error);
+  if (parsed == TRAX_PARSED_WRONG) {
     fprintf(stderr, "trax-sim: error: %s (--help lists the options)\n", error.message);
     trax_options_free(&options);
     return EXIT_ERROR;
   }
   int result = EXIT_ERROR;
   trax_config *config = trax_config_create();
-  if (options.show != TRAX_SHOW_NOTHING) {
-    result = flush_standard_output(show(&options));
+  if (parsed == TRAX_PARSED_DONE) {
+    result = flush_standard_output(EXIT_SUCCESS);
   } else if (!config) {
     fprintf(stderr, "trax-sim: error: out of memory\n");
   } else if (configure(config, &options, &error) != TRAX_OK) {

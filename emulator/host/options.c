@@ -3,194 +3,27 @@
 #include "core/config_keys.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "trax/files.h"
-#include "util.h"
+#include "trax/output.h"
 
-enum option_id {
-  OPTION_CONFIG,
-  OPTION_SET,
-  OPTION_BIND,
-  OPTION_SCENE,
-  OPTION_ALLOC,
-  OPTION_DUMP,
-  OPTION_SIGNATURE,
-  OPTION_STATS,
-  OPTION_REPORT,
-  OPTION_PROFILE,
-  OPTION_PROFILE_FOLDED,
-  OPTION_ANNOTATE,
-  OPTION_HEAT,
-  OPTION_HEAT_LINES,
-  OPTION_ITEMS,
-  OPTION_ITEM_BUFFER,
-  OPTION_LOCKSTEP,
-  OPTION_SERIES,
-  OPTION_SERIES_INTERVAL,
-  OPTION_TRACE,
-  OPTION_PERFETTO,
-  OPTION_KONATA,
-  OPTION_WINDOW,
-  OPTION_WINDOW_TMS,
-  OPTION_WINDOW_TPS,
-  OPTION_MAX_CYCLES,
-  OPTION_WATCHDOG,
-  OPTION_PROGRESS_TOTAL,
-  OPTION_ENGINE,
-  OPTION_HOST_THREADS,
-  OPTION_CHECK_ORDER,
-  OPTION_POST_MORTEM,
-  OPTION_GDB,
-  OPTION_GDB_SYMBOLS,
-  OPTION_CHECKPOINT,
-  OPTION_CHECKPOINT_AT,
-  OPTION_CHECKPOINT_EVERY,
-  OPTION_RESUME,
-  OPTION_QUIET,
-  OPTION_PRINT_CONFIG,
-  OPTION_HELP_CONFIG,
-  OPTION_HELP_STATS,
-  OPTION_VERSION,
-  OPTION_HELP
-};
+/* --- values --- */
 
-/* By id; argument is NULL for a switch. */
-static const struct {
-  const char *name, *argument, *meaning;
-} table[] = {
-    [OPTION_CONFIG] = {"config", "PRESET|FILE", "machine: a chip of the paper (4x32) or a file; default one TP"},
-    [OPTION_SET] = {"set", "KEY=VALUE", "change one value of the machine (--help-config)"},
-    [OPTION_BIND] = {"bind", "SYMBOL=FILE", "fill the program's buffer SYMBOL with a file"},
-    [OPTION_SCENE] = {"scene", "FILE", "the same as --bind scene=FILE"},
-    [OPTION_ALLOC] = {"alloc", "SYMBOL=BYTES", "fill the program's buffer SYMBOL with zeros"},
-    [OPTION_DUMP] = {"dump", "SYMBOL=FILE", "write the buffer SYMBOL to a file after the run"},
-    [OPTION_SIGNATURE] = {"signature", "FILE",
-                          "the words from begin_signature to end_signature after the run, and its fault"},
-    [OPTION_STATS] = {"stats", "FILE", "statistics as JSON; - is standard output"},
-    [OPTION_REPORT] = {"report", "FILE", "statistics as text; - is standard output"},
-    [OPTION_PROFILE] = {"profile", "FILE", "thread-cycles by function and by source line"},
-    [OPTION_PROFILE_FOLDED] = {"profile-folded", "FILE", "thread-cycles by call stack, for flame graphs"},
-    [OPTION_ANNOTATE] = {"annotate", "FILE", "thread-cycles by instruction"},
-    [OPTION_HEAT] = {"heat", "FILE", "accesses to memory by object, as CSV"},
-    [OPTION_HEAT_LINES] = {"heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV"},
-    [OPTION_ITEMS] = {"items", "FILE", "what each item (pixel) cost, as CSV"},
-    [OPTION_ITEM_BUFFER] = {"item-buffer", "SYMBOL", "the buffer of words that items store to, for their places"},
-    [OPTION_LOCKSTEP] = {"lockstep", "FILE", "what the items would take on a SIMD machine, as CSV"},
-    [OPTION_SERIES] = {"series", "FILE", "what was counted in every interval, as CSV"},
-    [OPTION_SERIES_INTERVAL] = {"series-interval", "N", "cycles of an interval; default 10000"},
-    [OPTION_TRACE] = {"trace", "FILE", "every instruction issued in the window, with values"},
-    [OPTION_PERFETTO] = {"perfetto", "FILE", "the window as a time line, as JSON trace events"},
-    [OPTION_KONATA] = {"konata", "FILE", "the window as a pipeline, for Konata"},
-    [OPTION_WINDOW] = {"window", "BEGIN:END", "cycles of the window, BEGIN <= cycle < END; default all"},
-    [OPTION_WINDOW_TMS] = {"window-tms", "LIST", "its TMs, as in 0,2-3; default all"},
-    [OPTION_WINDOW_TPS] = {"window-tps", "LIST", "its TPs in each of these TMs; default all"},
-    [OPTION_MAX_CYCLES] = {"max-cycles", "N", "stop after N simulated cycles, with exit status 124"},
-    [OPTION_WATCHDOG] = {"watchdog", "N",
-                         "the same when for N cycles no thread ends and no ray, item or output is seen"},
-    [OPTION_PROGRESS_TOTAL] = {"progress-total", "N", "items the program will finish, for the time left"},
-    [OPTION_ENGINE] = {"engine", "NAME", "fast (default), reference (the same, slower) or functional (no time)"},
-    [OPTION_HOST_THREADS] = {"host-threads", "N",
-                             "threads of the host for the fast engine; default one for each processor it may use"},
-    [OPTION_CHECK_ORDER] = {"check-order", NULL,
-                            "report the first load that may return an old value on such a machine"},
-    [OPTION_POST_MORTEM] = {"post-mortem", "FILE", "where every thread was when the run ended, as text"},
-    [OPTION_GDB] = {"gdb", "PORT", "wait for GDB on a port of the loopback interface; 0 is any free one"},
-    [OPTION_GDB_SYMBOLS] = {"gdb-symbols", "FILE", "write PROGRAM as GDB reads it; end, unless there is --gdb"},
-    [OPTION_CHECKPOINT] = {"checkpoint", "FILE", "write the run's state when it is stopped, and when the next two say"},
-    [OPTION_CHECKPOINT_AT] = {"checkpoint-at", "N", "before cycle N"},
-    [OPTION_CHECKPOINT_EVERY] = {"checkpoint-every", "N", "before each multiple of N cycles"},
-    [OPTION_RESUME] = {"resume", "FILE",
-                       "go on with the run of a checkpoint; the other options are to be as they were"},
-    [OPTION_QUIET] = {"quiet", NULL, "no progress line"},
-    [OPTION_PRINT_CONFIG] = {"print-config", NULL, "print the machine as a file for --config, and end"},
-    [OPTION_HELP_CONFIG] = {"help-config", NULL, "describe every key of the configuration, and end"},
-    [OPTION_HELP_STATS] = {"help-stats", NULL, "describe every statistic, and end"},
-    [OPTION_VERSION] = {"version", NULL, "print the version, and end"},
-    [OPTION_HELP] = {"help", NULL, "print this, and end"},
-};
-enum { OPTIONS = sizeof table / sizeof *table };
-
-void trax_options_help(FILE *out) {
-  fprintf(out, "usage: trax-sim [OPTION...] PROGRAM\n\n"
-               "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
-               "output is standard output, and its exit status is that of trax-sim.\n\n");
-  for (unsigned i = 0; i < OPTIONS; ++i) {
-    char option[64];
-    snprintf(option, sizeof option, "--%s%s%s", table[i].name, table[i].argument ? " " : "",
-             table[i].argument ? table[i].argument : "");
-    fprintf(out, "  %-24s %s\n", option, table[i].meaning);
-  }
-  fprintf(
-      out,
-      "\nExit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
-      "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report nothing but\n"
-      "the program's output is printed; faults and errors go to standard error.\n");
-}
-
-static const char *option_name(const void *context, size_t i) {
-  (void)context;
-  return table[i].name;
-}
-
-/* Options of earlier versions, with what to use instead. */
-static const struct {
-  const char *name, *instead;
-} removed[] = {
-    {"sample", "for estimates use trax-render --sampled, with --sample-fraction and the like"},
-    {"bench-modes", "run with --engine fast and --engine functional; for estimates use trax-render --sampled"},
-};
-
-static trax_status find_option(const char *name, size_t length, enum option_id *id, trax_error *error) {
-  for (unsigned i = 0; i < OPTIONS; ++i)
-    if (strlen(table[i].name) == length && strncmp(table[i].name, name, length) == 0) {
-      *id = (enum option_id)i;
-      return TRAX_OK;
-    }
-  for (unsigned i = 0; i < sizeof removed / sizeof *removed; ++i)
-    if (strlen(removed[i].name) == length && strncmp(removed[i].name, name, length) == 0)
-      return trax_fail(error, "--%s has been removed; %s", removed[i].name, removed[i].instead);
-  char mistyped[128];
-  snprintf(mistyped, sizeof mistyped, "%.*s", (int)(length < 120 ? length : 120), name);
-  const char *nearest = trax_nearest_name(mistyped, OPTIONS, option_name, NULL);
-  return trax_fail(error, "unknown option --%s%s%s%s", mistyped, nearest ? "; did you mean --" : "",
-                   nearest ? nearest : "", nearest ? "?" : "");
-}
-
-static trax_status parse_number(const char *option, const char *text, uint64_t least, uint64_t most, uint64_t *value,
-                                trax_error *error) {
-  char *end = NULL;
-  errno = 0;
-  if (isdigit((unsigned char)*text))
-    *value = strtoull(text, &end, text[0] == '0' && (text[1] == 'x' || text[1] == 'X') ? 16 : 10);
-  if (!end || *end || errno || *value < least || *value > most)
-    return trax_fail(error, "--%s: \"%s\" is not a whole number from %llu to %llu", option, text,
-                     (unsigned long long)least, (unsigned long long)most);
-  return TRAX_OK;
-}
-
-static trax_status add_assignment(struct trax_options *options, enum option_id id, const char *text,
-                                  trax_error *error) {
+static trax_status add_assignment(struct trax_options *options, const trax_option *option,
+                                  struct trax_assignment assignment, const char *text, trax_error *error) {
   const char *equals = strchr(text, '=');
   if (!equals || equals == text || !equals[1])
-    return trax_fail(error, "--%s: \"%s\" is not of the form %s", table[id].name, text, table[id].argument);
-  struct trax_assignment assignment = {.kind = id == OPTION_SET     ? TRAX_ASSIGN_SET
-                                               : id == OPTION_ALLOC ? TRAX_ASSIGN_ALLOC
-                                               : id == OPTION_DUMP  ? TRAX_ASSIGN_DUMP
-                                                                    : TRAX_ASSIGN_BIND};
-  if (id == OPTION_ALLOC) {
-    uint64_t bytes;
-    if (parse_number(table[id].name, equals + 1, 0, UINT32_MAX, &bytes, error) != TRAX_OK)
-      return TRAX_ERROR;
-    assignment.bytes = (uint32_t)bytes;
-  }
+    return trax_option_refuse(option, text, error, "is not of the form %s", option->argument);
+  uint64_t bytes = 0;
+  if (assignment.kind == TRAX_ASSIGN_ALLOC && trax_option_number(option, equals + 1, 0, UINT32_MAX, &bytes, error))
+    return TRAX_ERROR;
   struct trax_assignment *grown =
       realloc(options->assignments, (options->assignment_count + 1) * sizeof *options->assignments);
   if (!grown)
     return trax_fail(error, "out of memory");
   options->assignments = grown;
+  assignment.bytes = (uint32_t)bytes;
   assignment.name = strdup(text);
   if (!assignment.name)
     return trax_fail(error, "out of memory");
@@ -200,26 +33,27 @@ static trax_status add_assignment(struct trax_options *options, enum option_id i
   return TRAX_OK;
 }
 
-static trax_status add_scene(struct trax_options *options, const char *path, trax_error *error) {
-  char *text = malloc(strlen(path) + sizeof "scene=");
+#define TAKE_ASSIGNMENT(function, what)                                                                                \
+  static trax_status function(void *target, const trax_option *option, const char *value, trax_error *error) {         \
+    return add_assignment(target, option, (struct trax_assignment){.kind = what}, value, error);                       \
+  }
+TAKE_ASSIGNMENT(take_set, TRAX_ASSIGN_SET)
+TAKE_ASSIGNMENT(take_bind, TRAX_ASSIGN_BIND)
+TAKE_ASSIGNMENT(take_alloc, TRAX_ASSIGN_ALLOC)
+TAKE_ASSIGNMENT(take_dump, TRAX_ASSIGN_DUMP)
+
+static trax_status take_scene(void *target, const trax_option *option, const char *value, trax_error *error) {
+  char *text = malloc(strlen(value) + sizeof "scene=");
   if (!text)
     return trax_fail(error, "out of memory");
-  strcat(strcpy(text, "scene="), path);
-  trax_status status = add_assignment(options, OPTION_BIND, text, error);
+  strcat(strcpy(text, "scene="), value);
+  trax_status status = take_bind(target, option, text, error);
   free(text);
   return status;
 }
 
-static trax_status set_once(enum option_id id, const char **member, const char *value, trax_error *error) {
-  if (*member)
-    return trax_fail(error, "--%s is given twice", table[id].name);
-  if (!*value)
-    return trax_fail(error, "--%s: %s is empty", table[id].name, table[id].argument);
-  *member = value;
-  return TRAX_OK;
-}
-
-static trax_status set_engine(struct trax_options *options, const char *value, trax_error *error) {
+static trax_status take_engine(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct trax_options *options = target;
   if (strcmp(value, "reference") == 0)
     options->engine = TRAX_ENGINE_REFERENCE;
   else if (strcmp(value, "fast") == 0)
@@ -227,25 +61,26 @@ static trax_status set_engine(struct trax_options *options, const char *value, t
   else if (strcmp(value, "functional") == 0)
     options->engine = TRAX_ENGINE_FUNCTIONAL;
   else
-    return trax_fail(error, "--engine: \"%s\" is none of fast, reference and functional%s", value,
-                     strcmp(value, "sampled") == 0 ? "; for estimates use trax-render --sampled" : "");
+    return trax_option_refuse(option, value, error, "is none of fast, reference and functional%s",
+                              strcmp(value, "sampled") == 0 ? "; for estimates use trax-render --sampled" : "");
   return TRAX_OK;
 }
 
-static trax_status set_window(struct trax_options *options, const char *value, trax_error *error) {
-  struct trax_explain_options *explain = &options->explain;
+static trax_status take_window(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct trax_explain_options *explain = &((struct trax_options *)target)->explain;
   const char *colon = strchr(value, ':');
   char begin[32];
   if (!colon || colon - value >= (int)sizeof begin)
-    return trax_fail(error, "--window: \"%s\" is not of the form BEGIN:END", value);
+    return trax_option_refuse(option, value, error, "is not of the form BEGIN:END");
   snprintf(begin, sizeof begin, "%.*s", (int)(colon - value), value);
-  if (parse_number("window", begin, 0, UINT64_MAX / 2, &explain->window_begin, error) != TRAX_OK)
+  if (trax_option_number(option, begin, 0, UINT64_MAX / 2, &explain->window_begin, error) != TRAX_OK)
     return TRAX_ERROR;
-  return parse_number("window", colon + 1, explain->window_begin + 1, UINT64_MAX / 2, &explain->window_end, error);
+  return trax_option_number(option, colon + 1, explain->window_begin + 1, UINT64_MAX / 2, &explain->window_end, error);
 }
 
-/* Numbers from 0 to 63 and ranges of them: 0,2-3. */
-static trax_status set_mask(enum option_id id, uint64_t *mask, const char *value, trax_error *error) {
+/* Numbers from 0 to 63 and ranges of them, 0,2-3, as bits. */
+static trax_status take_list(void *target, const trax_option *option, const char *value, trax_error *error) {
+  uint64_t *mask = (uint64_t *)((char *)target + option->offset);
   *mask = 0;
   for (const char *text = value;; text++) {
     char *end = NULL;
@@ -253,7 +88,7 @@ static trax_status set_mask(enum option_id id, uint64_t *mask, const char *value
     if (end && *end == '-' && isdigit((unsigned char)end[1]))
       last = strtoul(end + 1, &end, 10);
     if (!end || first > last || last > 63 || (*end && *end != ','))
-      return trax_fail(error, "--%s: \"%s\" is no list of numbers from 0 to 63 as in 0,2-3", table[id].name, value);
+      return trax_option_refuse(option, value, error, "is no list of numbers from 0 to 63 as in 0,2-3");
     for (; first <= last; first++)
       *mask |= (uint64_t)1 << first;
     if (!*end)
@@ -262,123 +97,110 @@ static trax_status set_mask(enum option_id id, uint64_t *mask, const char *value
   }
 }
 
-static trax_status apply(struct trax_options *options, enum option_id id, const char *value, trax_error *error) {
-  uint64_t number;
-  switch (id) {
-  case OPTION_CONFIG:
-    return set_once(id, &options->config, value, error);
-  case OPTION_SIGNATURE:
-    return set_once(id, &options->signature, value, error);
-  case OPTION_STATS:
-    return set_once(id, &options->stats, value, error);
-  case OPTION_REPORT:
-    return set_once(id, &options->report, value, error);
-  case OPTION_PROFILE:
-    return set_once(id, &options->explain.profile, value, error);
-  case OPTION_PROFILE_FOLDED:
-    return set_once(id, &options->explain.folded, value, error);
-  case OPTION_ANNOTATE:
-    return set_once(id, &options->explain.annotate, value, error);
-  case OPTION_HEAT:
-    return set_once(id, &options->explain.heat, value, error);
-  case OPTION_HEAT_LINES:
-    return set_once(id, &options->explain.heat_lines, value, error);
-  case OPTION_ITEMS:
-    return set_once(id, &options->explain.items, value, error);
-  case OPTION_ITEM_BUFFER:
-    return set_once(id, &options->explain.item_buffer, value, error);
-  case OPTION_LOCKSTEP:
-    return set_once(id, &options->explain.lockstep, value, error);
-  case OPTION_SERIES:
-    return set_once(id, &options->explain.series, value, error);
-  case OPTION_SERIES_INTERVAL:
-    return parse_number(table[id].name, value, 1, UINT64_MAX / 2, &options->explain.series_interval, error);
-  case OPTION_TRACE:
-    return set_once(id, &options->explain.trace, value, error);
-  case OPTION_PERFETTO:
-    return set_once(id, &options->explain.perfetto, value, error);
-  case OPTION_KONATA:
-    return set_once(id, &options->explain.konata, value, error);
-  case OPTION_WINDOW:
-    return set_window(options, value, error);
-  case OPTION_WINDOW_TMS:
-    return set_mask(id, &options->explain.window_tms, value, error);
-  case OPTION_WINDOW_TPS:
-    return set_mask(id, &options->explain.window_tps, value, error);
-  case OPTION_SET:
-  case OPTION_BIND:
-  case OPTION_ALLOC:
-  case OPTION_DUMP:
-    return add_assignment(options, id, value, error);
-  case OPTION_SCENE:
-    return add_scene(options, value, error);
-  case OPTION_MAX_CYCLES:
-    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->max_cycles, error);
-  case OPTION_WATCHDOG:
-    return parse_number(table[id].name, value, 1, UINT64_MAX / 2, &options->watchdog, error);
-  case OPTION_PROGRESS_TOTAL:
-    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->total_items, error);
-  case OPTION_ENGINE:
-    return set_engine(options, value, error);
-  case OPTION_HOST_THREADS:
-    if (parse_number(table[id].name, value, 1, TRAX_MAX_TMS, &number, error))
-      return TRAX_ERROR;
-    options->host_threads = (unsigned)number;
-    break;
-  case OPTION_CHECK_ORDER:
-    options->explain.check_order = true;
-    break;
-  case OPTION_POST_MORTEM:
-    return set_once(id, &options->post_mortem, value, error);
-  case OPTION_GDB:
-    options->gdb = true;
-    return parse_number(table[id].name, value, 0, UINT16_MAX, &options->gdb_port, error);
-  case OPTION_GDB_SYMBOLS:
-    return set_once(id, &options->gdb_symbols, value, error);
-  case OPTION_CHECKPOINT:
-    return set_once(id, &options->checkpoint.write, value, error);
-  case OPTION_CHECKPOINT_AT:
-    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->checkpoint.at, error);
-  case OPTION_CHECKPOINT_EVERY:
-    return parse_number(table[id].name, value, 1, UINT64_MAX, &options->checkpoint.every, error);
-  case OPTION_RESUME:
-    return set_once(id, &options->checkpoint.resume, value, error);
-  case OPTION_QUIET:
-    options->quiet = true;
-    break;
-  case OPTION_PRINT_CONFIG:
-    options->print_config = true;
-    break;
-  case OPTION_HELP_CONFIG:
-    options->show = TRAX_SHOW_CONFIG_KEYS;
-    break;
-  case OPTION_HELP_STATS:
-    options->show = TRAX_SHOW_STATS;
-    break;
-  case OPTION_VERSION:
-    options->show = TRAX_SHOW_VERSION;
-    break;
-  case OPTION_HELP:
-    options->show = TRAX_SHOW_HELP;
-    break;
-  }
-  return TRAX_OK;
+static trax_status take_gdb(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct trax_options *options = target;
+  options->gdb = true;
+  return trax_option_number(option, value, 0, UINT16_MAX, &options->gdb_port, error);
 }
 
-static trax_status parse_option(struct trax_options *options, char **arguments, int count, int *i, trax_error *error) {
-  const char *text = arguments[*i] + 2;
-  const char *equals = strchr(text, '=');
-  enum option_id id = OPTION_HELP;
-  if (find_option(text, equals ? (size_t)(equals - text) : strlen(text), &id, error) != TRAX_OK)
-    return TRAX_ERROR;
-  if (!table[id].argument)
-    return equals ? trax_fail(error, "--%s takes no value", table[id].name) : apply(options, id, NULL, error);
-  if (equals)
-    return apply(options, id, equals + 1, error);
-  if (*i + 1 >= count)
-    return trax_fail(error, "--%s needs %s", table[id].name, table[id].argument);
-  return apply(options, id, arguments[++*i], error);
-}
+/* --- the table --- */
+
+#define FIELD(member) TRAX_OPTION_FIELD(struct trax_options, member)
+#define ONCE(member) FIELD(member), .once = true
+#define OUTPUT(member) ONCE(member), .file = TRAX_OPTION_OUTPUT
+#define NUMBER(member, least_, most_) FIELD(member), .least = (least_), .most = (most_)
+#define PARSED(function, member) .parse = (function), .offset = offsetof(struct trax_options, member)
+
+/* clang-format off */
+static const trax_option rows[] = {
+    {"config", .argument = "PRESET|FILE", ONCE(config),
+     .meaning = "machine: a chip of the paper (4x32) or a file; default one TP"},
+    {"set", .argument = "KEY=VALUE", .parse = take_set, .meaning = "change one value of the machine (--help-config)"},
+    {"bind", .argument = "SYMBOL=FILE", .parse = take_bind, .meaning = "fill the program's buffer SYMBOL with a file"},
+    {"scene", .argument = "FILE", .parse = take_scene, .meaning = "the same as --bind scene=FILE"},
+    {"alloc", .argument = "SYMBOL=BYTES", .parse = take_alloc,
+     .meaning = "fill the program's buffer SYMBOL with zeros"},
+    {"dump", .argument = "SYMBOL=FILE", .parse = take_dump,
+     .meaning = "write the buffer SYMBOL to a file after the run"},
+    {"signature", .argument = "FILE", OUTPUT(signature),
+     .meaning = "the words from begin_signature to end_signature after the run, and its fault"},
+    {"stats", .argument = "FILE", OUTPUT(stats), .meaning = "statistics as JSON; - is standard output"},
+    {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
+    {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
+    {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),
+     .meaning = "thread-cycles by call stack, for flame graphs"},
+    {"annotate", .argument = "FILE", OUTPUT(explain.annotate), .meaning = "thread-cycles by instruction"},
+    {"heat", .argument = "FILE", OUTPUT(explain.heat), .meaning = "accesses to memory by object, as CSV"},
+    {"heat-lines", .argument = "FILE", OUTPUT(explain.heat_lines),
+     .meaning = "accesses to global memory by 64 bytes, as CSV"},
+    {"items", .argument = "FILE", OUTPUT(explain.items), .meaning = "what each item (pixel) cost, as CSV"},
+    {"item-buffer", .argument = "SYMBOL", ONCE(explain.item_buffer),
+     .meaning = "the buffer of words that items store to, for their places"},
+    {"lockstep", .argument = "FILE", OUTPUT(explain.lockstep),
+     .meaning = "what the items would take on a SIMD machine, as CSV"},
+    {"series", .argument = "FILE", OUTPUT(explain.series), .meaning = "what was counted in every interval, as CSV"},
+    {"series-interval", .argument = "N", NUMBER(explain.series_interval, 1, UINT64_MAX / 2),
+     .meaning = "cycles of an interval; default 10000"},
+    {"trace", .argument = "FILE", OUTPUT(explain.trace),
+     .meaning = "every instruction issued in the window, with values"},
+    {"perfetto", .argument = "FILE", OUTPUT(explain.perfetto),
+     .meaning = "the window as a time line, as JSON trace events"},
+    {"konata", .argument = "FILE", OUTPUT(explain.konata), .meaning = "the window as a pipeline, for Konata"},
+    {"window", .argument = "BEGIN:END", .parse = take_window,
+     .meaning = "cycles of the window, BEGIN <= cycle < END; default all"},
+    {"window-tms", .argument = "LIST", PARSED(take_list, explain.window_tms),
+     .meaning = "its TMs, as in 0,2-3; default all"},
+    {"window-tps", .argument = "LIST", PARSED(take_list, explain.window_tps),
+     .meaning = "its TPs in each of these TMs; default all"},
+    {"max-cycles", .argument = "N", NUMBER(max_cycles, 1, UINT64_MAX),
+     .meaning = "stop after N simulated cycles, with exit status 124"},
+    {"watchdog", .argument = "N", NUMBER(watchdog, 1, UINT64_MAX / 2),
+     .meaning = "the same when for N cycles no thread ends and no ray, item or output is seen"},
+    {"progress-total", .argument = "N", NUMBER(total_items, 1, UINT64_MAX),
+     .meaning = "items the program will finish, for the time left"},
+    {"engine", .argument = "NAME", .parse = take_engine,
+     .meaning = "fast (default), reference (the same, slower) or functional (no time)"},
+    {"host-threads", .argument = "N", NUMBER(host_threads, 1, TRAX_MAX_TMS),
+     .meaning = "threads of the host for the fast engine; default one for each processor it may use"},
+    {"check-order", FIELD(explain.check_order),
+     .meaning = "report the first load that may return an old value on such a machine"},
+    {"post-mortem", .argument = "FILE", OUTPUT(post_mortem),
+     .meaning = "where every thread was when the run ended, as text"},
+    {"gdb", .argument = "PORT", .parse = take_gdb,
+     .meaning = "wait for GDB on a port of the loopback interface; 0 is any free one"},
+    {"gdb-symbols", .argument = "FILE", OUTPUT(gdb_symbols),
+     .meaning = "write PROGRAM as GDB reads it; end, unless there is --gdb"},
+    {"checkpoint", .argument = "FILE", OUTPUT(checkpoint.write),
+     .meaning = "write the run's state when it is stopped, and when the next two say"},
+    {"checkpoint-at", .argument = "N", NUMBER(checkpoint.at, 1, UINT64_MAX), .meaning = "before cycle N"},
+    {"checkpoint-every", .argument = "N", NUMBER(checkpoint.every, 1, UINT64_MAX),
+     .meaning = "before each multiple of N cycles"},
+    {"resume", .argument = "FILE", ONCE(checkpoint.resume), .file = TRAX_OPTION_INPUT,
+     .meaning = "go on with the run of a checkpoint; the other options are to be as they were"},
+    {"quiet", FIELD(quiet), .meaning = "no progress line"},
+    {"print-config", FIELD(print_config), .meaning = "print the machine as a file for --config, and end"},
+    {"help-config", .kind = TRAX_OPTION_SHOW, .show = trax_config_describe, .meaning = "describe every key of the configuration, and end"},
+    {"help-stats", .kind = TRAX_OPTION_SHOW, .show = trax_stats_describe, .meaning = "describe every statistic, and end"},
+    TRAX_OPTION_VERSION,
+    TRAX_OPTION_HELP(0),
+    {"sample", .instead = "for estimates use trax-render --sampled, with --sample-fraction and the like"},
+    {"bench-modes", .instead = "run with --engine fast and --engine functional; for estimates use trax-render --sampled"},
+    {0}};
+/* clang-format on */
+
+static const trax_command command = {
+    .name = "trax-sim",
+    .synopsis = "[OPTION...] PROGRAM",
+    .description = "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
+                   "output is standard output, and its exit status is that of trax-sim.",
+    .rows = rows,
+    .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
+             "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report "
+             "nothing but\n"
+             "the program's output is printed; faults and errors go to standard error.",
+    .column = 27};
+
+/* --- what goes together --- */
 
 /* What explains a run, and what it needs. */
 static trax_status check_explain(const struct trax_options *options, trax_error *error) {
@@ -400,46 +222,28 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
   return TRAX_OK;
 }
 
-static bool is_preset(const char *name) {
-  for (const char *const *preset = trax_config_presets(); *preset; preset++)
-    if (strcmp(*preset, name) == 0)
-      return true;
-  return false;
+static trax_status check_engine(const struct trax_options *options, trax_error *error) {
+  const struct trax_checkpoint_options *checkpoint = &options->checkpoint;
+  if ((checkpoint->at || checkpoint->every) && !checkpoint->write)
+    return trax_fail(error, "--checkpoint-at and --checkpoint-every need --checkpoint");
+  if ((checkpoint->write || checkpoint->resume) && options->engine != TRAX_ENGINE_FAST)
+    return trax_fail(error, "--checkpoint and --resume are for the fast engine");
+  if (options->watchdog && options->engine == TRAX_ENGINE_FUNCTIONAL)
+    return trax_fail(error, "--watchdog needs an engine with cycles, not functional");
+  if (options->post_mortem && options->engine != TRAX_ENGINE_FAST && options->engine != TRAX_ENGINE_FUNCTIONAL)
+    return trax_fail(error, "--post-mortem needs the fast or the functional engine");
+  if (options->gdb && options->engine != TRAX_ENGINE_FAST)
+    return trax_fail(error, "--gdb debugs in the fast engine, not in the one that --engine names");
+  return TRAX_OK;
 }
 
 /* No output may be what the run reads, and none is written twice. */
 static trax_status check_files(const struct trax_options *options, trax_error *error) {
-  const struct trax_explain_options *explain = &options->explain;
-  const struct {
-    enum option_id id;
-    const char *path;
-  } outputs[] = {{OPTION_SIGNATURE, options->signature},
-                 {OPTION_STATS, options->stats},
-                 {OPTION_REPORT, options->report},
-                 {OPTION_PROFILE, explain->profile},
-                 {OPTION_PROFILE_FOLDED, explain->folded},
-                 {OPTION_ANNOTATE, explain->annotate},
-                 {OPTION_HEAT, explain->heat},
-                 {OPTION_HEAT_LINES, explain->heat_lines},
-                 {OPTION_ITEMS, explain->items},
-                 {OPTION_LOCKSTEP, explain->lockstep},
-                 {OPTION_SERIES, explain->series},
-                 {OPTION_TRACE, explain->trace},
-                 {OPTION_PERFETTO, explain->perfetto},
-                 {OPTION_KONATA, explain->konata},
-                 {OPTION_POST_MORTEM, options->post_mortem},
-                 {OPTION_GDB_SYMBOLS, options->gdb_symbols},
-                 {OPTION_CHECKPOINT, options->checkpoint.write}};
   trax_files files = {0};
-  char name[40];
   trax_files_input(&files, NULL, options->program);
-  if (options->config && !is_preset(options->config))
+  if (options->config && !trax_config_is_preset(options->config))
     trax_files_input(&files, NULL, options->config);
-  trax_files_input(&files, NULL, options->checkpoint.resume);
-  for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++) {
-    snprintf(name, sizeof name, "--%s", table[outputs[i].id].name);
-    trax_files_output(&files, name, outputs[i].path);
-  }
+  trax_command_files(&command, options, &files);
   for (size_t i = 0; i < options->assignment_count; i++) {
     const struct trax_assignment *assignment = &options->assignments[i];
     if (assignment->kind == TRAX_ASSIGN_BIND)
@@ -452,38 +256,28 @@ static trax_status check_files(const struct trax_options *options, trax_error *e
   return status;
 }
 
-trax_status trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
+trax_status trax_options_check_outputs(const struct trax_options *options, trax_error *error) {
+  trax_status status = trax_command_check_outputs(&command, options, error);
+  for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; i++)
+    if (options->assignments[i].kind == TRAX_ASSIGN_DUMP)
+      status = trax_output_check(options->assignments[i].value, error);
+  return status;
+}
+
+trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
   *options = (struct trax_options){0};
-  bool only_names = false;
-  for (int i = 1; i < count; ++i) {
-    const char *argument = arguments[i];
-    if (!only_names && strcmp(argument, "--") == 0) {
-      only_names = true;
-    } else if (!only_names && strncmp(argument, "--", 2) == 0) {
-      if (parse_option(options, arguments, count, &i, error) != TRAX_OK)
-        return TRAX_ERROR;
-    } else if (!only_names && argument[0] == '-' && argument[1]) {
-      return trax_fail(error, "unknown option %s; options begin with two dashes", argument);
-    } else if (options->program) {
-      return trax_fail(error, "two programs, %s and %s: a program takes no arguments", options->program, argument);
-    } else {
-      options->program = argument;
-    }
-  }
-  const struct trax_checkpoint_options *checkpoint = &options->checkpoint;
-  if ((checkpoint->at || checkpoint->every) && !checkpoint->write)
-    return trax_fail(error, "--checkpoint-at and --checkpoint-every need --checkpoint");
-  if ((checkpoint->write || checkpoint->resume) && options->engine != TRAX_ENGINE_FAST)
-    return trax_fail(error, "--checkpoint and --resume are for the fast engine");
-  if (options->watchdog && options->engine == TRAX_ENGINE_FUNCTIONAL)
-    return trax_fail(error, "--watchdog needs an engine with cycles, not functional");
-  if (!options->program && !options->print_config && options->show == TRAX_SHOW_NOTHING)
-    return trax_fail(error, "no program is given");
-  if (options->post_mortem && options->engine != TRAX_ENGINE_FAST && options->engine != TRAX_ENGINE_FUNCTIONAL)
-    return trax_fail(error, "--post-mortem needs the fast or the functional engine");
-  if (options->gdb && options->engine != TRAX_ENGINE_FAST)
-    return trax_fail(error, "--gdb debugs in the fast engine, not in the one that --engine names");
-  return check_explain(options, error) == TRAX_OK ? check_files(options, error) : TRAX_ERROR;
+  const trax_parsed parsed = trax_command_parse(&command, options, &count, arguments, error);
+  if (parsed != TRAX_PARSED_RUN)
+    return parsed;
+  options->program = count > 0 ? arguments[0] : NULL;
+  if (count > 1)
+    trax_fail(error, "two programs, %s and %s: a program takes no arguments", arguments[0], arguments[1]);
+  else if (!options->program && !options->print_config)
+    trax_fail(error, "no program is given");
+  else if (check_engine(options, error) == TRAX_OK && check_explain(options, error) == TRAX_OK &&
+           check_files(options, error) == TRAX_OK)
+    return TRAX_PARSED_RUN;
+  return TRAX_PARSED_WRONG;
 }
 
 void trax_options_free(struct trax_options *options) {

@@ -5,11 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 
 #include "checkpoint.h"
 #include "explain/explain.h"
 #include "trax/emulator.h"
+#include "trax/options.h"
 
 /* NAME=VALUE of --set, --bind, --alloc, --dump. */
 struct trax_assignment {
@@ -32,11 +32,11 @@ struct trax_options {
   struct trax_checkpoint_options checkpoint;
   bool quiet;
   bool print_config;
-  enum { TRAX_SHOW_NOTHING, TRAX_SHOW_HELP, TRAX_SHOW_CONFIG_KEYS, TRAX_SHOW_STATS, TRAX_SHOW_VERSION } show;
 };
 
-trax_status trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
+trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
+/* Whether all that is to be written can be. */
+trax_status trax_options_check_outputs(const struct trax_options *options, trax_error *error);
 void trax_options_free(struct trax_options *options);
-void trax_options_help(FILE *out);
 
 #endif

@@ -2,9 +2,10 @@
 
 #include "core/machine.h"
 #include "host/host.h"
-#include "host/util.h"
+#include "host/progress.h"
 #include "report.h"
 #include "sampled.h"
+#include "trax/output.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -134,15 +135,6 @@ trax_status emulated_cache_lines(unsigned *lines, const struct options *options,
   }
   trax_config_destroy(config);
   return status;
-}
-
-static void show_run(void *context, const trax_progress *status) {
-  char detail[96];
-  double seconds = status->host_seconds > 0 ? status->host_seconds : 1;
-  snprintf(detail, sizeof detail, "%.1f M cycles, %.1f M instructions/s", 1e-6 * (double)status->cycle,
-           1e-6 * (double)status->instructions / seconds);
-  double fraction = status->total_items ? (double)status->items / (double)status->total_items : -1;
-  trax_progress_line_show(context, "rendering", fraction, detail);
 }
 
 static trax_status write_bytes(const char *directory, const char *name, const void *bytes, size_t size,
@@ -315,12 +307,13 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     status = keep_inputs(options, frame, program, machine, error);
   if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
+    struct trax_run_progress shown = {.line = progress, .step = "rendering"};
     struct trax_simulated_options run = {
         .explain = &options->explain,
         .run = {.output = stderr,
                 .total_items = (uint64_t)frame->params->width * frame->params->height,
-                .progress = show_run,
-                .progress_context = progress,
+                .progress = trax_run_progress_show,
+                .progress_context = &shown,
                 .interrupt = interrupt,
                 .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST,
                 .host_threads = options->threads}};

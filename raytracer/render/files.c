@@ -18,18 +18,11 @@ char *numbered(const char *path, unsigned number) {
   return name;
 }
 
-static bool is_preset(const char *name) {
-  for (const char *const *preset = trax_config_presets(); *preset; preset++)
-    if (strcmp(*preset, name) == 0)
-      return true;
-  return false;
-}
-
 static trax_status add_inputs(trax_files *files, const struct options *options, trax_error *error) {
   for (size_t i = 0; i < options->mesh_count; i++)
     if (!trax_mesh_is_generated(options->meshes[i]))
       trax_files_input(files, NULL, options->meshes[i]);
-  if (options->config && !is_preset(options->config))
+  if (options->config && !trax_config_is_preset(options->config))
     trax_files_input(files, NULL, options->config);
   char view[TRAX_PATH_SIZE];
   if (!options->view || is_camera(options->view))

@@ -30,6 +30,13 @@ static trax_status take_splits(void *target, const trax_option *option, const ch
   return TRAX_OK;
 }
 
+static unsigned shown;
+
+static void show(FILE *out) {
+  (void)out;
+  shown++;
+}
+
 static const char *const engines[] = {"quick", "slow", "none", NULL};
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct filled, member)
@@ -47,8 +54,10 @@ static const trax_option rows[] = {
     {"splits", .argument = "[=FACTOR]", .parse = take_splits, .meaning = "optional"},
     {"point", .argument = "X,Y", .parse = take_point, .offset = offsetof(struct filled, points), .meaning = "parsed"},
     {"input-of-a-long-name", .argument = "FILE", FIELD(input), .file = TRAX_OPTION_INPUT, .meaning = "long"},
+    {"show", .kind = TRAX_OPTION_SHOW, .show = show, .meaning = "prints"},
     TRAX_OPTION_HELP('h'),
     TRAX_OPTION_VERSION,
+    {"former", .instead = "use --fast"},
     {0}};
 static const trax_command command = {.name = "tool",
                                      .synopsis = "[options] FILE\n--check",
@@ -62,7 +71,7 @@ static const trax_option plain_rows[] = {{"fast", FIELD(fast), .meaning = "switc
 static const trax_command plain = {
     .name = "plain", .synopsis = "", .description = "", .rows = plain_rows, .column = 20};
 
-static char *arguments[16];
+static char *arguments[32];
 static int count;
 static struct filled filled;
 static trax_error error;
@@ -127,6 +136,8 @@ static void test_names(void **state) {
   refused("--siez=1", "unknown option --siez");
   refused("--quite-another", "unknown option --quite-another");
   refused("--=x", "unknown option --");
+  refused("--former=1", "--former has been removed; use --fast");
+  refused("--forme", "unknown option --forme");
   refused("-fz", "unknown option -z");
   assert_int_equal(parse(&plain, "-fz"), TRAX_PARSED_WRONG);
   assert_string_equal(error.message, "unknown option -fz; options begin with two dashes");
@@ -156,6 +167,8 @@ static void test_refusals(void **state) {
 
 static void test_help(void **state) {
   (void)state;
+  assert_int_equal(parse(&command, "--show --unknown"), TRAX_PARSED_DONE);
+  assert_int_equal(shown, 1);
   char text[2048] = "";
   FILE *out = fmemopen(text, sizeof text, "w");
   trax_command_help(&command, out);
@@ -176,6 +189,7 @@ static void test_help(void **state) {
                             "      --splits[=FACTOR] optional\n"
                             "      --point X,Y       parsed\n"
                             "      --input-of-a-long-name FILE  long\n"
+                            "      --show            prints\n"
                             "  -h, --help            print this, and end\n"
                             "      --version         print the version, and end\n"
                             "\n"

@@ -210,7 +210,7 @@ run 124 --max-cycles 30000 --watchdog 10000 spin.elf # which counts items
 says "has not ended after 30000 cycles"
 run 3 --watchdog 10000 exit3.elf
 refuse "--watchdog needs an engine with cycles" --watchdog 5 --engine functional hello.elf
-refuse '--watchdog: "0" is not' --watchdog 0 hello.elf
+refuse "--watchdog: '0' is not" --watchdog 0 hello.elf
 
 # --- outputs that cannot be written: said before the run, and nothing is left
 mkdir closed
@@ -245,21 +245,21 @@ refuse "unknown option --entirely-different" --entirely-different hello.elf
 refuse "unknown option -v" -v hello.elf
 refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
-refuse "--stats: FILE is empty" hello.elf --stats=
+refuse "--stats: the value is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse '--engine: "slow" is none of fast, reference and functional' --engine slow hello.elf
+refuse "--engine: 'slow' is none of fast, reference and functional" --engine slow hello.elf
 refuse 'is none of fast, reference and functional; for estimates use trax-render --sampled' --engine sampled hello.elf
 refuse '--sample has been removed; for estimates use trax-render --sampled' --sample window=100 hello.elf
 refuse '--bench-modes has been removed; run with --engine fast and --engine functional' --bench-modes hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
-refuse "--set: \"memory.size_mib\" is not of the form KEY=VALUE" --set memory.size_mib hello.elf
-refuse "--bind: \"=x\" is not of the form SYMBOL=FILE" --bind =x hello.elf
-refuse "--alloc: \"4x\" is not a whole number from 0 to 4294967295" --alloc input=4x copy.elf
-refuse "--alloc: \"-1\" is not a whole number" --alloc input=-1 copy.elf
-refuse "--alloc: \"4294967296\" is not a whole number" --alloc input=4294967296 copy.elf
-refuse "--max-cycles: \"0\" is not a whole number from 1" --max-cycles 0 hello.elf
-refuse "--max-cycles: \"99999999999999999999\"" --max-cycles 99999999999999999999 hello.elf
-refuse "--progress-total: \"many\"" --progress-total many hello.elf
+refuse "--set: 'memory.size_mib' is not of the form KEY=VALUE" --set memory.size_mib hello.elf
+refuse "--bind: '=x' is not of the form SYMBOL=FILE" --bind =x hello.elf
+refuse "--alloc: '4x' is not a whole number from 0 to 4294967295" --alloc input=4x copy.elf
+refuse "--alloc: '-1' is not a whole number" --alloc input=-1 copy.elf
+refuse "--alloc: '4294967296' is not a whole number" --alloc input=4294967296 copy.elf
+refuse "--max-cycles: '0' is not a whole number from 1" --max-cycles 0 hello.elf
+refuse "--max-cycles: '99999999999999999999'" --max-cycles 99999999999999999999 hello.elf
+refuse "--progress-total: 'many'" --progress-total many hello.elf
 refuse "missing.elf: cannot be read: No such file or directory" missing.elf
 refuse "input.bin: not an ELF file" input.bin
 head -c 300 hello.elf >cut.elf
@@ -359,11 +359,11 @@ for cycles in 3000000 30000000 300000000 3000000000; do # until it takes long en
   if grep -q 'million cycles' out; then break; fi
 done
 prints "million cycles, "
-prints " of 100000000000 items ("
+prints " of 100000000000 items, "
 prints " left"
 [ "$(tr '\r' '\n' <out | grep -c 'million instructions/s')" -ge 1 ] || fail "no progress line"
 terminal "$sim" --max-cycles $((cycles * 10)) --engine functional --progress-total 100000000000 spin.elf
-prints " of 100000000000 items ("
+prints " of 100000000000 items, "
 prints "million instructions/s"
 terminal "$sim" --quiet --max-cycles 3000000 spin.elf
 if grep -q 'million cycles' out; then fail "--quiet shows progress"; fi

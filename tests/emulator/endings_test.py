@@ -308,7 +308,7 @@ class Progress(unittest.TestCase):
         if (i % 64 == 0)
           trax_count_items(1);
     }"""
-    LINE = (r"([\d.]+) million cycles, ([\d.]+) million instructions/s, (\d+) of 100000000 items \(([\d.]+) %\)"
+    LINE = (r"trax-sim: running, ([\d.]+) million cycles, ([\d.]+) million instructions/s, (\d+) of 100000000 items, ([\d.]+) %"
             r"(?:, (?:(\d+):)?(\d+):(\d\d) left)?")
 
     def on_a_terminal(self, *words, seconds=0.7):

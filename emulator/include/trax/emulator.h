@@ -41,6 +41,7 @@ trax_status trax_config_check(const trax_config *config, trax_error *error);
 void trax_config_print(const trax_config *config, FILE *out); /* a file that trax_config_load reads back */
 void trax_config_describe(FILE *out);                         /* every key: type, range, default, unit, meaning */
 const char *const *trax_config_presets(void);                 /* NULL-terminated */
+bool trax_config_is_preset(const char *name);
 
 /* --- machine --- */
 typedef struct trax_machine trax_machine;

@@ -26,7 +26,8 @@ typedef enum trax_option_kind {
   TRAX_OPTION_TEXT,     /* a const char *, into the command line */
   TRAX_OPTION_UNSIGNED, /* an unsigned number from least to most, or, if there are choices, the index of one */
   TRAX_OPTION_UNSIGNED64,
-  TRAX_OPTION_SHOW_HELP, /* prints, and ends the program */
+  TRAX_OPTION_SHOW, /* prints, and ends the program: this one by show() */
+  TRAX_OPTION_SHOW_HELP,
   TRAX_OPTION_SHOW_VERSION
 } trax_option_kind;
 
@@ -44,6 +45,8 @@ struct trax_option {
   const char *const *choices; /* ended by NULL */
   /* value: not empty; NULL if it is optional and was not given. */
   trax_status (*parse)(void *target, const trax_option *option, const char *value, trax_error *error);
+  void (*show)(FILE *out);
+  const char *instead; /* of an option that there was: what to use now. Such a row is not listed. */
   /* Of a path. */
   enum { TRAX_OPTION_NO_FILE, TRAX_OPTION_INPUT, TRAX_OPTION_OUTPUT } file;
   const char *endings; /* of an output that has a writer for each: as of trax_output_name_check */
@@ -74,7 +77,7 @@ typedef struct trax_command {
 
 typedef enum trax_parsed {
   TRAX_PARSED_RUN,
-  TRAX_PARSED_DONE, /* --help or --version: it was printed */
+  TRAX_PARSED_DONE, /* --help or the like: it was printed */
   TRAX_PARSED_WRONG
 } trax_parsed;
 

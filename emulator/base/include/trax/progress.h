@@ -16,9 +16,9 @@ typedef struct trax_progress_line {
 
 /* On standard error, if that is a terminal and nobody asked for quiet. */
 void trax_progress_line_begin(trax_progress_line *line, const char *program, bool quiet);
-/* Draws the line, but at most ten times a second. fraction: 0 to 1, or negative if unknown; detail: NULL or what to
-   add. A new step, by its text, starts the clock anew. */
-void trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail);
+/* Draws the line, but at most ten times a second; returns whether it did. fraction: 0 to 1, or negative if unknown;
+   detail: NULL or what to add. A new step, by its text, starts the clock anew. */
+bool trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail);
 void trax_progress_line_clear(trax_progress_line *line);
 
 /* Standard output for others that write to the same terminal: takes the line away before it writes. NULL if there is no
