@@ -223,6 +223,7 @@ trax_parsed trax_command_parse(const trax_command *command, void *target, int *c
     if (parsed != TRAX_PARSED_RUN)
       return parsed;
   }
+  arguments[rest] = NULL;
   *count = rest;
   return TRAX_PARSED_RUN;
 }

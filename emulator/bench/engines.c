@@ -1,8 +1,5 @@
 /* engine-bench: how fast the engines are.
 
-     engine-bench [--chips 4x32,8x64] [--max-cycles N] [--repeats N] [--no-reference]           built-in programs
-     engine-bench [OPTION]... PROGRAM [SYMBOL=FILE | SYMBOL:BYTES]...    an executable with its buffers
-
    A row for each case: million simulated instructions per second of wall time, for the reference engine, the fast
    engine on one, two and all threads of the host, and the functional mode; then how much faster the fast engine on one
    thread is than the reference, what part it is of the functional mode, and what two threads gain. The engines take
@@ -10,7 +7,6 @@
    the same first N cycles. With --no-reference the reference engine, which takes some forty times as long, is left out.
    Ends with status 1 if the engines disagree on cycles or instructions. */
 #define _GNU_SOURCE /* clock_gettime, strchrnul */
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,14 +15,36 @@
 
 #include "core/machine.h"
 #include "trax/isa.h"
-#include "trax/version.h"
+#include "trax/options.h"
 
 enum { TEXT = 0x1000, TABLE = 0x10000, TABLE_BYTES = 0x10000 };
 
-static const char *chips = "1x32,4x32,2x64";
-static uint64_t max_cycles;
-static unsigned repeats = 3;
-static int no_reference;
+static struct options {
+  const char *chips;
+  uint64_t max_cycles; /* 0: all */
+  unsigned repeats;
+  bool no_reference;
+} options = {.chips = "1x32,4x32,2x64", .repeats = 3};
+
+#define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
+
+static const trax_option rows[] = {
+    {"chips", .argument = "LIST", FIELD(chips), .meaning = "as in 4x32,8x64 (default 1x32,4x32,2x64)"},
+    {"max-cycles", .argument = "N", FIELD(max_cycles), .least = 1, .most = UINT64_MAX,
+     .meaning = "the first N cycles (default all)"},
+    {"repeats", .argument = "N", FIELD(repeats), .least = 1, .most = 1000,
+     .meaning = "runs, of which the fastest counts (default 3)"},
+    {"no-reference", FIELD(no_reference), .meaning = "without the reference engine"},
+    TRAX_OPTION_HELP(0),
+    TRAX_OPTION_VERSION,
+    {0}};
+
+static const trax_command command = {
+    .name = "engine-bench",
+    .synopsis = "[OPTION...]\n[OPTION...] PROGRAM [SYMBOL=FILE | SYMBOL:BYTES]...",
+    .description = "How fast the engines are: on built-in programs, or on an executable with its buffers.",
+    .rows = rows,
+    .column = 22};
 
 static uint32_t op(trax_op operation, unsigned rd, unsigned ra, unsigned rb, int32_t imm) {
   return trax_encode((trax_inst){operation, (uint8_t)rd, (uint8_t)ra, (uint8_t)rb, imm});
@@ -176,11 +194,11 @@ static struct result run(const char *preset, const struct bench_case *bench, con
     load_program(machine, arguments);
   const bool timed = engine->engine != TRAX_ENGINE_FUNCTIONAL;
   const trax_run_options options = {
-      .engine = engine->engine, .host_threads = engine->host_threads, .max_cycles = timed ? max_cycles : 0};
+      .engine = engine->engine, .host_threads = engine->host_threads, .max_cycles = timed ? options.max_cycles : 0};
   const double begun = now();
   const trax_status status = trax_machine_run(machine, &options, &error);
   const double seconds = now() - begun;
-  if (!(timed && max_cycles && status == TRAX_STUCK))
+  if (!(timed && options.max_cycles && status == TRAX_STUCK))
     check(status, &error);
   const struct result result = {machine->stats.cycles, machine->stats.instructions, seconds};
   trax_machine_destroy(machine);
@@ -189,9 +207,9 @@ static struct result run(const char *preset, const struct bench_case *bench, con
 }
 
 static bool row(const char *preset, const struct bench_case *bench, char **arguments) {
-  const unsigned first = no_reference ? FAST : REFERENCE;
+  const unsigned first = options.no_reference ? FAST : REFERENCE;
   struct result best[ENGINES];
-  for (unsigned repeat = 0; repeat < repeats; repeat++)
+  for (unsigned repeat = 0; repeat < options.repeats; repeat++)
     for (unsigned engine = first; engine < ENGINES; engine++) {
       const struct result result = run(preset, bench, &engines[engine], arguments);
       if (!repeat || result.seconds < best[engine].seconds)
@@ -206,11 +224,11 @@ static bool row(const char *preset, const struct bench_case *bench, char **argum
   }
   printf("%-6s %-10s %12llu %12llu", preset, bench->name, (unsigned long long)best[FAST].cycles,
          (unsigned long long)best[FAST].instructions);
-  if (no_reference)
+  if (options.no_reference)
     printf(" %10s", "-");
   for (unsigned engine = first; engine < ENGINES; engine++)
     printf(" %10.1f", speed[engine]);
-  if (no_reference)
+  if (options.no_reference)
     printf(" %9s", "-");
   else
     printf(" %9.1f", speed[FAST] / speed[REFERENCE]);
@@ -219,47 +237,26 @@ static bool row(const char *preset, const struct bench_case *bench, char **argum
   return same;
 }
 
-static uint64_t number(const char *option, const char *text) {
-  char *end;
-  const unsigned long long value = strtoull(text, &end, 10);
-  if (*text < '0' || *text > '9' || *end || !value) {
-    fprintf(stderr, "engine-bench: error: --%s: \"%s\" is not a whole number from 1\n", option, text);
-    exit(EXIT_FAILURE);
-  }
-  return value;
-}
-
 int main(int count, char **arguments) {
   static const struct bench_case builtin[] = {{"integers", integers}, {"floats", floats}, {"walk", walk}};
   static const struct bench_case program = {"program", NULL};
-  static const struct option options[] = {
-      {"chips", required_argument, NULL, 'c'},   {"max-cycles", required_argument, NULL, 'm'},
-      {"repeats", required_argument, NULL, 'r'}, {"no-reference", no_argument, &no_reference, 1},
-      {"version", no_argument, NULL, 'v'},       {NULL, 0, NULL, 0}};
-  for (int option; (option = getopt_long(count, arguments, "+", options, NULL)) != -1;) {
-    if (option == 'c')
-      chips = optarg;
-    else if (option == 'm')
-      max_cycles = number("max-cycles", optarg);
-    else if (option == 'r')
-      repeats = (unsigned)number("repeats", optarg);
-    else if (option == 'v')
-      return puts("engine-bench " TRAX_VERSION) < 0;
-    else if (option)
-      return EXIT_FAILURE;
-  }
-  const bool has_program = optind < count;
+  trax_error error;
+  const trax_parsed parsed = trax_command_parse(&command, &options, &count, arguments, &error);
+  if (parsed == TRAX_PARSED_DONE)
+    return EXIT_SUCCESS;
+  check(parsed == TRAX_PARSED_RUN ? TRAX_OK : TRAX_ERROR, &error);
+  const bool has_program = count > 0;
   bool same = true;
   printf("%-6s %-10s %12s %12s", "chip", "case", "cycles", "instructions");
   for (unsigned engine = 0; engine < ENGINES; engine++)
     printf(" %10s", engines[engine].name);
   printf(" %9s %10s %9s\n", "fast/ref.", "fast/func.", "2/1");
-  for (const char *chip = chips; *chip;) {
+  for (const char *chip = options.chips; *chip;) {
     const char *end = strchrnul(chip, ',');
     char preset[16];
     snprintf(preset, sizeof preset, "%.*s", (int)(end - chip), chip);
     for (size_t i = 0; i < (has_program ? 1 : sizeof builtin / sizeof *builtin); i++)
-      same &= row(preset, has_program ? &program : &builtin[i], arguments + optind);
+      same &= row(preset, has_program ? &program : &builtin[i], arguments);
     chip = *end ? end + 1 : end;
   }
   return same ? EXIT_SUCCESS : EXIT_FAILURE;

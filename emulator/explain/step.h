@@ -7,7 +7,7 @@
 #include "explain/explain.h"
 #include "host/host.h"
 #include "host/statistics.h"
-#include "host/util.h"
+#include "trax/output.h"
 
 struct trax_stretch {
   trax_cause cause; /* differs from the next one's, or there is an issue in between */

@@ -3,7 +3,7 @@
 #include "core/config.h"
 #include "fuzz_case.h"
 #include "host/config.h"
-#include "host/util.h"
+#include "trax/input.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "gdb/gdb.h"
 #include "host/backtrace.h"
 #include "host/host.h"
-#include "host/util.h"
+#include "trax/input.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "gdb/gdb.h"
 #include "gdb/registers.h"
 #include "host/image.h"
-#include "host/util.h"
+#include "trax/output.h"
 
 #include <dwarf.h>
 #include <elfutils/libdw.h>

@@ -10,7 +10,7 @@
 
 #include "core/chip.h"
 #include "core/state.h"
-#include "util.h"
+#include "trax/output.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "util.h"
+#include "trax/names.h"
 
 /* The chips of the paper's Table 2, in its order. */
 #define PAPER_CHIPS(X)                                                                                                 \

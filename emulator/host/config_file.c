@@ -11,7 +11,8 @@
 #include <string.h>
 
 #include "config.h"
-#include "util.h"
+#include "trax/input.h"
+#include "trax/names.h"
 
 /* What libconfig would get wrong silently or fatally: integers wrap around at 32 bits, and an included directory ends
    the process. Also a text file has no NUL. */

@@ -7,7 +7,7 @@
 #include "core/address_space.h"
 #include "image_internal.h"
 #include "trax/abi.h"
-#include "util.h"
+#include "trax/input.h"
 
 /* libelf converts headers; every offset they contain is checked here against the file before it is followed. */
 

@@ -5,7 +5,6 @@
 
 #include "host.h"
 #include "trax/abi.h"
-#include "util.h"
 
 static void destroy_host(void *context) {
   struct trax_host *host = context;

@@ -10,8 +10,8 @@
 #include "gdb/gdb.h"
 #include "options.h"
 #include "progress.h"
+#include "trax/output.h"
 #include "trax/signals.h"
-#include "util.h"
 #include "watchdog.h"
 
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };

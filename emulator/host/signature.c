@@ -3,7 +3,7 @@
 
 #include <inttypes.h>
 
-#include "util.h"
+#include "trax/output.h"
 
 /* The words' addresses: [*begin, *end). */
 static trax_status find(const trax_machine *machine, uint32_t *begin, uint32_t *end, trax_error *error) {

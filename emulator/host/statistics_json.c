@@ -6,8 +6,8 @@
 
 #include "host.h"
 #include "statistics.h"
+#include "trax/output.h"
 #include "trax/version.h"
-#include "util.h"
 
 #define MEMBERS(X)                                                                                                     \
   X("trax_sim", "version of the emulator")                                                                             \

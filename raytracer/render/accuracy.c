@@ -2,7 +2,6 @@
 
 #include "core/machine.h"
 #include "core/special_latency.h"
-#include "host/util.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "accuracy.h"
 
 #include "core/machine.h"
-#include "host/util.h"
+#include "trax/output.h"
 
 #include <errno.h>
 #include <jansson.h>

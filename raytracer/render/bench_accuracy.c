@@ -3,7 +3,8 @@
 #include "accuracy.h"
 #include "core/machine.h"
 #include "emulated.h"
-#include "host/util.h"
+#include "trax/input.h"
+#include "trax/output.h"
 
 #include <errno.h>
 #include <stdlib.h>

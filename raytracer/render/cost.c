@@ -2,8 +2,8 @@
 #include "core/machine.h"
 #include "explain/explain.h"
 #include "host/statistics.h"
-#include "host/util.h"
 #include "render.h"
+#include "trax/output.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
 #include "emulated.h"
 #include "files.h"
 #include "hits.h"
-#include "host/util.h"
 #include "inputs.h"
 #include "options.h"
 #include "render.h"

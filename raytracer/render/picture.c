@@ -1,8 +1,9 @@
 /* Pictures in memory and in files. */
 #include "core/machine.h"
-#include "host/util.h"
 #include "radiance.h"
 #include "render.h"
+#include "trax/input.h"
+#include "trax/output.h"
 
 #include <math.h>
 #include <png.h>

@@ -1,6 +1,6 @@
 #include "program_cache.h"
 
-#include "host/util.h"
+#include "trax/input.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,7 +1,7 @@
 #include "report.h"
 
 #include "core/machine.h"
-#include "host/util.h"
+#include "trax/output.h"
 
 #include <jansson.h>
 #include <stdio.h>

@@ -1,9 +1,10 @@
 /* Programs for one picture: the device's source behind a file of constants (device/run.h), compiled when it is needed
    and kept under the hash of all that it is made from. */
 #include "core/machine.h"
-#include "host/util.h"
 #include "program_cache.h"
 #include "render.h"
+#include "trax/input.h"
+#include "trax/output.h"
 
 #include <dirent.h>
 #include <errno.h>

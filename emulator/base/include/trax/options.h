@@ -82,7 +82,7 @@ typedef enum trax_parsed {
 } trax_parsed;
 
 /* Fills in *target from arguments[1] and on. What is no option is left in arguments[0] to arguments[*count - 1], in its
-   order. Names may be cut short while they are clear; "--" ends the options. */
+   order and before a NULL. Names may be cut short while they are clear; "--" ends the options. */
 trax_parsed trax_command_parse(const trax_command *command, void *target, int *count, char **arguments,
                                trax_error *error);
 void trax_command_help(const trax_command *command, FILE *out);
