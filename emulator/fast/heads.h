@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-#ifdef __SSE2__
+#ifdef __AVX2__
 #include <immintrin.h>
 #endif
 
@@ -132,24 +132,42 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
 #endif
 }
 
+#ifndef __AVX2__
+static inline uint64_t trax_fast_eight_bytes(const uint8_t *bytes) {
+  uint64_t word;
+  memcpy(&word, bytes, sizeof word);
+  return word;
+}
+
+/* A bit of each of eight bytes, the first byte's the lowest: the product moves the one of byte i from 8 i to 56 + i. */
+static inline uint64_t trax_fast_bit_of_eight(uint64_t bytes, unsigned bit) {
+  return ((bytes >> bit) & 0x0101010101010101) * 0x0102040810204080 >> 56;
+}
+#endif
+
 /* The TPs whose heads must be looked at, if there is anything to look for. */
 static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct trax_fast_heads *heads,
                                                                     const bool wide) {
 #ifdef __AVX512BW__
   (void)wide;
   return _mm512_cmpge_epu8_mask(_mm512_load_si512(heads->at), _mm512_load_si512(heads->look));
-#elif defined(__SSE2__)
+#elif defined(__AVX2__)
   uint64_t due = 0;
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 16) {
-    const __m128i at = _mm_load_si128((const __m128i *)(heads->at + i));
-    const __m128i later = _mm_max_epu8(at, _mm_load_si128((const __m128i *)(heads->look + i)));
-    due |= (uint64_t)(uint32_t)_mm_movemask_epi8(_mm_cmpeq_epi8(at, later)) << i;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
+    const __m256i at = _mm256_load_si256((const __m256i *)(heads->at + i));
+    const __m256i later = _mm256_max_epu8(at, _mm256_load_si256((const __m256i *)(heads->look + i)));
+    due |= (uint64_t)(uint32_t)_mm256_movemask_epi8(_mm256_cmpeq_epi8(at, later)) << i;
   }
   return due;
 #else
-  (void)heads;
-  (void)wide;
-  return ~(uint64_t)0;
+  const uint64_t top = 0x8080808080808080;
+  uint64_t due = 0;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
+    const uint64_t at = trax_fast_eight_bytes(heads->at + i), look = trax_fast_eight_bytes(heads->look + i);
+    const uint64_t low_bits = (at | top) - (look & ~top); /* the top bit: those below are at least those of `look` */
+    due |= trax_fast_bit_of_eight((at & ~look) | (~(at ^ look) & low_bits), 7) << i;
+  }
+  return due;
 #endif
 }
 
@@ -186,21 +204,12 @@ static inline __attribute__((always_inline)) void trax_fast_transpose(const stru
       plane[k] = (i ? plane[k] : 0) | (uint64_t)(uint32_t)mask << i;
     }
   }
-#elif defined(__SSE2__)
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 16) {
-    const __m128i some = _mm_load_si128((const __m128i *)(bytes + i));
-#pragma GCC unroll 8
-    for (unsigned k = 0; k < count; k++) {
-      const int mask = _mm_movemask_epi8(_mm_slli_epi16(some, 7 - (int)((first + k) % 8)));
-      plane[k] = (i ? plane[k] : 0) | (uint64_t)(uint32_t)mask << i;
-    }
-  }
 #else
-  for (unsigned k = 0; k < count; k++)
-    plane[k] = 0;
-  for (unsigned i = 0; i < 32u + 32 * wide; i++)
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
+    const uint64_t some = trax_fast_eight_bytes(bytes + i);
     for (unsigned k = 0; k < count; k++)
-      plane[k] |= (uint64_t)(bytes[i] >> (first + k) % 8 & 1) << i;
+      plane[k] = (i ? plane[k] : 0) | trax_fast_bit_of_eight(some, (first + k) % 8) << i;
+  }
 #endif
 }
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-#ifdef __SSE2__
+#ifdef __AVX2__
 #include <immintrin.h>
 #endif
 
@@ -48,18 +48,14 @@ struct trax_fast_banks16 {
 };
 
 static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
-#ifdef __SSE2__
-#if defined(__AVX512BW__)
+#ifdef __AVX2__
+#ifdef __AVX512BW__
   const __m256i both =
       _mm256_or_si256(_mm512_castsi512_si256((__m512i)*pairs), _mm512_extracti64x4_epi64((__m512i)*pairs, 1));
-#elif defined(__AVX2__)
+#else
   const __m256i both = (__m256i)*pairs;
 #endif
-#ifdef __AVX2__
   __m128i any = _mm_or_si128(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
-#else
-  __m128i any = (__m128i)*pairs;
-#endif
   any = _mm_or_si128(any, _mm_shuffle_epi32(any, 0x4E));
   const uint64_t two = (uint64_t)_mm_cvtsi128_si64(any);
   return (uint32_t)(two | two >> 32);
