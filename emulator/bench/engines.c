@@ -13,7 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "trax/isa.h"
 #include "trax/options.h"
 

@@ -2,7 +2,7 @@
 #ifndef TRAX_EXPLAIN_PLACES_H
 #define TRAX_EXPLAIN_PLACES_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 /* One function an instruction lies in: [0] is the innermost, inlined into [1], and so on. */
 struct trax_frame_place {

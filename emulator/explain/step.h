@@ -3,7 +3,7 @@
 #ifndef TRAX_EXPLAIN_STEP_H
 #define TRAX_EXPLAIN_STEP_H
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "explain/explain.h"
 #include "host/host.h"
 #include "host/statistics.h"

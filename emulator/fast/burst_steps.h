@@ -37,7 +37,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   goto stretch;
 
 #define AT ((unsigned)(((uintptr_t)inst - begin) / sizeof *inst))
-#include "core/semantics_begin.h"
+#include "machine/semantics_begin.h"
 #define PRECISION config->special.precision_bits
 #define PC (program->note[inst - program->inst].pc)
 #define LOAD(ADDRESS, BYTES)                                                                                           \
@@ -126,7 +126,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   }
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
-#include "core/semantics_end.h"
+#include "machine/semantics_end.h"
 
 stretch:
   at = AT;

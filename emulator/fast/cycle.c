@@ -1,5 +1,5 @@
 /* The five steps of a TM's cycle on masks of its TPs (docs/timing.md, "A cycle"). */
-#include "core/ahead.h"
+#include "fast/ahead.h"
 #include "fast/head.h"
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))

@@ -37,7 +37,7 @@
 #define trax_fast_scatter TRAX_FAST_NAME(trax_fast_scatter, TRAX_FAST_VARIANT)
 #endif
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "fast/engine.h"
 #include "fast/heads.h"
 #include "fast/masks.h"
@@ -149,7 +149,7 @@ struct trax_fast_tm {
   trax_fast_lanes data_bank_behind[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_fast_tally tally;
 
-  /* What took a slow way (core/fast_path.h): fetches that were looked up, hits of the data cache that were served one by
+  /* What took a slow way (machine/fast_path.h): fetches that were looked up, hits of the data cache that were served one by
      one, instructions that executed at issue. */
   uint64_t looked_up, single_hits, at_issue;
 };

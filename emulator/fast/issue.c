@@ -1,5 +1,5 @@
 /* Step 5: those who were granted all they asked for issue, in order. */
-#include "core/ahead.h"
+#include "fast/ahead.h"
 #include "fast/head.h"
 
 /* A head that has not run ahead: the core executes it. False if it faulted. */

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE
 #include "fast/pool.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <pthread.h>
 #include <sched.h>

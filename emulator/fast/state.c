@@ -1,137 +1,256 @@
-/* Between cycles, the machine in the core's structures: for those who look at all of it, keep it or change it. The
-   engine has a form of its own for what can run ahead (bursts), for arbiters, and for what can be told from the rest.
- */
-#include "fast/head.h"
+#include "fast/state.h"
 
+#include "fast/l2.h"
+
+#include <assert.h>
 #include <string.h>
 
-/* --- arbiters: the pointer, and the bits from it on, which are those behind the latest winner (masks.h) --- */
+struct visitor {
+  trax_state_visitor *visit;
+  void *context;
+};
 
-static trax_arbiter pointer_of(uint64_t behind) {
-  return (trax_arbiter)(behind ? trax_first(behind) : 0);
+#define VISIT(LVALUE) visitor->visit(visitor->context, #LVALUE, &(LVALUE), sizeof(LVALUE), 1)
+#define VISIT_ARRAY(POINTER, COUNT) visitor->visit(visitor->context, #POINTER, POINTER, sizeof *(POINTER), COUNT)
+
+/* Every structure is visited field by field, so that its padding is nowhere and its layout is what is visited. What a
+   configuration has not got is visited as nothing, by the same names: the layout is that of all configurations. */
+
+static void visit_request(const struct visitor *visitor, struct trax_request *request) {
+  VISIT(request->kind);
+  VISIT(request->tp);
+  VISIT(request->rd);
+  VISIT(request->icache);
+  VISIT(request->line);
+  VISIT(request->address);
+  VISIT(request->bytes);
+  VISIT(request->value);
+  VISIT(request->next);
+  VISIT(request->number);
+  VISIT(request->completion);
 }
 
-static uint64_t behind_of(trax_arbiter pointer) {
-  return pointer ? ~(uint64_t)0 << pointer : 0;
+static void visit_list(const struct visitor *visitor, struct trax_request_list *list) {
+  VISIT(list->first);
+  VISIT(list->last);
 }
 
-static uint64_t get_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
-  if (ftm->simple_fetch)
-    return (uint64_t)*trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) << 16 * icache;
-  return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
+static void visit_waiting(const struct visitor *visitor, struct trax_waiting *waiting) {
+  VISIT(waiting->tms);
+  VISIT(waiting->turn);
+  for (unsigned i = 0; i < TRAX_MAX_TMS; i++)
+    visit_list(visitor, &waiting->of[i]);
 }
 
-static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
-  if (ftm->simple_fetch)
-    *trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) = (uint16_t)(behind >> 16 * icache);
+static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *tags) {
+  const size_t sets = (size_t)tags->set_mask + 1;
+  VISIT_ARRAY(tags->lines, sets * tags->ways);
+  VISIT_ARRAY(tags->next, sets);
+}
+
+static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {
+  for (uint32_t i = 0; i < queue->depth; i++)
+    visit_request(visitor, &queue->requests[i]);
+  VISIT_ARRAY(queue->heap, queue->heap ? queue->depth : 0);
+  VISIT_ARRAY(queue->places, queue->heap ? queue->depth : 0);
+  VISIT(queue->oldest);
+  VISIT(queue->count);
+  VISIT(queue->started);
+  VISIT(queue->shown);
+  VISIT(queue->peak);
+  VISIT(queue->first_fresh);
+  VISIT(queue->last_fresh);
+  VISIT(queue->made);
+}
+
+static void visit_tp(const struct visitor *visitor, struct trax_tp *tp) {
+  VISIT(tp->reg);
+  VISIT(tp->pc);
+  VISIT(tp->address);
+  VISIT(tp->usable);
+  VISIT(tp->usable_cause);
+  VISIT(tp->run_begin);
+  VISIT(tp->run_end);
+  VISIT(tp->writes);
+  VISIT(tp->increments);
+  VISIT(tp->asleep_since);
+  VISIT(tp->asleep_until);
+  VISIT(tp->asleep_cause);
+  VISIT(tp->local);
+}
+
+static void visit_tm_stats(const struct visitor *visitor, struct trax_tm_stats *stats) {
+  VISIT(stats->cycles);
+  VISIT(stats->instructions);
+#define COUNTER(ID, NAME, UNIT, MEANING) VISIT(stats->ID);
+  TRAX_TM_COUNTERS(COUNTER)
+#undef COUNTER
+}
+
+static void visit_memory_stats(const struct visitor *visitor, struct trax_memory_stats *memory_stats) {
+#define COUNTER(ID, NAME, UNIT, MEANING) VISIT(memory_stats->ID);
+  TRAX_MEMORY_COUNTERS(COUNTER)
+#undef COUNTER
+  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++) {
+    VISIT(memory_stats->channel[i].transfers);
+    VISIT(memory_stats->channel[i].bytes);
+  }
+}
+
+static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
+  VISIT(tm->running);
+  VISIT(tm->awake);
+  VISIT(tm->holding);
+  VISIT(tm->awaiting);
+  VISIT(tm->ended);
+  VISIT(tm->wheel);
+  VISIT(tm->wheel_occupied);
+  VISIT(tm->next_cycle);
+  VISIT(tm->progressed);
+  VISIT(tm->fp_add.turn);
+  VISIT(tm->fp_mul.turn);
+  VISIT(tm->int_mul.turn);
+  VISIT(tm->special.free_from);
+  VISIT(tm->special.turn);
+  VISIT(tm->queue_turn);
+  visit_queue(visitor, &tm->queue);
+  for (uint32_t i = 0; i < tm->icaches; i++) {
+    visit_tags(visitor, &tm->icache[i].tags);
+    VISIT(tm->icache[i].bank);
+    for (uint32_t j = 0; j < tm->tps; j++) {
+      VISIT(tm->icache[i].pending[j].line);
+      VISIT(tm->icache[i].pending[j].waiting);
+    }
+    VISIT(tm->icache[i].pending_count);
+  }
+  visit_tags(visitor, &tm->dcache.tags);
+  VISIT(tm->dcache.bank);
+  for (uint32_t i = 0; i < tm->dcache.mshr_limit; i++) {
+    VISIT(tm->dcache.mshr[i].line);
+    VISIT(tm->dcache.mshr[i].first_waiter);
+    VISIT(tm->dcache.mshr[i].passing);
+  }
+  VISIT(tm->dcache.mshr_count);
+  VISIT_ARRAY(tm->dcache.next_waiter, (size_t)tm->tps * TRAX_NUM_REGISTERS);
+  for (uint32_t i = 0; i < tm->tps; i++)
+    visit_tp(visitor, &tm->tp[i]);
+  visit_tm_stats(visitor, tm->stats);
+  for (uint32_t i = 0; i < tm->tps; i++)
+    VISIT(tm->tp_stats[i].cycles);
+  VISIT_ARRAY(tm->exit_statuses, tm->tps);
+}
+
+static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
+  visit_tags(visitor, &l2->tags);
+  VISIT(l2->waiting);
+  for (uint32_t i = 0; i < l2->banks; i++)
+    visit_waiting(visitor, &l2->bank[i]);
+  for (uint32_t i = 0; i < l2->mshr_limit; i++) {
+    visit_request(visitor, &l2->mshr[i].request);
+    VISIT(l2->mshr[i].arrival);
+    visit_list(visitor, &l2->mshr[i].waiters);
+  }
+  VISIT_ARRAY(l2->line, l2->mshr_limit);
+  VISIT_ARRAY(l2->used, l2->mshr_limit);
+  VISIT(l2->used_count);
+  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
+    visit_list(visitor, &l2->coming[i]);
+  VISIT(l2->next_arrival);
+}
+
+static void visit_no_l2(const struct visitor *visitor) {
+  uint64_t line = 0;
+  uint32_t next = 0, number = 0;
+  uint16_t used = 0;
+  struct trax_waiting bank = {0};
+  struct trax_l2_mshr mshr = {0};
+  struct trax_l2 nothing = {.tags = {.ways = 1, .lines = &line, .next = &next},
+                            .banks = 1,
+                            .bank = &bank,
+                            .mshr = &mshr,
+                            .line = &number,
+                            .used = &used,
+                            .mshr_limit = 1};
+  visit_l2(visitor, &nothing);
+}
+
+static void visit_memory(const struct visitor *visitor, struct trax_memory *memory) {
+  for (uint32_t i = 0; i < memory->channels; i++) {
+    struct trax_waiting nothing = {0};
+    VISIT(memory->channel[i].free_from.cycle);
+    VISIT(memory->channel[i].free_from.units);
+    visit_list(visitor, &memory->channel[i].passed);
+    visit_waiting(visitor, memory->channel[i].waiting ? memory->channel[i].waiting : &nothing);
+  }
+  VISIT(memory->turn);
+  VISIT(memory->tms);
+  VISIT(memory->waiting);
+  visit_memory_stats(visitor, memory->stats);
+  if (memory->l2)
+    visit_l2(visitor, memory->l2);
   else
-    ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
+    visit_no_l2(visitor);
 }
 
-static void gather_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
-  for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
-    unit->turn[i] = pointer_of(units->behind[kind] & units->uneven[kind].group[i]);
+void trax_state_visit(struct trax_chip *chip, trax_state_visitor *visit, void *context) {
+  const struct visitor visitor = {visit, context};
+  for (uint32_t i = 0; i < chip->tms; i++)
+    visit_tm(&visitor, &chip->tm[i]);
+  visit_memory(&visitor, &chip->memory);
 }
 
-static void scatter_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
-  uint64_t behind = 0;
-  for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
-    if (unit->turn[i])
-      behind |= units->uneven[kind].group[i] & ~(uint64_t)0 << unit->turn[i];
-  units->behind[kind] = behind;
+/* --- layout --- */
+
+enum { MOST_PIECES = 256 };
+
+struct layout {
+  const char *name[MOST_PIECES]; /* [count]: those that have been seen */
+  size_t count;
+  uint64_t hash;
+};
+
+/* FNV-1a. */
+static void add_bytes(struct layout *layout, const void *bytes, size_t size) {
+  for (const uint8_t *byte = bytes; size--; byte++)
+    layout->hash = (layout->hash ^ *byte) * 0x100000001B3u;
 }
 
-static void gather_arbiters(struct trax_fast_tm *ftm) {
-  struct trax_tm *tm = ftm->tm;
-  gather_units(&ftm->fp, 0, &tm->fp_add);
-  gather_units(&ftm->fp, 1, &tm->fp_mul);
-  gather_units(&ftm->int_mul, 0, &tm->int_mul);
-  for (uint32_t i = 0; i < tm->icaches; i++)
-    for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
-  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_behind)[bank]);
+static void add_text(struct layout *layout, const char *text) {
+  add_bytes(layout, text, strlen(text) + 1);
 }
 
-static void scatter_arbiters(struct trax_fast_tm *ftm) {
-  const struct trax_tm *tm = ftm->tm;
-  scatter_units(&ftm->fp, 0, &tm->fp_add);
-  scatter_units(&ftm->fp, 1, &tm->fp_mul);
-  scatter_units(&ftm->int_mul, 0, &tm->int_mul);
-  for (uint32_t i = 0; i < tm->icaches; i++)
-    for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));
-  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    ((uint64_t *)ftm->data_bank_behind)[bank] = behind_of(tm->dcache.bank[bank]);
+/* Once, however many structures there are of the kind. */
+static void add_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
+  struct layout *layout = context;
+  const uint64_t bits = size;
+  size_t i = 0;
+  (void)bytes;
+  (void)count;
+  while (i < layout->count && layout->name[i] != name && strcmp(layout->name[i], name) != 0)
+    i++;
+  if (i < layout->count)
+    return;
+  assert(i < MOST_PIECES);
+  layout->name[layout->count++] = name;
+  add_text(layout, name);
+  add_bytes(layout, &bits, sizeof bits);
 }
 
-void trax_fast_gather(struct trax_fast *fast) {
-  trax_fast_come_back(fast);
-  for (uint32_t i = 0; i < fast->chip->tms; i++)
-    gather_arbiters(&fast->tm[i]);
+uint64_t trax_state_layout(struct trax_chip *chip) {
+  struct layout layout = {.hash = 0xCBF29CE484222325u};
+  trax_state_visit(chip, add_piece, &layout);
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++) /* what numbers mean */
+    add_text(&layout, trax_op_table[op].mnemonic);
+#define CAUSE(ID, NAME, MEANING) add_text(&layout, NAME);
+  TRAX_CAUSES(CAUSE)
+#undef CAUSE
+  return layout.hash;
 }
 
-/* --- taking up --- */
-
-static void find_resident_lines(struct trax_fast_tm *ftm) {
-  const struct trax_fast_program *program = &ftm->fast->program;
-  memset(ftm->resident, 0, ftm->tm->icaches * sizeof *ftm->resident);
-  for (uint32_t i = 0; i < ftm->tm->icaches; i++) {
-    const struct trax_cache_tags *tags = &ftm->tm->icache[i].tags;
-    for (size_t j = 0; j < program->count; j++) {
-      const struct trax_fast_section *section = &program->sections[j];
-      const uint32_t last_line = (section->begin + section->bytes) >> tags->line_shift;
-      for (uint32_t line = section->first_line, index = section->line; line <= last_line && index < TRAX_FAST_LINES - 1;
-           line++, index++)
-        trax_fast_set_resident(ftm, i, index, trax_cache_tags_have(tags, line));
-    }
-  }
-}
-
-/* Registers that wait for increments; and nobody may load ahead what those have not incremented yet. */
-static void find_atomics(struct trax_fast_tm *ftm) {
-  const struct trax_queue *queue = &ftm->tm->queue;
-  for (uint32_t i = 0; i < queue->depth; i++) {
-    const struct trax_request *request = &queue->requests[i];
-    if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC) {
-      ftm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
-      trax_fast_set_written(&ftm->fast->blocks, request->address);
-    }
-  }
-}
-
-static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
-  const uint64_t bit = (uint64_t)1 << number;
-  struct trax_fast_tp *ftp = &ftm->tp[number];
-  const struct trax_tm *tm = ftm->tm;
-  const struct trax_tp *tp = &tm->tp[number];
-  ftp->resume = trax_fast_inst_at(&ftm->fast->program, tp->pc);
-  ftp->resume_pc = tp->pc;
-  ftm->heads.at[number] = ftm->heads.last[number] = 0;
-  ftm->busy_registers[number] = 0;
-  ftm->busy &= ~bit;
-  for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
-    if (tp->usable[rd] > t)
-      trax_fast_set_busy(ftm, number, rd);
-  trax_fast_advance(ftm, number);
-}
-
-void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
-  for (uint32_t i = 0; i < fast->chip->tms; i++) {
-    for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
-      fast->tm[i].tp[tp].atomics = 0;
-    find_atomics(&fast->tm[i]);
-  }
-  for (uint32_t i = 0; i < fast->chip->tms; i++) {
-    struct trax_fast_tm *ftm = &fast->tm[i];
-    struct trax_tm *tm = ftm->tm;
-    scatter_arbiters(ftm);
-    find_resident_lines(ftm);
-    ftm->ready = ftm->outside = 0;
-    ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
-    ftm->taken_up = tm->awake & tm->holding;
-    for (unsigned tp = 0; tp < tm->tps; tp++)
-      if (!(tm->ended >> tp & 1))
-        take_up(ftm, tp, t);
-  }
+void trax_state_taken(struct trax_chip *chip, uint64_t t) {
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
+      chip->tm[i].tp[tp].inst = trax_text_at(&chip->text, chip->tm[i].tp[tp].pc);
+  trax_chip_scatter(chip, t);
+  chip->begin = t;
 }

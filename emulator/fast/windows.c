@@ -1,7 +1,7 @@
 #include "fast/windows.h"
 
-#include "core/ahead.h"
-#include "core/chip.h"
+#include "fast/ahead.h"
+#include "fast/chip.h"
 #include "fast/fast.h"
 #include "fast/pool.h"
 

@@ -1,6 +1,6 @@
 /* The fast engine on several threads of the host, or on one, whose caches then keep what belongs to a TM. Each TM runs
    ahead of the others for a window of cycles so short that nothing it requests from memory in the window can come back
-   in it; what it does to memory meanwhile it keeps to itself (core/ahead.h). At the window's end the stores take effect
+   in it; what it does to memory meanwhile it keeps to itself (fast/ahead.h). At the window's end the stores take effect
    in the order of cycles and TMs, and the controller serves the requests of the window cycle by cycle. So everything is
    as if the TMs had gone from cycle to cycle together, unless one of them has read what another one wrote in the same
    window, or did something that cannot be kept: then all go back to where they were some windows before, do the windows

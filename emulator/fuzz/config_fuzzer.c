@@ -1,6 +1,6 @@
 /* Configurations under libFuzzer: the words of a case's first line are assignments as --set takes them, its first file
    is a configuration file. What is accepted prints, and reads back as it was. */
-#include "core/config.h"
+#include "machine/config.h"
 #include "fuzz_case.h"
 #include "host/config.h"
 #include "trax/input.h"

@@ -1,7 +1,7 @@
 /* The loader under libFuzzer: the first file of a case is the executable. It is opened, asked about its symbols and
    source lines, copied for a debugger, loaded and run for a while; at its end
    every thread is unwound. The word `functional` in the line of options is for that engine. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "fuzz_case.h"
 #include "gdb/gdb.h"
 #include "host/backtrace.h"

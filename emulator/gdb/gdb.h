@@ -1,7 +1,7 @@
 /* Debugging over GDB's remote serial protocol (GDB's manual, appendix "GDB Remote Serial Protocol"); docs/debugging.md
    says what a user sees.
 
-   A debugged run observes every issue and looks at the machine between cycles (core/chip.h), so a stop falls between
+   A debugged run observes every issue and looks at the machine between cycles (fast/chip.h), so a stop falls between
    two cycles, of all threads alike. What the debugger does not change, it does not disturb: a run that is stopped and
    continued takes the cycles of one that is not. */
 #ifndef TRAX_GDB_GDB_H

@@ -1,7 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "gdb/gdb.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <arpa/inet.h>
 #include <errno.h>

@@ -3,7 +3,7 @@
 #ifndef TRAX_GDB_STUB_H
 #define TRAX_GDB_STUB_H
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "gdb/gdb.h"
 
 enum { TRAX_GDB_BREAKS = 4096, TRAX_GDB_WATCHES = 64 }; /* at most */

@@ -2,7 +2,7 @@
 #ifndef TRAX_HOST_BACKTRACE_H
 #define TRAX_HOST_BACKTRACE_H
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "unwind.h"
 
 struct trax_host;

@@ -1,15 +1,15 @@
 /* A checkpoint's file, all numbers little endian:
 
      struct header
-     deflate stream (zlib) of: the state (core/state.c); then pages of memory that are not as they were before cycle 0,
+     deflate stream (zlib) of: the state (fast/state.c); then pages of memory that are not as they were before cycle 0,
      each with its number in 4 bytes before it
 
    Before cycle 0, memory holds the program and its buffers. So a checkpoint needs both again, and is only taken up by a
    machine that is the same then: the header has a digest of configuration and memory. */
 #include "checkpoint.h"
 
-#include "core/chip.h"
-#include "core/state.h"
+#include "fast/chip.h"
+#include "fast/state.h"
 #include "trax/output.h"
 
 #include <errno.h>

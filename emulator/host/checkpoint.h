@@ -2,7 +2,7 @@
 #ifndef TRAX_HOST_CHECKPOINT_H
 #define TRAX_HOST_CHECKPOINT_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 struct trax_checkpoint_options {
   const char *write;  /* the file; NULL: none is written */

@@ -1,4 +1,4 @@
-/* Configurations by name and as text. The keys themselves are declared in core/config_keys.h. */
+/* Configurations by name and as text. The keys themselves are declared in machine/config_keys.h. */
 #include "config.h"
 
 #include <errno.h>

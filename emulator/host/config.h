@@ -2,7 +2,7 @@
 #ifndef TRAX_HOST_CONFIG_H
 #define TRAX_HOST_CONFIG_H
 
-#include "core/config.h"
+#include "machine/config.h"
 
 /* The key of that name, or NULL with a message that suggests the nearest one. */
 const struct trax_config_key *trax_config_find(const char *name, trax_error *error);

@@ -1,6 +1,6 @@
 #include "statistics.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <inttypes.h>
 

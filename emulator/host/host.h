@@ -2,7 +2,7 @@
 #ifndef TRAX_HOST_HOST_H
 #define TRAX_HOST_HOST_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "image.h"
 
 struct trax_bound_buffer {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/address_space.h"
+#include "machine/address_space.h"
 #include "image_internal.h"
 #include "trax/abi.h"
 #include "trax/input.h"

@@ -1,6 +1,6 @@
 #include "options.h"
 
-#include "core/config_keys.h"
+#include "machine/config_keys.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/energy.h"
+#include "machine/energy.h"
 #include "host.h"
 
 const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {

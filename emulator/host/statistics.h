@@ -1,9 +1,9 @@
-/* All statistics as one list, made from the tables of core/stats.h: what trax_stats_get finds, the reports print, and
+/* All statistics as one list, made from the tables of machine/stats.h: what trax_stats_get finds, the reports print, and
    docs/emulator.md lists. */
 #ifndef TRAX_HOST_STATISTICS_H
 #define TRAX_HOST_STATISTICS_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 /* Where a figure stands in the reports. */
 enum trax_figure_group {

@@ -1,6 +1,6 @@
 #include "watchdog.h"
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "host.h"
 #include "reference/reference.h"
 

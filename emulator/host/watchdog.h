@@ -2,7 +2,7 @@
 #ifndef TRAX_HOST_WATCHDOG_H
 #define TRAX_HOST_WATCHDOG_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 struct trax_watchdog;
 

@@ -1,7 +1,7 @@
 /* Step 5 of docs/timing.md, "A cycle": the effects of the instructions that were granted all they asked for. */
 #include "reference/reference.h"
 
-#include "core/traps.h"
+#include "machine/traps.h"
 #include "trax/semantics.h"
 
 #include <string.h>
@@ -73,7 +73,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
   uint32_t next_pc = tp->pc + 4;
   trax_fault_kind fault = TRAX_FAULT_NONE;
 
-#include "core/semantics_begin.h"
+#include "machine/semantics_begin.h"
 #define PC tp->pc
 #define PRECISION tm->config->special.precision_bits
 #define LOAD(ADDRESS, BYTES) load(tm, tp, ADDRESS, BYTES)
@@ -90,7 +90,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
     break;
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
-#include "core/semantics_end.h"
+#include "machine/semantics_end.h"
   case TRAX_OP_ILLEGAL: /* faulted before */
   case TRAX_OP_COUNT:
     break;

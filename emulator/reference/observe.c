@@ -1,4 +1,4 @@
-/* What an observer of the run is told (core/observer.h). */
+/* What an observer of the run is told (machine/observer.h). */
 #include "reference/reference.h"
 
 void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {

@@ -7,7 +7,7 @@
 #ifndef TRAX_REFERENCE_H
 #define TRAX_REFERENCE_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "trax/isa.h"
 
 enum { MOST = 64 }; /* TMs, TPs of a TM, banks, units: the configuration allows no more */
@@ -257,7 +257,7 @@ trax_fault_kind trax_ref_check_access(const struct trax_ref_tm *tm, const struct
 /* The word at pc if it is text, else the fault of fetching it. */
 trax_fault_kind trax_ref_text(const struct trax_ref_tm *tm, uint32_t pc, uint32_t *word);
 
-/* --- For an observer (core/observer.h): observe.c --- */
+/* --- For an observer (machine/observer.h): observe.c --- */
 void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
 /* The TP has issued the instruction at pc. */
 void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);

@@ -1,8 +1,8 @@
 /* docs/timing.md, "The machine", "Start and end", "A cycle". */
 #include "reference/run.h"
 
-#include "core/chip.h"
-#include "core/poll.h"
+#include "fast/chip.h"
+#include "engine/poll.h"
 #include "reference/reference.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef TRAX_REFERENCE_RUN_H
 #define TRAX_REFERENCE_RUN_H
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 /* Runs the machine from cycle 0 to its end, a fault, an interrupt or the watchdog, and fills in its statistics and the
    fault; *cycles receives the length of the run. */

@@ -1,7 +1,7 @@
 #include "accuracy.h"
 
-#include "core/machine.h"
-#include "core/special_latency.h"
+#include "machine/machine.h"
+#include "machine/special_latency.h"
 
 #include <stdlib.h>
 #include <string.h>

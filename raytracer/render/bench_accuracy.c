@@ -1,7 +1,7 @@
 #include "bench_accuracy.h"
 
 #include "accuracy.h"
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "emulated.h"
 #include "trax/input.h"
 #include "trax/output.h"

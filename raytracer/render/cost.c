@@ -1,5 +1,5 @@
 /* What each pixel cost, as false colours and as numbers. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "explain/explain.h"
 #include "host/statistics.h"
 #include "render.h"

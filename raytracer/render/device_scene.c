@@ -1,5 +1,5 @@
 /* The scene as a specialised program reads it: the sections that its picture needs, and references as addresses. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "render.h"
 
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 #include "emulated.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "host/host.h"
 #include "host/progress.h"
 #include "report.h"

@@ -1,5 +1,5 @@
 /* FLIP, from the paper that metrics.h names; section numbers are the paper's. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "metrics.h"
 
 #include <math.h>

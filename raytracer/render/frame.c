@@ -1,5 +1,5 @@
 /* The device program's parameters: camera, light, palette, the order of pixels, the margin of boxes. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "lighting.h"
 #include "reach.h"
 #include "render.h"

@@ -1,6 +1,6 @@
 #include "hits.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "double3.h"
 #include "exact.h"
 #include "reach.h"

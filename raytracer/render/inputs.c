@@ -1,7 +1,7 @@
 /* Scene and views from the command line. */
 #include "inputs.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "emulated.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Pictures in memory and in files. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "radiance.h"
 #include "render.h"
 #include "trax/input.h"

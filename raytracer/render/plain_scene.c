@@ -1,7 +1,7 @@
 /* The scene as plain arrays (trax/plain_scene.h). */
 #include "plain_scene.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "host/host.h"
 #include "host/image.h"
 

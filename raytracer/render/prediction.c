@@ -5,7 +5,7 @@
    units are left out. */
 #include "prediction.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <float.h>
 #include <stdlib.h>

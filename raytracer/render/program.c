@@ -1,5 +1,5 @@
 /* How large a program for the TPs is. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "render.h"
 
 #include <fcntl.h>

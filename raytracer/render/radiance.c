@@ -1,6 +1,6 @@
 #include "radiance.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <OpenEXR/openexr.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* A scene once more from its triangles, for comparisons of what it is stored as. */
 #include "accuracy.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
    intersection, nor shading. */
 #include "reference.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "report.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "trax/output.h"
 
 #include <jansson.h>

@@ -1,6 +1,6 @@
 #include "sampled.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "host/host.h"
 #include "host/image.h"
 

@@ -1,4 +1,4 @@
-/* Sampled simulation of a picture: what is simulated of its slots (core/slots.h), chosen by a prediction of their
+/* Sampled simulation of a picture: what is simulated of its slots (sampling/slots.h), chosen by a prediction of their
  * costs. */
 #ifndef TRAX_RENDER_SAMPLED_H
 #define TRAX_RENDER_SAMPLED_H

@@ -1,5 +1,5 @@
 /* The picture as the emulated machine renders it. */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "explain/explain.h"
 #include "host/host.h"
 #include "host/image.h"

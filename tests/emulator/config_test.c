@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/config.h"
+#include "machine/config.h"
 
 /* A file in memory: thousands of versions of it are written. */
 static char file_name[64];

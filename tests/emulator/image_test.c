@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/address_space.h"
+#include "machine/address_space.h"
 #include "host/image.h"
 #include "programs.h"
 

@@ -13,8 +13,8 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "core/energy.h"
-#include "core/machine.h"
+#include "machine/energy.h"
+#include "machine/machine.h"
 #include "host/statistics.h"
 #include "programs.h"
 #include "temporary.h"

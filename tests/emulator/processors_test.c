@@ -1,4 +1,4 @@
-/* How many processors the quotas of control groups allow (emulator/core/processors.h): files as the kernel writes them,
+/* How many processors the quotas of control groups allow (trax/processors.h): files as the kernel writes them,
    in a folder that stands for the root. */
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "core/processors.h"
+#include "trax/processors.h"
 #include "temporary.h"
 #include "trax/emulator.h"
 

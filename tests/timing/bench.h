@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "trax/isa.h"
 
 #define TEXT 0x1000u

@@ -6,7 +6,7 @@
    124. DATA and the program's line have even line numbers, both of bank 0. */
 #include "bench.h"
 
-#include "core/memory.h"
+#include "fast/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef TRAX_TIMING_COMPARE_H
 #define TRAX_TIMING_COMPARE_H
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "generate.h"
 
 enum { LOOKS = 64, LOOK_EVERY = 61 };

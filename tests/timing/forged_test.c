@@ -5,7 +5,7 @@
 #include "compare.h"
 #include "temporary.h"
 
-#include "core/state.h"
+#include "fast/state.h"
 #include "host/checkpoint.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
    hand (docs/timing.md, "Memory controller"), where the bus time since cycle 0 does not fit in 64 bits. */
 #include "bench.h"
 
-#include "core/chip.h"
+#include "fast/chip.h"
 #include "reference/reference.h"
 
 #include <inttypes.h>

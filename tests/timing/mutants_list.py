@@ -110,129 +110,129 @@ MUTANTS = [
     ("fast/fast.h", "    blocks->input_bytes = 0;", "    (void)blocks;"),
     ("fast/fast.h", "address - blocks->input < blocks->input_bytes;\n}", "false;\n}"),
     # --- the core, for the fast engine ---
-    ("core/tm.c", "if (!trax_queue_has_place(&tm->queue))", "if (0)"),
-    ("core/tm.c", "trax_arbiter_to_back(&tm->queue_turn, tp);", "trax_arbiter_to_back(&tm->queue_turn, tp - 1);"),
-    ("core/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
-    ("core/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin", "address <= tp->run_end && address + bytes > tp->run_begin"),
-    ("core/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
-    ("core/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "(winner & roots ? unit->interval : unit->root_interval)"),
-    ("core/unit.c", "if (unit->free_from[i] <= t)", "if (unit->free_from[i] <= t + 1)"),
-    ("core/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}", "(struct trax_instant){t, 0}"),
-    ("core/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
-    ("core/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
-    ("core/cache_tags.h", "(way + 1) & (tags->ways - 1)", "way & (tags->ways - 1)"),
+    ("fast/tm.c", "if (!trax_queue_has_place(&tm->queue))", "if (0)"),
+    ("fast/tm.c", "trax_arbiter_to_back(&tm->queue_turn, tp);", "trax_arbiter_to_back(&tm->queue_turn, tp - 1);"),
+    ("fast/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
+    ("fast/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin", "address <= tp->run_end && address + bytes > tp->run_begin"),
+    ("fast/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
+    ("fast/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "(winner & roots ? unit->interval : unit->root_interval)"),
+    ("fast/unit.c", "if (unit->free_from[i] <= t)", "if (unit->free_from[i] <= t + 1)"),
+    ("fast/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}", "(struct trax_instant){t, 0}"),
+    ("fast/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
+    ("fast/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
+    ("fast/cache_tags.h", "(way + 1) & (tags->ways - 1)", "way & (tags->ways - 1)"),
     # --- Fences ---
-    ("core/tp.c", "if (kind & TRAX_FENCE_R)", "if (kind == TRAX_FENCE_R)"),
-    ("core/tp.c", "all ? i : registers[i]", "all ? TRAX_NUM_REGISTERS - 1 - i : registers[i]"),
-    ("core/tm.c", "tp->increments || (of_writes && tp->writes)", "of_writes && (tp->increments || tp->writes)"),
-    ("core/tm.c", "if (of_writes && !write_run(tm, number))", "if (!write_run(tm, number))"),
-    ("core/tm.c", ".kind = TRAX_REQUEST_WRITE, .tp = (uint8_t)number, ", ".kind = TRAX_REQUEST_WRITE, "),
-    ("core/dcache.c", "dcache->mshr[i].passing = 1;", "dcache->mshr[i].passing = i == 0;"),
-    ("core/dcache.c", "if (!dcache->mshr[i].passing)\n", "if (true)\n"),
-    ("core/dcache.c", "if (dcache->mshr[i].passing)\n        return false;\n", ""),
-    ("core/cache_tags.h", "memset(tags->lines, 0, places * sizeof", "memset(tags->lines, 0, places / 2 * sizeof"),
-    ("core/state.c", "  VISIT(tp->writes);\n", ""),
+    ("fast/tp.c", "if (kind & TRAX_FENCE_R)", "if (kind == TRAX_FENCE_R)"),
+    ("fast/tp.c", "all ? i : registers[i]", "all ? TRAX_NUM_REGISTERS - 1 - i : registers[i]"),
+    ("fast/tm.c", "tp->increments || (of_writes && tp->writes)", "of_writes && (tp->increments || tp->writes)"),
+    ("fast/tm.c", "if (of_writes && !write_run(tm, number))", "if (!write_run(tm, number))"),
+    ("fast/tm.c", ".kind = TRAX_REQUEST_WRITE, .tp = (uint8_t)number, ", ".kind = TRAX_REQUEST_WRITE, "),
+    ("fast/dcache.c", "dcache->mshr[i].passing = 1;", "dcache->mshr[i].passing = i == 0;"),
+    ("fast/dcache.c", "if (!dcache->mshr[i].passing)\n", "if (true)\n"),
+    ("fast/dcache.c", "if (dcache->mshr[i].passing)\n        return false;\n", ""),
+    ("fast/cache_tags.h", "memset(tags->lines, 0, places * sizeof", "memset(tags->lines, 0, places / 2 * sizeof"),
+    ("fast/state.c", "  VISIT(tp->writes);\n", ""),
     ("fast/program.c", "return ~1u;", "return ~3u;"),
     ("fast/cycle.c", " || inst->ask == TRAX_ASK_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.
-    ("core/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
+    ("fast/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
      "(address / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
     # A store that touches the run's end combines.
-    ("core/tp.c", "address <= tp->run_end &&",
+    ("fast/tp.c", "address <= tp->run_end &&",
      "address < tp->run_end &&"),
     # A store that touches the run's begin combines.
-    ("core/tp.c", "address + bytes >= tp->run_begin;",
+    ("fast/tp.c", "address + bytes >= tp->run_begin;",
      "address + bytes > tp->run_begin;"),
     # The first unusable register gives the cause.
-    ("core/tp.c", "{tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd}",
+    ("fast/tp.c", "{tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd}",
      "{tp->inst->wait_rb, tp->inst->wait_ra, tp->inst->wait_rd}"),
     # The special units have one round robin.
-    ("core/unit.c", "trax_arbiter_grant(&unit->turn, askers & ~winners, 1)",
+    ("fast/unit.c", "trax_arbiter_grant(&unit->turn, askers & ~winners, 1)",
      "trax_arbiter_grant(&(trax_arbiter){unit->turn}, askers & ~winners, 1)"),
     # As many operations are accepted as units are free.
-    ("core/unit.c", "i < unit->units && askers",
+    ("fast/unit.c", "i < unit->units && askers",
      "i < unit->units && !winners && askers"),
     # The winner goes to the back.
-    ("core/arbiter.h", "(uint8_t)((winner + 1) & 63)",
+    ("fast/arbiter.h", "(uint8_t)((winner + 1) & 63)",
      "(uint8_t)(winner & 63)"),
     # A load needs a free miss register.
-    ("core/dcache.c", "dcache->mshr_count == dcache->mshr_limit ||",
+    ("fast/dcache.c", "dcache->mshr_count == dcache->mshr_limit ||",
      "dcache->mshr_count + (dcache->mshr_limit > 1) == dcache->mshr_limit ||"),
     # A line under way is merged with, whichever it is.
-    ("core/dcache.c", "if (dcache->mshr[i].line == line) {",
+    ("fast/dcache.c", "if (dcache->mshr[i].line == line) {",
      "if (dcache->mshr[i].line == line && i < 3) {"),
     # A load that took a place moves the queue's turn.
-    ("core/dcache.c", "  trax_arbiter_to_back(&tm->queue_turn, number);\n  return true;",
+    ("fast/dcache.c", "  trax_arbiter_to_back(&tm->queue_turn, number);\n  return true;",
      "  (void)number;\n  return true;"),
     # The latency of a hit.
-    ("core/dcache.c", "t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT",
+    ("fast/dcache.c", "t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT",
      "t + 1, TRAX_CAUSE_DATA_HIT"),
     # A load into r0 waits for nobody.
-    ("core/dcache.c", "  if (rd == TRAX_NO_REGISTER)\n    return;",
+    ("fast/dcache.c", "  if (rd == TRAX_NO_REGISTER)\n    return;",
      "  if (rd == TRAX_NO_REGISTER && number != 1)\n    return;"),
     # A fetch without a place is charged to the queue.
-    ("core/icache.c", "trax_tm_charge(tm, tp, TRAX_CAUSE_MEMORY_QUEUE);",
+    ("fast/icache.c", "trax_tm_charge(tm, tp, TRAX_CAUSE_MEMORY_QUEUE);",
      "trax_tm_charge(tm, tp, TRAX_CAUSE_ICACHE_MISS);"),
     # Fetches of a line under way are merged.
-    ("core/icache.c", "tm->stats->icache_merged++;",
+    ("fast/icache.c", "tm->stats->icache_merged++;",
      "tm->stats->icache_misses++;"),
     # A line serves all that wait for it.
-    ("core/icache.c", "tm->holding |= icache->pending[i].waiting;",
+    ("fast/icache.c", "tm->holding |= icache->pending[i].waiting;",
      "tm->holding |= icache->pending[i].waiting & -icache->pending[i].waiting;"),
     # Round robin over the TMs.
-    ("core/memory.c", "trax_arbiter_to_back(&memory->turn, tm->number);",
+    ("fast/memory.c", "trax_arbiter_to_back(&memory->turn, tm->number);",
      "(void)0;"),
     # A transfer takes bytes / B cycles.
-    ("core/memory.c", "begin.units + request->bytes * memory->units_per_byte",
+    ("fast/memory.c", "begin.units + request->bytes * memory->units_per_byte",
      "begin.units + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
     # The latency is added to every transfer.
-    ("core/memory.c", "+ memory->latency;",
+    ("fast/memory.c", "+ memory->latency;",
      "+ memory->latency + (request->kind == TRAX_REQUEST_WRITE);"),
     # A place is taken until the completion.
-    ("core/queue.h", "queue->count < queue->depth;",
+    ("fast/queue.h", "queue->count < queue->depth;",
      "queue->count < queue->depth && queue->started < 40;"),
     # The peak is the largest count.
-    ("core/queue.h", "> queue->peak)",
+    ("fast/queue.h", "> queue->peak)",
      "> queue->peak + 1)"),
     # A short transfer costs min_transfer_bytes.
-    ("core/tm.c", "request.bytes < tm->config->memory.min_transfer_bytes",
+    ("fast/tm.c", "request.bytes < tm->config->memory.min_transfer_bytes",
      "request.bytes < tm->config->memory.min_transfer_bytes && request.kind != TRAX_REQUEST_WRITE"),
     # Combined stores are counted.
-    ("core/tm.c", "tm->stats->combined_stores++;",
+    ("fast/tm.c", "tm->stats->combined_stores++;",
      "tm->stats->combined_stores += tp->inst->bytes == 4;"),
     # The run becomes the union.
-    ("core/tm.c", "tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;",
+    ("fast/tm.c", "tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;",
      "tp->run_begin = tp->run_begin;"),
     # Who took a place moves the queue's turn.
-    ("core/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_turn, tp);",
+    ("fast/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_turn, tp);",
      "  trax_tm_request(tm, request);\n  (void)tp;"),
     # An atomic increment costs atomic_bytes.
-    ("core/tm.c", ".bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes",
+    ("fast/tm.c", ".bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes",
      "  .bytes = tp->inst->bytes"),
     # A wait for an atomic increment has its own cause.
-    ("core/tm.c", "atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS",
+    ("fast/tm.c", "atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS",
      "TRAX_CAUSE_DATA_MISS"),
     # Of several faults the first TP's is reported.
-    ("core/tm.c", "tm->fault.kind && tm->fault.tp < number",
+    ("fast/tm.c", "tm->fault.kind && tm->fault.tp < number",
      "tm->fault.kind && tm->fault.tp > number"),
     # A store past the cache does not look into it.
-    ("core/tm.c", "if (tp->inst->is_nontemporal) {",
+    ("fast/tm.c", "if (tp->inst->is_nontemporal) {",
      "if (!tp->inst->bytes) {"),
     # Sleepers wake in their cycle, however long they sleep.
-    ("core/tm.c", "if (tm->tp[tp].asleep_until > t)",
+    ("fast/tm.c", "if (tm->tp[tp].asleep_until > t)",
      "if (tm->tp[tp].asleep_until > t + 1)"),
     # A thread is halted from the cycle after its end.
-    ("core/traps.c", "trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);",
+    ("machine/traps.c", "trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);",
      "trax_tm_end_thread(tm, tp, t, (int32_t)value);"),
     # The bank of an instruction.
-    ("core/text.c", "pc / 4 % config->icache.banks",
+    ("machine/text.c", "pc / 4 % config->icache.banks",
      "pc / 8 % config->icache.banks"),
     # Comparisons on units of the TP's own.
-    ("core/text.c", "config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP)",
+    ("machine/text.c", "config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP)",
      "config->fpu.compare_units && false"),
     # The run ends when the bus is idle.
-    ("core/chip.c", "idle_from > t ? idle_from : t;",
+    ("fast/chip.c", "idle_from > t ? idle_from : t;",
      "idle_from > t ? t : t;"),
     # What arrives in t is used in t.
     ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t;",
@@ -352,6 +352,6 @@ MUTANTS = [
     ("fast/windows.c", "if (next_write <= t && !write_up_to",
      "if (t == 0 && !write_up_to"),
     # A TM sees its own stores.
-    ("core/ahead.c", "if (own->round == ahead->round)\n      word",
+    ("fast/ahead.c", "if (own->round == ahead->round)\n      word",
      "if (own->round == ahead->round && own->mask == ~0u)\n      word"),
 ]

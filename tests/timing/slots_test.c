@@ -3,7 +3,7 @@
 #include "compare.h"
 #include "generate.h"
 
-#include "core/estimate.h"
+#include "sampling/estimate.h"
 
 #include <math.h>
 #include <string.h>

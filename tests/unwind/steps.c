@@ -1,7 +1,7 @@
 #include "steps.h"
 
-#include "core/chip.h"
-#include "core/tm.h"
+#include "fast/chip.h"
+#include "fast/tm.h"
 #include "trax/abi.h"
 
 #include <stdio.h>

@@ -15,7 +15,8 @@
 #ifndef TRAX_EMULATOR_H
 #define TRAX_EMULATOR_H
 
-#include "trax/status.h" /* trax_status, trax_error */
+#include "trax/processors.h" /* trax_host_processors */
+#include "trax/status.h"     /* trax_status, trax_error */
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -72,7 +73,7 @@ typedef struct trax_progress {
 typedef enum trax_engine {
   TRAX_ENGINE_FAST = 0,  /* emulator/fast */
   TRAX_ENGINE_REFERENCE, /* written to be read beside docs/timing.md, many times slower: emulator/reference */
-  TRAX_ENGINE_FUNCTIONAL /* emulator/fast/functional.c */
+  TRAX_ENGINE_FUNCTIONAL /* emulator/functional/functional.c */
 } trax_engine;
 
 #define TRAX_MAX_SLOT_QUEUES 64
@@ -113,9 +114,6 @@ typedef struct trax_run_options {
   const trax_slot_sampling *slots; /* of the fast engine; NULL: everything is simulated */
 } trax_run_options;
 
-/* Of the host, that this process may use: by its affinity mask and the quotas of its control groups; at least 1. */
-unsigned trax_host_processors(void);
-
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
 
 int trax_machine_exit_status(const trax_machine *machine);
@@ -128,7 +126,7 @@ trax_status trax_machine_write_signature(const trax_machine *machine, const char
  */
 void trax_machine_print_fault(const trax_machine *machine, FILE *out);
 
-/* --- statistics: declared once in emulator/core/stats.h; names are stable --- */
+/* --- statistics: declared once in emulator/machine/stats.h; names are stable --- */
 /* A single figure by its JSON name ("cycles", "mrps", "dcache.hits"); false if there is none of that name. */
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value);
 void trax_stats_print(const trax_machine *machine, FILE *out);

@@ -9,7 +9,7 @@
    noticed, or -. An image notices by its signature, its output, its exit status, by not ending in twice its time, or by
    ending the emulator. */
 #define _DEFAULT_SOURCE /* fork, open_memstream, strsep */
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "mutants.h"
 #include "trax/version.h"
 

@@ -1,6 +1,6 @@
 #include "machines.h"
 
-#include "core/machine.h"
+#include "machine/machine.h"
 
 #include <stdlib.h>
 #include <string.h>

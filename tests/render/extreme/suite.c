@@ -9,7 +9,7 @@
 #include "../../../raytracer/device/camera.h"
 #include "../../../raytracer/device/ray.h"
 #include "cases.h"
-#include "core/machine.h"
+#include "machine/machine.h"
 #include "exact.h"
 #include "machines.h"
 #include "reach.h"

@@ -1,0 +1,40 @@
+/* The TM's data cache: banks, lines, and the miss registers for lines on their way (docs/timing.md, "Data cache"). */
+#ifndef TRAX_FAST_DCACHE_H
+#define TRAX_FAST_DCACHE_H
+
+#include "fast/arbiter.h"
+#include "fast/cache_tags.h"
+#include "machine/config.h"
+
+struct trax_tm;
+
+/* A miss register. The registers that wait for its line form a list through trax_dcache.next_waiter. */
+struct trax_mshr {
+  uint32_t line;
+  uint16_t first_waiter;
+  uint16_t passing; /* 1: the line does not enter the cache */
+};
+
+struct trax_dcache {
+  struct trax_cache_tags tags;
+  uint32_t banks;
+  trax_arbiter bank[TRAX_MAX_TPS_PER_TM];
+  struct trax_mshr *mshr; /* [mshr_limit], the first mshr_count in use */
+  uint32_t mshr_count, mshr_limit;
+  uint16_t *next_waiter; /* [tps * 32]: by TP * 32 + register; a register waits for one line at a time */
+};
+
+bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm);
+void trax_dcache_destroy(struct trax_dcache *dcache);
+
+/* Step 4 of a load in cycle t: a hit, merged, a miss (true), or refused for want of a place or a miss register (false).
+ */
+bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned tp, uint64_t t);
+
+/* A fence drops all lines, which are counted, and those on their way will pass. */
+uint32_t trax_dcache_drop(struct trax_dcache *dcache);
+
+/* A line arrives in cycle t: all who wait for it can use it. */
+void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t);
+
+#endif

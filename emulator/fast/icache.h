@@ -1,0 +1,33 @@
+/* One instruction cache and the TPs that share it (docs/timing.md, "Fetch"). */
+#ifndef TRAX_FAST_ICACHE_H
+#define TRAX_FAST_ICACHE_H
+
+#include "fast/arbiter.h"
+#include "fast/cache_tags.h"
+
+struct trax_tm;
+
+struct trax_icache_pending {
+  uint32_t line;    /* on its way */
+  uint64_t waiting; /* TPs; their numbers in the TM */
+};
+
+struct trax_icache {
+  uint32_t number;
+  struct trax_cache_tags tags;
+  trax_arbiter bank[64];
+  struct trax_icache_pending *pending; /* [pending_count], at most one per TP */
+  uint32_t pending_count;
+  uint64_t gone; /* the number of the line whose place the latest arrival took, plus 1; 0: the place was empty */
+};
+
+bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);
+void trax_icache_destroy(struct trax_icache *icache);
+
+/* The TP's bank has let it look up the line of its pc: it holds its instruction, sleeps, or was refused. */
+void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t);
+
+/* A line arrives in cycle t: all who wait for it hold their instructions. */
+void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t);
+
+#endif

@@ -1,0 +1,46 @@
+/* The second-level cache that the TMs share (docs/timing.md, "Second-level cache"). */
+#ifndef TRAX_FAST_L2_H
+#define TRAX_FAST_L2_H
+
+#include "fast/cache_tags.h"
+#include "fast/memory.h"
+
+/* A miss register: a line on its way. */
+struct trax_l2_mshr {
+  struct trax_request request;      /* for the line */
+  uint64_t arrival;                 /* TRAX_NEVER until its transfer begins */
+  struct trax_request_list waiters; /* requests of TMs, as long as the arrival is unknown */
+};
+
+struct trax_l2 {
+  struct trax_cache_tags tags;
+  uint32_t banks, latency;
+  uint32_t line_cost;        /* bytes of a line's transfer */
+  uint32_t waiting;          /* requests that wait for banks */
+  struct trax_waiting *bank; /* [banks] */
+
+  struct trax_l2_mshr *mshr; /* [mshr_limit] */
+  uint32_t *line;            /* [mshr_limit]: numbers of the lines on their way, used_count of them, and */
+  uint16_t *used;            /* the miss registers that hold them; behind those, the free ones */
+  uint32_t used_count, mshr_limit;
+  struct trax_request_list coming[TRAX_MAX_CHANNELS]; /* lines whose arrival is known, in its order */
+  uint64_t next_arrival;                              /* TRAX_NEVER if none is */
+};
+
+trax_status trax_l2_create(struct trax_l2 **l2, const struct trax_config *config, trax_error *error);
+void trax_l2_destroy(struct trax_l2 *l2); /* which may be NULL */
+
+/* As trax_memory_visit_state, with the structure. */
+void trax_l2_visit_state(struct trax_l2 *l2, void (*visit)(void *context, void *bytes, size_t size), void *context);
+
+/* The cache's part of step 3 of cycle t. */
+void trax_l2_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t);
+/* The transfer of a line has begun; it arrives in `arrival`. */
+void trax_l2_line_comes(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,
+                        uint64_t arrival);
+
+static inline struct trax_waiting *trax_l2_bank(const struct trax_l2 *l2, uint32_t address) {
+  return &l2->bank[trax_line_of(&l2->tags, address) % l2->banks];
+}
+
+#endif

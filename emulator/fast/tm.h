@@ -1,0 +1,108 @@
+/* A thread multiprocessor: TPs, what they share, and the rare parts of its cycle; emulator/fast has the others. */
+#ifndef TRAX_FAST_TM_H
+#define TRAX_FAST_TM_H
+
+#include "fast/dcache.h"
+#include "fast/icache.h"
+#include "machine/machine.h"
+#include "fast/queue.h"
+#include "fast/tp.h"
+#include "fast/unit.h"
+
+#define TRAX_WHEEL 64 /* cycles; its slots are the bits of wheel_occupied */
+
+struct trax_tm {
+  uint32_t number, tps;
+  const struct trax_config *config;
+  struct trax_machine *machine;
+  const struct trax_text *text;
+  FILE *output;                         /* of the guest; may be NULL */
+  const struct trax_observer *observer; /* NULL: nobody */
+  struct trax_ahead *ahead;             /* while it runs ahead of the other TMs; else NULL */
+  uint64_t now;                         /* the cycle that is being simulated */
+  uint32_t running;                     /* threads that have not ended */
+
+  struct trax_tp *tp; /* [tps] */
+
+  /* Masks of TPs. A TP is awake, or asleep until a cycle (in the wheel), until an arrival (awaiting, or in an
+     instruction cache's list), or for good (ended). */
+  uint64_t awake, holding, awaiting, ended;
+  uint64_t wheel[TRAX_WHEEL]; /* [cycle % 64]: who wakes */
+  uint64_t wheel_occupied;    /* slots that are not empty */
+  uint64_t next_cycle;        /* no earlier cycle changes anything in this TM */
+  uint64_t progressed;        /* the cycle after the latest trap or halt; 0: there was none */
+
+  struct trax_icache *icache; /* [icaches] */
+  uint32_t icaches;
+  struct trax_shared_unit fp_add, fp_mul, int_mul;
+  struct trax_special_unit special;
+  struct trax_dcache dcache;
+  struct trax_queue queue;
+  trax_arbiter queue_turn;
+
+  struct trax_fault fault; /* of the current cycle: the lowest TP's */
+
+  struct trax_tm_stats *stats;
+  struct trax_tp_stats *tp_stats; /* [tps] */
+  int32_t *exit_statuses;         /* [tps] */
+};
+
+trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_machine *machine,
+                           const struct trax_text *text, FILE *output, trax_error *error);
+void trax_tm_destroy(struct trax_tm *tm);
+
+/* Charges sleepers for the cycles before `t`, which are over. */
+void trax_tm_settle(struct trax_tm *tm, uint64_t t);
+
+/* Tells an observer of what has been charged. */
+static inline void trax_tm_tell(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
+                                uint64_t cycles) {
+  if (__builtin_expect(tm->observer != NULL, false) && tm->observer->charge && cycles && cause != TRAX_CAUSE_ISSUED)
+    tm->observer->charge(tm->observer->context, tm->number, tp, cause, since, cycles);
+}
+
+/* For the current cycle. */
+static inline void trax_tm_charge(struct trax_tm *tm, unsigned tp, trax_cause cause) {
+  tm->tp_stats[tp].cycles[cause]++;
+  trax_tm_tell(tm, tp, cause, tm->now, 1);
+}
+
+/* Puts an awake TP to sleep; it is charged to cause from cycle `since` on. Whoever calls sees to its waking. */
+static inline void trax_tm_sleep(struct trax_tm *tm, unsigned tp, uint64_t since, trax_cause cause) {
+  tm->awake &= ~((uint64_t)1 << tp);
+  tm->tp[tp].asleep_since = since;
+  tm->tp[tp].asleep_cause = (uint8_t)cause;
+}
+
+static inline void trax_tm_wake(struct trax_tm *tm, unsigned tp, uint64_t t) {
+  tm->awake |= (uint64_t)1 << tp;
+  tm->tp_stats[tp].cycles[tm->tp[tp].asleep_cause] += t - tm->tp[tp].asleep_since;
+  trax_tm_tell(tm, tp, (trax_cause)tm->tp[tp].asleep_cause, tm->tp[tp].asleep_since, t - tm->tp[tp].asleep_since);
+}
+
+/* Ends the thread from cycle `since` on. */
+void trax_tm_end_thread(struct trax_tm *tm, unsigned tp, uint64_t since, int32_t status);
+
+/* Records a fault of cycle t unless a lower TP has one, and ends the thread. */
+void trax_tm_fault(struct trax_tm *tm, unsigned tp, uint64_t t, trax_fault_kind kind, uint32_t address);
+
+/* What TP `tp` loads into register rd is there in cycle t. */
+void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t);
+
+/* The rare parts of a cycle. */
+/* A request's completion is t: what it was for. */
+void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, uint64_t t);
+void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t);
+/* In cycle t: TP `tp` sleeps from `since` on and wakes in `until`. */
+void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t since, uint64_t until, trax_cause cause);
+/* The TP's turn in step 4; its inst and address are set. TRAX_CAUSE_ISSUED, or what refuses it. */
+trax_cause trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
+/* Tells an observer, which there must be, of what TP `tp` has just issued at pc; it goes on at next_pc. */
+void trax_tm_tell_issue(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst,
+                        uint32_t next_pc);
+uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t);
+
+/* Requests to memory, with their accounting; the queue must have a place. */
+void trax_tm_request(struct trax_tm *tm, struct trax_request request);
+
+#endif

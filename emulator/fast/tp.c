@@ -1,0 +1,122 @@
+#include "fast/tp.h"
+
+#include "fast/ahead.h"
+#include "fast/chip.h"
+#include "machine/traps.h"
+#include "trax/semantics.h"
+
+#include <string.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copied as the host's");
+
+#define COMBINING_BLOCK 64u
+
+trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
+  const unsigned registers[] = {tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd};
+  const bool all = tp->inst->ask == TRAX_ASK_FENCE;
+  for (unsigned i = 0; i < (all ? TRAX_NUM_REGISTERS : 3); i++) {
+    const unsigned number = all ? i : registers[i];
+    if (tp->usable[number] > t) {
+      *until = tp->usable[number];
+      return (trax_cause)tp->usable_cause[number];
+    }
+  }
+  return TRAX_CAUSE_ISSUED;
+}
+
+bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes) {
+  return tp->run_begin != tp->run_end && address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&
+         address <= tp->run_end && address + bytes >= tp->run_begin;
+}
+
+trax_fault_kind trax_tp_check_access(const struct trax_tp *tp, const struct trax_space *space, uint32_t address) {
+  const struct trax_decoded *inst = tp->inst;
+  if (address >= TRAX_LOCAL_BASE && !inst->is_atomic)
+    return address & (inst->bytes - 1u) ? TRAX_FAULT_MISALIGNED : TRAX_FAULT_NONE;
+  return trax_space_check(space, address, inst->bytes, inst->is_store || inst->is_atomic);
+}
+
+/* --- effects: addresses have been checked --- */
+
+static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) {
+  return address >= TRAX_LOCAL_BASE ? tp->local + (address - TRAX_LOCAL_BASE) : tm->machine->space.bytes + address;
+}
+
+static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
+  uint32_t value = 0;
+  if (tm->ahead && address < TRAX_LOCAL_BASE)
+    return trax_ahead_load(tm->ahead, &tm->machine->space, address, bytes);
+  memcpy(&value, place(tm, tp, address), bytes);
+  return value;
+}
+
+static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
+  if (tm->ahead && address < TRAX_LOCAL_BASE)
+    trax_ahead_store(tm->ahead, tm->now, address, value, bytes);
+  else
+    memcpy(place(tm, tp, address), &value, bytes);
+}
+
+uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t) {
+  switch (number) {
+  case TRAX_SR_THREAD:
+    return tm->number * tm->tps + tp;
+  case TRAX_SR_TM:
+    return tm->number;
+  case TRAX_SR_TP:
+    return tp;
+  case TRAX_SR_THREADS:
+    return tm->config->chip.tms * tm->tps;
+  case TRAX_SR_CYCLE:
+    return (uint32_t)t;
+  case TRAX_SR_CYCLEH:
+    return (uint32_t)(t >> 32);
+  }
+  return 0; /* the decoder lets no other pass */
+}
+
+static void fence(struct trax_tm *tm, uint32_t kind) {
+  if (kind & TRAX_FENCE_R)
+    tm->stats->dropped_lines += trax_dcache_drop(&tm->dcache);
+}
+
+bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
+  struct trax_tp *tp = &tm->tp[number];
+  const struct trax_decoded *inst = tp->inst;
+  const uint32_t pc = tp->pc;
+  uint32_t *const reg = tp->reg;
+  uint32_t next_pc = pc + 4;
+  bool alive = true;
+
+#include "machine/semantics_begin.h"
+#define PC pc
+#define PRECISION tm->config->special.precision_bits
+#define LOAD(ADDRESS, BYTES) load(tm, tp, ADDRESS, BYTES)
+#define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
+#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
+#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, t)
+#define TRAP(VALUE, CODE) (tm->progressed = t + 1, alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t))
+#define FENCE(KIND) fence(tm, KIND)
+#define HALT() (tm->progressed = t + 1, trax_tm_end_thread(tm, number, t + 1, 0))
+  switch ((trax_op)inst->op) {
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  case TRAX_OP_##NAME:                                                                                                 \
+    __VA_ARGS__                                                                                                        \
+    break;
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+#include "machine/semantics_end.h"
+  case TRAX_OP_ILLEGAL: /* faulted before */
+  case TRAX_OP_COUNT:
+    break;
+  }
+
+  if (!alive)
+    return false;
+  if (next_pc == pc + 4)
+    tp->inst++;
+  else
+    tp->inst = trax_text_at(tm->text, next_pc);
+  tp->pc = next_pc;
+  return true;
+}

@@ -1,0 +1,137 @@
+/* Between cycles, the machine in the core's structures: for those who look at all of it, keep it or change it. The
+   engine has a form of its own for what can run ahead (bursts), for arbiters, and for what can be told from the rest.
+ */
+#include "fast/head.h"
+
+#include <string.h>
+
+/* --- arbiters: the pointer, and the bits from it on, which are those behind the latest winner (masks.h) --- */
+
+static trax_arbiter pointer_of(uint64_t behind) {
+  return (trax_arbiter)(behind ? trax_first(behind) : 0);
+}
+
+static uint64_t behind_of(trax_arbiter pointer) {
+  return pointer ? ~(uint64_t)0 << pointer : 0;
+}
+
+static uint64_t get_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
+  if (ftm->simple_fetch)
+    return (uint64_t)*trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) << 16 * icache;
+  return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
+}
+
+static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
+  if (ftm->simple_fetch)
+    *trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) = (uint16_t)(behind >> 16 * icache);
+  else
+    ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
+}
+
+static void gather_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
+  for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
+    unit->turn[i] = pointer_of(units->behind[kind] & units->uneven[kind].group[i]);
+}
+
+static void scatter_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
+  uint64_t behind = 0;
+  for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
+    if (unit->turn[i])
+      behind |= units->uneven[kind].group[i] & ~(uint64_t)0 << unit->turn[i];
+  units->behind[kind] = behind;
+}
+
+static void gather_arbiters(struct trax_fast_tm *ftm) {
+  struct trax_tm *tm = ftm->tm;
+  gather_units(&ftm->fp, 0, &tm->fp_add);
+  gather_units(&ftm->fp, 1, &tm->fp_mul);
+  gather_units(&ftm->int_mul, 0, &tm->int_mul);
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
+      tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
+  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
+    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_behind)[bank]);
+}
+
+static void scatter_arbiters(struct trax_fast_tm *ftm) {
+  const struct trax_tm *tm = ftm->tm;
+  scatter_units(&ftm->fp, 0, &tm->fp_add);
+  scatter_units(&ftm->fp, 1, &tm->fp_mul);
+  scatter_units(&ftm->int_mul, 0, &tm->int_mul);
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
+      set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));
+  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
+    ((uint64_t *)ftm->data_bank_behind)[bank] = behind_of(tm->dcache.bank[bank]);
+}
+
+void trax_fast_gather(struct trax_fast *fast) {
+  trax_fast_come_back(fast);
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    gather_arbiters(&fast->tm[i]);
+}
+
+/* --- taking up --- */
+
+static void find_resident_lines(struct trax_fast_tm *ftm) {
+  const struct trax_fast_program *program = &ftm->fast->program;
+  memset(ftm->resident, 0, ftm->tm->icaches * sizeof *ftm->resident);
+  for (uint32_t i = 0; i < ftm->tm->icaches; i++) {
+    const struct trax_cache_tags *tags = &ftm->tm->icache[i].tags;
+    for (size_t j = 0; j < program->count; j++) {
+      const struct trax_fast_section *section = &program->sections[j];
+      const uint32_t last_line = (section->begin + section->bytes) >> tags->line_shift;
+      for (uint32_t line = section->first_line, index = section->line; line <= last_line && index < TRAX_FAST_LINES - 1;
+           line++, index++)
+        trax_fast_set_resident(ftm, i, index, trax_cache_tags_have(tags, line));
+    }
+  }
+}
+
+/* Registers that wait for increments; and nobody may load ahead what those have not incremented yet. */
+static void find_atomics(struct trax_fast_tm *ftm) {
+  const struct trax_queue *queue = &ftm->tm->queue;
+  for (uint32_t i = 0; i < queue->depth; i++) {
+    const struct trax_request *request = &queue->requests[i];
+    if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC) {
+      ftm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
+      trax_fast_set_written(&ftm->fast->blocks, request->address);
+    }
+  }
+}
+
+static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_fast_tp *ftp = &ftm->tp[number];
+  const struct trax_tm *tm = ftm->tm;
+  const struct trax_tp *tp = &tm->tp[number];
+  ftp->resume = trax_fast_inst_at(&ftm->fast->program, tp->pc);
+  ftp->resume_pc = tp->pc;
+  ftm->heads.at[number] = ftm->heads.last[number] = 0;
+  ftm->busy_registers[number] = 0;
+  ftm->busy &= ~bit;
+  for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
+    if (tp->usable[rd] > t)
+      trax_fast_set_busy(ftm, number, rd);
+  trax_fast_advance(ftm, number);
+}
+
+void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
+      fast->tm[i].tp[tp].atomics = 0;
+    find_atomics(&fast->tm[i]);
+  }
+  for (uint32_t i = 0; i < fast->chip->tms; i++) {
+    struct trax_fast_tm *ftm = &fast->tm[i];
+    struct trax_tm *tm = ftm->tm;
+    scatter_arbiters(ftm);
+    find_resident_lines(ftm);
+    ftm->ready = ftm->outside = 0;
+    ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
+    ftm->taken_up = tm->awake & tm->holding;
+    for (unsigned tp = 0; tp < tm->tps; tp++)
+      if (!(tm->ended >> tp & 1))
+        take_up(ftm, tp, t);
+  }
+}

@@ -1,0 +1,66 @@
+/* Global memory: one flat block of host memory, allocated by the host as it is touched, with permissions for every 64
+   bytes. Local memory belongs to the TP (tp.h). Every guest address passes trax_space_check before it is used. */
+#ifndef TRAX_MACHINE_ADDRESS_SPACE_H
+#define TRAX_MACHINE_ADDRESS_SPACE_H
+
+#include "machine/fault.h"
+#include "trax/emulator.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { TRAX_PERMIT_READ = 1, TRAX_PERMIT_WRITE = 2, TRAX_PERMIT_EXECUTE = 4 };
+
+#define TRAX_GRANULE 64u /* bytes with the same permissions */
+
+struct trax_segment {
+  uint32_t address, bytes; /* as mapped; permissions cover whole granules */
+  unsigned permissions;
+};
+
+struct trax_space {
+  uint8_t *bytes;        /* bytes[address]; the null page is there but never accessible */
+  uint64_t size;         /* end of global memory */
+  uint8_t *restrictions; /* per granule; zero is read and write, the state of memory no segment covers */
+  struct trax_segment *segments;
+  size_t segment_count;
+  size_t mapped_bytes, restriction_bytes;
+  uint32_t input, input_bytes; /* the largest buffer that the host has filled, in whole granules: programs read it */
+};
+
+enum { TRAX_RESTRICT_WRITE = 1, TRAX_MAPPED = 2, TRAX_STACK_END = 4 };
+
+trax_status trax_space_create(struct trax_space *space, uint64_t size, trax_error *error);
+void trax_space_destroy(struct trax_space *space);
+
+/* Makes [address, address + bytes) a segment and returns its zeroed bytes in *host. address is a multiple of 64, at or
+   above 0x1000; segments do not overlap; a segment is not both writable and executable. */
+trax_status trax_space_map(struct trax_space *space, uint32_t address, uint32_t bytes, unsigned permissions,
+                           uint8_t **host, trax_error *error);
+
+/* Makes [address, address + bytes), which belongs to no segment, the end of a stack: writes to it are an overflow. Both
+   are multiples of 64 and the range lies in global memory. */
+void trax_space_guard(struct trax_space *space, uint32_t address, uint32_t bytes);
+
+/* The kind of fault of a global access that is out of bounds or misaligned. */
+trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address, uint32_t bytes);
+
+/* The kind of fault of a write to an address of global memory that takes none. */
+trax_fault_kind trax_space_why_not_written(const struct trax_space *space, uint32_t address);
+
+/* TRAX_FAULT_NONE if an access of 1, 2 or 4 bytes to global memory is allowed. */
+static inline trax_fault_kind trax_space_check(const struct trax_space *space, uint32_t address, uint32_t bytes,
+                                               bool write) {
+  /* An aligned access whose first byte is below the end (a multiple of 4096) ends below it too. */
+  if (address - TRAX_NULL_END >= space->size - TRAX_NULL_END || (address & (bytes - 1)))
+    return trax_space_why(space, address, bytes);
+  if (write && (space->restrictions[address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE))
+    return trax_space_why_not_written(space, address);
+  return TRAX_FAULT_NONE;
+}
+
+/* Copies the NUL-terminated string at a global address, cut to size - 1 characters. False if it leaves global memory
+   before it ends. */
+bool trax_space_string(const struct trax_space *space, uint32_t address, char *text, size_t size);
+
+#endif

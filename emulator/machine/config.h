@@ -1,0 +1,67 @@
+/* The machine's configuration: a plain struct with one member per key of machine/config_keys.h. The key of a value is its
+   path in the struct ("memory.bandwidth_gbps"); emulator/host/config.c reads and prints keys. */
+#ifndef TRAX_MACHINE_CONFIG_H
+#define TRAX_MACHINE_CONFIG_H
+
+#include "machine/config_keys.h"
+#include "trax/emulator.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct trax_config {
+#define TRAX_SECTION_BEGIN(SECTION) struct {
+#define TRAX_SECTION_END(SECTION)                                                                                      \
+  }                                                                                                                    \
+  SECTION;
+#define TRAX_KEY_COUNT(SECTION, KEY, ...) uint32_t KEY;
+#define TRAX_KEY_FLAG(SECTION, KEY, ...) bool KEY;
+#define TRAX_KEY_REAL(SECTION, KEY, ...) double KEY;
+  TRAX_CONFIG_KEYS(TRAX_SECTION_BEGIN, TRAX_KEY_COUNT, TRAX_KEY_COUNT, TRAX_KEY_FLAG, TRAX_KEY_REAL, TRAX_SECTION_END)
+#undef TRAX_SECTION_BEGIN
+#undef TRAX_SECTION_END
+#undef TRAX_KEY_COUNT
+#undef TRAX_KEY_FLAG
+#undef TRAX_KEY_REAL
+};
+
+/* Initialiser with the defaults: one TP, everything else as in the paper or, where it is silent, our choice. */
+#define TRAX_CONFIG_NOTHING(SECTION)
+#define TRAX_CONFIG_INITIAL(SECTION, KEY, DEFAULT, ...) .SECTION.KEY = DEFAULT,
+#define TRAX_CONFIG_DEFAULT                                                                                            \
+  {TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,                \
+                    TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)}
+
+/* One row of the table, for code that goes through all keys. */
+struct trax_config_key {
+  const char *name; /* "memory.bandwidth_gbps" */
+  const char *section, *key;
+  enum { TRAX_KIND_COUNT, TRAX_KIND_POWER, TRAX_KIND_FLAG, TRAX_KIND_REAL } kind;
+  size_t offset;               /* in struct trax_config */
+  double initial, least, most; /* exact: every value fits */
+  const char *unit, *meaning;  /* unit is "" for flags */
+  bool paper;                  /* the default is the paper's */
+};
+
+extern const struct trax_config_key trax_config_keys[];
+extern const size_t trax_config_key_count;
+
+/* The value of a key in a configuration; counts and flags as numbers. */
+double trax_config_value(const struct trax_config *config, const struct trax_config_key *key);
+/* Is value one the key may have? The message names the key, the value and what is allowed. */
+trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);
+
+/* Keys whose value 0 stands for another key's. */
+static inline uint32_t trax_config_mul_cluster(const struct trax_config *config) {
+  return config->fpu.mul_tps_per_cluster ? config->fpu.mul_tps_per_cluster : config->fpu.tps_per_cluster;
+}
+static inline uint32_t trax_config_rsqrt_latency(const struct trax_config *config) {
+  return config->special.rsqrt_latency_cycles ? config->special.rsqrt_latency_cycles : config->special.latency_cycles;
+}
+
+/* All ranges and the relations between keys, whatever way the struct was filled; the machine relies on nothing else.
+   The message names the key and what is allowed. */
+trax_status trax_config_validate(const struct trax_config *config, trax_error *error);
+
+#endif

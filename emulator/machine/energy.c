@@ -1,0 +1,122 @@
+/* The figures are those of SimTRaX, the public simulator of the paper's group: 65 nm and 1 GHz as far as it says. */
+#include "machine/energy.h"
+
+#include "trax/isa.h"
+
+#include <stddef.h>
+
+/* nJ for an operation. */
+static const double fp_add_nj = 0.0074, fp_mul_nj = 0.0142, fp_compare_nj = 0.000536, convert_nj = 0.001;
+static const double int_mul_nj = 0.0177, special_nj = 0.1563, integer_nj = 0.000572;
+static const double register_nj = 0.00789613, local_nj = 0.00692867; /* for each access */
+
+/* Off-chip memory is not SimTRaX's: 1.3 to 2.6 nJ for 64 bits of DRAM (Horowitz, "Computing's energy problem", ISSCC
+   2014); here the middle. */
+static const double off_chip_nj_per_byte = 1.95 / 8;
+
+/* nJ for an access to a data cache of 1 kB << row and 1 << column banks, lines of 64 bytes (32 where there are none
+   of 64); 0: the source has none. */
+enum { SIZES = 14, BANKS = 7 };
+static const double cache_nj[SIZES][BANKS] = {
+    {0.057617, 0.105809},
+    {0.062554, 0.111004, 0.105809},
+    {0.072368, 0.119011, 0.111004, 0.135063},
+    {0.091666, 0.134656, 0.118944, 0.143666, 0.259035},
+    {0.126381, 0.16519, 0.134578, 0.204198, 0.268276, 0.35423},
+    {0.168217, 0.225524, 0.16519, 0.220453, 0.283138, 0.369611, 0.590784},
+    {0.235799, 0.299171, 0.225524, 0.251421, 0.310722, 0.493617, 0.607378},
+    {0.321923, 0.425117, 0.298784, 0.306706, 0.364071, 0.522638, 0.637147},
+    {0.457809, 0.579593, 0.424648, 0.434881, 0.469011, 0.577081, 0.688835},
+    {0.64164, 0.811431, 0.579593, 0.559878, 0.611974, 0.682989, 0.787669},
+    {0.904345, 1.151285, 0.811431, 0.799263, 0.828002, 0.897012, 0.981988},
+    {1.165629, 1.600608, 1.150048, 1.107668, 1.126519, 1.162931, 1.264126},
+    {1.644951, 2.188559, 1.598681, 1.559834, 1.554774, 1.604445, 1.655899},
+    {2.171381, 3.059984, 2.188559, 2.174519, 2.169675, 2.166975, 2.227535},
+};
+
+/* nJ for a word from an instruction cache of 4 kB and 1 << column banks. */
+static const double icache_nj[BANKS] = {0.013130, 0.013451, 0.013606, 0.013110, 0.013490, 0.015138, 0.016584};
+
+/* In proportion between the powers of two, and the last one known beyond it. */
+static double at_banks(const double *row, uint32_t banks) {
+  unsigned column = 0;
+  while (column + 1 < BANKS && row[column + 1] > 0 && 2u << column <= banks)
+    column++;
+  if (column + 1 == BANKS || row[column + 1] <= 0)
+    return row[column];
+  const double low = (double)(1u << column);
+  return row[column] + (row[column + 1] - row[column]) * ((double)banks - low) / low;
+}
+
+double trax_energy_of_cache(uint32_t bytes, uint32_t banks) {
+  unsigned row = 0;
+  while (row + 1 < SIZES && 2048u << row <= bytes)
+    row++;
+  return at_banks(cache_nj[row], banks);
+}
+
+/* The source has instruction caches of 4 kB; others differ as data caches of one bank do. */
+static double of_icache(const struct trax_config *config) {
+  return at_banks(icache_nj, config->icache.banks) * trax_energy_of_cache(config->icache.bytes, 1) /
+         trax_energy_of_cache(4096, 1);
+}
+
+static void add_operations(struct trax_energy *energy, unsigned op, double count) {
+  const unsigned flags = trax_op_table[op].flags;
+  const unsigned registers = ((flags & TRAX_READS_RA) != 0) + ((flags & TRAX_READS_RB) != 0) +
+                             ((flags & TRAX_READS_RD) != 0) + ((flags & TRAX_WRITES_RD) != 0);
+  energy->registers += count * registers * register_nj;
+  switch ((int)trax_op_table[op].unit) {
+  case TRAX_UNIT_FP_ADD:
+    if (flags & TRAX_IS_FLOP)
+      energy->fp_add += count * fp_add_nj;
+    else if (op == TRAX_OP_FCVT_W_S || op == TRAX_OP_FCVT_WU_S || op == TRAX_OP_FCVT_S_W || op == TRAX_OP_FCVT_S_WU)
+      energy->fp_other += count * convert_nj;
+    else
+      energy->fp_other += count * fp_compare_nj;
+    break;
+  case TRAX_UNIT_FP_MUL:
+    energy->fp_mul += count * fp_mul_nj;
+    break;
+  case TRAX_UNIT_INT_MUL:
+    energy->int_mul += count * int_mul_nj;
+    break;
+  case TRAX_UNIT_SPECIAL:
+    energy->special += count * special_nj;
+    break;
+  default: /* the TP's own; of memory instructions the address */
+    energy->integer += count * integer_nj;
+    break;
+  }
+}
+
+struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct trax_config *config) {
+  const struct trax_tm_stats *count = &stats->total;
+  struct trax_energy energy = {0};
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+    add_operations(&energy, op, (double)count->instructions[op]);
+  energy.local_memory = (double)(count->local_loads + count->local_stores) * local_nj;
+
+  /* A line that arrives is written once: word by word into an instruction cache, at once into a data cache. */
+  const double fetches = (double)(count->icache_hits + count->icache_misses + count->icache_merged);
+  energy.icache = (fetches + (double)count->icache_misses * config->icache.line_bytes / 4) * of_icache(config);
+  const uint32_t banks = (config->chip.tps_per_tm + config->dcache.tps_per_bank - 1) / config->dcache.tps_per_bank;
+  const double accesses = (double)(count->dcache_hits + 2 * count->dcache_misses + count->dcache_merged +
+                                   count->store_hits + count->store_misses);
+  energy.dcache = accesses * trax_energy_of_cache(config->dcache.bytes, banks);
+
+  if (config->l2.bytes) {
+    const struct trax_memory_stats *memory = &stats->memory;
+    const double requests = (double)(memory->l2_hits + 2 * memory->l2_misses + memory->l2_merged + memory->l2_passed +
+                                     memory->l2_store_hits + memory->l2_store_misses);
+    energy.l2 = requests * trax_energy_of_cache(config->l2.bytes, config->l2.banks);
+  }
+
+  energy.off_chip = off_chip_nj_per_byte * (double)stats->memory.bytes;
+  double *const all = (double *)&energy;
+  for (size_t i = 0; i < sizeof energy / sizeof *all; i++)
+    all[i] *= 1e-9;
+  energy.total = energy.fp_add + energy.fp_mul + energy.fp_other + energy.int_mul + energy.special + energy.integer +
+                 energy.registers + energy.local_memory + energy.icache + energy.dcache + energy.l2;
+  return energy;
+}

@@ -1,0 +1,27 @@
+/* What of a run of the fast engine took one of its slow ways. Results do not depend on it, but how long they take. */
+#ifndef TRAX_MACHINE_FAST_PATH_H
+#define TRAX_MACHINE_FAST_PATH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct trax_fast_path {
+  bool known; /* the fast engine has run */
+
+  /* What holds of the whole run. */
+  bool observed;        /* each instruction executes by itself, and TMs go from cycle to cycle together */
+  bool no_windows;      /* TMs go from cycle to cycle together, since memory answers too soon */
+  bool general_fetch;   /* the banks of the instruction caches are not served all at once */
+  bool uneven_units;    /* nor are the groups of adders and multipliers */
+  bool many_data_banks; /* nor the banks of the data cache */
+  bool hits_in_turn;    /* its hits are served one by one */
+  uint32_t text_lines;  /* lines of instructions of the program */
+
+  uint64_t looked_up;     /* fetches whose line had to be looked up */
+  uint64_t single_hits;   /* of the data cache, served one by one */
+  uint64_t at_issue;      /* instructions that executed when they were issued, not ahead of time */
+  uint64_t single_cycles; /* through which several TMs went together, not each by itself for many cycles */
+  uint64_t conflicts;     /* of TMs that ran ahead of each other and had to go back */
+};
+
+#endif

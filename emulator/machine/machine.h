@@ -1,0 +1,63 @@
+/* One machine: memory, program, chip and the outcome of its run. Internal to the library; emulator/host adds the
+   program's symbols and buffers through the host members. */
+#ifndef TRAX_MACHINE_MACHINE_H
+#define TRAX_MACHINE_MACHINE_H
+
+#include "machine/address_space.h"
+#include "machine/config.h"
+#include "machine/fast_path.h"
+#include "machine/fault.h"
+#include "machine/observer.h"
+#include "machine/stats.h"
+#include "trax/emulator.h"
+
+struct trax_chip;
+struct trax_watch;
+
+struct trax_machine {
+  struct trax_config config; /* a copy */
+  struct trax_space space;
+  uint32_t entry;
+  bool has_program; /* trax_machine_set_entry was called */
+  bool has_run;
+
+  /* Owned by emulator/host: symbols, lines, buffers. Destroyed with the machine if not NULL. */
+  void *host;
+  void (*host_destroy)(void *host);
+
+  struct trax_watch *watches; /* the first; NULL: none (fast/chip.h) */
+
+  const struct trax_observer *observer; /* of the run; NULL: nobody (machine/observer.h) */
+
+  /* Called before the first cycle if not NULL: may bring the chip to where another run was (fast/state.h). */
+  trax_status (*prepare)(void *context, struct trax_chip *chip, trax_error *error);
+  void *prepare_context;
+
+  /* The outcome; valid after trax_machine_run. */
+  trax_status status; /* of the run */
+  bool at_limit;      /* of TRAX_STUCK: max_cycles passed; otherwise a watch ended the run */
+  struct trax_fault fault;
+  struct trax_stats stats;
+  struct trax_tm_stats *tm_stats; /* [tms] */
+  struct trax_tp_stats *tp_stats; /* [threads], by thread number */
+  int32_t *exit_statuses;         /* [threads] */
+
+  struct trax_fast_path fast_path; /* no result: how the fast engine came by them */
+
+  struct trax_chip *chip; /* while it runs */
+};
+
+/* Makes [address, address + bytes) a segment of global memory; *host receives where its bytes, all zero, are. Errors:
+   out of range, not 64-byte aligned, overlapping, writable and executable, or after the run. */
+trax_status trax_machine_map(struct trax_machine *machine, uint32_t address, uint32_t bytes, unsigned permissions,
+                             uint8_t **host, trax_error *error);
+/* Where all threads start: inside an executable segment, a multiple of 4. */
+trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry, trax_error *error);
+
+/* Adds the counts that follow from the operations issued; done once, at the run's end. */
+void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config);
+
+/* The fault that ended the run; its kind is TRAX_FAULT_NONE if none did. */
+const struct trax_fault *trax_machine_fault(const struct trax_machine *machine);
+
+#endif

@@ -1,0 +1,20 @@
+/* The names that the instructions' semantics are written in (isa/TraxFormats.td), before trax/semantics.inc is
+   included; machine/semantics_end.h, behind it, takes them away. What executes has `reg`, the TP's registers, `inst`, a
+   pointer to the decoded instruction, and `next_pc`, and defines the rest itself: PC, LOAD(ADDRESS, BYTES),
+   STORE(ADDRESS, VALUE, BYTES), ATOMIC_INC, SPECIAL_REGISTER, TRAP, HALT, and PRECISION, of the special unit in bits.
+ */
+#define RD reg[inst->rd]
+#define RA reg[inst->ra]
+#define RB reg[inst->rb]
+#define IMM ((uint32_t)inst->imm)
+#define NEXT_PC next_pc
+#define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)
+#define LOAD16(ADDRESS) LOAD(ADDRESS, 2u)
+#define LOAD32(ADDRESS) LOAD(ADDRESS, 4u)
+#define LOAD32_NONTEMPORAL(ADDRESS) LOAD32(ADDRESS)
+#define STORE8(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 1u)
+#define STORE16(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 2u)
+#define STORE32(ADDRESS, VALUE) STORE(ADDRESS, VALUE, 4u)
+#define STORE32_NONTEMPORAL(ADDRESS, VALUE) STORE32(ADDRESS, VALUE)
+#define FPDIV(A, B) trax_reduce_precision(trax_fdiv(A, B), PRECISION)
+#define ISQRT(A) trax_reduce_precision(trax_frsqrt(A), PRECISION)

@@ -1,0 +1,25 @@
+/* The end of machine/semantics_begin.h, with what its includer defines. */
+#undef RD
+#undef RA
+#undef RB
+#undef IMM
+#undef PC
+#undef NEXT_PC
+#undef LOAD
+#undef LOAD8
+#undef LOAD16
+#undef LOAD32
+#undef LOAD32_NONTEMPORAL
+#undef STORE
+#undef STORE8
+#undef STORE16
+#undef STORE32
+#undef STORE32_NONTEMPORAL
+#undef ATOMIC_INC
+#undef SPECIAL_REGISTER
+#undef TRAP
+#undef HALT
+#undef PRECISION
+#undef FENCE
+#undef FPDIV
+#undef ISQRT

@@ -1,0 +1,212 @@
+/* Every statistic, declared once: identifier, JSON name, unit, meaning. The counters of the engines, the reports and
+   the documentation come from these tables; names are stable. */
+#ifndef TRAX_MACHINE_STATS_H
+#define TRAX_MACHINE_STATS_H
+
+#include "machine/config.h"
+#include "trax/isa.h"
+
+#include <stdint.h>
+
+/* What a thread-cycle is charged to: exactly one of these per thread and cycle, so that they add up to threads x cycles
+   (docs/timing.md, "Accounting"). ISSUED comes first, HALTED last. Unit of all: thread-cycles. */
+#define TRAX_CAUSES(X)                                                                                                 \
+  X(ISSUED, "issued", "an instruction was issued")                                                                     \
+  X(ICACHE_BANK, "icache_bank_conflict", "another TP had the instruction-cache bank")                                  \
+  X(ICACHE_MISS, "icache_miss", "the instruction's line was on its way")                                               \
+  X(DATA_LOCAL, "wait_local", "an operand was being loaded from local memory")                                         \
+  X(DATA_HIT, "wait_dcache_hit", "an operand was being loaded from the data cache")                                    \
+  X(DATA_MISS, "wait_memory", "an operand was being loaded from off-chip memory")                                      \
+  X(DATA_SPECIAL, "wait_special", "an operand was in the FPDIV/iSQRT unit")                                            \
+  X(DATA_ATOMIC, "wait_atomic", "an operand was the result of an atomic increment")                                    \
+  X(DATA_OTHER, "wait_other", "an operand was in a unit whose latency is configured above one cycle")                  \
+  X(FP_ADD, "fp_add_conflict", "another TP of the cluster had the adder")                                              \
+  X(FP_MUL, "fp_mul_conflict", "another TP of the cluster had the multiplier")                                         \
+  X(INT_MUL, "int_mul_conflict", "another TP had the integer multiplier")                                              \
+  X(SPECIAL, "special_conflict", "the FPDIV/iSQRT units were busy or given to other TPs")                              \
+  X(DCACHE_BANK, "dcache_bank_conflict", "another TP had the data-cache bank")                                         \
+  X(MEMORY_QUEUE, "memory_queue_full", "no miss register or no place in the TM's memory queue was free")               \
+  X(BRANCH, "branch_bubble", "the bubble after a taken branch")                                                        \
+  X(HALTED, "halted", "the thread had ended")
+
+typedef enum trax_cause {
+#define TRAX_CAUSE_ENUM(ID, NAME, MEANING) TRAX_CAUSE_##ID,
+  TRAX_CAUSES(TRAX_CAUSE_ENUM)
+#undef TRAX_CAUSE_ENUM
+      TRAX_CAUSE_COUNT
+} trax_cause;
+
+/* Counted in every TM; the chip's figure is the sum. */
+#define TRAX_TM_COUNTERS(X)                                                                                            \
+  X(rays, "rays", "rays", "rays the program reported with the rays trap")                                              \
+  X(items, "items", "items", "items (pixels) the program reported with the items trap")                                \
+  X(flops, "flops", "operations", "floating-point adds, subtractions and multiplications")                             \
+  X(taken_branches, "taken_branches", "instructions", "branches and jumps that did not go to the next instruction")    \
+  X(fp_add_ops, "fp_add.operations", "operations", "operations the adders accepted")                                   \
+  X(fp_mul_ops, "fp_mul.operations", "operations", "operations the multipliers accepted")                              \
+  X(int_mul_ops, "int_mul.operations", "operations", "operations the integer multipliers accepted")                    \
+  X(special_ops, "special.operations", "operations", "operations the FPDIV/iSQRT units accepted")                      \
+  X(icache_hits, "icache.hits", "lookups", "instruction fetches that found their line")                                \
+  X(icache_misses, "icache.misses", "lookups", "instruction fetches that requested their line")                        \
+  X(icache_merged, "icache.merged", "lookups", "instruction fetches whose line was already on its way")                \
+  X(dcache_hits, "dcache.hits", "lookups", "cached loads that found their line")                                       \
+  X(dcache_misses, "dcache.misses", "lookups", "cached loads that requested their line")                               \
+  X(dcache_merged, "dcache.merged", "lookups", "cached loads whose line was already on its way")                       \
+  X(store_hits, "dcache.store_hits", "stores", "cached stores that updated a line in place")                           \
+  X(store_misses, "dcache.store_misses", "stores", "cached stores that found no line to update")                       \
+  X(dropped_lines, "dcache.dropped", "lines", "lines in the data cache that fences dropped")                           \
+  X(local_loads, "local.loads", "instructions", "loads from local memory")                                             \
+  X(local_stores, "local.stores", "instructions", "stores to local memory")                                            \
+  X(nontemporal_loads, "nontemporal.loads", "instructions", "loads past the data cache")                               \
+  X(nontemporal_stores, "nontemporal.stores", "instructions", "stores past the data cache")                            \
+  X(combined_stores, "stores.combined", "stores", "stores that joined the TP's earlier one, at no cost of their own")  \
+  X(atomics, "atomics", "instructions", "atomic increments")                                                           \
+  X(fences, "fences", "instructions", "fences")                                                                        \
+  X(data_read_bytes, "memory.data_read_bytes", "bytes", "lines read into the data cache")                              \
+  X(instruction_read_bytes, "memory.instruction_read_bytes", "bytes", "lines read into the instruction caches")        \
+  X(nontemporal_read_bytes, "memory.nontemporal_read_bytes", "bytes", "transfers of loads past the data cache")        \
+  X(written_bytes, "memory.written_bytes", "bytes", "transfers of stores, after combining")                            \
+  X(atomic_bytes, "memory.atomic_bytes", "bytes", "transfers of atomic increments")                                    \
+  X(write_requests, "memory.write_requests", "requests", "transfers of stores, after combining")                       \
+  X(memory_requests, "memory.requests", "requests", "requests to off-chip memory of any kind")                         \
+  X(queue_peak, "memory.queue_peak", "requests", "most requests of one TM under way at once; for the chip, the sum")
+
+/* Counted beyond the TMs, by the second-level cache and the memory controller. */
+#define TRAX_MEMORY_COUNTERS(X)                                                                                        \
+  X(bytes, "memory.bytes", "bytes", "moved to and from off-chip memory")                                               \
+  X(transfers, "memory.transfers", "transfers", "transfers to and from off-chip memory")                               \
+  X(l2_hits, "l2.hits", "requests", "reads that found their line in the second-level cache")                           \
+  X(l2_misses, "l2.misses", "requests", "reads of lines that the second-level cache requested")                        \
+  X(l2_merged, "l2.merged", "requests", "reads whose line was already on its way to the second-level cache")           \
+  X(l2_passed, "l2.passed", "requests", "loads past the data cache that found no line in the second-level cache")      \
+  X(l2_store_hits, "l2.store_hits", "requests", "writes and atomic increments that updated a line in place")           \
+  X(l2_store_misses, "l2.store_misses", "requests", "writes and atomic increments that found no line to update")       \
+  X(l2_refused, "l2.refused", "cycles", "cycles a bank could serve nobody for want of a miss register; sum of all")    \
+  X(l2_served_bytes, "l2.served_bytes", "bytes", "read by the TMs through hits and merged reads")                      \
+  X(l2_read_bytes, "l2.read_bytes", "bytes", "lines read into the second-level cache from off-chip memory")
+
+struct trax_channel_stats {
+  uint64_t transfers, bytes;
+};
+
+struct trax_memory_stats {
+#define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
+  TRAX_MEMORY_COUNTERS(TRAX_COUNTER_FIELD)
+#undef TRAX_COUNTER_FIELD
+  struct trax_channel_stats channel[TRAX_MAX_CHANNELS];
+};
+
+struct trax_tp_stats {
+  uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles */
+};
+
+struct trax_tm_stats {
+  uint64_t cycles[TRAX_CAUSE_COUNT];    /* thread-cycles: sum over the TPs; filled when the run ends */
+  uint64_t instructions[TRAX_OP_COUNT]; /* issued, by operation */
+#define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
+  TRAX_TM_COUNTERS(TRAX_COUNTER_FIELD)
+#undef TRAX_COUNTER_FIELD
+};
+
+/* What a sampled run (sampling/slots.c) says about its estimates. */
+struct trax_sampling_stats {
+  bool is_sampled;
+  trax_slot_sampling asked;
+  uint64_t windows; /* ranges of slots that were measured */
+  double low, high; /* cycles: 95 % interval */
+  uint64_t detailed_cycles, detailed_instructions, detailed_slots;
+  double predicted; /* sum of the costs that were guessed; 0: none */
+};
+
+struct trax_stats {
+  uint64_t cycles;       /* length of the run */
+  uint64_t threads;      /* tms * tps_per_tm */
+  uint64_t instructions; /* issued, all threads */
+  double host_seconds;   /* wall time of trax_machine_run */
+  struct trax_tm_stats total;
+  struct trax_memory_stats memory;
+  struct trax_sampling_stats sampling;
+};
+
+/* Figures made from the counts, for reports: identifier, JSON name, unit, meaning, C expression over
+   S (const struct trax_stats *) and C (const struct trax_config *), whose value is a number. A quotient of zero by zero
+   is reported as 0. TRAX_STATS_BYTES and the like are below. */
+#define TRAX_FIGURES(X)                                                                                                \
+  X(cycles, "cycles", "cycles",                                                                                        \
+    "length of the run: from cycle 0 until every thread has ended and the last transfer "                              \
+    "is done",                                                                                                         \
+    S->cycles)                                                                                                         \
+  X(threads, "threads", "threads", "threads the chip runs", S->threads)                                                \
+  X(thread_cycles, "thread_cycles", "thread-cycles", "threads times cycles: what the causes add up to",                \
+    (double)S->threads *(double)S->cycles)                                                                             \
+  X(instructions, "instructions", "instructions", "instructions issued by all threads", S->instructions)               \
+  X(seconds, "seconds", "s", "simulated time", TRAX_SECONDS(S, C))                                                     \
+  X(host_seconds, "host_seconds", "s", "wall time of the simulation", S->host_seconds)                                 \
+  X(instructions_per_host_second, "instructions_per_host_second", "instructions/s", "speed of the simulation",         \
+    S->instructions / S->host_seconds)                                                                                 \
+  X(ipc, "instructions_per_cycle", "instructions/cycle", "whole chip", (double)S->instructions / S->cycles)            \
+  X(mrps, "mrps", "million rays/s", "simulated rays per simulated second", S->total.rays / TRAX_SECONDS(S, C) / 1e6)   \
+  X(gflops, "gflops", "10^9 operations/s", "adds, subtractions and multiplications per simulated second",              \
+    S->total.flops / TRAX_SECONDS(S, C) / 1e9)                                                                         \
+  X(peak_gflops, "peak_gflops", "10^9 operations/s", "an operation per adder, per multiplier and cycle",               \
+    (double)(TRAX_ADDERS(C) + TRAX_MULTIPLIERS(C)) * C->chip.tms * C->chip.clock_mhz / 1e3)                            \
+  X(area_mm2, "area_mm2", "mm2 at 65 nm",                                                                              \
+    "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs; no second-level cache, the paper's units",    \
+    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                            \
+  X(fp_add_utilisation, "fp_add.utilisation", "fraction", "share of cycles in which an adder accepted an operation",   \
+    (double)S->total.fp_add_ops / S->cycles / (TRAX_ADDERS(C) * C->chip.tms))                                          \
+  X(fp_mul_utilisation, "fp_mul.utilisation", "fraction",                                                              \
+    "share of cycles in which a multiplier accepted an operation",                                                     \
+    (double)S->total.fp_mul_ops / S->cycles / (TRAX_MULTIPLIERS(C) * C->chip.tms))                                     \
+  X(int_mul_utilisation, "int_mul.utilisation", "fraction",                                                            \
+    "share of cycles in which an integer multiplier accepted an operation",                                            \
+    (double)S->total.int_mul_ops / S->cycles / (TRAX_INT_MULS(C) * C->chip.tms))                                       \
+  X(special_utilisation, "special.utilisation", "fraction", "share of cycles in which an FPDIV/iSQRT unit was taken",  \
+    (C->special.pipelined ? (double)S->total.special_ops : TRAX_SPECIAL_CYCLES(S, C)) / S->cycles /                    \
+        (C->special.units_per_tm * C->chip.tms))                                                                       \
+  X(issue_utilisation, "issue.utilisation", "fraction", "share of thread-cycles that issued an instruction",           \
+    (double)S->instructions / S->cycles / S->threads)                                                                  \
+  X(icache_hit_rate, "icache.hit_rate", "fraction", "hits per instruction-cache lookup",                               \
+    (double)S->total.icache_hits / (S->total.icache_hits + S->total.icache_misses + S->total.icache_merged))           \
+  X(dcache_hit_rate, "dcache.hit_rate", "fraction", "hits per load that looked in the data cache",                     \
+    (double)S->total.dcache_hits / (S->total.dcache_hits + S->total.dcache_misses + S->total.dcache_merged))           \
+  X(l2_hit_rate, "l2.hit_rate", "fraction", "hits per read that the second-level cache looked up",                     \
+    (double)S->memory.l2_hits / (S->memory.l2_hits + S->memory.l2_misses + S->memory.l2_merged + S->memory.l2_passed)) \
+  X(memory_gbps, "memory.bandwidth_gbps", "GB/s", "off-chip bandwidth used",                                           \
+    S->memory.bytes / TRAX_SECONDS(S, C) / 1e9)                                                                        \
+  X(memory_utilisation, "memory.utilisation", "fraction", "share of the off-chip bandwidth used",                      \
+    S->memory.bytes / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)                                             \
+  X(energy_fp_add, "energy.fp_add", "J", "adders: additions and subtractions", trax_energy_of(S, C).fp_add)            \
+  X(energy_fp_mul, "energy.fp_mul", "J", "multipliers", trax_energy_of(S, C).fp_mul)                                   \
+  X(energy_fp_other, "energy.fp_other", "J", "comparisons, minima, maxima, conversions",                               \
+    trax_energy_of(S, C).fp_other)                                                                                     \
+  X(energy_int_mul, "energy.int_mul", "J", "integer multipliers", trax_energy_of(S, C).int_mul)                        \
+  X(energy_special, "energy.special", "J", "FPDIV/iSQRT units", trax_energy_of(S, C).special)                          \
+  X(energy_integer, "energy.integer", "J", "the TPs' integer units: instructions, addresses, branches",                \
+    trax_energy_of(S, C).integer)                                                                                      \
+  X(energy_registers, "energy.registers", "J", "register files: an access for each operand and each result",           \
+    trax_energy_of(S, C).registers)                                                                                    \
+  X(energy_local, "energy.local_memory", "J", "local memories", trax_energy_of(S, C).local_memory)                     \
+  X(energy_icache, "energy.icache", "J", "instruction caches: fetches, and lines that arrive",                         \
+    trax_energy_of(S, C).icache)                                                                                       \
+  X(energy_dcache, "energy.dcache", "J", "data caches: loads, stores through them, and lines that arrive",             \
+    trax_energy_of(S, C).dcache)                                                                                       \
+  X(energy_l2, "energy.l2", "J", "second-level cache: requests, and lines that arrive", trax_energy_of(S, C).l2)       \
+  X(energy_total, "energy.total", "J",                                                                                 \
+    "the sum of these: the chip's dynamic energy at 65 nm, without leakage and clock", trax_energy_of(S, C).total)     \
+  X(energy_per_ray, "energy.per_ray", "J/ray", "the same for each ray", trax_energy_of(S, C).total / S->total.rays)    \
+  X(energy_power, "energy.average_power", "W", "the same for each simulated second",                                   \
+    trax_energy_of(S, C).total / TRAX_SECONDS(S, C))                                                                   \
+  X(energy_off_chip, "energy.off_chip", "J", "off-chip memory, which is not in the sum", trax_energy_of(S, C).off_chip)
+
+#define TRAX_SECONDS(S, C) ((double)(S)->cycles / ((C)->chip.clock_mhz * 1e6))
+/* Units of a TM: `COUNT` for each group of SIZE TPs. */
+#define TRAX_UNITS(C, SIZE, COUNT) (((C)->chip.tps_per_tm + (SIZE)-1) / (SIZE) * (COUNT))
+#define TRAX_ADDERS(C) TRAX_UNITS(C, (C)->fpu.tps_per_cluster, (C)->fpu.adders_per_cluster)
+#define TRAX_MULTIPLIERS(C) TRAX_UNITS(C, trax_config_mul_cluster(C), (C)->fpu.multipliers_per_cluster)
+#define TRAX_INT_MULS(C) TRAX_UNITS(C, (C)->int_mul.tps_per_unit, (C)->int_mul.units_per_group)
+#define TRAX_SPECIAL_CYCLES(S, C)                                                                                      \
+  ((double)(S)->total.instructions[TRAX_OP_FDIV] * (C)->special.latency_cycles +                                       \
+   (double)(S)->total.instructions[TRAX_OP_FRSQRT] * trax_config_rsqrt_latency(C))
+
+#endif

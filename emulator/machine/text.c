@@ -1,0 +1,123 @@
+#include "machine/text.h"
+
+#include "machine/machine.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+_Static_assert(sizeof(struct trax_decoded) <= 20,
+               "decoded instructions should stay small: they are the host's hot data");
+
+static const struct trax_decoded outside = {.ask = TRAX_ASK_OUTSIDE, .rd = TRAX_NO_REGISTER};
+
+static trax_ask ask_of(const trax_inst *inst, const struct trax_config *config) {
+  const trax_op_info *info = &trax_op_table[inst->op];
+  if (inst->op == TRAX_OP_ILLEGAL)
+    return TRAX_ASK_ILLEGAL;
+  if (inst->op == TRAX_OP_HALT || (inst->op == TRAX_OP_TRAP && inst->imm == TRAX_TRAP_EXIT))
+    return TRAX_ASK_END;
+  if (inst->op == TRAX_OP_FENCE)
+    return TRAX_ASK_FENCE;
+  switch (info->unit) {
+  case TRAX_UNIT_INT_MUL:
+    return TRAX_ASK_INT_MUL;
+  case TRAX_UNIT_FP_ADD:
+    return config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP) ? TRAX_ASK_NOTHING : TRAX_ASK_FP_ADD;
+  case TRAX_UNIT_FP_MUL:
+    return TRAX_ASK_FP_MUL;
+  case TRAX_UNIT_SPECIAL:
+    return TRAX_ASK_SPECIAL;
+  case TRAX_UNIT_MEMORY:
+    return TRAX_ASK_MEMORY;
+  default:
+    return TRAX_ASK_NOTHING;
+  }
+}
+
+static bool is_conversion(trax_op op) {
+  return op == TRAX_OP_FCVT_S_W || op == TRAX_OP_FCVT_S_WU || op == TRAX_OP_FCVT_W_S || op == TRAX_OP_FCVT_WU_S;
+}
+
+static uint32_t latency_of(const trax_inst *inst, const struct trax_config *config) {
+  const trax_op_info *info = &trax_op_table[inst->op];
+  switch (info->unit) {
+  case TRAX_UNIT_INT_MUL:
+    return config->int_mul.latency_cycles;
+  case TRAX_UNIT_FP_ADD:
+    return info->flags & TRAX_IS_FLOP ? config->fpu.add_latency_cycles
+           : is_conversion(inst->op)  ? config->fpu.convert_latency_cycles
+                                      : config->fpu.compare_latency_cycles;
+  case TRAX_UNIT_FP_MUL:
+    return config->fpu.mul_latency_cycles;
+  case TRAX_UNIT_SPECIAL:
+    return inst->op == TRAX_OP_FRSQRT ? trax_config_rsqrt_latency(config) : config->special.latency_cycles;
+  default:
+    return config->tp.int_latency_cycles;
+  }
+}
+
+static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_config *config) {
+  const trax_inst inst = trax_decode(word);
+  const unsigned flags = trax_op_table[inst.op].flags;
+  return (struct trax_decoded){
+      .op = (uint8_t)inst.op,
+      .ask = (uint8_t)ask_of(&inst, config),
+      .rd = flags & TRAX_WRITES_RD && inst.rd ? inst.rd : TRAX_NO_REGISTER,
+      .ra = inst.ra,
+      .rb = inst.rb,
+      .wait_ra = flags & TRAX_READS_RA ? inst.ra : 0,
+      .wait_rb = flags & TRAX_READS_RB ? inst.rb : 0,
+      .wait_rd = flags & (TRAX_WRITES_RD | TRAX_READS_RD) ? inst.rd : 0,
+      .bytes = (uint8_t)trax_op_table[inst.op].access_bytes,
+      .bank = (uint8_t)(pc / 4 % config->icache.banks),
+      .cause = trax_op_table[inst.op].unit == TRAX_UNIT_SPECIAL ? TRAX_CAUSE_DATA_SPECIAL : TRAX_CAUSE_DATA_OTHER,
+      .is_store = (flags & TRAX_IS_STORE) != 0,
+      .is_atomic = (flags & TRAX_IS_ATOMIC) != 0,
+      .is_nontemporal = (flags & TRAX_IS_NONTEMPORAL) != 0,
+      .latency = (uint16_t)latency_of(&inst, config),
+      .imm = inst.imm,
+  };
+}
+
+trax_status trax_text_create(struct trax_text *text, const struct trax_space *space, const struct trax_config *config,
+                             trax_error *error) {
+  memset(text, 0, sizeof *text);
+  text->sections = calloc(space->segment_count ? space->segment_count : 1, sizeof *text->sections);
+  if (!text->sections)
+    return trax_fail(error, "out of memory");
+  for (size_t i = 0; i < space->segment_count; i++) {
+    const struct trax_segment *segment = &space->segments[i];
+    if (!(segment->permissions & TRAX_PERMIT_EXECUTE))
+      continue;
+    const uint32_t words = segment->bytes / 4;
+    struct trax_decoded *decoded = malloc(((size_t)words + 1) * sizeof *decoded);
+    if (!decoded) {
+      trax_text_destroy(text);
+      return trax_fail(error, "out of memory for %u instructions", words);
+    }
+    for (uint32_t word = 0; word < words; word++) {
+      const uint32_t pc = segment->address + word * 4;
+      uint32_t bits;
+      memcpy(&bits, space->bytes + pc, sizeof bits);
+      decoded[word] = decode(bits, pc, config);
+    }
+    decoded[words] = outside;
+    text->sections[text->count++] = (struct trax_text_section){segment->address, segment->address + words * 4, decoded};
+  }
+  return TRAX_OK;
+}
+
+void trax_text_destroy(struct trax_text *text) {
+  for (size_t i = 0; i < text->count; i++)
+    free(text->sections[i].decoded);
+  free(text->sections);
+  memset(text, 0, sizeof *text);
+}
+
+const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t pc) {
+  if (pc % 4 == 0)
+    for (size_t i = 0; i < text->count; i++)
+      if (pc >= text->sections[i].begin && pc < text->sections[i].end)
+        return text->sections[i].decoded + (pc - text->sections[i].begin) / 4;
+  return &outside;
+}
