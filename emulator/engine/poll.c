@@ -3,7 +3,6 @@
 
 #include <time.h>
 
-#define INTERVAL 4096 /* calls of trax_poll */
 #define PROGRESS_SECONDS 0.1
 
 static double host_seconds(void) {
@@ -24,7 +23,7 @@ static void count(const struct trax_machine *machine, uint64_t *items, uint64_t 
 
 void trax_poll_begin(struct trax_poll *poll, const struct trax_machine *machine, const trax_run_options *options) {
   const double now = host_seconds();
-  *poll = (struct trax_poll){.machine = machine, .options = options, .begun = now, .reported = now, .countdown = 1};
+  *poll = (struct trax_poll){.machine = machine, .options = options, .begun = now, .reported = now};
   count(machine, &poll->items_before, &poll->instructions_before);
 }
 
@@ -33,8 +32,7 @@ static void report_progress(struct trax_poll *poll, uint64_t t) {
   if (now - poll->reported < PROGRESS_SECONDS)
     return;
   poll->reported = now;
-  if (poll->collect)
-    poll->collect(poll->context);
+  poll->collect(poll->context);
   trax_progress progress = {.cycle = t,
                             .total_items = poll->options->total_items,
                             .items_before = poll->items_before,
@@ -45,7 +43,7 @@ static void report_progress(struct trax_poll *poll, uint64_t t) {
 }
 
 bool trax_poll_now(struct trax_poll *poll, uint64_t t) {
-  poll->countdown = INTERVAL;
+  poll->countdown = TRAX_POLL_INTERVAL;
   if (poll->options->progress)
     report_progress(poll, t);
   return poll->options->interrupt && *poll->options->interrupt;

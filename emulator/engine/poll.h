@@ -1,17 +1,19 @@
-/* The host during a run: progress for whoever asked for it, and whether the run is to stop. All engines use it. */
+/* The host during a run: progress for whoever asked for it, and whether the run is to stop. */
 #ifndef TRAX_ENGINE_POLL_H
 #define TRAX_ENGINE_POLL_H
 
 #include "machine/machine.h"
 
+enum { TRAX_POLL_INTERVAL = 4096 }; /* cycles from one look at the host to the next */
+
 struct trax_poll {
   const struct trax_machine *machine;
   const trax_run_options *options;
-  void (*collect)(void *context); /* brings the TMs' statistics up to date; NULL: they always are */
+  void (*collect)(void *context); /* brings the TMs' counts of instructions up to date */
   void *context;
   uint64_t items_before, instructions_before;
   double begun, reported; /* seconds of the host's clock */
-  unsigned countdown;     /* calls until the host is looked at */
+  unsigned countdown;     /* cycles until the host is looked at */
 };
 
 void trax_poll_begin(struct trax_poll *poll, const struct trax_machine *machine, const trax_run_options *options);
@@ -19,14 +21,14 @@ void trax_poll_begin(struct trax_poll *poll, const struct trax_machine *machine,
 /* Looks at the host before cycle t. True if the run is to stop. */
 bool trax_poll_now(struct trax_poll *poll, uint64_t t);
 
-/* The same once in some thousand calls; call it before every cycle. */
+/* The same if an interval has passed. */
 static inline bool trax_poll(struct trax_poll *poll, uint64_t t) {
-  return --poll->countdown == 0 && trax_poll_now(poll, t);
+  return poll->countdown == 0 && trax_poll_now(poll, t);
 }
 
-/* So many cycles have passed without a look. */
+/* So many cycles have passed. */
 static inline void trax_poll_pass(struct trax_poll *poll, uint64_t cycles) {
-  poll->countdown = poll->countdown > cycles ? poll->countdown - (unsigned)cycles : 1;
+  poll->countdown -= poll->countdown < cycles ? poll->countdown : (unsigned)cycles;
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "explain/step.h"
 #include "explain/table.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* What a thread was charged since its latest issue. */

@@ -2,6 +2,7 @@
 #include "explain/step.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct item_thread {

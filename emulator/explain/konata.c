@@ -6,6 +6,7 @@
 #include "explain/table.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum stage { FETCH, WAIT, UNIT, QUEUE, EXECUTE, RETIRE, STAGES };

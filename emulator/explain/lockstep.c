@@ -11,6 +11,7 @@
 #include "explain/table.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 
 /* Instructions that follow one another without a taken jump. */
 struct run {

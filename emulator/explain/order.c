@@ -8,6 +8,7 @@
 #include "host/backtrace.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { PAGE_SHIFT = 12, PAGE = 1 << PAGE_SHIFT, THREAD_BITS = 12, LABEL = 12 };

@@ -5,6 +5,7 @@
 
 #include <inttypes.h>
 #include <jansson.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_FRAMES = 64, COUNTERS_IN_WINDOW = 1000 };

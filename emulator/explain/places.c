@@ -5,6 +5,7 @@
 #include "host/host.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_FRAMES = 64 };

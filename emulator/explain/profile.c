@@ -4,6 +4,8 @@
    that of the function it returns to. */
 #include "explain/profile.h"
 
+#include <stdlib.h>
+
 enum { STACK_POINTER = 2, MAX_DEPTH = 512 };
 
 struct call {

@@ -4,6 +4,7 @@
 #include "host/statistics.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A row of a table. */

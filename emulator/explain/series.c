@@ -2,6 +2,7 @@
 #include "explain/step.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct series {
@@ -65,7 +66,7 @@ static void subtract(void *from, const void *stats, size_t bytes) {
     to[i] -= terms[i];
 }
 
-static void put_rows(struct series *series, const struct trax_chip *chip, uint64_t end) {
+static void put_rows(struct series *series, const struct trax_run *run, uint64_t end) {
   const struct trax_machine *machine = series->explain->machine;
   struct trax_tm_stats total = {0}, *rows = calloc(machine->config.chip.tms, sizeof *rows);
   uint32_t queued = 0;
@@ -76,14 +77,14 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
     const struct trax_tm_stats now = counts_of(machine, tm);
     rows[tm] = now;
-    if (chip) /* after the run they are there */
+    if (run) /* after the run they are there */
       trax_stats_derive(&rows[tm], &machine->config);
     const struct trax_tm_stats counted = rows[tm];
     subtract(&rows[tm], &series->previous[tm], sizeof rows[tm]);
     series->previous[tm] = counted;
     for (size_t i = 0; i < sizeof total / sizeof(uint64_t); i++)
       ((uint64_t *)&total)[i] += ((const uint64_t *)&rows[tm])[i];
-    queued += chip ? trax_chip_queued(chip, tm, end) : 0;
+    queued += run ? trax_run_queued(run, tm, end) : 0;
   }
   struct trax_memory_stats memory = machine->stats.memory;
   subtract(&memory, &series->previous_memory, sizeof memory);
@@ -92,16 +93,16 @@ static void put_rows(struct series *series, const struct trax_chip *chip, uint64
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
     char name[16];
     snprintf(name, sizeof name, "%u", tm);
-    put_row(series, name, end, &rows[tm], NULL, chip ? trax_chip_queued(chip, tm, end) : 0);
+    put_row(series, name, end, &rows[tm], NULL, run ? trax_run_queued(run, tm, end) : 0);
   }
   series->begin = end;
   free(rows);
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct series *series = watch->context;
-  trax_chip_settle(chip, t);
-  put_rows(series, chip, t);
+  trax_run_settle(run, t);
+  put_rows(series, run, t);
   watch->next = t + series->explain->options.series_interval;
   return TRAX_OK;
 }

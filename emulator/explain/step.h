@@ -3,7 +3,7 @@
 #ifndef TRAX_EXPLAIN_STEP_H
 #define TRAX_EXPLAIN_STEP_H
 
-#include "fast/chip.h"
+#include "engine/run.h"
 #include "explain/explain.h"
 #include "host/host.h"
 #include "host/statistics.h"

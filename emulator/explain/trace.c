@@ -4,6 +4,7 @@
 #include "explain/step.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct trace {

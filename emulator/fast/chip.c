@@ -1,56 +1,188 @@
 #include "fast/chip.h"
 
-#include "engine/poll.h"
-#include "sampling/slots.h"
-#include "fast/engine.h"
-#include "functional/functional.h"
+#include "fast/state.h"
+#include "fast/variant.h"
 #include "fast/windows.h"
-#include "reference/run.h"
 
-#include <assert.h>
+#include <stdlib.h>
 #include <string.h>
 
-trax_status trax_chip_create(struct trax_chip *chip, struct trax_machine *machine, const trax_run_options *options,
-                             trax_error *error) {
-  memset(chip, 0, sizeof *chip);
+/* --- the variants --- */
+
+#ifdef TRAX_FAST_HAVE_V3
+static bool has_avx2(void) {
+  return __builtin_cpu_supports("x86-64-v3");
+}
+#endif
+#ifdef TRAX_FAST_HAVE_V4
+static bool has_avx512(void) {
+  return __builtin_cpu_supports("x86-64-v4");
+}
+#endif
+
+static const struct trax_fast_variant *variant_of(const struct trax_engine *engine) {
+  const bool best = engine == &trax_fast_engine;
+#ifdef TRAX_FAST_HAVE_V4
+  if (engine == &trax_fast_avx512_engine || (best && has_avx512()))
+    return &trax_fast_variant_v4;
+#endif
+#ifdef TRAX_FAST_HAVE_V3
+  if (engine == &trax_fast_avx2_engine || (best && has_avx2()))
+    return &trax_fast_variant_v3;
+#endif
+  (void)best;
+  return &trax_fast_variant;
+}
+
+/* --- beginning and ending --- */
+
+static trax_status create(struct trax_run *run, trax_error *error) {
+  struct trax_machine *machine = run->machine;
+  struct trax_chip *chip = run->chip = calloc(1, sizeof *chip);
+  if (!chip)
+    return trax_fail(error, "out of memory");
   chip->machine = machine;
+  chip->text = &run->text;
   chip->tms = machine->config.chip.tms;
   if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error))
-    return TRAX_ERROR;
-  if (trax_text_create(&chip->text, &machine->space, &machine->config, error))
     return TRAX_ERROR;
   chip->tm = calloc(chip->tms, sizeof *chip->tm);
   if (!chip->tm)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->tms; i++)
-    if (trax_tm_create(&chip->tm[i], i, machine, &chip->text, options->output, error))
+    if (trax_tm_create(&chip->tm[i], i, chip, run->options->output, error))
       return TRAX_ERROR;
-  if (options->engine == TRAX_ENGINE_FUNCTIONAL)
-    return (chip->functional = trax_functional_create(chip, error)) ? TRAX_OK : TRAX_ERROR;
-  chip->engine = trax_fast_best_engine();
-  if (chip->engine->create(chip, error))
+  chip->variant = variant_of(run->engine);
+  if (chip->variant->create(chip, error))
     return TRAX_ERROR;
-  if (options->slots && !(chip->slots = trax_slots_create(chip, options->slots, error)))
-    return TRAX_ERROR;
-  return trax_windows_create(chip, options->host_threads, error);
+  return trax_windows_create(chip, run->options->host_threads, error);
 }
 
-void trax_chip_destroy(struct trax_chip *chip) {
+static void destroy(void *context) {
+  struct trax_chip *chip = context;
+  if (!chip)
+    return;
   trax_windows_destroy(chip->windows);
-  if (chip->engine)
-    chip->engine->destroy(chip->fast);
-  trax_functional_destroy(chip->functional);
-  trax_slots_destroy(chip->slots);
+  if (chip->variant)
+    chip->variant->destroy(chip->fast);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
-  trax_text_destroy(&chip->text);
   trax_memory_destroy(&chip->memory);
+  free(chip);
 }
 
-uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm, uint64_t t) {
-  if (chip->reference)
-    return trax_reference_queued(chip->reference, tm);
+/* --- cycles --- */
+
+/* Cycle *t of all TMs and of the memory; *t receives the next one in which anything can happen. */
+static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
+  bool faulted = false;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (chip->tm[i].next_cycle <= *t) {
+      chip->variant->cycle(chip->fast, i, *t);
+      faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
+    }
+  trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, *t);
+  if (faulted) {
+    ++*t;
+    return TRAX_HAS_FAULTED;
+  }
+  uint64_t next = trax_memory_next_cycle(&chip->memory, *t);
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (chip->tm[i].next_cycle < next)
+      next = chip->tm[i].next_cycle;
+  if (!trax_chip_running(chip) && !trax_memory_has_waiting(&chip->memory)) {
+    const uint64_t idle_from = trax_memory_idle_from(&chip->memory);
+    chip->end = idle_from > *t + 1 ? idle_from : *t + 1;
+    next = chip->end;
+  }
+  *t = next; /* never TRAX_NEVER: whoever has not ended is awake, in a wheel, or waits for a request */
+  return TRAX_GOES_ON;
+}
+
+static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
+  enum { CYCLES = 1024 }; /* run one by one in a call */
+  struct trax_chip *chip = context;
+  for (unsigned cycles = 0; cycles < CYCLES && *t < until && !chip->end; cycles++) {
+    if (chip->windows && trax_windows_advance(chip->windows, t, until))
+      return TRAX_GOES_ON;
+    const uint64_t before = *t;
+    if (run_cycle(chip, t) == TRAX_HAS_FAULTED)
+      return TRAX_HAS_FAULTED;
+    if (chip->end)
+      break;
+    *t = *t < until ? *t : until;
+    chip->machine->fast_path.single_cycles += chip->tms > 1 ? *t - before : 0;
+  }
+  if (!chip->end)
+    return TRAX_GOES_ON;
+  /* Nothing happens any more but the last transfers. */
+  *t = chip->end < until ? chip->end : until;
+  return *t == chip->end ? TRAX_HAS_ENDED : TRAX_GOES_ON;
+}
+
+static void commit(void *context) {
+  const struct trax_chip *chip = context;
+  if (chip->windows)
+    trax_windows_forget(chip->windows);
+}
+
+/* --- between cycles --- */
+
+static void collect(void *context) {
+  const struct trax_chip *chip = context;
+  chip->variant->collect(chip->fast);
+}
+
+static void settle(void *context, uint64_t t) {
+  struct trax_chip *chip = context;
+  for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
+    chip->machine->fault = chip->tm[i].fault;
+  chip->variant->settle(chip->fast);
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    trax_tm_settle(&chip->tm[i], t);
+    chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
+  }
+}
+
+static void export_state(void *context) {
+  const struct trax_chip *chip = context;
+  chip->variant->export_state(chip->fast);
+}
+
+static void import_state(void *context, uint64_t t) {
+  struct trax_chip *chip = context;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
+      chip->tm[i].tp[tp].inst = trax_text_at(chip->text, chip->tm[i].tp[tp].pc);
+  chip->variant->import_state(chip->fast, t);
+}
+
+static struct trax_thread thread(void *context, uint32_t number) {
+  const struct trax_chip *chip = context;
+  const struct trax_tm *tm = &chip->tm[number / chip->tm->tps];
+  const unsigned tp = number % tm->tps;
+  return (struct trax_thread){tm->tp[tp].reg, tm->tp[tp].local, tm->tp[tp].pc, tm->ended >> tp & 1};
+}
+
+static void set_pc(void *context, uint32_t number, uint32_t pc) {
+  const struct trax_chip *chip = context;
+  struct trax_tm *tm = &chip->tm[number / chip->tm->tps];
+  const unsigned tp = number % tm->tps;
+  tm->tp[tp].pc = pc;
+  tm->holding &= ~((uint64_t)1 << tp & tm->awake);
+}
+
+static uint64_t progressed(void *context) {
+  const struct trax_chip *chip = context;
+  uint64_t latest = 0;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    latest = chip->tm[i].progressed > latest ? chip->tm[i].progressed : latest;
+  return latest;
+}
+
+static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
+  const struct trax_chip *chip = context;
   const struct trax_queue *queue = &chip->tm[tm].queue;
   uint32_t arrived = 0; /* at a TM that looks no more: the run waits for the last transfers only */
   for (uint32_t i = 0; i < queue->started; i++) {
@@ -60,132 +192,22 @@ uint32_t trax_chip_queued(const struct trax_chip *chip, uint32_t tm, uint64_t t)
   return queue->count - arrived;
 }
 
-void trax_chip_settle(struct trax_chip *chip, uint64_t cycles) {
-  if (!chip->tm)
-    return; /* the reference engine charges at once */
-  for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
-    chip->machine->fault = chip->tm[i].fault;
-  if (chip->functional) {
-    trax_functional_collect(chip->functional);
-    return;
+/* --- the engines --- */
+
+#define ENGINE(NAME, MEANING, IS_POSSIBLE)                                                                             \
+  {                                                                                                                    \
+    .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
+    .create = create, .destroy = destroy, .advance = advance, .commit = commit, .collect = collect, .settle = settle,  \
+    .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,                    \
+    .progressed = progressed, .queued = queued, .visit = trax_state_visit, .layout = trax_state_layout,                \
+    .check = trax_state_check                                                                                          \
   }
-  if (chip->engine)
-    chip->engine->settle(chip->fast);
-  for (uint32_t i = 0; i < chip->tms; i++) {
-    trax_tm_settle(&chip->tm[i], cycles);
-    chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
-  }
-}
 
-void trax_chip_gather(struct trax_chip *chip) {
-  if (chip->engine)
-    chip->engine->gather(chip->fast);
-}
-
-void trax_chip_scatter(struct trax_chip *chip, uint64_t t) {
-  if (chip->engine)
-    chip->engine->scatter(chip->fast, t);
-}
-
-static void collect_fast(void *context) {
-  const struct trax_chip *chip = context;
-  chip->engine->collect(chip->fast);
-}
-
-static void collect_functional(void *context) {
-  trax_functional_collect(((const struct trax_chip *)context)->functional);
-}
-
-static bool poll_without_time(void *poll, uint64_t instructions) {
-  (void)instructions;
-  return trax_poll_now(poll, 0);
-}
-
-trax_status trax_chip_look(struct trax_chip *chip, uint64_t t, uint64_t *next) {
-  trax_status status = TRAX_OK;
-  *next = TRAX_NEVER;
-  for (struct trax_watch *watch = chip->machine->watches; watch && !status; watch = watch->others) {
-    if (watch->next <= t) {
-      status = watch->look(watch, chip, t);
-      assert(status || watch->next > t);
-    }
-    if (watch->next < *next)
-      *next = watch->next;
-  }
-  return status;
-}
-
-trax_status trax_chip_run(struct trax_chip *chip, const trax_run_options *options, uint64_t *cycles) {
-  const uint64_t asked = options->max_cycles ? options->max_cycles : TRAX_NEVER;
-  const uint64_t limit = asked > chip->begin ? asked : chip->begin; /* a resumed run may be beyond it already */
-  struct trax_poll poll;
-  trax_poll_begin(&poll, chip->machine, options);
-  poll.context = chip;
-  poll.collect = chip->functional ? collect_functional : collect_fast;
-  if (chip->functional) {
-    *cycles = 0;
-    return trax_functional_run(chip->functional, limit, poll_without_time, &poll);
-  }
-  uint64_t t = chip->begin, watched = 0;
-  while (true) {
-    if (t >= watched) {
-      const trax_status status = trax_chip_look(chip, t, &watched);
-      if (chip->windows)
-        trax_windows_forget(chip->windows);
-      if (status) {
-        *cycles = t;
-        return status;
-      }
-    }
-    if (t >= limit) {
-      *cycles = limit;
-      return TRAX_STUCK;
-    }
-    if (trax_poll(&poll, t)) {
-      *cycles = t;
-      return TRAX_INTERRUPTED;
-    }
-    const uint64_t begin = t;
-    if (chip->windows && trax_windows_advance(chip->windows, &t, limit < watched ? limit : watched)) {
-      trax_poll_pass(&poll, t > begin ? t - begin : 0);
-      continue;
-    }
-
-    bool faulted = false;
-    for (uint32_t i = 0; i < chip->tms; i++)
-      if (chip->tm[i].next_cycle <= t) {
-        chip->engine->cycle(chip->fast, i, t);
-        faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
-      }
-    trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, t);
-    if (faulted) {
-      *cycles = t + 1;
-      return TRAX_FAULT;
-    }
-
-    uint64_t next = trax_memory_next_cycle(&chip->memory, t);
-    for (uint32_t i = 0; i < chip->tms; i++)
-      if (chip->tm[i].next_cycle < next)
-        next = chip->tm[i].next_cycle;
-    if (!trax_chip_running(chip) && !trax_memory_has_waiting(&chip->memory)) {
-      t++;
-      break;
-    }
-    if (next > watched)
-      next = watched > t + 1 ? watched : t + 1;
-    if (next > limit)
-      next = limit;
-    chip->machine->fast_path.single_cycles += chip->tms > 1 ? next - t : 0;
-    t = next; /* never TRAX_NEVER: whoever has not ended is awake, in a wheel, or waits for a request */
-  }
-  const uint64_t idle_from = trax_memory_idle_from(&chip->memory), end = idle_from > t ? idle_from : t;
-  for (uint64_t now = watched > t ? watched : t; now < end && now <= limit; now = watched > now ? watched : now + 1) {
-    const trax_status status = trax_chip_look(chip, now, &watched); /* nothing happens any more */
-    if (status) {
-      *cycles = now;
-      return status;
-    }
-  }
-  *cycles = end < limit ? end : limit;
-  return end > limit ? TRAX_STUCK : TRAX_OK;
-}
+const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has", NULL);
+const struct trax_engine trax_fast_any_engine = ENGINE("fast-any", "the same for any host of the family", NULL);
+#ifdef TRAX_FAST_HAVE_V3
+const struct trax_engine trax_fast_avx2_engine = ENGINE("fast-avx2", "the same for AVX2", has_avx2);
+#endif
+#ifdef TRAX_FAST_HAVE_V4
+const struct trax_engine trax_fast_avx512_engine = ENGINE("fast-avx512", "the same for AVX-512", has_avx512);
+#endif

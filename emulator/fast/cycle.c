@@ -124,7 +124,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     asks |= TRAX_ASKS_QUEUE;
   if (inst->ask == TRAX_ASK_MEMORY) {
     tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
-    const trax_fault_kind kind = trax_tp_check_access(tp, &tm->machine->space, tp->address);
+    const trax_fault_kind kind = trax_access_check(inst, &tm->machine->space, tp->address);
     if (kind) {
       trax_tm_fault(tm, number, t, kind, tp->address);
       return false;
@@ -340,7 +340,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
 #define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
   (__extension__({                                                                                                     \
     const trax_fast_losses one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                    \
-    const trax_fast_losses carry_ = (*(SUM) & one_) | (either_ & other_);                                              \
+    const trax_fast_losses carry_ = (*(SUM)&one_) | (either_ & other_);                                                \
     *(SUM) = either_ ^ other_;                                                                                         \
     carry_;                                                                                                            \
   }))

@@ -2,6 +2,8 @@
 
 #include "fast/tm.h"
 
+#include <stdlib.h>
+
 enum { NO_WAITER = 0xFFFF };
 
 bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm) {

@@ -2,6 +2,7 @@
 
 #include "fast/head.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void create_units(struct trax_fast_units *unit, const struct trax_shared_unit *first,
@@ -78,7 +79,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
     return trax_fail(error, "out of memory");
   memset(fast->tm, 0, bytes);
   if (trax_fast_blocks_create(&fast->blocks, &machine->space, error) ||
-      trax_fast_program_create(&fast->program, &chip->text, &machine->config, error))
+      trax_fast_program_create(&fast->program, chip->text, &machine->config, error))
     return TRAX_ERROR;
   for (uint32_t i = 0; i < chip->tms; i++)
     if (create_tm(&fast->tm[i], fast, &chip->tm[i], error))
@@ -209,10 +210,10 @@ static void settle(struct trax_fast *fast) {
   }
 }
 
-const struct trax_fast_engine
+const struct trax_fast_variant
 #ifdef TRAX_FAST_VARIANT
-    TRAX_FAST_NAME(trax_fast_engine, TRAX_FAST_VARIANT)
+    TRAX_FAST_NAME(trax_fast_variant, TRAX_FAST_VARIANT)
 #else
-    trax_fast_engine
+    trax_fast_variant
 #endif
-    = {create, destroy, trax_fast_cycle, trax_fast_run_ahead, collect, settle, trax_fast_gather, trax_fast_scatter};
+    = {create, destroy, trax_fast_cycle, trax_fast_run_ahead, collect, settle, trax_fast_export, trax_fast_import};

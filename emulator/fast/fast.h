@@ -11,7 +11,7 @@
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
 
-#ifdef TRAX_FAST_VARIANT /* one of several compilations (engine.h): _v3 */
+#ifdef TRAX_FAST_VARIANT /* one of several compilations (variant.h): _v3 */
 #define TRAX_FAST_JOIN(NAME, VARIANT) NAME##VARIANT
 #define TRAX_FAST_NAME(NAME, VARIANT) TRAX_FAST_JOIN(NAME, VARIANT)
 #define trax_fast_program_create TRAX_FAST_NAME(trax_fast_program_create, TRAX_FAST_VARIANT)
@@ -33,14 +33,14 @@
 #define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
 #define trax_fast_come_back TRAX_FAST_NAME(trax_fast_come_back, TRAX_FAST_VARIANT)
 #define trax_fast_plan TRAX_FAST_NAME(trax_fast_plan, TRAX_FAST_VARIANT)
-#define trax_fast_gather TRAX_FAST_NAME(trax_fast_gather, TRAX_FAST_VARIANT)
-#define trax_fast_scatter TRAX_FAST_NAME(trax_fast_scatter, TRAX_FAST_VARIANT)
+#define trax_fast_export TRAX_FAST_NAME(trax_fast_export, TRAX_FAST_VARIANT)
+#define trax_fast_import TRAX_FAST_NAME(trax_fast_import, TRAX_FAST_VARIANT)
 #endif
 
 #include "fast/chip.h"
-#include "fast/engine.h"
 #include "fast/heads.h"
 #include "fast/masks.h"
+#include "fast/variant.h"
 
 enum {
   TRAX_BURST = 224,      /* most instructions of a burst; fits in trax_fast_heads.at */
@@ -149,8 +149,8 @@ struct trax_fast_tm {
   trax_fast_lanes data_bank_behind[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_fast_tally tally;
 
-  /* What took a slow way (machine/fast_path.h): fetches that were looked up, hits of the data cache that were served one by
-     one, instructions that executed at issue. */
+  /* What took a slow way (machine/fast_path.h): fetches that were looked up, hits of the data cache that were served
+     one by one, instructions that executed at issue. */
   uint64_t looked_up, single_hits, at_issue;
 };
 
@@ -273,8 +273,8 @@ void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
 /* Every TP goes back to what it has issued, and is deferred. */
 void trax_fast_come_back(struct trax_fast *fast);
 
-/* --- state.c: trax_fast_engine's functions of these names --- */
-void trax_fast_gather(struct trax_fast *fast);
-void trax_fast_scatter(struct trax_fast *fast, uint64_t t);
+/* --- transfer.c: trax_fast_variant's functions of these names --- */
+void trax_fast_export(struct trax_fast *fast);
+void trax_fast_import(struct trax_fast *fast, uint64_t t);
 
 #endif

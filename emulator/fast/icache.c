@@ -2,6 +2,8 @@
 
 #include "fast/tm.h"
 
+#include <stdlib.h>
+
 bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm) {
   icache->number = number;
   icache->pending = calloc(tm->tps, sizeof *icache->pending);

@@ -2,6 +2,8 @@
 
 #include "fast/tm.h"
 
+#include <stdlib.h>
+
 trax_status trax_l2_create(struct trax_l2 **result, const struct trax_config *config, trax_error *error) {
   struct trax_l2 *l2 = *result = calloc(1, sizeof *l2);
   if (!l2)

@@ -4,6 +4,7 @@
 #include "fast/tm.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MOST_LATENCY 1000000u /* of a transfer, as far as anybody wants to know */

@@ -5,8 +5,8 @@
 #define TRAX_FAST_MEMORY_H
 
 #include "fast/arbiter.h"
-#include "machine/config.h"
 #include "fast/queue.h"
+#include "machine/config.h"
 #include "machine/stats.h"
 
 struct trax_tm;

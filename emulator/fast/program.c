@@ -1,5 +1,7 @@
 #include "fast/fast.h"
 
+#include <stdlib.h>
+
 /* Whatever its address: of memory accesses, nothing. */
 static uint16_t asks_of(const struct trax_decoded *decoded) {
   switch ((trax_ask)decoded->ask) {

@@ -192,7 +192,8 @@ static void visit_memory(const struct visitor *visitor, struct trax_memory *memo
     visit_no_l2(visitor);
 }
 
-void trax_state_visit(struct trax_chip *chip, trax_state_visitor *visit, void *context) {
+void trax_state_visit(void *state, trax_state_visitor *visit, void *context) {
+  struct trax_chip *chip = state;
   const struct visitor visitor = {visit, context};
   for (uint32_t i = 0; i < chip->tms; i++)
     visit_tm(&visitor, &chip->tm[i]);
@@ -236,7 +237,7 @@ static void add_piece(void *context, const char *name, void *bytes, size_t size,
   add_bytes(layout, &bits, sizeof bits);
 }
 
-uint64_t trax_state_layout(struct trax_chip *chip) {
+uint64_t trax_state_layout(void *chip) {
   struct layout layout = {.hash = 0xCBF29CE484222325u};
   trax_state_visit(chip, add_piece, &layout);
   for (unsigned op = 0; op < TRAX_OP_COUNT; op++) /* what numbers mean */
@@ -245,12 +246,4 @@ uint64_t trax_state_layout(struct trax_chip *chip) {
   TRAX_CAUSES(CAUSE)
 #undef CAUSE
   return layout.hash;
-}
-
-void trax_state_taken(struct trax_chip *chip, uint64_t t) {
-  for (uint32_t i = 0; i < chip->tms; i++)
-    for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
-      chip->tm[i].tp[tp].inst = trax_text_at(&chip->text, chip->tm[i].tp[tp].pc);
-  trax_chip_scatter(chip, t);
-  chip->begin = t;
 }

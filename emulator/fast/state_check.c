@@ -7,6 +7,7 @@
 
 #include <inttypes.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define UNIT_LATENCIES 65536u     /* cycles: more than those of units and caches together */
@@ -243,7 +244,7 @@ static void check_tp(struct checker *checker, const struct trax_tm *tm, unsigned
   }
   expect(checker,
          !((tm->holding | fetching) >> number & 1) ||
-             trax_text_at(&checker->chip->text, tp->pc)->ask != TRAX_ASK_OUTSIDE,
+             trax_text_at(checker->chip->text, tp->pc)->ask != TRAX_ASK_OUTSIDE,
          "TM %u, TP %u: the instruction at 0x%08" PRIx32, tm->number, number, tp->pc);
   expect(checker, !(tm->awaiting >> number & 1) || awaits, "TM %u, TP %u: waits for nothing", tm->number, number);
   expect(checker, tp->run_end - tp->run_begin <= 64, "TM %u, TP %u: stores from 0x%" PRIx32 " to 0x%" PRIx32 " wait",
@@ -431,7 +432,8 @@ static uint64_t farthest_cycle(const struct trax_chip *chip, uint64_t t) {
   return t + MEMORY_LATENCIES + transfers * (MOST_BYTES * memory->units_per_byte / memory->units_per_cycle + 1);
 }
 
-const char *trax_state_check(struct trax_chip *chip, uint64_t t, char text[128]) {
+const char *trax_state_check(void *state, uint64_t t, char text[128]) {
+  struct trax_chip *chip = state;
   const size_t requests = (size_t)chip->tms * chip->tm->queue.depth;
   struct checker checker = {
       .chip = chip, .t = t, .farthest = farthest_cycle(chip, t), .text = text, .listed = calloc(requests, 1)};

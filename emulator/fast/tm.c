@@ -3,18 +3,21 @@
 #include "fast/ahead.h"
 #include "fast/chip.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_machine *machine,
-                           const struct trax_text *text, FILE *output, trax_error *error) {
+trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_chip *chip, FILE *output,
+                           trax_error *error) {
+  struct trax_machine *machine = chip->machine;
   const struct trax_config *config = &machine->config;
   const uint32_t tps = config->chip.tps_per_tm;
   memset(tm, 0, sizeof *tm);
   tm->number = number;
   tm->tps = tps;
   tm->config = config;
+  tm->chip = chip;
   tm->machine = machine;
-  tm->text = text;
+  tm->text = chip->text;
   tm->output = output;
   tm->observer = machine->observer;
   tm->stats = &machine->tm_stats[number];
@@ -40,7 +43,7 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_mach
                            config->special.pipelined ? 1 : trax_config_rsqrt_latency(config));
   for (uint32_t i = 0; i < tps; i++) {
     tm->tp[i].pc = machine->entry;
-    tm->tp[i].inst = trax_text_at(text, machine->entry);
+    tm->tp[i].inst = trax_text_at(tm->text, machine->entry);
   }
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
@@ -84,19 +87,12 @@ void trax_tm_fault(struct trax_tm *tm, unsigned number, uint64_t t, trax_fault_k
   if (tm->fault.kind && tm->fault.tp < number)
     return;
   const struct trax_tp *tp = &tm->tp[number];
-  const struct trax_decoded *inst = tp->inst;
   struct trax_fault *fault = &tm->fault;
-  *fault = (struct trax_fault){.kind = kind,
-                               .address = address,
-                               .bytes = inst->bytes,
-                               .write = inst->is_store || inst->is_atomic,
-                               .pc = tp->pc,
-                               .thread = tm->number * tm->tps + number,
-                               .tm = tm->number,
-                               .tp = number,
-                               .cycle = t};
-  if (inst->ask != TRAX_ASK_OUTSIDE)
-    memcpy(&fault->word, tm->machine->space.bytes + tp->pc, sizeof fault->word);
+  trax_fault_record(fault, &tm->machine->space, tp->inst, kind, tp->pc, address);
+  fault->thread = tm->number * tm->tps + number;
+  fault->tm = tm->number;
+  fault->tp = number;
+  fault->cycle = t;
   memcpy(fault->registers, tp->reg, sizeof fault->registers);
   memcpy(fault->local, tp->local, sizeof fault->local);
 }
@@ -182,7 +178,7 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   if (tm->ahead)
     trax_ahead_request(tm->ahead, tm->now);
   else
-    trax_memory_show(&tm->machine->chip->memory, tm);
+    trax_memory_show(&tm->chip->memory, tm);
 }
 
 static bool request_in_turn(struct trax_tm *tm, unsigned tp, struct trax_request request) {

@@ -1,18 +1,21 @@
-/* A thread multiprocessor: TPs, what they share, and the rare parts of its cycle; emulator/fast has the others. */
+/* A thread multiprocessor: TPs, what they share, and the rare parts of its cycle; cycle.c has the others. */
 #ifndef TRAX_FAST_TM_H
 #define TRAX_FAST_TM_H
 
 #include "fast/dcache.h"
 #include "fast/icache.h"
-#include "machine/machine.h"
 #include "fast/queue.h"
 #include "fast/tp.h"
 #include "fast/unit.h"
+#include "machine/machine.h"
 
 #define TRAX_WHEEL 64 /* cycles; its slots are the bits of wheel_occupied */
 
+struct trax_chip;
+
 struct trax_tm {
   uint32_t number, tps;
+  struct trax_chip *chip;
   const struct trax_config *config;
   struct trax_machine *machine;
   const struct trax_text *text;
@@ -47,8 +50,8 @@ struct trax_tm {
   int32_t *exit_statuses;         /* [tps] */
 };
 
-trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_machine *machine,
-                           const struct trax_text *text, FILE *output, trax_error *error);
+trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_chip *chip, FILE *output,
+                           trax_error *error);
 void trax_tm_destroy(struct trax_tm *tm);
 
 /* Charges sleepers for the cycles before `t`, which are over. */

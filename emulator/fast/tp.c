@@ -29,13 +29,6 @@ bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes
          address <= tp->run_end && address + bytes >= tp->run_begin;
 }
 
-trax_fault_kind trax_tp_check_access(const struct trax_tp *tp, const struct trax_space *space, uint32_t address) {
-  const struct trax_decoded *inst = tp->inst;
-  if (address >= TRAX_LOCAL_BASE && !inst->is_atomic)
-    return address & (inst->bytes - 1u) ? TRAX_FAULT_MISALIGNED : TRAX_FAULT_NONE;
-  return trax_space_check(space, address, inst->bytes, inst->is_store || inst->is_atomic);
-}
-
 /* --- effects: addresses have been checked --- */
 
 static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) {
@@ -75,6 +68,24 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
   return 0; /* the decoder lets no other pass */
 }
 
+/* False if it faulted. */
+static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t code, uint64_t t) {
+  tm->progressed = t + 1;
+  if (code == TRAX_TRAP_EXIT) {
+    trax_tm_end_thread(tm, number, t + 1, (int32_t)value);
+    return true;
+  }
+  if (tm->ahead && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS)) {
+    tm->ahead->stop = true; /* output is in the order of all threads */
+    return true;
+  }
+  const trax_fault_kind fault =
+      trax_trap(&tm->machine->space, tm->tp[number].local, tm->stats, tm->output, value, code);
+  if (fault)
+    trax_tm_fault(tm, number, t, fault, value);
+  return !fault;
+}
+
 static void fence(struct trax_tm *tm, uint32_t kind) {
   if (kind & TRAX_FENCE_R)
     tm->stats->dropped_lines += trax_dcache_drop(&tm->dcache);
@@ -95,7 +106,7 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
 #define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
 #define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, t)
-#define TRAP(VALUE, CODE) (tm->progressed = t + 1, alive = trax_trap(tm, number, VALUE, (int32_t)(CODE), t))
+#define TRAP(VALUE, CODE) (alive = trap(tm, number, VALUE, (int32_t)(CODE), t))
 #define FENCE(KIND) fence(tm, KIND)
 #define HALT() (tm->progressed = t + 1, trax_tm_end_thread(tm, number, t + 1, 0))
   switch ((trax_op)inst->op) {

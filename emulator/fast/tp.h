@@ -5,8 +5,7 @@
 
 #include "machine/machine.h"
 #include "machine/text.h"
-
-#define TRAX_NEVER UINT64_MAX /* a register that becomes usable with an arrival; an event that is not scheduled */
+#include "machine/watch.h" /* TRAX_NEVER: also of a register that becomes usable with an arrival */
 
 struct trax_tp {
   uint32_t reg[TRAX_NUM_REGISTERS + 1]; /* [TRAX_NO_REGISTER] swallows results for r0 */
@@ -43,9 +42,6 @@ static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t 
 
 /* What must be so for a store of `bytes` bytes to join the run in the buffer. */
 bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes);
-
-/* Whether the access of the TP's instruction is allowed, with its address. */
-trax_fault_kind trax_tp_check_access(const struct trax_tp *tp, const struct trax_space *space, uint32_t address);
 
 /* What rdsr of special register `number` gives TP `tp` in cycle t. */
 uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t);

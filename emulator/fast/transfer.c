@@ -28,12 +28,12 @@ static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t b
     ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
 }
 
-static void gather_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
+static void export_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
   for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
     unit->turn[i] = pointer_of(units->behind[kind] & units->uneven[kind].group[i]);
 }
 
-static void scatter_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
+static void import_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
   uint64_t behind = 0;
   for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
     if (unit->turn[i])
@@ -41,11 +41,11 @@ static void scatter_units(struct trax_fast_units *units, unsigned kind, const st
   units->behind[kind] = behind;
 }
 
-static void gather_arbiters(struct trax_fast_tm *ftm) {
+static void export_arbiters(struct trax_fast_tm *ftm) {
   struct trax_tm *tm = ftm->tm;
-  gather_units(&ftm->fp, 0, &tm->fp_add);
-  gather_units(&ftm->fp, 1, &tm->fp_mul);
-  gather_units(&ftm->int_mul, 0, &tm->int_mul);
+  export_units(&ftm->fp, 0, &tm->fp_add);
+  export_units(&ftm->fp, 1, &tm->fp_mul);
+  export_units(&ftm->int_mul, 0, &tm->int_mul);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
@@ -53,11 +53,11 @@ static void gather_arbiters(struct trax_fast_tm *ftm) {
     tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_behind)[bank]);
 }
 
-static void scatter_arbiters(struct trax_fast_tm *ftm) {
+static void import_arbiters(struct trax_fast_tm *ftm) {
   const struct trax_tm *tm = ftm->tm;
-  scatter_units(&ftm->fp, 0, &tm->fp_add);
-  scatter_units(&ftm->fp, 1, &tm->fp_mul);
-  scatter_units(&ftm->int_mul, 0, &tm->int_mul);
+  import_units(&ftm->fp, 0, &tm->fp_add);
+  import_units(&ftm->fp, 1, &tm->fp_mul);
+  import_units(&ftm->int_mul, 0, &tm->int_mul);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));
@@ -65,10 +65,10 @@ static void scatter_arbiters(struct trax_fast_tm *ftm) {
     ((uint64_t *)ftm->data_bank_behind)[bank] = behind_of(tm->dcache.bank[bank]);
 }
 
-void trax_fast_gather(struct trax_fast *fast) {
+void trax_fast_export(struct trax_fast *fast) {
   trax_fast_come_back(fast);
   for (uint32_t i = 0; i < fast->chip->tms; i++)
-    gather_arbiters(&fast->tm[i]);
+    export_arbiters(&fast->tm[i]);
 }
 
 /* --- taking up --- */
@@ -116,7 +116,7 @@ static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   trax_fast_advance(ftm, number);
 }
 
-void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
+void trax_fast_import(struct trax_fast *fast, uint64_t t) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
       fast->tm[i].tp[tp].atomics = 0;
@@ -125,7 +125,7 @@ void trax_fast_scatter(struct trax_fast *fast, uint64_t t) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
     struct trax_tm *tm = ftm->tm;
-    scatter_arbiters(ftm);
+    import_arbiters(ftm);
     find_resident_lines(ftm);
     ftm->ready = ftm->outside = 0;
     ftm->deferred = tm->ended; /* nothing of theirs runs ahead */

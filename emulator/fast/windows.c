@@ -6,6 +6,7 @@
 #include "fast/pool.h"
 
 #include <assert.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -304,7 +305,7 @@ static void run_tms(void *context, uint32_t group) {
   const struct trax_windows *windows = context;
   const struct trax_chip *chip = windows->chip;
   const uint32_t first = group * windows->abreast, left = chip->tms - first;
-  chip->engine->run_ahead(chip->fast, first, left < windows->abreast ? left : windows->abreast, windows->end);
+  chip->variant->run_ahead(chip->fast, first, left < windows->abreast ? left : windows->abreast, windows->end);
 }
 
 /* Begins a window: whatever waits for memory and is served in the same cycles whatever the TMs request in them is

@@ -1,18 +1,20 @@
-/* The functional mode: what a program computes, without time. Threads take turns of TRAX_TURN instructions or a few
-   more (a turn ends with a jump); within a turn every instruction takes effect at once. Caches, units, queues and the
-   write-combining buffers do not exist, and the run has no length: cycles are 0, and of the counts only those made from
-   the instructions executed are kept. `rdsr cycle` gives the number of instructions that the thread has executed. */
+/* What a program computes, without time. Threads take turns of TURN instructions or a few more (a turn ends with a
+   jump); within a turn every instruction takes effect at once. Caches, units, queues and the write-combining buffers do
+   not exist, and the run has no length: cycles are 0, and of the counts only those made from the instructions executed
+   are kept. `rdsr cycle` gives the number of instructions that the thread has executed. */
 #include "functional/functional.h"
 
+#include "engine/run.h"
 #include "machine/traps.h"
 #include "trax/semantics.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-enum { TRAX_TURN = 4096 };
+enum { TURN = 4096, INSTRUCTIONS = 1000000 /* of all threads, in one call of advance */ };
 
 struct instruction {
-  const void *operation; /* where execute_turn() executes it */
+  const void *operation; /* where take_turn executes it */
   int32_t imm;
   uint8_t op, rd, ra, rb;
 };
@@ -25,20 +27,33 @@ struct section {
 struct text {
   struct section *sections; /* [count], in one array of instructions */
   size_t count;
-  struct instruction *inst;
+  struct instruction *inst;          /* [inst_count] */
   const struct instruction *outside; /* the last */
-};
-
-struct trax_functional {
-  struct trax_chip *chip;
-  struct text text;
   size_t inst_count;
-  int64_t **changes;  /* [tms][inst_count + 1] as in trax_fast_tm */
-  uint64_t *executed; /* [threads] */
-  int64_t *left;      /* [threads]: of their turns */
 };
 
-enum stop { STOP_TURN, STOP_SLOW };
+struct thread {
+  uint32_t reg[TRAX_NUM_REGISTERS + 1]; /* [TRAX_NO_REGISTER] swallows results for r0 */
+  uint32_t pc;
+  uint32_t number, tm, tp;
+  bool ended;
+  uint64_t executed; /* instructions */
+  uint64_t beyond;   /* the end of its turn */
+  uint8_t local[TRAX_LOCAL_SIZE];
+};
+
+struct chip {
+  struct trax_machine *machine;
+  const struct trax_text *decoded; /* the run's */
+  FILE *output;
+  struct text text;
+  struct thread *thread; /* [threads] */
+  uint32_t threads, running, next;
+  uint64_t limit; /* instructions of a thread */
+  /* [tms][inst_count + 1]: how often each instruction was executed since that was collected, as differences: the sum
+     of this up to it. */
+  int64_t **changes;
+};
 
 static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
   for (size_t i = 0; i < text->count && pc % 4 == 0; i++)
@@ -47,115 +62,182 @@ static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
   return text->outside;
 }
 
-#include "functional/functional_turn.h"
-
-/* --- what execute_turn() leaves to the core --- */
-
-static void increment(struct trax_functional *functional, struct trax_tp *tp) {
-  uint8_t *const place = functional->chip->machine->space.bytes + tp->address;
-  uint32_t value;
-  memcpy(&value, place, sizeof value);
-  tp->reg[tp->inst->rd] = value++;
-  memcpy(place, &value, sizeof value);
+static uint32_t special_register(const struct chip *chip, const struct thread *thread, uint32_t number,
+                                 uint64_t executed) {
+  switch (number) {
+  case TRAX_SR_THREAD:
+    return thread->number;
+  case TRAX_SR_TM:
+    return thread->tm;
+  case TRAX_SR_TP:
+    return thread->tp;
+  case TRAX_SR_THREADS:
+    return chip->threads;
+  case TRAX_SR_CYCLE:
+    return (uint32_t)executed;
+  default: /* TRAX_SR_CYCLEH; others are illegal */
+    return (uint32_t)(executed >> 32);
+  }
 }
 
-/* One instruction, at tp->pc. False if it faulted. */
-static bool execute_slowly(struct trax_functional *functional, struct trax_tm *tm, unsigned number,
-                           uint64_t *executed) {
-  struct trax_tp *tp = &tm->tp[number];
-  const uint64_t index = (uint64_t)(inst_at(&functional->text, tp->pc) - functional->text.inst);
-  const struct trax_decoded *inst = tp->inst = trax_text_at(tm->text, tp->pc);
-  trax_fault_kind kind = TRAX_FAULT_NONE;
-  uint32_t address = 0;
+#include "functional/turn.h"
+
+/* --- what run_quickly leaves --- */
+
+static void end_thread(struct chip *chip, struct thread *thread, int32_t status) {
+  thread->ended = true;
+  chip->machine->exit_statuses[thread->number] = status;
+  chip->running--;
+}
+
+static void fault(struct chip *chip, struct thread *thread, const struct trax_decoded *inst, trax_fault_kind kind,
+                  uint32_t address) {
+  trax_fault_record(&chip->machine->fault, &chip->machine->space, inst, kind, thread->pc, address);
+  chip->machine->fault.thread = thread->number;
+  chip->machine->fault.tm = thread->tm;
+  chip->machine->fault.tp = thread->tp;
+  chip->machine->fault.cycle = thread->executed;
+  memcpy(chip->machine->fault.registers, thread->reg, sizeof chip->machine->fault.registers);
+  memcpy(chip->machine->fault.local, thread->local, sizeof chip->machine->fault.local);
+  end_thread(chip, thread, 1);
+}
+
+/* What forbids the instruction; *address receives that of its access. */
+static trax_fault_kind check(const struct chip *chip, const struct thread *thread, const struct trax_decoded *inst,
+                             uint32_t *address) {
+  *address = 0;
   if (inst->ask == TRAX_ASK_OUTSIDE) {
-    kind = tp->pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE;
-    address = tp->pc;
-  } else if (inst->ask == TRAX_ASK_ILLEGAL) {
-    kind = TRAX_FAULT_ILLEGAL;
-  } else if (inst->ask == TRAX_ASK_MEMORY) {
-    address = tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
-    kind = trax_tp_check_access(tp, &functional->chip->machine->space, address);
+    *address = thread->pc;
+    return thread->pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE;
+  }
+  if (inst->ask == TRAX_ASK_ILLEGAL)
+    return TRAX_FAULT_ILLEGAL;
+  if (inst->ask != TRAX_ASK_MEMORY)
+    return TRAX_FAULT_NONE;
+  *address = thread->reg[inst->ra] + (uint32_t)inst->imm;
+  return trax_access_check(inst, &chip->machine->space, *address);
+}
+
+static uint8_t *place(const struct chip *chip, struct thread *thread, uint32_t address) {
+  return address >= TRAX_LOCAL_BASE ? thread->local + (address - TRAX_LOCAL_BASE)
+                                    : chip->machine->space.bytes + address;
+}
+
+static uint32_t load(const struct chip *chip, struct thread *thread, uint32_t address, unsigned bytes) {
+  uint32_t value = 0;
+  memcpy(&value, place(chip, thread, address), bytes);
+  return value;
+}
+
+static uint32_t increment(const struct chip *chip, struct thread *thread, uint32_t address) {
+  const uint32_t old = load(chip, thread, address, 4), value = old + 1;
+  memcpy(place(chip, thread, address), &value, sizeof value);
+  return old;
+}
+
+/* One instruction of any kind, at thread->pc. False if it faulted. */
+static bool execute(struct chip *chip, struct thread *thread) {
+  const struct trax_decoded *inst = trax_text_at(chip->decoded, thread->pc);
+  const size_t index = (size_t)(inst_at(&chip->text, thread->pc) - chip->text.inst);
+  struct trax_tm_stats *stats = &chip->machine->tm_stats[thread->tm];
+  uint32_t *const reg = thread->reg;
+  uint32_t next_pc = thread->pc + 4, address, word;
+  trax_fault_kind kind = check(chip, thread, inst, &address);
+  if (kind) {
+    fault(chip, thread, inst, kind, address);
+    return false;
+  }
+#include "machine/semantics_begin.h"
+#define PC thread->pc
+#define PRECISION chip->machine->config.special.precision_bits
+#define LOAD(ADDRESS, BYTES) load(chip, thread, ADDRESS, BYTES)
+#define STORE(ADDRESS, VALUE, BYTES) (word = (VALUE), memcpy(place(chip, thread, ADDRESS), &word, BYTES))
+#define ATOMIC_INC(ADDRESS) increment(chip, thread, ADDRESS)
+#define SPECIAL_REGISTER(NUMBER) special_register(chip, thread, NUMBER, thread->executed)
+#define TRAP(VALUE, CODE)                                                                                              \
+  do {                                                                                                                 \
+    const uint32_t value_ = (VALUE);                                                                                   \
+    if ((CODE) == TRAX_TRAP_EXIT)                                                                                      \
+      end_thread(chip, thread, (int32_t)value_);                                                                       \
+    else if ((kind = trax_trap(&chip->machine->space, thread->local, stats, chip->output, value_, (int32_t)(CODE))))   \
+      address = value_;                                                                                                \
+  } while (0)
+#define FENCE(KIND) ((void)(KIND))
+#define HALT() end_thread(chip, thread, 0)
+  switch ((trax_op)inst->op) {
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  case TRAX_OP_##NAME:                                                                                                 \
+    __VA_ARGS__                                                                                                        \
+    break;
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+#include "machine/semantics_end.h"
+  case TRAX_OP_ILLEGAL: /* faulted before */
+  case TRAX_OP_COUNT:
+    break;
   }
   if (kind) {
-    trax_tm_fault(tm, number, *executed, kind, address);
+    fault(chip, thread, inst, kind, address);
     return false;
   }
-  if (inst->is_atomic)
-    increment(functional, tp);
-  if (!trax_tp_execute(tm, number, *executed))
-    return false;
-  if (inst->is_nontemporal && tp->address < TRAX_LOCAL_BASE)
-    ++*(inst->is_store ? &tm->stats->nontemporal_stores : &tm->stats->nontemporal_loads);
-  ++*executed;
-  functional->changes[tm->number][index]++;
-  functional->changes[tm->number][index + 1]--;
+  if (inst->is_nontemporal && address < TRAX_LOCAL_BASE)
+    ++*(inst->is_store ? &stats->nontemporal_stores : &stats->nontemporal_loads);
+  thread->pc = next_pc;
+  thread->executed++;
+  chip->changes[thread->tm][index]++;
+  chip->changes[thread->tm][index + 1]--;
   return true;
 }
 
-/* The thread's turn, longer or shorter by what the one before has left. False if it faulted. */
-static bool take_turn(struct trax_functional *functional, struct trax_tm *tm, unsigned number, uint64_t *executed,
-                      int64_t *left) {
-  struct trax_tp *tp = &tm->tp[number];
-  *left += TRAX_TURN;
-  while (*left > 0 && !(tm->ended >> number & 1)) {
-    const uint64_t before = *executed;
-    const enum stop stop = execute_turn(functional, tm, tp, *left, executed, NULL);
-    if (stop == STOP_SLOW && !execute_slowly(functional, tm, number, executed))
-      return false;
-    *left -= (int64_t)(*executed - before);
+/* --- turns --- */
+
+static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
+  struct chip *chip = context;
+  uint64_t instructions = 0;
+  (void)t;
+  (void)until;
+  while (chip->running && instructions < INSTRUCTIONS) {
+    struct thread *thread = &chip->thread[chip->next];
+    chip->next = chip->next + 1 < chip->threads ? chip->next + 1 : 0;
+    const uint64_t before = thread->executed, end = before + TURN - thread->beyond;
+    while (thread->executed < end && !thread->ended)
+      if (run_quickly(chip, thread, end, NULL) == STOP_SLOW && !execute(chip, thread))
+        return TRAX_HAS_FAULTED;
+    thread->beyond = thread->executed - end;
+    if (thread->executed >= chip->limit)
+      return TRAX_AT_INSTRUCTION;
+    instructions += thread->executed - before;
   }
-  return true;
+  return chip->running ? TRAX_GOES_ON : TRAX_HAS_ENDED;
 }
 
-/* A turn of every thread. *instructions grows by what was executed. Also stops behind a thread that has executed
-   `limit` instructions. */
-static trax_status take_turns(struct trax_functional *functional, uint64_t limit, uint64_t *instructions) {
-  const struct trax_chip *chip = functional->chip;
-  for (uint32_t i = 0; i < chip->tms; i++) {
-    struct trax_tm *tm = &chip->tm[i];
-    for (unsigned number = 0; number < tm->tps; number++) {
-      const size_t thread = (size_t)i * tm->tps + number;
-      uint64_t *executed = &functional->executed[thread];
-      const uint64_t before = *executed;
-      if (!(tm->ended >> number & 1) && !take_turn(functional, tm, number, executed, &functional->left[thread]))
-        return TRAX_FAULT;
-      if (*executed >= limit)
-        return TRAX_STUCK;
-      *instructions += *executed - before;
-    }
-  }
-  return TRAX_OK;
-}
+/* --- for those who look at the machine --- */
 
-/* --- the mode --- */
-
-trax_status trax_functional_run(struct trax_functional *functional, uint64_t limit,
-                                bool (*stop)(void *context, uint64_t instructions), void *context) {
-  uint64_t instructions = 0, before = 0;
-  while (trax_chip_running(functional->chip)) {
-    const trax_status status = take_turns(functional, limit, &instructions);
-    if (status)
-      return status;
-    if (instructions - before >= 1000000) { /* not in every turn of a few threads */
-      before = instructions;
-      if (stop(context, instructions))
-        return TRAX_INTERRUPTED;
-    }
-  }
-  return TRAX_OK;
-}
-
-void trax_functional_collect(struct trax_functional *functional) {
-  for (uint32_t i = 0; i < functional->chip->tms; i++) {
-    uint64_t *const instructions = functional->chip->tm[i].stats->instructions;
+static void collect(void *context) {
+  struct chip *chip = context;
+  for (uint32_t i = 0; i < chip->machine->config.chip.tms; i++) {
+    uint64_t *const instructions = chip->machine->tm_stats[i].instructions;
     int64_t count = 0;
-    for (size_t index = 0; index < functional->inst_count; index++) {
-      count += functional->changes[i][index];
-      instructions[functional->text.inst[index].op] += (uint64_t)count;
+    for (size_t index = 0; index < chip->text.inst_count; index++) {
+      count += chip->changes[i][index];
+      instructions[chip->text.inst[index].op] += (uint64_t)count;
     }
-    memset(functional->changes[i], 0, functional->inst_count * sizeof *functional->changes[i]);
+    memset(chip->changes[i], 0, chip->text.inst_count * sizeof *chip->changes[i]);
   }
 }
+
+static void settle(void *chip, uint64_t t) {
+  (void)t;
+  collect(chip);
+}
+
+static struct trax_thread thread(void *context, uint32_t number) {
+  const struct chip *chip = context;
+  struct thread *it = &chip->thread[number];
+  return (struct trax_thread){it->reg, it->local, it->pc, it->ended};
+}
+
+/* --- beginning and ending --- */
 
 static bool is_slow(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic || decoded->ask == TRAX_ASK_ILLEGAL ||
@@ -163,12 +245,16 @@ static bool is_slow(const struct trax_decoded *decoded) {
          decoded->op == TRAX_OP_HALT;
 }
 
-static trax_status predecode(struct text *text, size_t total, const struct trax_text *from,
-                             const void *const *operations, trax_error *error) {
+static trax_status predecode(struct text *text, const struct trax_text *from, trax_error *error) {
+  const void *const *operations;
+  run_quickly(NULL, NULL, 0, &operations);
+  text->inst_count = 1;
+  for (size_t i = 0; i < from->count; i++)
+    text->inst_count += (from->sections[i].end - from->sections[i].begin) / 4 + 1;
   text->sections = calloc(from->count + 1, sizeof *text->sections);
-  text->inst = calloc(total, sizeof *text->inst);
+  text->inst = calloc(text->inst_count, sizeof *text->inst);
   if (!text->sections || !text->inst)
-    return trax_fail(error, "out of memory for %zu instructions", total);
+    return trax_fail(error, "out of memory for %zu instructions", text->inst_count);
   struct instruction *inst = text->inst;
   for (size_t i = 0; i < from->count; i++) {
     const struct trax_text_section *section = &from->sections[i];
@@ -189,41 +275,55 @@ static trax_status predecode(struct text *text, size_t total, const struct trax_
   return TRAX_OK;
 }
 
-struct trax_functional *trax_functional_create(struct trax_chip *chip, trax_error *error) {
-  struct trax_functional *functional = calloc(1, sizeof *functional);
-  const void *const *operations;
-  execute_turn(functional, NULL, NULL, 0, NULL, &operations);
-  size_t total = 1;
-  for (size_t i = 0; i < chip->text.count; i++)
-    total += (chip->text.sections[i].end - chip->text.sections[i].begin) / 4 + 1;
-  bool complete = functional != NULL;
-  if (complete) {
-    functional->chip = chip;
-    functional->inst_count = total;
-    functional->executed = calloc((size_t)chip->tms * chip->tm[0].tps, sizeof *functional->executed);
-    functional->left = calloc((size_t)chip->tms * chip->tm[0].tps, sizeof *functional->left);
-    functional->changes = calloc(chip->tms, sizeof *functional->changes);
-    complete = functional->executed && functional->left && functional->changes;
-  }
-  for (uint32_t i = 0; complete && i < chip->tms; i++)
-    complete = (functional->changes[i] = calloc(total + 1, sizeof **functional->changes)) != NULL;
+static trax_status create(struct trax_run *run, trax_error *error) {
+  const struct trax_config *config = &run->machine->config;
+  const uint32_t tms = config->chip.tms, tps = config->chip.tps_per_tm;
+  struct chip *chip = run->chip = calloc(1, sizeof *chip);
+  if (!chip)
+    return trax_fail(error, "out of memory");
+  chip->machine = run->machine;
+  chip->decoded = &run->text;
+  chip->output = run->options->output;
+  chip->limit = run->options->max_cycles ? run->options->max_cycles : UINT64_MAX;
+  chip->threads = chip->running = tms * tps;
+  if (predecode(&chip->text, &run->text, error) != TRAX_OK)
+    return TRAX_ERROR;
+  chip->thread = calloc(chip->threads, sizeof *chip->thread);
+  chip->changes = calloc(tms, sizeof *chip->changes);
+  bool complete = chip->thread && chip->changes;
+  for (uint32_t i = 0; complete && i < tms; i++)
+    complete = (chip->changes[i] = calloc(chip->text.inst_count + 1, sizeof **chip->changes)) != NULL;
   if (!complete)
-    trax_fail(error, "out of memory for %zu instructions", total);
-  if (complete && !predecode(&functional->text, total, &chip->text, operations, error))
-    return functional;
-  trax_functional_destroy(functional);
-  return NULL;
+    return trax_fail(error, "out of memory");
+  for (uint32_t i = 0; i < chip->threads; i++) {
+    chip->thread[i].pc = run->machine->entry;
+    chip->thread[i].number = i;
+    chip->thread[i].tm = i / tps;
+    chip->thread[i].tp = i % tps;
+  }
+  return TRAX_OK;
 }
 
-void trax_functional_destroy(struct trax_functional *functional) {
-  if (!functional)
+static void destroy(void *context) {
+  struct chip *chip = context;
+  if (!chip)
     return;
-  free(functional->text.sections);
-  free(functional->text.inst);
-  for (uint32_t i = 0; functional->changes && i < functional->chip->tms; i++)
-    free(functional->changes[i]);
-  free(functional->changes);
-  free(functional->executed);
-  free(functional->left);
-  free(functional);
+  for (uint32_t i = 0; chip->changes && i < chip->machine->config.chip.tms; i++)
+    free(chip->changes[i]);
+  free(chip->changes);
+  free(chip->thread);
+  free(chip->text.sections);
+  free(chip->text.inst);
+  free(chip);
 }
+
+const struct trax_engine trax_functional_engine = {
+    .name = "functional",
+    .meaning = "what the program computes, without time",
+    .create = create,
+    .destroy = destroy,
+    .advance = advance,
+    .collect = collect,
+    .settle = settle,
+    .thread = thread,
+};

@@ -1,8 +1,8 @@
 /* Configurations under libFuzzer: the words of a case's first line are assignments as --set takes them, its first file
    is a configuration file. What is accepted prints, and reads back as it was. */
-#include "machine/config.h"
 #include "fuzz_case.h"
 #include "host/config.h"
+#include "machine/config.h"
 #include "trax/input.h"
 
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* The loader under libFuzzer: the first file of a case is the executable. It is opened, asked about its symbols and
    source lines, copied for a debugger, loaded and run for a while; at its end
    every thread is unwound. The word `functional` in the line of options is for that engine. */
-#include "machine/machine.h"
 #include "fuzz_case.h"
 #include "gdb/gdb.h"
 #include "host/backtrace.h"
 #include "host/host.h"
+#include "machine/machine.h"
 #include "trax/input.h"
 
 #include <stdlib.h>
@@ -49,9 +49,8 @@ static size_t ask(trax_image *image) {
 
 static void run(trax_machine *machine, const char *words, FILE *nowhere) {
   trax_error error = {.message = ""};
-  const trax_run_options options = {.output = nowhere,
-                                    .max_cycles = 2000,
-                                    .engine = strstr(words, "functional") ? TRAX_ENGINE_FUNCTIONAL : TRAX_ENGINE_FAST};
+  const trax_run_options options = {
+      .output = nowhere, .max_cycles = 2000, .engine = strstr(words, "functional") ? "functional" : "fast"};
   struct trax_post_mortem *post_mortem = trax_post_mortem_create(machine, NULL, true, &error);
   const trax_status status = trax_machine_run(machine, &options, &error);
   if (!post_mortem || touch(trax_post_mortem_text(post_mortem)) == 0)

@@ -1,9 +1,9 @@
 /* The debugger's stub under libFuzzer: each line of a case is a packet, framed here, of which a line of ^C alone is an
    interrupt; a case that begins with a NUL is taken byte by byte as the debugger's. The program that is debugged runs
    on four threads. */
-#include "machine/machine.h"
 #include "fuzz_case.h"
 #include "gdb/gdb.h"
+#include "machine/machine.h"
 #include "trax/isa.h"
 
 #include <stdlib.h>

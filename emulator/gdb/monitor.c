@@ -20,8 +20,8 @@ static bool print_cycle(struct trax_gdb *gdb, const char *arguments, FILE *out) 
 static void sum_up(struct trax_gdb *gdb, struct trax_stats *stats) {
   const struct trax_machine *machine = gdb->machine;
   *stats = (struct trax_stats){.cycles = gdb->cycle, .threads = gdb->threads};
-  trax_chip_settle(gdb->chip, gdb->cycle);
-  for (uint32_t i = 0; i < gdb->chip->tms; i++) {
+  trax_run_settle(gdb->run, gdb->cycle);
+  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
     struct trax_tm_stats tm = machine->tm_stats[i];
     trax_stats_derive(&tm, &machine->config);
 #define ADD(ID, NAME, UNIT, MEANING) stats->total.ID += tm.ID;
@@ -49,17 +49,17 @@ static bool print_statistics(struct trax_gdb *gdb, const char *arguments, FILE *
 }
 
 static bool print_registers(struct trax_gdb *gdb, const char *arguments, FILE *out) {
-  const struct trax_tp *tp = trax_gdb_tp(gdb, gdb->selected);
+  const struct trax_thread state = trax_run_thread(gdb->run, gdb->selected);
   for (unsigned i = 0; i < TRAX_NUM_REGISTERS; i++)
-    fprintf(out, "r%-2u %-4s %08x%s", i, trax_register_names[i], tp->reg[i], i % 4 == 3 ? "\n" : "   ");
-  fprintf(out, "pc       %08x\n", tp->pc);
+    fprintf(out, "r%-2u %-4s %08x%s", i, trax_register_names[i], state.reg[i], i % 4 == 3 ? "\n" : "   ");
+  fprintf(out, "pc       %08x\n", state.pc);
   return !*arguments;
 }
 
 /* [ADDRESS [COUNT]]; from the selected thread's pc. */
 static bool print_instructions(struct trax_gdb *gdb, const char *arguments, FILE *out) {
   char *end = (char *)arguments;
-  const unsigned long address = *arguments ? strtoul(arguments, &end, 0) : trax_gdb_tp(gdb, gdb->selected)->pc;
+  const unsigned long address = *arguments ? strtoul(arguments, &end, 0) : trax_gdb_pc(gdb, gdb->selected);
   const unsigned long count = *end ? strtoul(end, &end, 0) : 10;
   if (*end || address > UINT32_MAX || address % 4 || count > 1000)
     return false;
@@ -73,18 +73,18 @@ static bool print_instructions(struct trax_gdb *gdb, const char *arguments, FILE
     trax_disassemble(word, pc, text, sizeof text);
     for (char *c = text; *c; c++)
       *c = *c == '\t' ? ' ' : *c;
-    fprintf(out, "%s 0x%08x  %08x  %s\n", pc == trax_gdb_tp(gdb, gdb->selected)->pc ? "=>" : "  ", pc, word, text);
+    fprintf(out, "%s 0x%08x  %08x  %s\n", pc == trax_gdb_pc(gdb, gdb->selected) ? "=>" : "  ", pc, word, text);
   }
   return true;
 }
 
 static bool print_where(struct trax_gdb *gdb, const char *arguments, FILE *out) {
-  trax_print_backtrace(gdb->chip, gdb->selected, out);
+  trax_print_backtrace(gdb->run, gdb->selected, out);
   return !*arguments;
 }
 
 static bool print_threads(struct trax_gdb *gdb, const char *arguments, FILE *out) {
-  trax_print_threads(gdb->chip, out);
+  trax_print_threads(gdb->run, out);
   return !*arguments;
 }
 

@@ -72,35 +72,6 @@ static void describe_stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_s
   }
 }
 
-/* What the thread's next instruction does to it alone, as far as where it goes may depend on that. */
-static void imagine(const struct trax_gdb *gdb, uint32_t thread) {
-  struct trax_tp *tp = trax_gdb_tp(gdb, thread);
-  const struct trax_decoded *inst = tp->inst;
-  bool harmless = inst->ask != TRAX_ASK_END && inst->ask != TRAX_ASK_ILLEGAL && inst->ask != TRAX_ASK_OUTSIDE &&
-                  inst->op != TRAX_OP_TRAP && !inst->is_atomic;
-  if (harmless && inst->ask == TRAX_ASK_MEMORY) {
-    const uint32_t address = tp->reg[inst->ra] + (uint32_t)inst->imm;
-    harmless = trax_tp_check_access(tp, &gdb->machine->space, address) == TRAX_FAULT_NONE &&
-               (!inst->is_store || address >= TRAX_LOCAL_BASE);
-  }
-  if (harmless) {
-    trax_tp_execute(trax_gdb_tm(gdb, thread), thread % gdb->tps, gdb->cycle);
-  } else {
-    tp->pc += 4;
-    tp->inst = trax_text_at(&gdb->chip->text, tp->pc);
-  }
-}
-
-/* Where the thread's next so many instructions will lead it. */
-static uint32_t pc_after(const struct trax_gdb *gdb, uint32_t thread, unsigned instructions) {
-  struct trax_tp *tp = trax_gdb_tp(gdb, thread), before = *tp;
-  while (instructions--)
-    imagine(gdb, thread);
-  const uint32_t pc = tp->pc;
-  *tp = before;
-  return pc;
-}
-
 static void stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_signal signal, unsigned event) {
   gdb->phase = GDB_STOPPED;
   gdb->ahead = gdb->owed = 0;
@@ -150,7 +121,7 @@ static bool pretend_step(struct trax_gdb *gdb) {
   const unsigned ahead = gdb->owed + 1;
   stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
   gdb->ahead = ahead;
-  gdb->ahead_pc = pc_after(gdb, thread, ahead);
+  gdb->ahead_pc = trax_gdb_pc_after(gdb, thread, ahead);
   if (gdb->thread[thread].passed < ahead)
     gdb->thread[thread].passed = (uint8_t)ahead;
   describe_stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
@@ -184,7 +155,7 @@ static void review(struct trax_gdb *gdb, uint32_t thread) {
   const bool accessed =
       (state->events & TRAX_GDB_ACCESSED) && trax_gdb_watched(gdb, thread, state->accessed, 1, true, true);
   const bool waits = !state->told && !state->stepping && trax_gdb_is_alive(gdb, thread) &&
-                     trax_gdb_breaks_at(gdb, trax_gdb_tp(gdb, thread)->pc);
+                     trax_gdb_breaks_at(gdb, trax_gdb_pc(gdb, thread));
   state->events = (uint8_t)((accessed ? TRAX_GDB_ACCESSED : 0) | (waits ? TRAX_GDB_AT_BREAK : 0));
   gdb->eventful |= state->events != 0;
 }
@@ -229,12 +200,12 @@ static void serve(struct trax_gdb *gdb) {
   }
 }
 
-/* The machine, while it is stopped, is all in the core's structures. */
+/* The machine, while it is stopped, is exported. */
 static void serve_at(struct trax_gdb *gdb, uint64_t t) {
   gdb->changed = false;
   serve(gdb);
   if (gdb->changed && !gdb->over)
-    trax_chip_scatter(gdb->chip, t);
+    trax_run_import(gdb->run, t);
 }
 
 /* The thread that an interrupt is told of. */
@@ -277,7 +248,7 @@ static void stop_if_due(struct trax_gdb *gdb, uint64_t t) {
   }
   if (!gdb->eventful && !interrupted)
     return;
-  trax_chip_gather(gdb->chip);
+  trax_run_export(gdb->run);
   if (gdb->eventful) {
     stop_for_event(gdb);
   } else {
@@ -287,13 +258,13 @@ static void stop_if_due(struct trax_gdb *gdb, uint64_t t) {
   serve_at(gdb, t);
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_gdb *gdb = watch->context;
-  gdb->chip = chip;
+  gdb->run = run;
   gdb->cycle = t;
   if (!gdb->begun) {
     gdb->begun = true;
-    trax_chip_gather(chip);
+    trax_run_export(run);
     stop(gdb, 0, TRAX_GDB_SIGTRAP, 0); /* told when it is asked for */
     serve_at(gdb, t);
   } else {
@@ -328,13 +299,10 @@ static void tell_end(struct trax_gdb *gdb, char how, unsigned number) {
 }
 
 /* A fault can be looked at before it ends the run. */
-static void end_by_fault(struct trax_gdb *gdb, struct trax_chip *chip, uint64_t t) {
-  uint32_t tm = 0;
-  while (!chip->tm[tm].fault.kind)
-    tm++;
-  const struct trax_fault *fault = &chip->tm[tm].fault;
+static void end_by_fault(struct trax_gdb *gdb, struct trax_run *run, uint64_t t) {
+  const struct trax_fault *fault = &gdb->machine->fault;
   const enum trax_gdb_signal signal = fault_signal(fault->kind);
-  trax_chip_gather(chip);
+  trax_run_export(run);
   if (gdb->phase == GDB_RUNNING && !gdb->thread[fault->thread].stepping && pretend_step(gdb))
     serve_at(gdb, t);
   if (gdb->phase != GDB_RUNNING)
@@ -346,7 +314,7 @@ static void end_by_fault(struct trax_gdb *gdb, struct trax_chip *chip, uint64_t 
     tell_end(gdb, 'X', signal);
 }
 
-static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t) {
+static void end(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t) {
   struct trax_gdb *gdb = watch->context;
   gdb->over = true;
   gdb->cycle = t;
@@ -357,7 +325,7 @@ static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status st
     tell_end(gdb, 'W', (unsigned)trax_machine_exit_status(gdb->machine) & 0xFF);
     break;
   case TRAX_FAULT:
-    end_by_fault(gdb, chip, t);
+    end_by_fault(gdb, run, t);
     break;
   case TRAX_STUCK:
     tell_end(gdb, 'X', TRAX_GDB_SIGXCPU);

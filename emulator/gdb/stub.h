@@ -1,9 +1,9 @@
 /* The parts of the stub: stub.c runs and stops, breaks.c knows where, commands.c answers packets, target.c gives
-   threads, registers and memory, monitor.c what GDB has no words for. */
+   threads, registers and memory, imagine.c tells where a thread will go, monitor.c has what GDB has no words for. */
 #ifndef TRAX_GDB_STUB_H
 #define TRAX_GDB_STUB_H
 
-#include "fast/chip.h"
+#include "engine/run.h"
 #include "gdb/gdb.h"
 
 enum { TRAX_GDB_BREAKS = 4096, TRAX_GDB_WATCHES = 64 }; /* at most */
@@ -50,7 +50,7 @@ struct trax_gdb_atomic {
 
 struct trax_gdb {
   trax_machine *machine;
-  struct trax_chip *chip; /* from the first look to the end */
+  struct trax_run *run; /* from the first look to the end */
   struct trax_gdb_wire wire;
   const volatile int *interrupt;
   struct trax_watch watch;
@@ -111,9 +111,12 @@ const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32
 void trax_gdb_note_access(struct trax_gdb *gdb, uint32_t thread, const struct trax_issue *issue);
 void trax_gdb_note_arrival(struct trax_gdb *gdb, uint32_t thread, uint32_t rd);
 
+/* --- imagine.c --- */
+/* Where the thread's next so many instructions will lead it. */
+uint32_t trax_gdb_pc_after(const struct trax_gdb *gdb, uint32_t thread, unsigned instructions);
+
 /* --- target.c --- */
-struct trax_tm *trax_gdb_tm(const struct trax_gdb *gdb, uint32_t thread);
-struct trax_tp *trax_gdb_tp(const struct trax_gdb *gdb, uint32_t thread);
+uint32_t trax_gdb_pc(const struct trax_gdb *gdb, uint32_t thread);
 bool trax_gdb_is_alive(const struct trax_gdb *gdb, uint32_t thread);
 /* number is the debugger's (registers.h). */
 uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number);

@@ -14,17 +14,13 @@ static const char *const role_names[TRAX_NUM_REGISTERS] = {TRAX_GDB_ROLES(ROLE_N
 
 /* --- threads --- */
 
-struct trax_tm *trax_gdb_tm(const struct trax_gdb *gdb, uint32_t thread) {
-  return &gdb->chip->tm[thread / gdb->tps];
-}
-
-struct trax_tp *trax_gdb_tp(const struct trax_gdb *gdb, uint32_t thread) {
-  return &trax_gdb_tm(gdb, thread)->tp[thread % gdb->tps];
-}
-
 bool trax_gdb_is_alive(const struct trax_gdb *gdb, uint32_t thread) {
-  const struct trax_tm *tm = trax_gdb_tm(gdb, thread);
-  return !(tm->ended >> thread % gdb->tps & 1) || (tm->fault.kind && tm->fault.thread == thread);
+  const struct trax_fault *fault = &gdb->machine->fault;
+  return !trax_run_thread(gdb->run, thread).ended || (fault->kind && fault->thread == thread);
+}
+
+uint32_t trax_gdb_pc(const struct trax_gdb *gdb, uint32_t thread) {
+  return trax_run_thread(gdb->run, thread).pc;
 }
 
 void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *name, size_t size) {
@@ -34,29 +30,23 @@ void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *nam
 /* --- registers --- */
 
 uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number) {
-  const struct trax_tp *tp = trax_gdb_tp(gdb, thread);
+  const struct trax_thread state = trax_run_thread(gdb->run, thread);
   if (number == TRAX_GDB_PC)
-    return gdb->ahead && thread == gdb->stopped ? gdb->ahead_pc : tp->pc;
+    return gdb->ahead && thread == gdb->stopped ? gdb->ahead_pc : state.pc;
   const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
-  return own ? tp->reg[own] : 0;
+  return own ? state.reg[own] : 0;
 }
 
 /* The thread goes on somewhere else: what it has fetched is of no use. */
 static bool set_pc(struct trax_gdb *gdb, uint32_t thread, uint32_t pc) {
-  struct trax_tm *tm = trax_gdb_tm(gdb, thread);
-  struct trax_tp *tp = trax_gdb_tp(gdb, thread);
-  const uint64_t bit = (uint64_t)1 << thread % gdb->tps;
-  const struct trax_decoded *inst = trax_text_at(&gdb->chip->text, pc);
-  if (inst->ask == TRAX_ASK_OUTSIDE)
+  if (trax_text_at(&gdb->run->text, pc)->ask == TRAX_ASK_OUTSIDE)
     return false;
   gdb->thread[thread].passed = 0;
   if (thread == gdb->stopped)
     gdb->ahead = 0;
-  if (pc == tp->pc)
+  if (pc == trax_gdb_pc(gdb, thread))
     return true;
-  tp->pc = pc;
-  tp->inst = inst;
-  tm->holding &= ~(bit & tm->awake);
+  gdb->run->engine->set_pc(gdb->run->chip, thread, pc);
   gdb->thread[thread].told = true;
   return true;
 }
@@ -69,7 +59,7 @@ bool trax_gdb_set_register(struct trax_gdb *gdb, uint32_t thread, unsigned numbe
     return set_pc(gdb, thread, value);
   const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
   if (own)
-    trax_gdb_tp(gdb, thread)->reg[own] = value;
+    trax_run_thread(gdb->run, thread).reg[own] = value;
   return own || !value;
 }
 
@@ -79,7 +69,7 @@ size_t trax_gdb_memory(const struct trax_gdb *gdb, uint32_t thread, uint32_t add
   const struct trax_space *space = &gdb->machine->space;
   uint64_t end = space->size;
   if (address >= TRAX_LOCAL_BASE) {
-    *bytes = trax_gdb_tp(gdb, thread)->local + (address - TRAX_LOCAL_BASE);
+    *bytes = trax_run_thread(gdb->run, thread).local + (address - TRAX_LOCAL_BASE);
     end = (uint64_t)TRAX_LOCAL_BASE + TRAX_LOCAL_SIZE;
   } else if (address >= TRAX_NULL_END && address < end) {
     *bytes = space->bytes + address;
@@ -95,8 +85,8 @@ bool trax_gdb_write_memory(struct trax_gdb *gdb, uint32_t thread, uint32_t addre
     return true;
   if (gdb->over || trax_gdb_memory(gdb, thread, address, size, &place) != size)
     return false;
-  for (size_t i = 0; i < gdb->chip->text.count; i++) {
-    const struct trax_text_section *section = &gdb->chip->text.sections[i];
+  for (size_t i = 0; i < gdb->run->text.count; i++) {
+    const struct trax_text_section *section = &gdb->run->text.sections[i];
     if (address < section->end && (uint64_t)address + size > section->begin)
       return false;
   }

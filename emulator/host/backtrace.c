@@ -56,7 +56,7 @@ struct place {
 };
 
 struct places { /* looked up once each: many threads are at few */
-  const struct trax_chip *chip;
+  const struct trax_run *run;
   struct place *known;
   size_t count, capacity;
   bool exhausted; /* no memory */
@@ -80,7 +80,7 @@ static const char *place_text(struct places *places, uint32_t pc) {
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (out) {
-    print_place(trax_host_of(places->chip->machine), pc, out);
+    print_place(trax_host_of(places->run->machine), pc, out);
     fclose(out);
   }
   if (!text) {
@@ -98,30 +98,24 @@ static void forget_places(struct places *places) {
 }
 
 static void print_chain(struct places *places, uint32_t thread, FILE *out) {
-  const struct trax_chip *chip = places->chip;
-  const uint32_t tps = chip->tm[0].tps;
-  const struct trax_tp *tp = &chip->tm[thread / tps].tp[thread % tps];
-  const struct trax_host *host = trax_host_of(chip->machine);
-  struct trax_frame frame = {.pc = tp->pc};
-  const struct trax_thread_memory memory = {&chip->machine->space, tp->local};
+  const struct trax_run *run = places->run;
+  const struct trax_thread state = trax_run_thread(run, thread);
+  const struct trax_host *host = trax_host_of(run->machine);
+  struct trax_frame frame = {.pc = state.pc};
+  const struct trax_thread_memory memory = {&run->machine->space, state.local};
   uint32_t callers[DEPTH];
   enum trax_unwound last = TRAX_OUTERMOST;
-  memcpy(frame.registers, tp->reg, sizeof frame.registers);
+  memcpy(frame.registers, state.reg, sizeof frame.registers);
   const size_t count = host ? trax_callers(host->image, &frame, &memory, callers, DEPTH, &last) : 0;
-  fprintf(out, "%s\n", place_text(places, tp->pc));
+  fprintf(out, "%s\n", place_text(places, state.pc));
   for (size_t i = 0; i < count; ++i)
     fprintf(out, "    called by %s\n", place_text(places, callers[i]));
   if (last == TRAX_UNWOUND)
     fprintf(out, "    called by ...\n");
 }
 
-static bool has_ended(const struct trax_chip *chip, uint32_t thread) {
-  const uint32_t tps = chip->tm[0].tps;
-  return chip->tm[thread / tps].ended >> thread % tps & 1;
-}
-
-void trax_print_backtrace(const struct trax_chip *chip, uint32_t thread, FILE *out) {
-  struct places places = {.chip = chip};
+void trax_print_backtrace(const struct trax_run *run, uint32_t thread, FILE *out) {
+  struct places places = {.run = run};
   print_chain(&places, thread, out);
   forget_places(&places);
 }
@@ -201,13 +195,13 @@ static void print_groups(struct groups *groups, FILE *out) {
     fprintf(out, "out of memory: this is not all\n");
 }
 
-void trax_print_threads(const struct trax_chip *chip, FILE *out) {
-  struct groups groups = {.places.chip = chip, .threads = chip->tms * chip->tm[0].tps};
+void trax_print_threads(const struct trax_run *run, FILE *out) {
+  struct groups groups = {.places.run = run, .threads = (uint32_t)run->machine->stats.threads};
   groups.group = calloc(groups.threads, sizeof *groups.group);
   groups.of = calloc(groups.threads, sizeof *groups.of);
   if (groups.group && groups.of) {
     for (uint32_t thread = 0; thread < groups.threads; ++thread)
-      if (has_ended(chip, thread)) {
+      if (trax_run_thread(run, thread).ended) {
         groups.of[thread] = NO_GROUP;
         groups.ended++;
       } else {

@@ -2,7 +2,7 @@
 #ifndef TRAX_HOST_BACKTRACE_H
 #define TRAX_HOST_BACKTRACE_H
 
-#include "fast/chip.h"
+#include "engine/run.h"
 #include "unwind.h"
 
 struct trax_host;
@@ -22,16 +22,16 @@ struct trax_thread_memory {
 size_t trax_callers(const trax_image *image, struct trax_frame *frame, const struct trax_thread_memory *memory,
                     uint32_t *places, size_t capacity, enum trax_unwound *last);
 
-/* The chain of a thread of a machine that is all in the core's structures (trax_chip_gather), one row a frame. */
-void trax_print_backtrace(const struct trax_chip *chip, uint32_t thread, FILE *out);
+/* The chain of a thread, after trax_run_export, one row a frame. */
+void trax_print_backtrace(const struct trax_run *run, uint32_t thread, FILE *out);
 /* Of all threads: how many are where, most first, and which. */
-void trax_print_threads(const struct trax_chip *chip, FILE *out);
+void trax_print_threads(const struct trax_run *run, FILE *out);
 
 /* --- post_mortem.c: the same when a run has ended --- */
 
 struct trax_post_mortem;
 
-/* Before the run, which the fast or the functional engine must do. It is made up if `always`, or if the run was
+/* Before the run. It is made up if `always`, or if the run was
    interrupted by SIGQUIT, which *interrupt then is. */
 struct trax_post_mortem *trax_post_mortem_create(trax_machine *machine, const volatile int *interrupt, bool always,
                                                  trax_error *error);

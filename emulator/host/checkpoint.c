@@ -1,15 +1,14 @@
 /* A checkpoint's file, all numbers little endian:
 
      struct header
-     deflate stream (zlib) of: the state (fast/state.c); then pages of memory that are not as they were before cycle 0,
-     each with its number in 4 bytes before it
+     deflate stream (zlib) of: the state (engine/engine.h, "Checkpoints"); then pages of memory that are not as they
+   were before cycle 0, each with its number in 4 bytes before it
 
    Before cycle 0, memory holds the program and its buffers. So a checkpoint needs both again, and is only taken up by a
    machine that is the same then: the header has a digest of configuration and memory. */
 #include "checkpoint.h"
 
-#include "fast/chip.h"
-#include "fast/state.h"
+#include "engine/run.h"
 #include "trax/output.h"
 
 #include <errno.h>
@@ -172,17 +171,18 @@ static trax_status write_file(const char *path, const struct header *header, con
   return trax_output_commit(&output, error);
 }
 
-static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct trax_chip *chip, uint64_t t,
+static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct trax_run *run, uint64_t t,
                                     trax_error *error) {
   struct content content = {.checkpoint = checkpoint};
-  trax_chip_gather(chip);
-  trax_chip_settle(chip, t);
-  if (chip->tm->output)
-    fflush(chip->tm->output); /* it is of the time before */
-  trax_state_visit(chip, add_piece, &content);
-  struct header header = {.version = VERSION, .cycle = t, .state = content.count, .layout = trax_state_layout(chip)};
+  trax_run_export(run);
+  trax_run_settle(run, t);
+  if (run->options->output)
+    fflush(run->options->output); /* it is of the time before */
+  run->engine->visit(run->chip, add_piece, &content);
+  struct header header = {
+      .version = VERSION, .cycle = t, .state = content.count, .layout = run->engine->layout(run->chip)};
   memcpy(header.magic, magic, sizeof magic);
-  visit_pages(&chip->machine->space, add_page, &content);
+  visit_pages(&run->machine->space, add_page, &content);
   header.pages = content.pages;
   header.run[0] = checkpoint->run.low64;
   header.run[1] = checkpoint->run.high64;
@@ -211,20 +211,20 @@ static uint64_t next_time(const struct trax_checkpoint_options *options, uint64_
   return next;
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
   watch->next = next_time(&checkpoint->options, t);
-  if (t == chip->begin || write_checkpoint(checkpoint, chip, t, &checkpoint->error) == TRAX_OK)
+  if (t == run->begin || write_checkpoint(checkpoint, run, t, &checkpoint->error) == TRAX_OK)
     return TRAX_OK;
   checkpoint->failed = true;
   return TRAX_INTERRUPTED;
 }
 
 /* Whoever stops a run may want to go on with it. */
-static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t) {
+static void end(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
   if ((status == TRAX_INTERRUPTED || status == TRAX_STUCK) && !checkpoint->failed && checkpoint->written != t)
-    checkpoint->failed = write_checkpoint(checkpoint, chip, t, &checkpoint->error) != TRAX_OK;
+    checkpoint->failed = write_checkpoint(checkpoint, run, t, &checkpoint->error) != TRAX_OK;
 }
 
 /* --- reading --- */
@@ -311,29 +311,30 @@ static void take_piece(void *context, const char *name, void *bytes, size_t size
 }
 
 /* For trax_machine.prepare. */
-static trax_status resume(void *context, struct trax_chip *chip, trax_error *error) {
+static trax_status resume(void *context, struct trax_run *run, trax_error *error) {
   struct trax_checkpoint *checkpoint = context;
   const struct header *header = &checkpoint->header;
   struct reader reader = {checkpoint->content, header->state, false};
   char wrong[128];
-  if (header->layout != trax_state_layout(chip))
+  if (header->layout != run->engine->layout(run->chip))
     return refuse(checkpoint->options.resume,
                   "its state has another layout: it was written by another build of trax-sim", error);
-  trax_chip_gather(chip); /* nothing has run ahead */
-  trax_state_visit(chip, take_piece, &reader);
+  trax_run_export(run); /* nothing has run ahead */
+  run->engine->visit(run->chip, take_piece, &reader);
   if (reader.failed || reader.left)
     return refuse(checkpoint->options.resume, "its state is of another size", error);
   reader.left = (size_t)header->pages * (PAGE + sizeof(uint32_t));
   for (uint32_t i = 0; i < header->pages; i++) {
     uint32_t number = UINT32_MAX;
     take(&reader, &number, sizeof number);
-    if (number >= chip->machine->space.size / PAGE)
+    if (number >= run->machine->space.size / PAGE)
       return refuse(checkpoint->options.resume, "a page lies outside memory", error);
-    take(&reader, chip->machine->space.bytes + (size_t)number * PAGE, PAGE);
+    take(&reader, run->machine->space.bytes + (size_t)number * PAGE, PAGE);
   }
-  if (trax_state_check(chip, header->cycle, wrong))
+  if (run->engine->check(run->chip, header->cycle, wrong))
     return trax_fail(error, "%s: its state cannot be: %s", checkpoint->options.resume, wrong);
-  trax_state_taken(chip, header->cycle);
+  trax_run_import(run, header->cycle);
+  run->begin = header->cycle;
   free(checkpoint->content);
   checkpoint->content = NULL;
   return TRAX_OK;

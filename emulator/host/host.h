@@ -2,8 +2,8 @@
 #ifndef TRAX_HOST_HOST_H
 #define TRAX_HOST_HOST_H
 
-#include "machine/machine.h"
 #include "image.h"
+#include "machine/machine.h"
 
 struct trax_bound_buffer {
   char *symbol;

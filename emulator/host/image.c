@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "machine/address_space.h"
 #include "image_internal.h"
+#include "machine/address_space.h"
 #include "trax/abi.h"
 #include "trax/input.h"
 

@@ -102,7 +102,7 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
                                   .max_cycles = options->max_cycles,
                                   .total_items = options->total_items,
                                   .interrupt = &trax_signal,
-                                  .engine = options->engine,
+                                  .engine = options->engine->name,
                                   .host_threads = options->host_threads};
   if (line.terminal) {
     run_options.progress = trax_run_progress_show;
@@ -212,9 +212,9 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_machine_destroy(machine);
     return complain(&error);
   }
-  struct trax_post_mortem *post_mortem = NULL;
-  if (options->engine != TRAX_ENGINE_REFERENCE) /* NULL is found out when it is asked for */
-    post_mortem = trax_post_mortem_create(machine, &trax_signal, options->post_mortem != NULL, &error);
+  /* NULL is found out when it is asked for. */
+  struct trax_post_mortem *post_mortem =
+      trax_post_mortem_create(machine, &trax_signal, options->post_mortem != NULL, &error);
   status = run(machine, options, &error);
   int result = trax_machine_exit_status(machine) & 0xFF;
   switch (status) {

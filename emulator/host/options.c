@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engines.h"
 #include "trax/output.h"
 
 /* --- values --- */
@@ -54,14 +55,9 @@ static trax_status take_scene(void *target, const trax_option *option, const cha
 
 static trax_status take_engine(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_options *options = target;
-  if (strcmp(value, "reference") == 0)
-    options->engine = TRAX_ENGINE_REFERENCE;
-  else if (strcmp(value, "fast") == 0)
-    options->engine = TRAX_ENGINE_FAST;
-  else if (strcmp(value, "functional") == 0)
-    options->engine = TRAX_ENGINE_FUNCTIONAL;
-  else
-    return trax_option_refuse(option, value, error, "is none of fast, reference and functional%s",
+  trax_error reason;
+  if (trax_engine_find(value, &options->engine, &reason) != TRAX_OK)
+    return trax_option_refuse(option, value, error, "%s%s", reason.message,
                               strcmp(value, "sampled") == 0 ? "; for estimates use trax-render --sampled" : "");
   return TRAX_OK;
 }
@@ -202,13 +198,34 @@ static const trax_command command = {
 
 /* --- what goes together --- */
 
+static bool is_timed(const struct trax_engine *engine) {
+  return engine->is_timed;
+}
+
+static bool observes(const struct trax_engine *engine) {
+  return engine->is_observed;
+}
+
+static bool has_checkpoints(const struct trax_engine *engine) {
+  return engine->visit != NULL;
+}
+
+/* What needs an engine that can is wanted. */
+static trax_status need(const struct trax_options *options, bool (*can)(const struct trax_engine *engine),
+                        const char *what, trax_error *error) {
+  char names[128];
+  if (can(options->engine))
+    return TRAX_OK;
+  trax_engine_names(can, names, sizeof names);
+  return trax_fail(error, "%s the engine %s, not %s", what, names, options->engine->name);
+}
+
 /* What explains a run, and what it needs. */
 static trax_status check_explain(const struct trax_options *options, trax_error *error) {
   const struct trax_explain_options *explain = &options->explain;
   const bool windowed = explain->trace || explain->perfetto || explain->konata;
-  const bool exact = options->engine == TRAX_ENGINE_FAST || options->engine == TRAX_ENGINE_REFERENCE;
-  if (!exact && trax_explain_wanted(explain))
-    return trax_fail(error, "only the engines fast and reference know every cycle: there is nothing to explain");
+  if (trax_explain_wanted(explain) && need(options, observes, "a run is explained by", error) != TRAX_OK)
+    return TRAX_ERROR;
   if (options->checkpoint.resume && trax_explain_wanted(explain))
     return trax_fail(error, "--resume: what was before the checkpoint is not known, and the run cannot be explained");
   if ((explain->perfetto || explain->konata) && !explain->window_end)
@@ -226,15 +243,12 @@ static trax_status check_engine(const struct trax_options *options, trax_error *
   const struct trax_checkpoint_options *checkpoint = &options->checkpoint;
   if ((checkpoint->at || checkpoint->every) && !checkpoint->write)
     return trax_fail(error, "--checkpoint-at and --checkpoint-every need --checkpoint");
-  if ((checkpoint->write || checkpoint->resume) && options->engine != TRAX_ENGINE_FAST)
-    return trax_fail(error, "--checkpoint and --resume are for the fast engine");
-  if (options->watchdog && options->engine == TRAX_ENGINE_FUNCTIONAL)
-    return trax_fail(error, "--watchdog needs an engine with cycles, not functional");
-  if (options->post_mortem && options->engine != TRAX_ENGINE_FAST && options->engine != TRAX_ENGINE_FUNCTIONAL)
-    return trax_fail(error, "--post-mortem needs the fast or the functional engine");
-  if (options->gdb && options->engine != TRAX_ENGINE_FAST)
-    return trax_fail(error, "--gdb debugs in the fast engine, not in the one that --engine names");
-  return TRAX_OK;
+  if ((checkpoint->write || checkpoint->resume) &&
+      need(options, has_checkpoints, "--checkpoint and --resume are for", error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (options->watchdog && need(options, is_timed, "--watchdog needs", error) != TRAX_OK)
+    return TRAX_ERROR;
+  return options->gdb ? need(options, observes, "--gdb needs", error) : TRAX_OK;
 }
 
 /* No output may be what the run reads, and none is written twice. */
@@ -266,6 +280,7 @@ trax_status trax_options_check_outputs(const struct trax_options *options, trax_
 
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
   *options = (struct trax_options){0};
+  trax_engine_find(NULL, &options->engine, error);
   const trax_parsed parsed = trax_command_parse(&command, options, &count, arguments, error);
   if (parsed != TRAX_PARSED_RUN)
     return parsed;

@@ -25,7 +25,7 @@ struct trax_options {
   size_t assignment_count;
   uint64_t max_cycles, watchdog, total_items; /* 0: not given */
   struct trax_explain_options explain;
-  trax_engine engine;
+  const struct trax_engine *engine;
   unsigned host_threads; /* 0: not given */
   bool gdb;
   uint64_t gdb_port;

@@ -12,14 +12,14 @@ struct trax_post_mortem {
   char *text;
 };
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
-  (void)chip;
+static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+  (void)run;
   (void)t;
   watch->next = TRAX_NEVER; /* only the end matters */
   return TRAX_OK;
 }
 
-static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status status, uint64_t t) {
+static void end(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t) {
   struct trax_post_mortem *post_mortem = watch->context;
   size_t size;
   (void)t;
@@ -29,8 +29,8 @@ static void end(struct trax_watch *watch, struct trax_chip *chip, trax_status st
   FILE *out = open_memstream(&post_mortem->text, &size);
   if (!out)
     return;
-  trax_chip_gather(chip);
-  trax_print_threads(chip, out);
+  trax_run_export(run);
+  trax_print_threads(run, out);
   fclose(out);
 }
 

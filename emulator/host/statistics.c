@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "machine/energy.h"
 #include "host.h"
+#include "machine/energy.h"
 
 const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
 #define NAME(ID, NAME, MEANING) NAME,

@@ -1,5 +1,5 @@
-/* All statistics as one list, made from the tables of machine/stats.h: what trax_stats_get finds, the reports print, and
-   docs/emulator.md lists. */
+/* All statistics as one list, made from the tables of machine/stats.h: what trax_stats_get finds, the reports print,
+   and docs/emulator.md lists. */
 #ifndef TRAX_HOST_STATISTICS_H
 #define TRAX_HOST_STATISTICS_H
 

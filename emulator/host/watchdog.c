@@ -1,8 +1,7 @@
 #include "watchdog.h"
 
-#include "fast/chip.h"
+#include "engine/run.h"
 #include "host.h"
-#include "reference/reference.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -31,30 +30,21 @@ static void count(const struct trax_machine *machine, uint64_t *progress, uint64
     }
 }
 
-static void note_places(struct trax_watchdog *watchdog, struct trax_chip *chip) {
-  const uint32_t tps = chip->machine->config.chip.tps_per_tm;
-  trax_chip_gather(chip);
-  for (uint32_t tm = 0; tm < chip->tms; tm++)
-    for (uint32_t tp = 0; tp < tps; tp++)
-      watchdog->pc[tm * tps + tp] = chip->tm ? chip->tm[tm].tp[tp].pc : chip->reference->tm[tm].tp[tp].pc;
+static void note_places(struct trax_watchdog *watchdog, struct trax_run *run) {
+  trax_run_export(run);
+  for (uint32_t thread = 0; thread < run->machine->stats.threads; thread++)
+    watchdog->pc[thread] = trax_run_thread(run, thread).pc;
 }
 
-/* A resumed run has not counted what came before it, but the chip knows when that was. */
-static bool progressed_since(const struct trax_chip *chip, uint64_t t) {
-  for (uint32_t tm = 0; chip->tm && tm < chip->tms; tm++)
-    if (chip->tm[tm].progressed > t)
-      return true;
-  return false;
-}
-
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_watchdog *watchdog = watch->context;
-  const struct trax_machine *machine = chip->machine;
+  const struct trax_machine *machine = run->machine;
   const uint64_t cycles = watchdog->cycles, progress = watchdog->progress, issued = watchdog->issued;
-  trax_chip_settle(chip, t);
+  trax_run_settle(run, t);
   count(machine, &watchdog->progress, &watchdog->issued);
+  /* A resumed run has not counted what came before it, but the engine knows when that was. */
   watchdog->barked =
-      watchdog->progress == progress && t > chip->begin && t > cycles && !progressed_since(chip, t - cycles);
+      watchdog->progress == progress && t > run->begin && t > cycles && trax_run_progressed(run) <= t - cycles;
   if (!watchdog->barked) {
     memcpy(watchdog->charges, machine->tp_stats, machine->stats.threads * sizeof *watchdog->charges);
     watchdog->looked = t;
@@ -66,7 +56,7 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64
   for (uint64_t i = 0; i < machine->stats.threads; i++)
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       watchdog->charges[i].cycles[cause] = machine->tp_stats[i].cycles[cause] - watchdog->charges[i].cycles[cause];
-  note_places(watchdog, chip);
+  note_places(watchdog, run);
   return TRAX_STUCK;
 }
 

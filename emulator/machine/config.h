@@ -1,5 +1,5 @@
-/* The machine's configuration: a plain struct with one member per key of machine/config_keys.h. The key of a value is its
-   path in the struct ("memory.bandwidth_gbps"); emulator/host/config.c reads and prints keys. */
+/* The machine's configuration: a plain struct with one member per key of machine/config_keys.h. The key of a value is
+   its path in the struct ("memory.bandwidth_gbps"); emulator/host/config.c reads and prints keys. */
 #ifndef TRAX_MACHINE_CONFIG_H
 #define TRAX_MACHINE_CONFIG_H
 
@@ -30,8 +30,10 @@ struct trax_config {
 #define TRAX_CONFIG_NOTHING(SECTION)
 #define TRAX_CONFIG_INITIAL(SECTION, KEY, DEFAULT, ...) .SECTION.KEY = DEFAULT,
 #define TRAX_CONFIG_DEFAULT                                                                                            \
-  {TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,                \
-                    TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)}
+  {                                                                                                                    \
+    TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
+                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)                                                         \
+  }
 
 /* One row of the table, for code that goes through all keys. */
 struct trax_config_key {

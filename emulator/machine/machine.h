@@ -1,5 +1,5 @@
-/* One machine: memory, program, chip and the outcome of its run. Internal to the library; emulator/host adds the
-   program's symbols and buffers through the host members. */
+/* One machine: configuration, memory, program, those who watch it, and the outcome of its run. It knows no engine.
+   Internal to the library; emulator/host adds the program's symbols and buffers through the host members. */
 #ifndef TRAX_MACHINE_MACHINE_H
 #define TRAX_MACHINE_MACHINE_H
 
@@ -11,7 +11,7 @@
 #include "machine/stats.h"
 #include "trax/emulator.h"
 
-struct trax_chip;
+struct trax_run;
 struct trax_watch;
 
 struct trax_machine {
@@ -25,12 +25,12 @@ struct trax_machine {
   void *host;
   void (*host_destroy)(void *host);
 
-  struct trax_watch *watches; /* the first; NULL: none (fast/chip.h) */
+  struct trax_watch *watches; /* the first; NULL: none (machine/watch.h) */
 
   const struct trax_observer *observer; /* of the run; NULL: nobody (machine/observer.h) */
 
-  /* Called before the first cycle if not NULL: may bring the chip to where another run was (fast/state.h). */
-  trax_status (*prepare)(void *context, struct trax_chip *chip, trax_error *error);
+  /* Called before the first cycle if not NULL: may bring the run to where another one was (engine/engine.h). */
+  trax_status (*prepare)(void *context, struct trax_run *run, trax_error *error);
   void *prepare_context;
 
   /* The outcome; valid after trax_machine_run. */
@@ -44,7 +44,7 @@ struct trax_machine {
 
   struct trax_fast_path fast_path; /* no result: how the fast engine came by them */
 
-  struct trax_chip *chip; /* while it runs */
+  struct trax_run *run; /* while it runs; else NULL */
 };
 
 /* Makes [address, address + bytes) a segment of global memory; *host receives where its bytes, all zero, are. Errors:
@@ -56,6 +56,9 @@ trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry,
 
 /* Adds the counts that follow from the operations issued; done once, at the run's end. */
 void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config);
+/* After the run: sums up, and checks the rule of accounting, that every thread is charged every cycle once. charged:
+   for what it did; otherwise charges are estimates, or there are none. */
+trax_status trax_stats_collect(struct trax_machine *machine, bool charged, trax_error *error);
 
 /* The fault that ended the run; its kind is TRAX_FAULT_NONE if none did. */
 const struct trax_fault *trax_machine_fault(const struct trax_machine *machine);

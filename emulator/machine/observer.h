@@ -7,7 +7,7 @@
      that faults it does not come.
    - A TP's charges are stretches of cycles without gaps or overlaps, and come in the order of time: those before an
      issue come before it, those after it later. One stretch may come in several pieces. All that happened before cycle
-     t has been told when trax_chip_settle(chip, t) returns, hence at the run's end.
+     t has been told when trax_run_settle(run, t) returns, hence at the run's end.
    - The charges of different TPs come in any order; who wants the same from every engine acts on issues.
    - arrival comes when an atomic increment's old value is written to its register: in the order of (cycle, TM), and
      before the issues of its cycle in its TM.

@@ -121,3 +121,17 @@ const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t p
         return text->sections[i].decoded + (pc - text->sections[i].begin) / 4;
   return &outside;
 }
+
+trax_fault_kind trax_access_check(const struct trax_decoded *inst, const struct trax_space *space, uint32_t address) {
+  if (address >= TRAX_LOCAL_BASE && !inst->is_atomic)
+    return address & (inst->bytes - 1u) ? TRAX_FAULT_MISALIGNED : TRAX_FAULT_NONE;
+  return trax_space_check(space, address, inst->bytes, inst->is_store || inst->is_atomic);
+}
+
+void trax_fault_record(struct trax_fault *fault, const struct trax_space *space, const struct trax_decoded *inst,
+                       trax_fault_kind kind, uint32_t pc, uint32_t address) {
+  *fault = (struct trax_fault){
+      .kind = kind, .address = address, .bytes = inst->bytes, .write = inst->is_store || inst->is_atomic, .pc = pc};
+  if (inst->ask != TRAX_ASK_OUTSIDE)
+    memcpy(&fault->word, space->bytes + pc, sizeof fault->word);
+}

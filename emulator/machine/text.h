@@ -54,6 +54,13 @@ trax_status trax_text_create(struct trax_text *text, const struct trax_space *sp
                              trax_error *error);
 void trax_text_destroy(struct trax_text *text);
 
+/* Whether the access of an instruction to its address is allowed. */
+trax_fault_kind trax_access_check(const struct trax_decoded *inst, const struct trax_space *space, uint32_t address);
+
+/* Notes the fault of an instruction; who and when, registers and local memory are left to the engine. */
+void trax_fault_record(struct trax_fault *fault, const struct trax_space *space, const struct trax_decoded *inst,
+                       trax_fault_kind kind, uint32_t pc, uint32_t address);
+
 /* The instruction at pc; one that is TRAX_ASK_OUTSIDE if there is none. Following it up to the first one outside is
    allowed: consecutive instructions are consecutive in memory. */
 const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t pc);

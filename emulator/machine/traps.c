@@ -1,11 +1,11 @@
 #include "machine/traps.h"
 
-#include "fast/ahead.h"
-#include "fast/tm.h"
-
 #include <string.h>
 
-trax_fault_kind trax_put_string(const struct trax_space *space, const uint8_t *local, uint32_t address, FILE *output) {
+/* Writes the string at a global address, or in a thread's local memory. Gives the fault if the string leaves memory;
+   then nothing is written. */
+static trax_fault_kind put_string(const struct trax_space *space, const uint8_t *local, uint32_t address,
+                                  FILE *output) {
   const char *text, *end;
   if (address >= TRAX_LOCAL_BASE) {
     text = (const char *)local + (address - TRAX_LOCAL_BASE);
@@ -27,34 +27,23 @@ trax_fault_kind trax_put_string(const struct trax_space *space, const uint8_t *l
   return TRAX_FAULT_NONE;
 }
 
-bool trax_trap(struct trax_tm *tm, unsigned tp, uint32_t value, int32_t code, uint64_t t) {
-  trax_fault_kind fault = TRAX_FAULT_NONE;
-  if (tm->ahead && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS)) {
-    tm->ahead->stop = true; /* output is in the order of all threads */
-    return true;
-  }
+trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, struct trax_tm_stats *stats,
+                          FILE *output, uint32_t value, int32_t code) {
   switch (code) {
-  case TRAX_TRAP_EXIT:
-    trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);
-    break;
   case TRAX_TRAP_PUTC:
-    if (tm->output)
-      fputc((int)(value & 0xFF), tm->output);
+    if (output)
+      fputc((int)(value & 0xFF), output);
     break;
   case TRAX_TRAP_ABORT:
-    fault = TRAX_FAULT_ABORT;
-    break;
+    return TRAX_FAULT_ABORT;
   case TRAX_TRAP_RAYS:
-    tm->stats->rays += value;
+    stats->rays += value;
     break;
   case TRAX_TRAP_ITEMS:
-    tm->stats->items += value;
+    stats->items += value;
     break;
   case TRAX_TRAP_PUTS:
-    fault = trax_put_string(&tm->machine->space, tm->tp[tp].local, value, tm->output);
-    break;
+    return put_string(space, local, value, output);
   }
-  if (fault)
-    trax_tm_fault(tm, tp, t, fault, value);
-  return !fault;
+  return TRAX_FAULT_NONE;
 }

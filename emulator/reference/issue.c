@@ -44,25 +44,9 @@ static void end(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t status)
 }
 
 static trax_fault_kind trap(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t value, uint32_t code) {
-  switch (code) {
-  case TRAX_TRAP_EXIT:
-    end(tm, tp, value);
-    break;
-  case TRAX_TRAP_PUTC:
-    if (tm->output)
-      fputc((int)(value & 0xFF), tm->output);
-    break;
-  case TRAX_TRAP_ABORT:
-    return TRAX_FAULT_ABORT;
-  case TRAX_TRAP_RAYS:
-    tm->stats->rays += value;
-    break;
-  case TRAX_TRAP_ITEMS:
-    tm->stats->items += value;
-    break;
-  case TRAX_TRAP_PUTS:
-    return trax_put_string(&tm->machine->space, tp->local, value, tm->output);
-  }
+  if (code != TRAX_TRAP_EXIT)
+    return trax_trap(&tm->machine->space, tp->local, tm->stats, tm->output, value, (int32_t)code);
+  end(tm, tp, value);
   return TRAX_FAULT_NONE;
 }
 

@@ -1,8 +1,7 @@
 /* docs/timing.md, "The machine", "Start and end", "A cycle". */
 #include "reference/run.h"
 
-#include "fast/chip.h"
-#include "engine/poll.h"
+#include "engine/run.h"
 #include "reference/reference.h"
 
 #include <stdlib.h>
@@ -28,18 +27,25 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   return complete;
 }
 
-static trax_status create(struct trax_ref_chip *chip, struct trax_machine *machine, FILE *output, trax_error *error) {
+static trax_status create(struct trax_run *run, trax_error *error) {
+  struct trax_machine *machine = run->machine;
+  struct trax_ref_chip *chip = run->chip = calloc(1, sizeof *chip);
+  if (!chip)
+    return trax_fail(error, "out of memory");
   *chip = (struct trax_ref_chip){
       .machine = machine, .tms = machine->config.chip.tms, .config = &machine->config, .stats = &machine->stats.memory};
   trax_ref_controller_create(&chip->controller, &machine->config);
   chip->tm = calloc(chip->tms, sizeof *chip->tm);
   bool complete = chip->tm && trax_ref_l2_create(&chip->l2, &machine->config);
   for (uint32_t i = 0; complete && i < chip->tms; i++)
-    complete = create_tm(&chip->tm[i], i, machine, output);
+    complete = create_tm(&chip->tm[i], i, machine, run->options->output);
   return complete ? TRAX_OK : trax_fail(error, "out of memory");
 }
 
-static void destroy(struct trax_ref_chip *chip) {
+static void destroy(void *context) {
+  struct trax_ref_chip *chip = context;
+  if (!chip)
+    return;
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++) {
     trax_ref_lines_destroy(&chip->tm[i].dcache);
     for (uint32_t icache = 0; icache < MOST; icache++)
@@ -48,6 +54,7 @@ static void destroy(struct trax_ref_chip *chip) {
   }
   trax_ref_l2_destroy(&chip->l2);
   free(chip->tm);
+  free(chip);
 }
 
 /* Every thread has ended, no request waits, and the buses are idle. */
@@ -83,38 +90,51 @@ static void cycle(struct trax_ref_chip *chip, uint64_t t) {
   trax_ref_controller_cycle(chip, t);
 }
 
-static trax_status run(struct trax_ref_chip *chip, const trax_run_options *options, uint64_t *t) {
-  struct trax_chip shown = {.machine = chip->machine, .tms = chip->tms, .reference = chip}; /* to watches */
-  uint64_t watched = 0;
-  struct trax_poll poll;
-  trax_poll_begin(&poll, chip->machine, options);
-  for (*t = 0; !is_over(chip, *t); ++*t) {
-    const trax_status status = *t < watched ? TRAX_OK : trax_chip_look(&shown, *t, &watched);
-    if (status)
-      return status;
-    if (options->max_cycles && *t >= options->max_cycles)
-      return TRAX_STUCK;
-    if (trax_poll(&poll, *t))
-      return TRAX_INTERRUPTED;
-    cycle(chip, *t);
-    if (chip->machine->fault.kind) {
-      ++*t;
-      return TRAX_FAULT;
-    }
+static enum trax_advance advance(void *chip, uint64_t *t, uint64_t until) {
+  enum { CYCLES = 64 }; /* in a call */
+  const struct trax_ref_chip *it = chip;
+  for (unsigned i = 0; i < CYCLES && *t < until; i++) {
+    cycle(chip, (*t)++);
+    if (it->machine->fault.kind)
+      return TRAX_HAS_FAULTED;
+    if (is_over(chip, *t))
+      return TRAX_HAS_ENDED;
   }
-  return TRAX_OK;
+  return TRAX_GOES_ON;
 }
 
-uint32_t trax_reference_queued(const struct trax_ref_chip *chip, uint32_t tm) {
+/* --- for those who look at the machine --- */
+
+static struct trax_ref_tp *tp_of(void *context, uint32_t number) {
+  const struct trax_ref_chip *chip = context;
+  return &chip->tm[number / chip->tm->tps].tp[number % chip->tm->tps];
+}
+
+static struct trax_thread thread(void *chip, uint32_t number) {
+  struct trax_ref_tp *tp = tp_of(chip, number);
+  return (struct trax_thread){tp->reg, tp->local, tp->pc, tp->ended};
+}
+
+static void set_pc(void *chip, uint32_t number, uint32_t pc) {
+  tp_of(chip, number)->pc = pc;
+  tp_of(chip, number)->holds = false;
+}
+
+static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
+  const struct trax_ref_chip *chip = context;
+  (void)t;
   return chip->tm[tm].places;
 }
 
-trax_status trax_reference_run(struct trax_machine *machine, const trax_run_options *options, uint64_t *cycles,
-                               trax_error *error) {
-  struct trax_ref_chip chip;
-  trax_status status = create(&chip, machine, options->output, error);
-  if (status == TRAX_OK)
-    status = run(&chip, options, cycles);
-  destroy(&chip);
-  return status;
-}
+const struct trax_engine trax_reference_engine = {
+    .name = "reference",
+    .meaning = "docs/timing.md as a program: the same, many times slower",
+    .is_timed = true,
+    .is_observed = true,
+    .create = create,
+    .destroy = destroy,
+    .advance = advance,
+    .thread = thread,
+    .set_pc = set_pc,
+    .queued = queued,
+};

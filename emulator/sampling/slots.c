@@ -13,6 +13,7 @@
 #include "sampling/estimate.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -38,7 +39,7 @@ enum {
 };
 
 struct trax_slots {
-  struct trax_chip *chip;
+  struct trax_run *run;
   struct trax_watch watch;
   trax_slot_sampling asked;
   uint64_t random;
@@ -71,20 +72,20 @@ struct trax_slots {
 /* --- counts --- */
 
 static void read_counts(const struct trax_slots *slots, uint64_t *words) {
-  const struct trax_machine *machine = slots->chip->machine;
+  const struct trax_machine *machine = slots->run->machine;
   memcpy(words, machine->tm_stats, slots->tp_words * sizeof *words);
   memcpy(words + slots->tp_words, machine->tp_stats, (slots->memory_words - slots->tp_words) * sizeof *words);
   memcpy(words + slots->memory_words, &machine->stats.memory, sizeof machine->stats.memory);
 }
 
 static void begin_counts(struct trax_slots *slots, uint64_t t) {
-  trax_chip_settle(slots->chip, t);
+  trax_run_settle(slots->run, t);
   read_counts(slots, slots->before);
   slots->counted = t;
 }
 
 static void add_exact_counts(struct trax_slots *slots, uint64_t t) {
-  trax_chip_settle(slots->chip, t);
+  trax_run_settle(slots->run, t);
   read_counts(slots, slots->now);
   for (size_t i = 0; i < slots->words; i++)
     slots->exact[i] += slots->now[i] - slots->before[i];
@@ -92,7 +93,7 @@ static void add_exact_counts(struct trax_slots *slots, uint64_t t) {
 }
 
 static void add_unit_counts(struct trax_slots *slots, double weight, uint64_t t) {
-  trax_chip_settle(slots->chip, t);
+  trax_run_settle(slots->run, t);
   read_counts(slots, slots->now);
   for (size_t i = 0; i < slots->words; i++)
     slots->measured[i] += weight * (double)(slots->now[i] - slots->before[i]);
@@ -202,7 +203,8 @@ static trax_status plan(struct trax_slots *slots, uint32_t threads, trax_error *
   asked->unit = rounded_up(asked->unit ? asked->unit : unit > LEAST_UNIT ? unit : LEAST_UNIT, asked->block);
   asked->warm_up = rounded_up(asked->warm_up ? asked->warm_up : WARM_UP_ROUNDS * (uint64_t)threads, asked->block);
   asked->seed = asked->seed ? asked->seed : 1;
-  slots->random = scrambled(asked->seed << 32 | slots->chip->tms << 16 | threads); /* chips choose differently */
+  slots->random = scrambled(asked->seed << 32 | slots->run->machine->config.chip.tms << 16 |
+                            threads); /* chips choose differently */
   slots->first = rounded_up(asked->warm_up > unit ? asked->warm_up : unit, asked->block);
   const uint64_t end = place_with(asked, asked->warm_up + (uint64_t)threads), ends = slots->first + asked->slots - end;
   if (asked->fraction >= 1 || ends >= asked->slots)
@@ -233,13 +235,13 @@ static trax_status plan(struct trax_slots *slots, uint32_t threads, trax_error *
 /* --- phases --- */
 
 static void set_counters(struct trax_slots *slots, uint32_t place, uint64_t t) {
-  struct trax_chip *chip = slots->chip;
-  trax_chip_gather(chip);
+  struct trax_run *run = slots->run;
+  trax_run_export(run);
   for (uint32_t queue = 0; queue < slots->asked.queues; queue++) {
     const uint32_t value = handed_out(&slots->asked, queue, place);
-    memcpy(chip->machine->space.bytes + slots->asked.counter + 4 * queue, &value, sizeof value);
+    memcpy(run->machine->space.bytes + slots->asked.counter + 4 * queue, &value, sizeof value);
   }
-  trax_chip_scatter(chip, t);
+  trax_run_import(run, t);
 }
 
 /* The place. A counter goes on where its queue is empty. */
@@ -248,7 +250,7 @@ static uint32_t read_counters(const struct trax_slots *slots) {
   for (uint32_t queue = 0; queue < slots->asked.queues; queue++) {
     const uint32_t most = queue_slots(&slots->asked, queue);
     uint32_t value;
-    memcpy(&value, slots->chip->machine->space.bytes + slots->asked.counter + 4 * queue, sizeof value);
+    memcpy(&value, slots->run->machine->space.bytes + slots->asked.counter + 4 * queue, sizeof value);
     sum += value < most ? value : most;
   }
   return sum;
@@ -335,10 +337,10 @@ static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
   }
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_slots *slots = watch->context;
   uint32_t n = read_counters(slots);
-  (void)chip;
+  (void)run;
   while (n >= slots->target) { /* it was passed between the last look and this one, at an even pace */
     const double share = (double)(slots->target - slots->seen) / (n - slots->seen);
     const double at = (double)slots->seen_at + share * (double)(t - slots->seen_at);
@@ -399,18 +401,19 @@ static trax_status check(const trax_slot_sampling *asked, const struct trax_mach
   return TRAX_OK;
 }
 
-struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sampling *sampling, trax_error *error) {
-  const uint32_t threads = trax_chip_running(chip);
-  if (check(sampling, chip->machine, error))
+struct trax_slots *trax_slots_create(struct trax_run *run, const trax_slot_sampling *sampling, trax_error *error) {
+  struct trax_machine *machine = run->machine;
+  const uint32_t threads = (uint32_t)machine->stats.threads;
+  if (check(sampling, machine, error))
     return NULL;
   struct trax_slots *slots = calloc(1, sizeof *slots);
   if (!slots) {
     trax_fail(error, "out of memory");
     return NULL;
   }
-  slots->chip = chip;
+  slots->run = run;
   slots->asked = *sampling;
-  slots->tp_words = chip->tms * (size_t)TM_WORDS;
+  slots->tp_words = machine->config.chip.tms * (size_t)TM_WORDS;
   slots->memory_words = slots->tp_words + (size_t)threads * TRAX_CAUSE_COUNT;
   slots->words = slots->memory_words + MEMORY_WORDS;
   slots->counts = calloc(3 * slots->words, sizeof *slots->counts);
@@ -426,14 +429,14 @@ struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sam
   slots->exact = slots->now + slots->words;
   slots->target = slots->first;
   slots->watch = (struct trax_watch){.next = slots->units ? LEAST_STEP : TRAX_NEVER, .look = look, .context = slots};
-  trax_machine_watch(chip->machine, &slots->watch);
+  trax_machine_watch(machine, &slots->watch);
   return slots;
 }
 
 void trax_slots_destroy(struct trax_slots *slots) {
   if (!slots)
     return;
-  trax_machine_unwatch(slots->chip->machine, &slots->watch);
+  trax_machine_unwatch(slots->run->machine, &slots->watch);
   free(slots->sizes);
   free(slots->draws);
   free(slots->ratios);
@@ -444,11 +447,11 @@ void trax_slots_destroy(struct trax_slots *slots) {
 
 /* The counts of the whole run: those of beginning and end, and of the units as many times as these stand for. */
 static void estimate_counts(struct trax_slots *slots, double cycles) {
-  struct trax_machine *machine = slots->chip->machine;
+  struct trax_machine *machine = slots->run->machine;
   const double factor = (cycles - (double)slots->exact_counted) / slots->measured_counted;
   double charges[TRAX_CAUSE_COUNT];
 #define ESTIMATE(i) ((double)slots->exact[i] + factor * slots->measured[i])
-  for (uint32_t i = 0; i < slots->chip->tms; i++) {
+  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++) {
     const uint64_t queue_peak = machine->tm_stats[i].queue_peak;
     for (size_t j = 0; j < TM_WORDS; j++)
       ((uint64_t *)&machine->tm_stats[i])[j] = (uint64_t)llround(ESTIMATE(i * (size_t)TM_WORDS + j));
@@ -467,18 +470,19 @@ static void estimate_counts(struct trax_slots *slots, double cycles) {
 /* Makes the sum over the TMs what it is known to be, the shares of the TMs staying about what they are. */
 static void set_total(struct trax_slots *slots, size_t offset, uint64_t total) {
   uint64_t sum = 0, given = 0;
-  for (uint32_t i = 0; i < slots->chip->tms; i++)
-    sum += ((const uint64_t *)&slots->chip->machine->tm_stats[i])[offset];
-  for (uint32_t i = 0; i < slots->chip->tms && total; i++) {
-    uint64_t *value = &((uint64_t *)&slots->chip->machine->tm_stats[i])[offset];
-    *value = i + 1 == slots->chip->tms ? total - given
-                                       : (uint64_t)((double)*value / (double)(sum ? sum : 1) * (double)total);
+  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++)
+    sum += ((const uint64_t *)&slots->run->machine->tm_stats[i])[offset];
+  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms && total; i++) {
+    uint64_t *value = &((uint64_t *)&slots->run->machine->tm_stats[i])[offset];
+    *value = i + 1 == slots->run->machine->config.chip.tms
+                 ? total - given
+                 : (uint64_t)((double)*value / (double)(sum ? sum : 1) * (double)total);
     given += *value;
   }
 }
 
 trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *error) {
-  struct trax_machine *machine = slots->chip->machine;
+  struct trax_machine *machine = slots->run->machine;
   struct trax_sampling_stats *stats = &machine->stats.sampling;
   *stats = (struct trax_sampling_stats){.is_sampled = true,
                                         .predicted = slots->asked.costs ? cost_before(slots, slots->asked.slots) : 0,
@@ -487,7 +491,7 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
                                         .high = (double)t,
                                         .detailed_cycles = t,
                                         .detailed_slots = slots->asked.slots};
-  for (uint32_t i = 0; i < slots->chip->tms; i++)
+  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++)
     for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
       stats->detailed_instructions += machine->tm_stats[i].instructions[op];
   if (!slots->units)

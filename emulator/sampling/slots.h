@@ -4,12 +4,12 @@
 #ifndef TRAX_SAMPLING_SLOTS_H
 #define TRAX_SAMPLING_SLOTS_H
 
-#include "fast/chip.h"
+#include "engine/run.h"
 
 struct trax_slots;
 
-/* Begins to watch the chip. NULL with the reason in *error: bad options, or out of memory. */
-struct trax_slots *trax_slots_create(struct trax_chip *chip, const trax_slot_sampling *sampling, trax_error *error);
+/* Begins to watch the run. NULL with the reason in *error: bad options, or out of memory. */
+struct trax_slots *trax_slots_create(struct trax_run *run, const trax_slot_sampling *sampling, trax_error *error);
 void trax_slots_destroy(struct trax_slots *slots); /* which may be NULL */
 
 /* After the run, whose counts are complete up to cycle t: makes the machine's statistics estimates of the whole run.

@@ -1,5 +1,6 @@
 #include "accuracy.h"
 
+#include "host/util.h"
 #include "machine/machine.h"
 #include "machine/special_latency.h"
 
@@ -166,7 +167,7 @@ static void show_step(void *context, const trax_progress *status) {
 
 /* A machine that has rendered the frame, and the picture. */
 static trax_status render(trax_machine **machine, struct trax_picture *picture, const struct trax_frame *frame,
-                          const struct trax_program *program, const trax_config *config, trax_engine engine,
+                          const struct trax_program *program, const trax_config *config, const char *engine,
                           struct step step, trax_error *error) {
   *machine = trax_machine_create(config, error);
   trax_status status = *machine ? trax_simulated_load(*machine, frame, program, error) : TRAX_ERROR;
@@ -282,14 +283,14 @@ trax_status trax_accuracy_measure(struct trax_accuracy_row *row, const struct tr
   if (status == TRAX_OK)
     status = chip_of(&config, variant, run, error);
   if (status == TRAX_OK)
-    status = render(&machine, &picture, frame, &measured, config, TRAX_ENGINE_FAST,
-                    (struct step){.run = run, .part = 0.75}, error);
+    status =
+        render(&machine, &picture, frame, &measured, config, "fast", (struct step){.run = run, .part = 0.75}, error);
   if (status == TRAX_OK)
     status = take_costs(row->figures, machine, &size, error);
   trax_machine_destroy(machine);
   machine = NULL;
   if (status == TRAX_OK)
-    status = render(&machine, &recorded, frame, &recording, config, TRAX_ENGINE_FUNCTIONAL,
+    status = render(&machine, &recorded, frame, &recording, config, "functional",
                     (struct step){.run = run, .before = 0.75, .part = 0.25}, error);
   if (status == TRAX_OK)
     status = check_recorded(row->figures, &picture, &recorded, &variant->method, error);

@@ -315,7 +315,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
                 .progress = trax_run_progress_show,
                 .progress_context = &shown,
                 .interrupt = interrupt,
-                .engine = options->engine == ENGINE_REFERENCE ? TRAX_ENGINE_REFERENCE : TRAX_ENGINE_FAST,
+                .engine = options->engine == ENGINE_REFERENCE ? "reference" : "fast",
                 .host_threads = options->threads}};
     if (options->cost_picture || options->cost_values) {
       run.costs = &costs;

@@ -195,7 +195,7 @@ refuse "cut.bin: truncated or damaged" --config 2x32 --resume cut.bin mix.elf
 refuse "none/c.bin: cannot be written" --checkpoint none/c.bin hello.elf
 refuse "need --checkpoint" --checkpoint-at 5 hello.elf
 refuse "need --checkpoint" --checkpoint-every 5 hello.elf
-refuse "are for the fast engine" --checkpoint c.bin --engine functional hello.elf
+refuse "are for the engine fast, not functional" --checkpoint c.bin --engine functional hello.elf
 
 # --- watchdog: the same from both engines
 for engine in fast reference; do
@@ -209,7 +209,7 @@ done
 run 124 --max-cycles 30000 --watchdog 10000 spin.elf # which counts items
 says "has not ended after 30000 cycles"
 run 3 --watchdog 10000 exit3.elf
-refuse "--watchdog needs an engine with cycles" --watchdog 5 --engine functional hello.elf
+refuse "--watchdog needs the engine fast or reference, not functional" --watchdog 5 --engine functional hello.elf
 refuse "--watchdog: '0' is not" --watchdog 0 hello.elf
 
 # --- outputs that cannot be written: said before the run, and nothing is left
@@ -247,8 +247,8 @@ refuse "two programs, hello.elf and exit3.elf" hello.elf exit3.elf
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: the value is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse "--engine: 'slow' is none of fast, reference and functional" --engine slow hello.elf
-refuse 'is none of fast, reference and functional; for estimates use trax-render --sampled' --engine sampled hello.elf
+refuse "--engine: 'slow' is not fast, reference or functional" --engine slow hello.elf
+refuse 'is not fast, reference or functional; for estimates use trax-render --sampled' --engine sampled hello.elf
 refuse '--sample has been removed; for estimates use trax-render --sampled' --sample window=100 hello.elf
 refuse '--bench-modes has been removed; run with --engine fast and --engine functional' --bench-modes hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf

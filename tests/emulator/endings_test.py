@@ -159,11 +159,11 @@ class PostMortem(unittest.TestCase):
                 figures.append({key: value for key, value in json.load(file).items() if "host_second" not in key})
         self.assertEqual(*figures)
 
-    def test_other_engines(self):
-        status, out, err = run("--post-mortem", "x.txt", "--engine", "reference", "mix.elf")
-        self.assertEqual(status, 1)
-        self.assertIn("--post-mortem needs the fast or the functional engine", err)
-        self.assertFalse(os.path.exists("x.txt"))
+    def test_every_engine_with_time(self):
+        for words in (("--max-cycles", "3000"), ("--watchdog", "500")):
+            texts = [self.groups("--config", "2x32", "--engine", engine, *words, build(2, "-O1", "-g")) for engine in ("fast", "reference")]
+            self.assertEqual(*texts)
+            self.assertEqual(texts[0][0], 124)
 
 
 def numbers_of(text):

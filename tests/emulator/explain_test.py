@@ -488,7 +488,7 @@ def main():
     refuse("--item-buffer without --items", "--item-buffer", "results")
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
     refuse("--resume: what was before the checkpoint is not known", "--resume", "x", "--trace", "t")
-    refuse("only the engines fast and reference know every cycle", "--engine", "functional", "--profile", "x")
+    refuse("a run is explained by the engine fast or reference, not functional", "--engine", "functional", "--profile", "x")
     for name in FILES:
         (directory / "full").mkdir(exist_ok=True)
         other = "heat" if name != "heat" else "annotate"

@@ -76,9 +76,11 @@ static bool violates_accounting(struct difference *to, const struct trax_machine
   return different_number(to, "charges, and threads x cycles", sum, machine->stats.threads * machine->stats.cycles);
 }
 
+const char *tested_engine = "fast";
+
 static void compare_engines(const struct random_case *c, struct comparison *to) {
   static const unsigned host_threads[] = {1, 2, 3, 8};
-  struct run reference = run(&c->config, c->words, c->count, TRAX_ENGINE_REFERENCE, true, c->max_cycles);
+  struct run reference = run(&c->config, c->words, c->count, "reference", true, c->max_cycles);
   const struct trax_machine *machine = reference.bench.machine;
   struct difference *difference = &to->difference;
   to->status = reference.bench.status;
@@ -88,14 +90,14 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
   bool different = to->status == TRAX_ERROR ? differs(difference, "error: %s", reference.bench.error.message)
                                             : violates_accounting(difference, machine);
   for (unsigned i = 0; !different && i < sizeof host_threads / sizeof *host_threads; i++) {
-    struct run fast = run_alone(&c->config, c->words, c->count, TRAX_ENGINE_FAST, c->max_cycles, host_threads[i]);
+    struct run fast = run_alone(&c->config, c->words, c->count, tested_engine, c->max_cycles, host_threads[i]);
     different = different_runs(difference, &reference, &fast);
     end(&fast);
     if (c->config.chip.tms == 1)
       break; /* more threads have nothing to do */
   }
   if (!different) {
-    struct run observed = run(&c->config, c->words, c->count, TRAX_ENGINE_FAST, true, c->max_cycles);
+    struct run observed = run(&c->config, c->words, c->count, tested_engine, true, c->max_cycles);
     (void)(different_issues(difference, &reference.bench.issues, &observed.bench.issues) ||
            different_runs(difference, &reference, &observed));
     end(&observed);
@@ -105,8 +107,8 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
 
 /* What does not depend on time. */
 static void compare_functional_mode(const struct random_case *c, struct comparison *to) {
-  struct run timed = run_alone(&c->config, c->words, c->count, TRAX_ENGINE_FAST, c->max_cycles, 1),
-             functional = run_alone(&c->config, c->words, c->count, TRAX_ENGINE_FUNCTIONAL, c->max_cycles, 1);
+  struct run timed = run_alone(&c->config, c->words, c->count, tested_engine, c->max_cycles, 1),
+             functional = run_alone(&c->config, c->words, c->count, "functional", c->max_cycles, 1);
   const struct trax_machine *x = timed.bench.machine, *y = functional.bench.machine;
   to->status = timed.bench.status;
   to->fault = x->fault.kind;

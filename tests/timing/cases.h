@@ -36,6 +36,9 @@ enum case_kind {
 };
 extern const char *const case_kind_names[CASE_KINDS];
 
+/* What is compared with the reference: the fast engine or a variant of it (host/engines.h). */
+extern const char *tested_engine;
+
 struct random_case case_of_seed(unsigned seed);
 struct comparison compare_case(const struct random_case *random_case);
 

@@ -59,7 +59,7 @@ static void each(size_t (*generate)(uint32_t *), unsigned rounds) {
     const size_t count = generate(program);
     const uint32_t tms = any(1, 4), tps = any(1, MAX_THREADS / tms > 64 ? 64 : MAX_THREADS / tms);
     const struct trax_config config = any_config(tms, tps);
-    struct run whole = run_alone(&config, program, count, TRAX_ENGINE_FAST, 0, 1);
+    struct run whole = run_alone(&config, program, count, "fast", 0, 1);
     const uint64_t cycles = whole.bench.machine->stats.cycles, at = any(1, (uint32_t)cycles);
     if (any(0, 3)) {
       struct run writing =
@@ -98,7 +98,7 @@ static void relay(void **state) {
   uint32_t program[BODY + 64];
   const size_t count = any_program(program);
   const struct trax_config config = any_config(2, 16);
-  struct run whole = run_alone(&config, program, count, TRAX_ENGINE_FAST, 0, 1);
+  struct run whole = run_alone(&config, program, count, "fast", 0, 1);
   const uint64_t cycles = whole.bench.machine->stats.cycles;
   struct trax_checkpoint_options options = {.write = path};
   unsigned legs = 0;
@@ -140,7 +140,7 @@ static void pending_increment(void **state) {
   program[count++] = I(LW, 6, 10, 0);
   program[count++] = S(SW, 6, 10, 128);
   program[count++] = HALT;
-  struct run whole = run_alone(&config, program, count, TRAX_ENGINE_REFERENCE, 0, 1);
+  struct run whole = run_alone(&config, program, count, "reference", 0, 1);
   const uint64_t cycles = whole.bench.machine->stats.cycles;
   for (uint64_t at = cycles - 900; at < cycles; at += 31) {
     struct run writing =

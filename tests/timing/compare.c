@@ -5,10 +5,10 @@
 #include <string.h>
 
 /* The counts between two cycles are complete: every thread is charged for all cycles before. */
-static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status look(struct trax_watch *watch, struct trax_run *it, uint64_t t) {
   struct run *run = watch->context;
-  const struct trax_machine *machine = chip->machine;
-  trax_chip_settle(chip, t);
+  const struct trax_machine *machine = it->machine;
+  trax_run_settle(it, t);
   for (uint64_t thread = 0; thread < machine->stats.threads; thread++) {
     uint64_t charged = 0;
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
@@ -17,7 +17,7 @@ static trax_status look(struct trax_watch *watch, struct trax_chip *chip, uint64
     }
     assert_int_equal(charged, t);
   }
-  for (uint32_t tm = 0; tm < chip->tms; tm++)
+  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++)
     for (size_t i = TRAX_CAUSE_COUNT; i < sizeof *run->looks / sizeof(uint64_t); i++)
       ((uint64_t *)&run->looks[run->look_count])[i] += ((const uint64_t *)&machine->tm_stats[tm])[i];
   watch->next = ++run->look_count < LOOKS ? t + LOOK_EVERY : TRAX_NEVER;
@@ -58,7 +58,7 @@ static struct run run_options(const struct trax_config *config, const uint32_t *
   return run;
 }
 
-struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, const char *engine,
                        bool traced, uint64_t max_cycles, struct trax_watch *other) {
   const trax_run_options options = {
       .max_cycles = max_cycles, .engine = engine, .host_threads = setting("TRAX_HOST_THREADS", 1)};
@@ -83,13 +83,13 @@ struct run run_with(const struct trax_config *config, const uint32_t *program, s
   return run_options(config, program, count, *options, false, false, NULL);
 }
 
-struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, const char *engine,
                      uint64_t max_cycles, unsigned host_threads) {
   const trax_run_options options = {.max_cycles = max_cycles, .engine = engine, .host_threads = host_threads};
   return run_options(config, program, count, options, false, false, NULL);
 }
 
-struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,
+struct run run(const struct trax_config *config, const uint32_t *program, size_t count, const char *engine, bool traced,
                uint64_t max_cycles) {
   return run_watched(config, program, count, engine, traced, max_cycles, NULL);
 }

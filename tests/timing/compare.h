@@ -2,7 +2,7 @@
 #ifndef TRAX_TIMING_COMPARE_H
 #define TRAX_TIMING_COMPARE_H
 
-#include "fast/chip.h"
+#include "engine/run.h"
 #include "generate.h"
 
 enum { LOOKS = 64, LOOK_EVERY = 61 };
@@ -19,12 +19,12 @@ struct run {
 
 /* Runs the words on the same random data each time, on TRAX_HOST_THREADS host threads (environment; 1). other may be
    NULL. */
-struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+struct run run_watched(const struct trax_config *config, const uint32_t *program, size_t count, const char *engine,
                        bool traced, uint64_t max_cycles, struct trax_watch *other);
-struct run run(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine, bool traced,
+struct run run(const struct trax_config *config, const uint32_t *program, size_t count, const char *engine, bool traced,
                uint64_t max_cycles);
 /* Nobody looks at it. */
-struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, trax_engine engine,
+struct run run_alone(const struct trax_config *config, const uint32_t *program, size_t count, const char *engine,
                      uint64_t max_cycles, unsigned host_threads);
 /* The same with any options but the output. */
 struct run run_with(const struct trax_config *config, const uint32_t *program, size_t count,

@@ -5,10 +5,12 @@
      timing-engines-test --seed 1 --count 2000 --jobs 2
      timing-engines-test --seed 4711                         that one
      timing-engines-test --set memory.queue_depth=1 ...      on machines with that
+     timing-engines-test --engine fast-any ...               a variant of the fast engine (host/engines.h)
      timing-engines-test --stop ...                          ends with the first case that differs, as it is
 
    Every case runs in a process of its own, so that a crash or an endless loop of an engine is a finding like others. */
 #include "cases.h"
+#include "host/engines.h"
 #include "minimise.h"
 
 #include <errno.h>
@@ -69,7 +71,7 @@ static struct random_case prepare(const struct options *options, unsigned seed) 
   if (c.one_thread)
     c.config.chip.tms = c.config.chip.tps_per_tm = 1;
   if (trax_config_validate(&c.config, &error)) {
-    fprintf(stderr, "timing-engines-test: %s\n", error.message);
+    fprintf(stderr, "timing-engines-test: the engine %s %s\n", name, error.message);
     exit(2);
   }
   return c;
@@ -171,11 +173,26 @@ static unsigned number(const char *option, const char *text, unsigned least, uns
   return (unsigned)value;
 }
 
+/* A host that cannot run it cannot test it: that is exit status 77. */
+static const char *engine(const char *name) {
+  const struct trax_engine *found;
+  trax_error error;
+  if (trax_engine_find(name, &found, &error) != TRAX_OK) {
+    fprintf(stderr, "timing-engines-test: the engine %s %s\n", name, error.message);
+    exit(found->is_possible && !found->is_possible() ? 77 : 2);
+  }
+  return name;
+}
+
 static struct options parse(int argc, char **argv) {
   static const struct option known[] = {
-      {"seed", required_argument, NULL, 's'}, {"count", required_argument, NULL, 'c'},
-      {"jobs", required_argument, NULL, 'j'}, {"set", required_argument, NULL, 'k'},
-      {"stop", no_argument, NULL, 'x'},       {NULL, 0, NULL, 0},
+      {"seed", required_argument, NULL, 's'},
+      {"count", required_argument, NULL, 'c'},
+      {"jobs", required_argument, NULL, 'j'},
+      {"set", required_argument, NULL, 'k'},
+      {"stop", no_argument, NULL, 'x'},
+      {"engine", required_argument, NULL, 'e'},
+      {NULL, 0, NULL, 0},
   };
   struct options options = {.seed = 1, .count = 1, .jobs = 1};
   int option;
@@ -196,6 +213,9 @@ static struct options parse(int argc, char **argv) {
         exit(2);
       }
       options.set[options.set_count++] = optarg;
+      break;
+    case 'e':
+      tested_engine = engine(optarg);
       break;
     case 'x':
       options.stop = true;

@@ -5,7 +5,7 @@
 #include "compare.h"
 #include "temporary.h"
 
-#include "fast/state.h"
+#include "engine/run.h"
 #include "host/checkpoint.h"
 
 #include <stdlib.h>
@@ -62,10 +62,10 @@ static void note_piece(void *context, const char *name, void *bytes, size_t size
   state_bytes += size * count;
 }
 
-static trax_status note_pieces(void *context, struct trax_chip *chip, trax_error *error) {
+static trax_status note_pieces(void *context, struct trax_run *run, trax_error *error) {
   (void)context;
   piece_count = state_bytes = 0;
-  trax_state_visit(chip, note_piece, NULL);
+  run->engine->visit(run->chip, note_piece, NULL);
   return trax_fail(error, "that is all");
 }
 

@@ -1,4 +1,4 @@
-/* The fast engine's machine between cycles, in the core's structures: taking it out and up again changes nothing.
+/* The fast engine's state between cycles: to export and import it changes nothing.
 
    TRAX_RANDOM_ROUNDS and TRAX_RANDOM_SEED make it longer and different. */
 #include "compare.h"
@@ -13,12 +13,12 @@ struct disturbance {
   bool take_up;
 };
 
-static trax_status disturb(struct trax_watch *watch, struct trax_chip *chip, uint64_t t) {
+static trax_status disturb(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct disturbance *it = watch->context;
   it->t = t;
-  trax_chip_gather(chip);
+  trax_run_export(run);
   if (it->take_up)
-    trax_chip_scatter(chip, it->t);
+    trax_run_import(run, it->t);
   it->times++;
   const uint64_t saved = random_state; /* the programs of a seed stay the same */
   random_state = 0x9E3779B97F4A7C15u * (it->t + 1);
@@ -45,11 +45,11 @@ static void each(size_t (*generate)(uint32_t *), unsigned rounds) {
       config.memory.size_mib = 1;
     }
     const uint64_t limit = any(0, 3) ? 0 : any(1, 5000);
-    struct run undisturbed = run(&config, program, count, TRAX_ENGINE_FAST, false, limit);
+    struct run undisturbed = run(&config, program, count, "fast", false, limit);
     for (unsigned take_up = 0; take_up < 2; take_up++) {
       struct disturbance disturbance = {.watch = {.next = any(0, 100), .look = disturb}, .take_up = take_up};
       disturbance.watch.context = &disturbance;
-      struct run disturbed = run_watched(&config, program, count, TRAX_ENGINE_FAST, false, limit, &disturbance.watch);
+      struct run disturbed = run_watched(&config, program, count, "fast", false, limit, &disturbance.watch);
       expect_same(&undisturbed, &disturbed);
       times += disturbance.times;
       end(&disturbed);

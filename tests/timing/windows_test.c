@@ -201,8 +201,8 @@ static void check(const struct scenario *scenario, const unsigned delay[3], unsi
   config.memory.size_mib = 1;
   struct program program;
   write_program(&program, scenario, delay, bandwidth < PLENTY);
-  struct run reference = run_alone(&config, program.words, program.count, TRAX_ENGINE_REFERENCE, 0, 1);
-  struct run fast = run_alone(&config, program.words, program.count, TRAX_ENGINE_FAST, 0, 2);
+  struct run reference = run_alone(&config, program.words, program.count, "reference", 0, 1);
+  struct run fast = run_alone(&config, program.words, program.count, "fast", 0, 2);
   struct difference difference;
   if (different_runs(&difference, &reference, &fast))
     fail_msg("%s, after %u, %u and %u cycles more, latency %u, %g GB/s: %s", scenario->name, delay[0], delay[1],

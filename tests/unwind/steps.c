@@ -1,7 +1,6 @@
 #include "steps.h"
 
-#include "fast/chip.h"
-#include "fast/tm.h"
+#include "engine/run.h"
 #include "trax/abi.h"
 
 #include <stdio.h>
@@ -15,9 +14,9 @@ typedef struct stepper {
 
 static void issued(void *context, const struct trax_issue *issue) {
   const stepper *stepper = context;
-  const struct trax_tp *tp = &stepper->machine->chip->tm[0].tp[0]; /* an observed run does not run ahead */
+  const struct trax_thread thread = trax_run_thread(stepper->machine->run, 0); /* an observed run does not run ahead */
   unwind_state state = {.pc = issue->next_pc,
-                        .registers = tp->reg,
+                        .registers = thread.reg,
                         .previous_pc = issue->pc,
                         .previous_word = issue->word,
                         .machine = stepper->machine};
@@ -29,7 +28,7 @@ bool unwind_load(const unwind_state *state, uint32_t address, uint32_t *value) {
   if (address % 4 != 0)
     return false;
   if (address >= TRAX_LOCAL_BASE)
-    memcpy(value, machine->chip->tm[0].tp[0].local + (address - TRAX_LOCAL_BASE), 4);
+    memcpy(value, trax_run_thread(machine->run, 0).local + (address - TRAX_LOCAL_BASE), 4);
   else if (address >= TRAX_NULL_END && address < machine->space.size)
     memcpy(value, machine->space.bytes + address, 4);
   else
@@ -45,7 +44,7 @@ bool unwind_run(const char *path, void (*step)(void *context, const unwind_state
   bool ok = machine && trax_machine_load_elf(machine, path, &error) == TRAX_OK;
   if (ok) {
     stepper stepper = {machine, step, context};
-    const trax_run_options options = {.max_cycles = 100000000, .engine = TRAX_ENGINE_FAST};
+    const trax_run_options options = {.max_cycles = 100000000, .engine = "fast"};
     const struct trax_observer observer = {.context = &stepper, .issue = issued};
     machine->observer = &observer;
     ok = trax_machine_run(machine, &options, &error) == TRAX_OK;

@@ -68,14 +68,6 @@ typedef struct trax_progress {
   double host_seconds;
 } trax_progress;
 
-/* The first two give the same: every cycle, every count, every byte. The third knows no time: its cycles are 0, and
-   max_cycles limits the instructions of a thread. */
-typedef enum trax_engine {
-  TRAX_ENGINE_FAST = 0,  /* emulator/fast */
-  TRAX_ENGINE_REFERENCE, /* written to be read beside docs/timing.md, many times slower: emulator/reference */
-  TRAX_ENGINE_FUNCTIONAL /* emulator/functional/functional.c */
-} trax_engine;
-
 #define TRAX_MAX_SLOT_QUEUES 64
 
 /* Slot-sampled simulation (docs/emulator.md): for a program whose threads take numbered pieces of work, slots, by the
@@ -109,9 +101,13 @@ typedef struct trax_run_options {
   void (*progress)(void *context, const trax_progress *status); /* about ten times a second; may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL (a signal handler's sig_atomic_t fits) */
-  trax_engine engine;
+  /* "fast" (NULL), "reference" or "functional". The first two give the same: every cycle, every count, every byte; the
+     reference is written to be read beside docs/timing.md, and many times slower. The third knows no time: its cycles
+     are 0, and max_cycles limits the instructions of a thread. "fast-any", "fast-avx2" and "fast-avx512" are the fast
+     engine as it is compiled for some hosts. */
+  const char *engine;
   unsigned host_threads;           /* of the fast engine, whose results they do not change; 0: trax_host_processors */
-  const trax_slot_sampling *slots; /* of the fast engine; NULL: everything is simulated */
+  const trax_slot_sampling *slots; /* NULL: everything is simulated */
 } trax_run_options;
 
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);

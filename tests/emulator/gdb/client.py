@@ -1,18 +1,20 @@
 """A small client of GDB's remote serial protocol."""
 
+import os
 import re
 import socket
 import subprocess
 
 ROLES = [0, 1, 2, 19, 31, 12, 13, 14, 3, 20, *range(4, 12), *range(21, 31), *range(15, 19)]  # emulator/gdb/registers.h
 PC = 32
+ENGINE = os.environ.get("TRAX_ENGINE", "fast")
 
 
 class Client:
     """A trax-sim that waits for its debugger, and the debugger."""
 
     def __init__(self, sim, *arguments, acknowledge=False):
-        self.process = subprocess.Popen([sim, "--gdb", "0", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen([sim, "--gdb", "0", "--engine", ENGINE, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         line = self.process.stderr.readline().decode()
         port = re.fullmatch(r"trax-sim: waiting for GDB: target remote localhost:(\d+)\n", line)
         if not port:

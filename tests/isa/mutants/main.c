@@ -122,7 +122,7 @@ static bool passes(const struct test *test, uint64_t *cycles) {
   char *output = NULL;
   size_t size = 0;
   FILE *stream = check(open_memstream(&output, &size));
-  const trax_run_options options = {.engine = TRAX_ENGINE_REFERENCE, .output = stream, .max_cycles = test->limit};
+  const trax_run_options options = {.engine = "reference", .output = stream, .max_cycles = test->limit};
   const trax_status status = trax_machine_run(machine, &options, &error);
   fclose(stream);
   const bool pass = (status == TRAX_OK || status == TRAX_FAULT) && same_output(test, output, size) &&

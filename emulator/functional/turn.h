@@ -1,32 +1,32 @@
-/* One thread's turn of the functional mode; a part of functional.c.
+/* A thread's instructions one after the other, for functional.c: each operation goes to the next one by itself, which
+   the host's branch predictor learns far better than one switch for all. */
 
-   Executes the TP's instructions from tp->pc on until `turn` are over, or the next one is for execute_slowly. Without a
-   TP: *operations receives the places of all operations. */
-static enum stop execute_turn(struct trax_functional *functional, struct trax_tm *tm, struct trax_tp *tp, int64_t turn,
-                              uint64_t *executed, const void *const **operations) {
+enum stop { STOP_TURN, STOP_SLOW };
+
+/* Executes instructions from thread->pc on until a jump behind which the thread has executed `end` or more, or the next
+   one is for execute() (STOP_SLOW). Without a thread: *operations receives the places of all operations. */
+static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t end, const void *const **operations) {
   __extension__ static const void *const places[] = {
 #define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
       [TRAX_OP_ILLEGAL] = &&slow};
-  if (!tp) {
+  if (!thread) {
     *operations = places;
     return STOP_TURN;
   }
-  const struct text *const text = &functional->text;
-  const struct trax_space *const space = &functional->chip->machine->space;
+  const struct trax_space *const space = &chip->machine->space;
   const uint64_t accessible = space->size - TRAX_NULL_END;
-  const unsigned bits = tm->config->special.precision_bits;
-  const unsigned number = (unsigned)(tp - tm->tp);
-  uint32_t *const reg = tp->reg;
-  uint8_t *const local = tp->local;
-  int64_t *const changes = functional->changes[tm->number];
+  const unsigned bits = chip->machine->config.special.precision_bits;
+  uint32_t *const reg = thread->reg;
+  uint8_t *const local = thread->local;
+  const struct text *const text = &chip->text;
+  int64_t *const changes = chip->changes[thread->tm];
   const struct instruction *const base = text->inst;
   const struct section *const first = text->sections;
-  const struct instruction *inst = inst_at(text, tp->pc), *begin = inst;
-  const int64_t end = (int64_t)*executed + turn;
-  uint64_t count = *executed;
-  uint32_t address, word, pc = tp->pc;
+  const struct instruction *inst = inst_at(text, thread->pc), *begin = inst;
+  uint64_t count = thread->executed;
+  uint32_t address, word, pc = thread->pc;
   if (inst == text->outside)
     return STOP_SLOW;
   changes[inst - base]++;
@@ -71,7 +71,7 @@ static enum stop execute_turn(struct trax_functional *functional, struct trax_tm
     goto slow;                                                                                                         \
     0u;                                                                                                                \
   }))
-#define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, count + (uint64_t)(inst - begin))
+#define SPECIAL_REGISTER(NUMBER) special_register(chip, thread, NUMBER, count + (uint64_t)(inst - begin))
 #define TRAP(VALUE, CODE) goto slow
 #define FENCE(KIND) goto slow
 #define HALT() goto slow
@@ -86,7 +86,7 @@ static enum stop execute_turn(struct trax_functional *functional, struct trax_tm
       pc = (uint32_t)next_pc;                                                                                          \
       begin = inst =                                                                                                   \
           pc % 4 == 0 && pc - first->begin < first->bytes ? first->inst + (pc - first->begin) / 4 : inst_at(text, pc); \
-      if ((int64_t)count >= end || inst == text->outside)                                                              \
+      if (count >= end || inst == text->outside)                                                                       \
         goto jumped;                                                                                                   \
       changes[inst - base]++;                                                                                          \
     } else {                                                                                                           \
@@ -97,20 +97,18 @@ static enum stop execute_turn(struct trax_functional *functional, struct trax_tm
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
 #include "machine/semantics_end.h"
+#undef NOWHERE
 
 slow:
   changes[inst - base]--;
   pc = HERE;
-  count += (uint64_t)(inst - begin);
-  *executed = count;
-  tp->pc = pc;
+#undef HERE
+  thread->executed = count + (uint64_t)(inst - begin);
+  thread->pc = pc;
   return STOP_SLOW;
 
 jumped:
-  *executed = count;
-  tp->pc = pc;
+  thread->executed = count;
+  thread->pc = pc;
   return inst == text->outside ? STOP_SLOW : STOP_TURN;
 }
-
-#undef HERE
-#undef NOWHERE

@@ -1,0 +1,116 @@
+#include "engine/run.h"
+
+#include "engine/poll.h"
+
+#include <assert.h>
+#include <string.h>
+
+trax_status trax_run_create(struct trax_run *run, struct trax_machine *machine, const struct trax_engine *engine,
+                            const struct trax_run_options *options, trax_error *error) {
+  *run = (struct trax_run){.machine = machine, .engine = engine, .options = options};
+  if (trax_text_create(&run->text, &machine->space, &machine->config, error) != TRAX_OK)
+    return TRAX_ERROR;
+  return engine->create(run, error);
+}
+
+void trax_run_destroy(struct trax_run *run) {
+  run->engine->destroy(run->chip);
+  trax_text_destroy(&run->text);
+}
+
+void trax_run_settle(struct trax_run *run, uint64_t t) {
+  if (run->engine->settle)
+    run->engine->settle(run->chip, t);
+}
+
+void trax_run_export(struct trax_run *run) {
+  if (run->engine->export_state)
+    run->engine->export_state(run->chip);
+}
+
+void trax_run_import(struct trax_run *run, uint64_t t) {
+  if (run->engine->import_state)
+    run->engine->import_state(run->chip, t);
+}
+
+struct trax_thread trax_run_thread(const struct trax_run *run, uint32_t thread) {
+  return run->engine->thread(run->chip, thread);
+}
+
+uint64_t trax_run_progressed(const struct trax_run *run) {
+  return run->engine->progressed ? run->engine->progressed(run->chip) : 0;
+}
+
+uint32_t trax_run_queued(const struct trax_run *run, uint32_t tm, uint64_t t) {
+  return run->engine->queued(run->chip, tm, t);
+}
+
+/* --- the loop --- */
+
+static void collect(void *run) {
+  const struct trax_run *it = run;
+  if (it->engine->collect)
+    it->engine->collect(it->chip);
+}
+
+/* Calls those whose time it is to look at the machine before cycle t. *next receives the cycle in which someone looks
+   again. */
+static trax_status look(struct trax_run *run, uint64_t t, uint64_t *next) {
+  trax_status status = TRAX_OK;
+  *next = TRAX_NEVER;
+  for (struct trax_watch *watch = run->machine->watches; watch && !status; watch = watch->others) {
+    if (watch->next <= t) {
+      status = watch->look(watch, run, t);
+      assert(status || watch->next > t);
+    }
+    if (watch->next < *next)
+      *next = watch->next;
+  }
+  if (run->engine->commit)
+    run->engine->commit(run->chip);
+  return status;
+}
+
+static trax_status go(struct trax_run *run, uint64_t *t) {
+  const struct trax_engine *engine = run->engine;
+  const uint64_t asked = run->options->max_cycles && engine->is_timed ? run->options->max_cycles : TRAX_NEVER;
+  const uint64_t limit = asked > run->begin ? asked : run->begin; /* a resumed run may be beyond it already */
+  uint64_t looked_at = engine->is_timed ? 0 : TRAX_NEVER;         /* when somebody looks next */
+  struct trax_poll poll;
+  trax_poll_begin(&poll, run->machine, run->options);
+  poll.collect = collect;
+  poll.context = run;
+  *t = run->begin;
+  while (true) {
+    if (*t >= looked_at) {
+      const trax_status status = look(run, *t, &looked_at);
+      if (status)
+        return status;
+    }
+    if (*t >= limit)
+      return TRAX_STUCK;
+    if (trax_poll(&poll, *t))
+      return TRAX_INTERRUPTED;
+    const uint64_t before = *t;
+    switch (engine->advance(run->chip, t, limit < looked_at ? limit : looked_at)) {
+    case TRAX_GOES_ON:
+      break;
+    case TRAX_HAS_ENDED:
+      return TRAX_OK;
+    case TRAX_HAS_FAULTED:
+      return TRAX_FAULT;
+    case TRAX_AT_INSTRUCTION:
+      return TRAX_STUCK;
+    }
+    trax_poll_pass(&poll, *t > before ? *t - before : TRAX_POLL_INTERVAL);
+  }
+}
+
+trax_status trax_run_go(struct trax_run *run, uint64_t *cycles) {
+  const trax_status status = go(run, cycles);
+  trax_run_settle(run, *cycles); /* a fault is known from here on */
+  for (struct trax_watch *watch = run->machine->watches; watch; watch = watch->others)
+    if (watch->end)
+      watch->end(watch, run, status, *cycles);
+  return status;
+}

@@ -1,0 +1,96 @@
+/* Where a thread's next instructions will lead it, as far as that depends on the thread alone. */
+#include "gdb/stub.h"
+#include "machine/text.h"
+#include "trax/semantics.h"
+
+#include <string.h>
+
+/* A copy of the thread. */
+struct imagined {
+  uint32_t reg[TRAX_NUM_REGISTERS + 1], pc;
+  uint8_t local[TRAX_LOCAL_SIZE];
+};
+
+static uint32_t special_register(const struct trax_gdb *gdb, uint32_t thread, uint32_t number) {
+  switch (number) {
+  case TRAX_SR_THREAD:
+    return thread;
+  case TRAX_SR_TM:
+    return thread / gdb->tps;
+  case TRAX_SR_TP:
+    return thread % gdb->tps;
+  case TRAX_SR_THREADS:
+    return gdb->threads;
+  case TRAX_SR_CYCLE:
+    return (uint32_t)gdb->cycle;
+  default: /* TRAX_SR_CYCLEH; others are illegal */
+    return (uint32_t)(gdb->cycle >> 32);
+  }
+}
+
+/* Whether the instruction acts on nothing but the thread. */
+static bool is_harmless(const struct trax_gdb *gdb, const struct imagined *it, const struct trax_decoded *inst) {
+  switch ((trax_ask)inst->ask) {
+  case TRAX_ASK_END:
+  case TRAX_ASK_FENCE:
+  case TRAX_ASK_ILLEGAL:
+  case TRAX_ASK_OUTSIDE:
+    return false;
+  case TRAX_ASK_MEMORY: {
+    const uint32_t address = it->reg[inst->ra] + (uint32_t)inst->imm;
+    return !inst->is_atomic && trax_access_check(inst, &gdb->machine->space, address) == TRAX_FAULT_NONE &&
+           (!inst->is_store || address >= TRAX_LOCAL_BASE);
+  }
+  default:
+    return inst->op != TRAX_OP_TRAP;
+  }
+}
+
+static uint32_t load(const struct trax_gdb *gdb, const struct imagined *it, uint32_t address, unsigned bytes) {
+  uint32_t value = 0;
+  memcpy(&value,
+         address >= TRAX_LOCAL_BASE ? it->local + (address - TRAX_LOCAL_BASE) : gdb->machine->space.bytes + address,
+         bytes);
+  return value;
+}
+
+static void step(const struct trax_gdb *gdb, uint32_t thread, struct imagined *it) {
+  const struct trax_decoded *inst = trax_text_at(&gdb->run->text, it->pc);
+  uint32_t *const reg = it->reg;
+  uint32_t next_pc = it->pc + 4, word;
+  if (is_harmless(gdb, it, inst)) {
+#include "machine/semantics_begin.h"
+#define PC it->pc
+#define PRECISION gdb->machine->config.special.precision_bits
+#define LOAD(ADDRESS, BYTES) load(gdb, it, ADDRESS, BYTES)
+#define STORE(ADDRESS, VALUE, BYTES) (word = (VALUE), memcpy(it->local + ((ADDRESS)-TRAX_LOCAL_BASE), &word, BYTES))
+#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), 0u)
+#define SPECIAL_REGISTER(NUMBER) special_register(gdb, thread, NUMBER)
+#define TRAP(VALUE, CODE) ((void)(VALUE))
+#define FENCE(KIND) ((void)(KIND))
+#define HALT() ((void)0)
+    switch ((trax_op)inst->op) {
+#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
+  case TRAX_OP_##NAME:                                                                                                 \
+    __VA_ARGS__                                                                                                        \
+    break;
+#include "trax/semantics.inc"
+#undef TRAX_SEMANTICS
+#include "machine/semantics_end.h"
+    case TRAX_OP_ILLEGAL:
+    case TRAX_OP_COUNT:
+      break;
+    }
+  }
+  it->pc = next_pc;
+}
+
+uint32_t trax_gdb_pc_after(const struct trax_gdb *gdb, uint32_t thread, unsigned instructions) {
+  const struct trax_thread state = trax_run_thread(gdb->run, thread);
+  struct imagined it = {.pc = state.pc};
+  memcpy(it.reg, state.reg, sizeof it.reg - sizeof *it.reg);
+  memcpy(it.local, state.local, sizeof it.local);
+  while (instructions--)
+    step(gdb, thread, &it);
+  return it.pc;
+}

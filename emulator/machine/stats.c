@@ -1,0 +1,70 @@
+#include "machine/machine.h"
+
+#include <inttypes.h>
+
+/* What is known from the operations issued need not be counted while they are. */
+static void count_by_operation(struct trax_tm_stats *stats) {
+  stats->fences += stats->instructions[TRAX_OP_FENCE];
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
+    const trax_op_info *info = &trax_op_table[op];
+    const uint64_t count = stats->instructions[op];
+    if (info->flags & TRAX_IS_FLOP)
+      stats->flops += count;
+    if (info->flags & TRAX_IS_ATOMIC)
+      stats->atomics += count;
+    if (info->unit == TRAX_UNIT_FP_MUL)
+      stats->fp_mul_ops += count;
+    else if (info->unit == TRAX_UNIT_INT_MUL)
+      stats->int_mul_ops += count;
+    else if (info->unit == TRAX_UNIT_SPECIAL)
+      stats->special_ops += count;
+  }
+}
+
+static void count_adder_operations(struct trax_tm_stats *stats, const struct trax_config *config) {
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+    if (trax_op_table[op].unit == TRAX_UNIT_FP_ADD &&
+        ((trax_op_table[op].flags & TRAX_IS_FLOP) || !config->fpu.compare_units))
+      stats->fp_add_ops += stats->instructions[op];
+}
+
+void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config) {
+  count_by_operation(stats);
+  count_adder_operations(stats, config);
+}
+
+static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *term) {
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum->cycles[cause] += term->cycles[cause];
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+    sum->instructions[op] += term->instructions[op];
+#define ADD(ID, NAME, UNIT, MEANING) sum->ID += term->ID;
+  TRAX_TM_COUNTERS(ADD)
+#undef ADD
+}
+
+trax_status trax_stats_collect(struct trax_machine *machine, bool charged, trax_error *error) {
+  const uint32_t tps = machine->config.chip.tps_per_tm;
+  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
+    struct trax_tm_stats *stats = &machine->tm_stats[i];
+    trax_stats_derive(stats, &machine->config);
+    for (uint32_t tp = 0; tp < tps; tp++) {
+      const struct trax_tp_stats *charges = &machine->tp_stats[(size_t)i * tps + tp];
+      uint64_t charged = 0;
+      for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+        stats->cycles[cause] += charges->cycles[cause];
+        charged += charges->cycles[cause];
+      }
+      if (charged != machine->stats.cycles)
+        return trax_fail(error, "internal error: TM %u, TP %u is charged for %" PRIu64 " of %" PRIu64 " cycles", i, tp,
+                         charged, machine->stats.cycles);
+    }
+    add_stats(&machine->stats.total, stats);
+  }
+  if (charged)
+    machine->stats.instructions = machine->stats.total.cycles[TRAX_CAUSE_ISSUED];
+  else /* charges are estimates, or there are none */
+    for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+      machine->stats.instructions += machine->stats.total.instructions[op];
+  return TRAX_OK;
+}
