@@ -5,7 +5,7 @@
    either the loading thread has executed `fence r` since that, or no thread of its TM had loaded the line before. */
 #include "explain/step.h"
 #include "explain/table.h"
-#include "host/backtrace.h"
+#include "report/backtrace.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "explain/places.h"
 
 #include "explain/table.h"
-#include "host/host.h"
+#include "program/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
 /* Profiles as text: tables by function and line, folded stacks, annotated instructions. */
 #include "explain/profile.h"
-#include "host/statistics.h"
+#include "report/statistics.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 
 #include "engine/run.h"
 #include "explain/explain.h"
-#include "host/host.h"
-#include "host/statistics.h"
+#include "program/program.h"
+#include "report/statistics.h"
 #include "trax/output.h"
 
 struct trax_stretch {

@@ -3,8 +3,8 @@
    every thread is unwound. The word `functional` in the line of options is for that engine. */
 #include "fuzz_case.h"
 #include "gdb/gdb.h"
-#include "host/backtrace.h"
-#include "host/host.h"
+#include "report/backtrace.h"
+#include "program/program.h"
 #include "machine/machine.h"
 #include "trax/input.h"
 

@@ -1,6 +1,6 @@
 #include "gdb/dwarf_registers.h"
 
-#include "host/dwarf_reader.h"
+#include "program/dwarf_reader.h"
 #include <dwarf.h>
 
 enum { REGISTERS = 32, ADDRESS = 4, OFFSET = 4, DEPTH = 4 }; /* of expressions within each other */

@@ -1,9 +1,9 @@
 /* What GDB has no words for: its command `monitor`. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "gdb/stub.h"
-#include "host/backtrace.h"
-#include "host/host.h"
-#include "host/statistics.h"
+#include "report/backtrace.h"
+#include "program/program.h"
+#include "report/statistics.h"
 #include "trax/isa.h"
 
 #include <inttypes.h>

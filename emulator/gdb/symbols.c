@@ -2,7 +2,7 @@
 #include "gdb/dwarf_registers.h"
 #include "gdb/gdb.h"
 #include "gdb/registers.h"
-#include "host/image.h"
+#include "program/image.h"
 #include "trax/output.h"
 
 #include <dwarf.h>

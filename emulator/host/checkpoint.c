@@ -6,7 +6,7 @@
 
    Before cycle 0, memory holds the program and its buffers. So a checkpoint needs both again, and is only taken up by a
    machine that is the same then: the header has a digest of configuration and memory. */
-#include "checkpoint.h"
+#include "host/checkpoint.h"
 
 #include "engine/run.h"
 #include "trax/output.h"

@@ -1,5 +1,5 @@
 /* Configurations by name and as text. The keys themselves are declared in machine/config_keys.h. */
-#include "config.h"
+#include "host/config.h"
 
 #include <errno.h>
 #include <math.h>

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "config.h"
+#include "host/config.h"
 #include "trax/input.h"
 #include "trax/names.h"
 

@@ -6,13 +6,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "backtrace.h"
+#include "report/backtrace.h"
 #include "gdb/gdb.h"
-#include "options.h"
-#include "progress.h"
+#include "host/options.h"
+#include "host/progress.h"
 #include "trax/output.h"
 #include "trax/signals.h"
-#include "watchdog.h"
+#include "report/watchdog.h"
 
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
 

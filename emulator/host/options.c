@@ -1,4 +1,4 @@
-#include "options.h"
+#include "host/options.h"
 
 #include "machine/config_keys.h"
 
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engines.h"
+#include "host/engines.h"
 #include "trax/output.h"
 
 /* --- values --- */

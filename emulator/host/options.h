@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "checkpoint.h"
+#include "host/checkpoint.h"
 #include "explain/explain.h"
 #include "trax/emulator.h"
 #include "trax/options.h"

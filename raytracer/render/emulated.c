@@ -1,7 +1,7 @@
 #include "emulated.h"
 
 #include "machine/machine.h"
-#include "host/host.h"
+#include "program/program.h"
 #include "host/progress.h"
 #include "report.h"
 #include "sampled.h"

@@ -2,7 +2,7 @@
 #include "plain_scene.h"
 
 #include "machine/machine.h"
-#include "host/host.h"
+#include "program/program.h"
 #include "host/image.h"
 
 #include <math.h>

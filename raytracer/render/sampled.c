@@ -1,7 +1,7 @@
 #include "sampled.h"
 
 #include "machine/machine.h"
-#include "host/host.h"
+#include "program/program.h"
 #include "host/image.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The picture as the emulated machine renders it. */
 #include "machine/machine.h"
 #include "explain/explain.h"
-#include "host/host.h"
+#include "program/program.h"
 #include "host/image.h"
 #include "plain_scene.h"
 #include "render.h"

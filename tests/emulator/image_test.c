@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "machine/address_space.h"
-#include "host/image.h"
+#include "program/image.h"
 #include "programs.h"
 
 /* A file in memory: thousands of versions of it are written. */

@@ -13,9 +13,9 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "machine/energy.h"
+#include "report/energy.h"
 #include "machine/machine.h"
-#include "host/statistics.h"
+#include "report/statistics.h"
 #include "programs.h"
 #include "temporary.h"
 

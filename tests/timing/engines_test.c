@@ -71,7 +71,7 @@ static struct random_case prepare(const struct options *options, unsigned seed) 
   if (c.one_thread)
     c.config.chip.tms = c.config.chip.tps_per_tm = 1;
   if (trax_config_validate(&c.config, &error)) {
-    fprintf(stderr, "timing-engines-test: the engine %s %s\n", name, error.message);
+    fprintf(stderr, "timing-engines-test: %s\n", error.message);
     exit(2);
   }
   return c;

@@ -5,7 +5,7 @@
 #include "temporary.h"
 
 #include "host/checkpoint.h"
-#include "host/watchdog.h"
+#include "report/watchdog.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

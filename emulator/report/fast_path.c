@@ -1,4 +1,4 @@
-#include "statistics.h"
+#include "report/statistics.h"
 
 #include "machine/machine.h"
 

@@ -1,9 +1,9 @@
 /* Where threads are: the call chain of one, and all of them, those at the same place together. */
-#ifndef TRAX_HOST_BACKTRACE_H
-#define TRAX_HOST_BACKTRACE_H
+#ifndef TRAX_REPORT_BACKTRACE_H
+#define TRAX_REPORT_BACKTRACE_H
 
 #include "engine/run.h"
-#include "unwind.h"
+#include "program/unwind.h"
 
 struct trax_host;
 

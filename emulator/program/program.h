@@ -1,8 +1,8 @@
 /* What the host side keeps beside a machine: the program's image and the buffers bound to it. */
-#ifndef TRAX_HOST_HOST_H
-#define TRAX_HOST_HOST_H
+#ifndef TRAX_PROGRAM_PROGRAM_H
+#define TRAX_PROGRAM_PROGRAM_H
 
-#include "image.h"
+#include "program/image.h"
 #include "machine/machine.h"
 
 struct trax_bound_buffer {

@@ -1,10 +1,10 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
-#include "backtrace.h"
+#include "report/backtrace.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "host.h"
+#include "program/program.h"
 
 enum { INLINE_DEPTH = 16, DEPTH = 24 }; /* frames that are shown of a chain */
 

@@ -1,7 +1,7 @@
 /* Source lines from DWARF. Debug information is only ever a help: whatever is wrong with it means "unknown". */
 #include <dwarf.h>
 
-#include "image_internal.h"
+#include "program/image_internal.h"
 
 /* The unit that contains pc; aranges are optional in DWARF and compilers leave them out, so all units are asked. */
 static bool unit_at(Dwarf *dwarf, uint32_t pc, Dwarf_Die *unit) {

@@ -1,6 +1,6 @@
 /* The watchdog: ends a run that gets nowhere (docs/emulator.md, "Watchdog"). */
-#ifndef TRAX_HOST_WATCHDOG_H
-#define TRAX_HOST_WATCHDOG_H
+#ifndef TRAX_REPORT_WATCHDOG_H
+#define TRAX_REPORT_WATCHDOG_H
 
 #include "machine/machine.h"
 

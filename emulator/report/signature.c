@@ -1,5 +1,5 @@
 /* docs/isa.md, "Signatures". */
-#include "host.h"
+#include "program/program.h"
 
 #include <inttypes.h>
 

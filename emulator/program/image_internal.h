@@ -1,11 +1,11 @@
 /* What image.c (headers, symbols) and lines.c (debug information) share. */
-#ifndef TRAX_HOST_IMAGE_INTERNAL_H
-#define TRAX_HOST_IMAGE_INTERNAL_H
+#ifndef TRAX_PROGRAM_IMAGE_INTERNAL_H
+#define TRAX_PROGRAM_IMAGE_INTERNAL_H
 
 #include <elfutils/libdw.h>
 #include <libelf.h>
 
-#include "image.h"
+#include "program/image.h"
 
 struct trax_image {
   char *path;

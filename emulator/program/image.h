@@ -1,7 +1,7 @@
 /* An executable as the loader sees it: checked segments, symbols and, on demand, source lines. Independent of a
    machine; what the checks are is in docs/emulator.md, "Loading". */
-#ifndef TRAX_HOST_IMAGE_H
-#define TRAX_HOST_IMAGE_H
+#ifndef TRAX_PROGRAM_IMAGE_H
+#define TRAX_PROGRAM_IMAGE_H
 
 #include <stdbool.h>
 #include <stddef.h>

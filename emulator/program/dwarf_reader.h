@@ -1,6 +1,6 @@
 /* Reading DWARF's sections: numbers of a fixed length, and LEB128 (DWARF 5, section 7.6). */
-#ifndef TRAX_HOST_DWARF_READER_H
-#define TRAX_HOST_DWARF_READER_H
+#ifndef TRAX_PROGRAM_DWARF_READER_H
+#define TRAX_PROGRAM_DWARF_READER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "host.h"
-#include "statistics.h"
+#include "program/program.h"
+#include "report/statistics.h"
 #include "trax/output.h"
 #include "trax/version.h"
 

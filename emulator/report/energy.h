@@ -1,6 +1,6 @@
 /* Energy and power of a run, from its counts and a figure for each access (docs/emulator.md, "Energy"). */
-#ifndef TRAX_MACHINE_ENERGY_H
-#define TRAX_MACHINE_ENERGY_H
+#ifndef TRAX_REPORT_ENERGY_H
+#define TRAX_REPORT_ENERGY_H
 
 #include "machine/config.h"
 #include "machine/stats.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host.h"
+#include "program/program.h"
 #include "trax/abi.h"
 
 static void destroy_host(void *context) {

@@ -1,12 +1,12 @@
-#include "statistics.h"
+#include "report/statistics.h"
 
 #include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
-#include "host.h"
-#include "machine/energy.h"
+#include "program/program.h"
+#include "report/energy.h"
 
 const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
 #define NAME(ID, NAME, MEANING) NAME,

@@ -1,7 +1,7 @@
-#include "watchdog.h"
+#include "report/watchdog.h"
 
 #include "engine/run.h"
-#include "host.h"
+#include "program/program.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

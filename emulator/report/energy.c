@@ -1,5 +1,5 @@
 /* The figures are those of SimTRaX, the public simulator of the paper's group: 65 nm and 1 GHz as far as it says. */
-#include "machine/energy.h"
+#include "report/energy.h"
 
 #include "trax/isa.h"
 

@@ -1,10 +1,10 @@
-#include "unwind.h"
+#include "program/unwind.h"
 
 #include <dwarf.h>
 #include <string.h>
 
-#include "dwarf_reader.h"
-#include "image_internal.h"
+#include "program/dwarf_reader.h"
+#include "program/image_internal.h"
 
 enum { RA = 1, SP = 2, SAVED_STATES = 8 };
 

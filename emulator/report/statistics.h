@@ -1,7 +1,7 @@
 /* All statistics as one list, made from the tables of machine/stats.h: what trax_stats_get finds, the reports print,
    and docs/emulator.md lists. */
-#ifndef TRAX_HOST_STATISTICS_H
-#define TRAX_HOST_STATISTICS_H
+#ifndef TRAX_REPORT_STATISTICS_H
+#define TRAX_REPORT_STATISTICS_H
 
 #include "machine/machine.h"
 

@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
-#include "backtrace.h"
+#include "report/backtrace.h"
 
 #include <signal.h>
 #include <stdlib.h>

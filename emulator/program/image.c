@@ -1,10 +1,10 @@
-#include "image.h"
+#include "program/image.h"
 
 #include <gelf.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image_internal.h"
+#include "program/image_internal.h"
 #include "machine/address_space.h"
 #include "trax/abi.h"
 #include "trax/input.h"

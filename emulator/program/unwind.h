@@ -1,8 +1,8 @@
 /* Call chains, by .debug_frame. libdw's own unwinder refuses machines that it has no back end for. */
-#ifndef TRAX_HOST_UNWIND_H
-#define TRAX_HOST_UNWIND_H
+#ifndef TRAX_PROGRAM_UNWIND_H
+#define TRAX_PROGRAM_UNWIND_H
 
-#include "image.h"
+#include "program/image.h"
 #include "trax/abi.h"
 
 struct trax_frame {
