@@ -16,7 +16,8 @@ install(FILES ${runtime}/crt0.o ${runtime}/crt0-global-stack.o ${runtime}/libc.a
 
 # The emulator as a library, for CMake and for pkg-config.
 install(TARGETS traxemu traxisa traxbase ARCHIVE DESTINATION lib)
-install(FILES ${PROJECT_SOURCE_DIR}/emulator/include/trax/emulator.h ${PROJECT_SOURCE_DIR}/emulator/base/include/trax/status.h
+install(FILES ${PROJECT_SOURCE_DIR}/emulator/include/trax/emulator.h ${PROJECT_SOURCE_DIR}/emulator/base/include/trax/processors.h
+              ${PROJECT_SOURCE_DIR}/emulator/base/include/trax/status.h
         DESTINATION include/trax)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/traxConfig.cmake DESTINATION lib/cmake/trax)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/traxConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)

@@ -1,7 +1,5 @@
 #include "engine/run.h"
 
-#include "engine/poll.h"
-
 #include <assert.h>
 #include <string.h>
 
@@ -71,28 +69,42 @@ static trax_status look(struct trax_run *run, uint64_t t, uint64_t *next) {
   return status;
 }
 
-static trax_status go(struct trax_run *run, uint64_t *t) {
+static void begin(struct trax_run *run) {
+  const bool timed = run->engine->is_timed;
+  const uint64_t asked = run->options->max_cycles && timed ? run->options->max_cycles : TRAX_NEVER;
+  run->begun = true;
+  run->t = run->begin;
+  run->limit = asked > run->begin ? asked : run->begin; /* a resumed run may be beyond it already */
+  run->looked_at = timed ? 0 : TRAX_NEVER;
+  trax_poll_begin(&run->poll, run->machine, run->options);
+  run->poll.collect = collect;
+  run->poll.context = run;
+}
+
+static uint64_t earliest(const struct trax_run *run, uint64_t until) {
+  const uint64_t stop = run->limit < run->looked_at ? run->limit : run->looked_at;
+  return stop < until ? stop : until;
+}
+
+static trax_status go(struct trax_run *run, uint64_t until) {
   const struct trax_engine *engine = run->engine;
-  const uint64_t asked = run->options->max_cycles && engine->is_timed ? run->options->max_cycles : TRAX_NEVER;
-  const uint64_t limit = asked > run->begin ? asked : run->begin; /* a resumed run may be beyond it already */
-  uint64_t looked_at = engine->is_timed ? 0 : TRAX_NEVER;         /* when somebody looks next */
-  struct trax_poll poll;
-  trax_poll_begin(&poll, run->machine, run->options);
-  poll.collect = collect;
-  poll.context = run;
-  *t = run->begin;
+  run->ended = true; /* unless it gets to `until` */
   while (true) {
-    if (*t >= looked_at) {
-      const trax_status status = look(run, *t, &looked_at);
+    if (run->t >= until) {
+      run->ended = false;
+      return TRAX_OK;
+    }
+    if (run->t >= run->looked_at) {
+      const trax_status status = look(run, run->t, &run->looked_at);
       if (status)
         return status;
     }
-    if (*t >= limit)
+    if (run->t >= run->limit)
       return TRAX_STUCK;
-    if (trax_poll(&poll, *t))
+    if (trax_poll(&run->poll, run->t))
       return TRAX_INTERRUPTED;
-    const uint64_t before = *t;
-    switch (engine->advance(run->chip, t, limit < looked_at ? limit : looked_at)) {
+    const uint64_t before = run->t;
+    switch (engine->advance(run->chip, &run->t, earliest(run, until))) {
     case TRAX_GOES_ON:
       break;
     case TRAX_HAS_ENDED:
@@ -102,15 +114,22 @@ static trax_status go(struct trax_run *run, uint64_t *t) {
     case TRAX_AT_INSTRUCTION:
       return TRAX_STUCK;
     }
-    trax_poll_pass(&poll, *t > before ? *t - before : TRAX_POLL_INTERVAL);
+    trax_poll_pass(&run->poll, run->t > before ? run->t - before : TRAX_POLL_INTERVAL);
   }
 }
 
-trax_status trax_run_go(struct trax_run *run, uint64_t *cycles) {
-  const trax_status status = go(run, cycles);
-  trax_run_settle(run, *cycles); /* a fault is known from here on */
+trax_status trax_run_go(struct trax_run *run, uint64_t until) {
+  if (!run->begun)
+    begin(run);
+  const trax_status status = go(run, until);
+  if (!run->ended) {
+    if (run->engine->commit)
+      run->engine->commit(run->chip);
+    return status;
+  }
+  trax_run_settle(run, run->t); /* a fault is known from here on */
   for (struct trax_watch *watch = run->machine->watches; watch; watch = watch->others)
     if (watch->end)
-      watch->end(watch, run, status, *cycles);
+      watch->end(watch, run, status, run->t);
   return status;
 }

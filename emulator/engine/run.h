@@ -3,6 +3,7 @@
 #define TRAX_ENGINE_RUN_H
 
 #include "engine/engine.h"
+#include "engine/poll.h"
 #include "machine/text.h"
 #include "machine/watch.h"
 
@@ -13,6 +14,12 @@ struct trax_run {
   void *chip;            /* the engine's */
   struct trax_text text; /* the program, decoded */
   uint64_t begin;        /* the first cycle; not 0 if the run goes on with another one's */
+
+  bool begun, ended;
+  uint64_t t;         /* the next cycle; the length of the run once it has ended */
+  uint64_t limit;     /* of cycles */
+  uint64_t looked_at; /* the cycle in which a watch looks next */
+  struct trax_poll poll;
 };
 
 /* To be destroyed either way. */
@@ -20,9 +27,10 @@ trax_status trax_run_create(struct trax_run *run, struct trax_machine *machine, 
                             const struct trax_run_options *options, trax_error *error);
 void trax_run_destroy(struct trax_run *run);
 
-/* Runs to the end, a fault, an interrupt, the limit of cycles, or until a watch ends it; tells the watches of the end.
- *cycles receives the length. */
-trax_status trax_run_go(struct trax_run *run, uint64_t *cycles);
+/* Goes on to the end, a fault, an interrupt, the limit of cycles, or until a watch ends it: then `ended` is set, and
+   the watches have been told. Or stops before cycle `until`, TRAX_NEVER if it is not to; then the run can go on. An
+   engine without time runs to its end. */
+trax_status trax_run_go(struct trax_run *run, uint64_t until);
 
 /* --- between cycles --- */
 

@@ -16,34 +16,16 @@ static bool print_cycle(struct trax_gdb *gdb, const char *arguments, FILE *out) 
   return !*arguments;
 }
 
-/* The machine's counts up to here, summed up as when a run ends. */
-static void sum_up(struct trax_gdb *gdb, struct trax_stats *stats) {
-  const struct trax_machine *machine = gdb->machine;
-  *stats = (struct trax_stats){.cycles = gdb->cycle, .threads = gdb->threads};
-  trax_run_settle(gdb->run, gdb->cycle);
-  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
-    struct trax_tm_stats tm = machine->tm_stats[i];
-    trax_stats_derive(&tm, &machine->config);
-#define ADD(ID, NAME, UNIT, MEANING) stats->total.ID += tm.ID;
-    TRAX_TM_COUNTERS(ADD)
-#undef ADD
-    for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
-      stats->total.instructions[op] += tm.instructions[op];
-  }
-  for (uint32_t thread = 0; thread < gdb->threads; thread++)
-    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
-      stats->total.cycles[cause] += machine->tp_stats[thread].cycles[cause];
-  stats->instructions = stats->total.cycles[TRAX_CAUSE_ISSUED];
-}
-
 static void print_figure(void *context, const struct trax_figure *figure) {
   if (figure->value != 0)
     fprintf(context, "%-32s %.*g %s\n", figure->name, figure->whole ? 20 : 6, figure->value, figure->unit);
 }
 
 static bool print_statistics(struct trax_gdb *gdb, const char *arguments, FILE *out) {
-  struct trax_stats stats;
-  sum_up(gdb, &stats);
+  struct trax_stats stats = gdb->machine->stats;
+  stats.cycles = gdb->cycle;
+  trax_run_settle(gdb->run, gdb->cycle);
+  trax_stats_sum(gdb->machine, &stats);
   trax_figures_visit(&stats, NULL, &gdb->machine->config, print_figure, out);
   return !*arguments;
 }

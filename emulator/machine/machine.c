@@ -33,6 +33,14 @@ trax_machine *trax_machine_create(const trax_config *config, trax_error *error) 
 void trax_machine_destroy(trax_machine *machine) {
   if (!machine)
     return;
+  if (machine->run_destroy)
+    machine->run_destroy(machine);
+  while (machine->watches) {
+    struct trax_watch *watch = machine->watches;
+    machine->watches = watch->others;
+    if (watch->release)
+      watch->release(watch->context);
+  }
   if (machine->host_destroy)
     machine->host_destroy(machine->host);
   trax_space_destroy(&machine->space);

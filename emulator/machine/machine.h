@@ -44,7 +44,8 @@ struct trax_machine {
 
   struct trax_fast_path fast_path; /* no result: how the fast engine came by them */
 
-  struct trax_run *run; /* while it runs; else NULL */
+  struct trax_run *run; /* while it runs, or can go on; else NULL */
+  void (*run_destroy)(struct trax_machine *machine);
 };
 
 /* Makes [address, address + bytes) a segment of global memory; *host receives where its bytes, all zero, are. Errors:
@@ -56,6 +57,8 @@ trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry,
 
 /* Adds the counts that follow from the operations issued; done once, at the run's end. */
 void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config);
+/* Between cycles, after trax_run_settle: total and instructions of *stats become what has been counted so far. */
+void trax_stats_sum(const struct trax_machine *machine, struct trax_stats *stats);
 /* After the run: sums up, and checks the rule of accounting, that every thread is charged every cycle once. charged:
    for what it did; otherwise charges are estimates, or there are none. */
 trax_status trax_stats_collect(struct trax_machine *machine, bool charged, trax_error *error);

@@ -43,6 +43,20 @@ static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *ter
 #undef ADD
 }
 
+void trax_stats_sum(const struct trax_machine *machine, struct trax_stats *stats) {
+  const uint32_t tps = machine->config.chip.tps_per_tm;
+  stats->total = (struct trax_tm_stats){0};
+  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
+    struct trax_tm_stats tm = machine->tm_stats[i];
+    trax_stats_derive(&tm, &machine->config);
+    for (uint32_t tp = 0; tp < tps; tp++)
+      for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+        tm.cycles[cause] += machine->tp_stats[(size_t)i * tps + tp].cycles[cause];
+    add_stats(&stats->total, &tm);
+  }
+  stats->instructions = stats->total.cycles[TRAX_CAUSE_ISSUED];
+}
+
 trax_status trax_stats_collect(struct trax_machine *machine, bool charged, trax_error *error) {
   const uint32_t tps = machine->config.chip.tps_per_tm;
   for (uint32_t i = 0; i < machine->config.chip.tms; i++) {

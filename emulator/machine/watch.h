@@ -19,7 +19,8 @@ struct trax_watch {
   /* If not NULL: the run has ended before cycle t, with this status; the machine is as it was then. */
   void (*end)(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t);
   void *context;
-  struct trax_watch *others; /* the next one of the machine's list */
+  void (*release)(void *context); /* if not NULL: called when the machine is destroyed */
+  struct trax_watch *others;      /* the next one of the machine's list */
 };
 
 /* From now on the watch, which must outlive that, looks at the machine: before those that came earlier. An engine that

@@ -252,3 +252,18 @@ trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, 
   *size = buffer->bytes;
   return TRAX_OK;
 }
+
+trax_status trax_machine_read_symbol(const trax_machine *machine, const char *symbol, const uint8_t **bytes,
+                                     uint32_t *size, trax_error *error) {
+  const struct trax_host *host = trax_host_of(machine);
+  if (!host)
+    return trax_fail(error, "no program is loaded");
+  const struct trax_symbol *found = trax_image_symbol(host->image, symbol);
+  if (!found)
+    return trax_fail(error, "%s: the program has no symbol %s", trax_image_path(host->image), symbol);
+  if (found->address < TRAX_NULL_END || (uint64_t)found->address + found->bytes > machine->space.size)
+    return trax_fail(error, "%s: %s is not in global memory", trax_image_path(host->image), symbol);
+  *bytes = machine->space.bytes + found->address;
+  *size = found->bytes;
+  return TRAX_OK;
+}

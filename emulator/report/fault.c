@@ -2,8 +2,8 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "report/backtrace.h"
 #include "program/program.h"
+#include "report/backtrace.h"
 #include "trax/isa.h"
 
 const char *const trax_register_names[TRAX_NUM_REGISTERS] = {

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "engine/run.h"
 #include "program/program.h"
 #include "report/energy.h"
 
@@ -169,7 +170,12 @@ static void match(void *context, const struct trax_figure *figure) {
 
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value) {
   struct search search = {name, value, false};
-  trax_figures_visit(&machine->stats, NULL, &machine->config, match, &search);
+  struct trax_stats stats = machine->stats;
+  if (machine->run) { /* between cycles: what has been counted so far */
+    trax_run_settle(machine->run, stats.cycles);
+    trax_stats_sum(machine, &stats);
+  }
+  trax_figures_visit(&stats, NULL, &machine->config, match, &search);
   return search.found;
 }
 

@@ -110,7 +110,34 @@ typedef struct trax_run_options {
   const trax_slot_sampling *slots; /* NULL: everything is simulated */
 } trax_run_options;
 
+/* Runs the program to its end; options may be NULL. Errors: no program, a second run, a fault of the program (TRAX_FAULT),
+   max_cycles passed (TRAX_STUCK), an interrupt (TRAX_INTERRUPTED). */
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
+
+/* --- a run in parts: the same cycles, counts and bytes as in one --- */
+/* trax_machine_run is trax_machine_begin and trax_machine_advance(machine, UINT64_MAX, ...). What pointers in the options
+   lead to must outlive the run. */
+trax_status trax_machine_begin(trax_machine *machine, const trax_run_options *options, trax_error *error);
+/* Goes on until all cycles before `cycle` are over. *ended: the run is over, and the result is that of trax_machine_run;
+   else it is TRAX_OK, and the run can go on. The functional engine, which has no cycles, runs to its end. */
+trax_status trax_machine_advance(trax_machine *machine, uint64_t cycle, bool *ended, trax_error *error);
+
+/* Whoever looks at a machine between cycles: all cycles before `cycle` are over. *next receives the cycle before which it
+   looks again, UINT64_MAX for never. False ends the run with TRAX_INTERRUPTED. */
+typedef bool trax_look(void *context, trax_machine *machine, uint64_t cycle, uint64_t *next);
+/* From now on look is called, for the first time before cycle `cycle` or when the run begins. Error: out of memory. */
+trax_status trax_machine_look(trax_machine *machine, uint64_t cycle, trax_look *look, void *context, trax_error *error);
+
+/* While a run is between cycles (after trax_machine_advance, and in a trax_look) these tell what is so then; statistics
+   (below) too. */
+uint64_t trax_machine_cycle(const trax_machine *machine); /* the next one; of a run that has ended: its length */
+/* Registers r0 to r31 and pc of a thread, TM * TPs + TP. Errors: no run under way, no such thread. */
+trax_status trax_machine_read_registers(const trax_machine *machine, uint32_t thread, uint32_t registers[32],
+                                        uint32_t *pc, trax_error *error);
+/* The bytes of an object of the program by its symbol, at any time, valid until the machine is destroyed. Errors: no such
+   symbol, or one that is not in global memory. */
+trax_status trax_machine_read_symbol(const trax_machine *machine, const char *symbol, const uint8_t **bytes,
+                                     uint32_t *size, trax_error *error);
 
 int trax_machine_exit_status(const trax_machine *machine);
 /* What a conformance test compares (docs/isa.md, "Signatures"): the words from the symbol begin_signature to
