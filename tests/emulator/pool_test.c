@@ -78,7 +78,37 @@ static void sleeps_while_waiting(void **state) {
   trax_pool_destroy(pool);
 }
 
+static double processor_seconds(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* Between rounds, as when a debugger has stopped the run, threads take no time of the processors, be there more of them
+   than of those. */
+static void idles_without_cost(void **state) {
+  (void)state;
+  const struct timespec long_nap = {.tv_nsec = 400000000};
+  for (unsigned threads = 2; threads <= 32; threads *= 4) {
+    atomic_uint counts[MOST_ITEMS] = {0};
+    struct trax_pool *pool = trax_pool_create(threads, MOST_ITEMS, count, counts, NULL);
+    assert_non_null(pool);
+    for (unsigned i = 0; i < 2; i++) {
+      trax_pool_run(pool);
+      for (unsigned j = 0; sleepers() < threads - 1 && j < 500; j++) /* on a busy host it takes a while */
+        nanosleep(&nap, NULL);
+      const double before = processor_seconds();
+      nanosleep(&long_nap, NULL);
+      const double used = processor_seconds() - before;
+      if (used > 0.02)
+        fail_msg("%u threads took %g s of the processors while there was nothing to do", threads, used);
+    }
+    trax_pool_destroy(pool);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(sleeps_while_waiting)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(sleeps_while_waiting),
+                                     cmocka_unit_test(idles_without_cost)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
