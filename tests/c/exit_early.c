@@ -14,7 +14,7 @@ static unsigned now(const volatile unsigned *p) {
 
 __attribute__((noinline)) static void deep(int n) {
   if (n == 0) {
-    trax_atomic_inc(&gone);
+    __atomic_fetch_add(&gone, 1, __ATOMIC_RELEASE);
     exit(4);
   }
   deep(n - 1);

@@ -21,7 +21,7 @@ int main(int argc, char **argv) {
   const int is_empty = argc == 0 && argv[argc] == NULL && count == 0;
   argv[0] = own;
   if (is_empty && argv[0][0] == 'o' && before[2] == 3)
-    trax_atomic_inc(&good);
+    __atomic_fetch_add(&good, 1, __ATOMIC_RELEASE);
   if (trax_thread() == 0) {
     while (__atomic_load_n(&good, __ATOMIC_ACQUIRE) != trax_threads())
       ;

@@ -19,19 +19,27 @@ SOURCES = os.path.join(HERE, "..", "c")
 LIMIT = 4000000000  # instructions
 
 
+# What a program for several threads contains; these have one, and on a machine of more print what each of them does.
+SHARES = r"trax_thread|trax_atomic_inc|\b_Atomic\b|<stdatomic\.h>|<atomic>|<mutex>|<thread>|__atomic_"
+OF_ONE_THREAD = {"atomic_single.c", "cxx_library.cpp", "machine_operations.c"}
+
+
 def threaded():
-    """{name: the compiler's flags} of the programs that are made for several threads and end well."""
+    """{name: the compiler's flags, of each way in which it is compiled} of the programs that are made for several threads and end well."""
     found = {}
     for name in sorted(os.listdir(SOURCES)):
         if not name.endswith((".c", ".cpp")):
             continue
         with open(os.path.join(SOURCES, name), encoding="utf-8") as file:
             text = file.read().replace("\\\n// RUN:", "")
-        line = re.search(r"RUN: %run_c %s %t(.*)", text)
-        if not line or "--fault" in line[1] or not re.search(r"RUN: .*(--config|chip\.t)", text):
+        lines = re.findall(r"RUN: %run_c %s %t(.*)", text)
+        if any("--fault" in line for line in lines):
             continue
-        words = shlex.split(line[1])
-        found[name] = dict(zip(words[::2], words[1::2])).get("--cflags", "")
+        if any(re.search(r"--config|chip\.t", line) for line in lines):
+            words = [shlex.split(line) for line in lines]
+            found[name] = sorted({dict(zip(line[::2], line[1::2])).get("--cflags", "") for line in words})
+        elif re.search(SHARES, text) and name not in OF_ONE_THREAD:
+            sys.exit(f"c_programs.py: {name} runs on one thread only: is it for several?")
     return found
 
 
@@ -45,23 +53,25 @@ def result(options, model, machine, binary, seed=None):
 
 def check(options, name, flags, directory):
     """How many runs went well, and what went wrong."""
-    binary = os.path.join(directory, name)
     compiler = "clang++" if name.endswith(".cpp") else "clang"
-    subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", options.level, *shlex.split(flags),
-                    os.path.join(SOURCES, name), "-o", binary], check=True)
     good, problems = 0, []
-    for machine in options.machines.split(","):
-        expected = result(options, "trax-isa-model", machine, binary)
-        if expected[0] == 124:
-            problems.append(f"{name} {machine}: it does not end")
-            continue
-        for seed in options.seeds.split(","):
-            found = result(options, "isa-weak-model", machine, binary, seed)
-            if found[:2] == expected[:2]:
-                good += 1
-            else:
-                problems.append(f"{name} {machine}, seed {seed}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, "
-                                f"not {expected[1][-200:]!r} {found[2].strip()}")
+    for way, cflags in enumerate(flags):
+        binary = os.path.join(directory, f"{name}.{way}")
+        subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", options.level, *shlex.split(cflags),
+                        os.path.join(SOURCES, name), "-o", binary], check=True)
+        for machine in options.machines.split(","):
+            what = f"{name} {cflags} {machine}".replace("  ", " ")
+            expected = result(options, "trax-isa-model", machine, binary)
+            if expected[0] == 124:
+                problems.append(f"{what}: it does not end")
+                continue
+            for seed in options.seeds.split(","):
+                found = result(options, "isa-weak-model", machine, binary, seed)
+                if found[:2] == expected[:2]:
+                    good += 1
+                else:
+                    problems.append(f"{what}, seed {seed}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, "
+                                    f"not {expected[1][-200:]!r} {found[2].strip()}")
     return good, problems
 
 
