@@ -26,7 +26,8 @@ struct exact_answer {
   float distance;   /* of the parameter along the direction times 2^direction_exponent, in the scaled scene */
   int direction_exponent;
   enum query_light light;
-  bool exact; /* of exact hits: what is hit is no matter of rounding */
+  float origin[3]; /* of the shadow ray, in the scaled scene */
+  bool exact;      /* of exact hits: what is hit is no matter of rounding */
 };
 
 /* Counts of rays. */
@@ -40,7 +41,8 @@ struct exact_tally {
   uint64_t lit;         /* whose nearest hit sees the light exactly */
   uint64_t leaks;       /* lit in the answer though something is in between, or the light is behind the triangle */
   uint64_t acne;        /* not lit in the answer though they see the light */
-  double worst_ulp;     /* of the distance, in units of the last place, where the triangle is right */
+  uint64_t unexplained_lights; /* of leaks and acne, those that would not be right of where the shadow ray started */
+  double worst_ulp;            /* of the distance, in units of the last place, where the triangle is right */
 };
 
 /* Of several answers about one ray each is counted in the tally of its own. */

@@ -39,7 +39,8 @@ trax_status machine_trace(const char *program, const struct trax_scene *scene, c
     status = trax_machine_bind(machine, "rays", rays, params->count * (uint32_t)sizeof *rays, error);
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "answers", NULL, size, error);
-  const trax_run_options options = {.max_cycles = MAX_CYCLES, .host_threads = 1};
+  const trax_run_options options = {
+      .engine = cycles ? TRAX_ENGINE_FAST : TRAX_ENGINE_FUNCTIONAL, .max_cycles = MAX_CYCLES, .host_threads = 1};
   if (status == TRAX_OK)
     status = trax_machine_run(machine, &options, error);
   const uint8_t *bytes;
@@ -48,8 +49,8 @@ trax_status machine_trace(const char *program, const struct trax_scene *scene, c
     status = trax_machine_read_buffer(machine, "answers", &bytes, &bytes_size, error);
   if (status == TRAX_OK) {
     double value = 0;
-    trax_stats_get(machine, "cycles", &value);
-    *cycles = (uint64_t)value;
+    if (cycles && trax_stats_get(machine, "cycles", &value))
+      *cycles = (uint64_t)value;
     memcpy(answers, bytes, size);
   }
   trax_machine_destroy(machine);

@@ -5,7 +5,7 @@
 #include "query.h"
 #include "render.h"
 
-/* All rays through a query program on the chip 1x32. */
+/* All rays through a query program on the chip 1x32; without `cycles`, in the functional engine. */
 trax_status machine_trace(const char *program, const struct trax_scene *scene, const struct query_params *params,
                           const struct query_ray *rays, struct query_answer *answers, uint64_t *cycles,
                           trax_error *error);

@@ -115,7 +115,7 @@ static void make_tiny_turned(struct setup *setup, uint32_t rays) {
   turn_and_move(setup, (float[]){1e-3f, -2e-3f, 3e-3f});
 }
 
-/* --- both --- */
+/* --- both, with light --- */
 
 /* Rocks of a hundredth around the eye, on a floor that is 2 below it and 1e9 wide. */
 static void make_both(struct setup *setup, uint32_t rays) {
@@ -123,6 +123,7 @@ static void make_both(struct setup *setup, uint32_t rays) {
   const uint32_t first = setup->mesh.triangle_count;
   mesh_box(&setup->mesh, (float[]){-1e9f, -2, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
   aim_at_first(setup, rays, first, 1);
+  setup->light[0] = 3, setup->light[1] = 4, setup->light[2] = 2;
 }
 
 static void make_both_turned(struct setup *setup, uint32_t rays) {
@@ -131,6 +132,7 @@ static void make_both_turned(struct setup *setup, uint32_t rays) {
   mesh_box(&setup->mesh, (float[]){-1e9f, -500, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
   aim_at_first(setup, rays, first, 100);
   turn_and_move(setup, (float[]){1e3f, -2e3f, 3e3f});
+  setup->light[0] = 1300, setup->light[1] = -1800, setup->light[2] = 3200;
 }
 
 /* Rays to rocks that end at the light: 2^-60 of the scene away from it. */
@@ -161,9 +163,10 @@ const struct extreme_case range_cases[] = {
     {"tiny-1e18", "rocks of 1e-9 in a globe of 1.5e18", make_tiny_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
     {"tiny-turned", "rocks of 1e-6 in a globe of 1e17, moved and turned", make_tiny_turned,
      CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"both", "rocks of 0.01 on a floor of 1e9", make_both, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"both", "rocks of 0.01 on a floor of 1e9", make_both,
+     CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
     {"both-turned", "rocks of 4 on a floor of 1e9, moved and turned", make_both_turned,
-     CASE_CLOSED | CASE_BEYOND_BINARY32},
+     CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
     {"tiny-lit", "rocks of 0.001 and a light in a globe of 1e17", make_tiny_lit, CASE_CLOSED | CASE_SHADOWS},
     {"picture-both", "boxes of 1 on a floor of 1e17", make_picture_both, CASE_CLOSED | CASE_BEYOND_BINARY32},
 };
