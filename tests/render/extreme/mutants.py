@@ -41,6 +41,7 @@ MUTANTS = [
     ("exact-side", "shade.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "picture-both"),
     ("exact-point", "shade.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "picture-both"),
     ("exact-way", "shade.h", "if (HITS_ARE_EXACT)\n    way = scale_way", "if (0)\n    way = scale_way", "tiny-lit"),
+    ("far-start", "shade.h", "OFFSET_PER_WAY 0x1p-19f", "OFFSET_PER_WAY 0x1p-12f", "both"),
     ("no-slack", "shade.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
 ]
 
