@@ -340,7 +340,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
 #define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
   (__extension__({                                                                                                     \
     const trax_fast_losses one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                    \
-    const trax_fast_losses carry_ = (*(SUM)&one_) | (either_ & other_);                                                \
+    const trax_fast_losses carry_ = (*(SUM) & one_) | (either_ & other_);                                              \
     *(SUM) = either_ ^ other_;                                                                                         \
     carry_;                                                                                                            \
   }))

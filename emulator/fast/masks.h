@@ -25,7 +25,7 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
     const LANES preferred_ = (ASKERS) & *(BEHIND);                                                                     \
     const LANES among_ = preferred_ | ((ASKERS) & (LANES)(preferred_ == 0));                                           \
     *(WINNERS) = among_ & -among_;                                                                                     \
-    *(BEHIND) = ~(*(WINNERS) | (*(WINNERS)-1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                               \
+    *(BEHIND) = ~(*(WINNERS) | (*(WINNERS) - 1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                             \
   } while (0)
 
 /* The arbiters of 16 banks of two caches, 16 TPs to a cache: of each pair of caches, 32 bits for each bank. */
@@ -72,7 +72,7 @@ static inline uint32_t trax_fast_lose_pair(struct trax_fast_banks16 *banks, unsi
 #define BANKS(K) /* all bits in those whose bit K is 0 */                                                              \
   {BANK(0, K), BANK(1, K), BANK(2, K),  BANK(3, K),  BANK(4, K),  BANK(5, K),  BANK(6, K),  BANK(7, K),                \
    BANK(8, K), BANK(9, K), BANK(10, K), BANK(11, K), BANK(12, K), BANK(13, K), BANK(14, K), BANK(15, K)}
-#define BANK(B, K) ((B) >> (K)&1 ? 0 : 0xFFFFFFFF)
+#define BANK(B, K) ((B) >> (K) & 1 ? 0 : 0xFFFFFFFF)
       BANKS(0), BANKS(1), BANKS(2), BANKS(3)};
 #undef BANK
 #undef BANKS

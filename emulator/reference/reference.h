@@ -32,7 +32,7 @@ struct trax_ref_lines {
     bool present;
     uint32_t number;
     uint64_t used;   /* latest use: a number from `uses` */
-  } * line;          /* [sets][ways] */
+  } *line;           /* [sets][ways] */
   uint32_t *pointer; /* [sets]: the place of the next line, unless lru */
   uint64_t uses;     /* of any line so far */
 };
@@ -112,7 +112,7 @@ struct trax_ref_l2 {
     uint32_t line, channel;
     uint64_t came;    /* as of requests */
     uint64_t arrival; /* UNKNOWN while it waits for its channel */
-  } * miss;           /* [misses]: the miss registers that hold a line */
+  } *miss;            /* [misses]: the miss registers that hold a line */
   uint32_t misses;
 };
 

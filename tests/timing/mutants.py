@@ -5,6 +5,7 @@ Each mutant is one changed line of an engine. A copy of the tree is changed, bui
 survives, and is named. Ends with status 1 if one does, or if a line to be changed is not there any more.
 
     tests/timing/mutants.py SCRATCH [--only EXPRESSION]     only mutants in whose file or lines it is found
+    tests/timing/mutants.py --stale                         only lines that are not there any more
 """
 
 import argparse
@@ -72,11 +73,24 @@ def try_mutant(tree, name, old, new):
     return f"{' '.join(environment.values())} {command[0]}".strip()
 
 
+def list_stale():
+    stale = [(name, old) for name, old, _ in MUTANTS if (SOURCE / "emulator" / name).read_text().count(old) != 1]
+    for name, old in stale:
+        print(f"{name}: {old.strip()}")
+    print(f"{len(stale)} of {len(MUTANTS)} mutants are stale")
+    return bool(stale)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("scratch", type=pathlib.Path)
+    parser.add_argument("scratch", type=pathlib.Path, nargs="?")
     parser.add_argument("--only", default="")
+    parser.add_argument("--stale", action="store_true")
     options = parser.parse_args()
+    if options.stale:
+        return list_stale()
+    if not options.scratch:
+        parser.error("a folder to work in is needed")
     tree = options.scratch.resolve() / "tree"
     copy_tree(tree)
     if not (tree / "build/build.ninja").exists():

@@ -223,8 +223,8 @@ MUTANTS = [
     ("fast/tm.c", "if (tm->tp[tp].asleep_until > t)",
      "if (tm->tp[tp].asleep_until > t + 1)"),
     # A thread is halted from the cycle after its end.
-    ("machine/traps.c", "trax_tm_end_thread(tm, tp, t + 1, (int32_t)value);",
-     "trax_tm_end_thread(tm, tp, t, (int32_t)value);"),
+    ("fast/tp.c", "trax_tm_end_thread(tm, number, t + 1, (int32_t)value);",
+     "trax_tm_end_thread(tm, number, t, (int32_t)value);"),
     # The bank of an instruction.
     ("machine/text.c", "pc / 4 % config->icache.banks",
      "pc / 8 % config->icache.banks"),
@@ -232,8 +232,8 @@ MUTANTS = [
     ("machine/text.c", "config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP)",
      "config->fpu.compare_units && false"),
     # The run ends when the bus is idle.
-    ("fast/chip.c", "idle_from > t ? idle_from : t;",
-     "idle_from > t ? t : t;"),
+    ("fast/chip.c", "idle_from > *t + 1 ? idle_from : *t + 1;",
+     "*t + 1;"),
     # What arrives in t is used in t.
     ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t;",
      "trax_queue_oldest(&tm->queue)->completion < t;"),

@@ -16,7 +16,7 @@
 #define TRAX_EMULATOR_H
 
 #include "trax/processors.h" /* trax_host_processors */
-#include "trax/status.h"     /* trax_status, trax_error */
+#include "trax/status.h" /* trax_status, trax_error */
 
 #include <stdbool.h>
 #include <stddef.h>
