@@ -1,6 +1,5 @@
 #include "accuracy.h"
 
-#include "host/util.h"
 #include "machine/machine.h"
 #include "machine/special_latency.h"
 

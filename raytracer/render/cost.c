@@ -1,8 +1,8 @@
 /* What each pixel cost, as false colours and as numbers. */
-#include "machine/machine.h"
 #include "explain/explain.h"
-#include "host/statistics.h"
+#include "machine/machine.h"
 #include "render.h"
+#include "report/statistics.h"
 #include "trax/output.h"
 
 #include <inttypes.h>

@@ -2,8 +2,8 @@
 #include "plain_scene.h"
 
 #include "machine/machine.h"
+#include "program/image.h"
 #include "program/program.h"
-#include "host/image.h"
 
 #include <math.h>
 #include <stdlib.h>

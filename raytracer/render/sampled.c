@@ -1,8 +1,8 @@
 #include "sampled.h"
 
 #include "machine/machine.h"
+#include "program/image.h"
 #include "program/program.h"
-#include "host/image.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* The picture as the emulated machine renders it. */
-#include "machine/machine.h"
 #include "explain/explain.h"
-#include "program/program.h"
-#include "host/image.h"
+#include "machine/machine.h"
 #include "plain_scene.h"
+#include "program/image.h"
+#include "program/program.h"
 #include "render.h"
 #include "trax/record.h"
 

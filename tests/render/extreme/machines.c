@@ -40,7 +40,7 @@ trax_status machine_trace(const char *program, const struct trax_scene *scene, c
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "answers", NULL, size, error);
   const trax_run_options options = {
-      .engine = cycles ? TRAX_ENGINE_FAST : TRAX_ENGINE_FUNCTIONAL, .max_cycles = MAX_CYCLES, .host_threads = 1};
+      .engine = cycles ? "fast" : "functional", .max_cycles = MAX_CYCLES, .host_threads = 1};
   if (status == TRAX_OK)
     status = trax_machine_run(machine, &options, error);
   const uint8_t *bytes;
