@@ -75,7 +75,7 @@ static void begin(struct trax_run *run) {
   run->begun = true;
   run->t = run->begin;
   run->limit = asked > run->begin ? asked : run->begin; /* a resumed run may be beyond it already */
-  run->looked_at = timed ? 0 : TRAX_NEVER;
+  run->looked_at = TRAX_NEVER;
   trax_poll_begin(&run->poll, run->machine, run->options);
   run->poll.collect = collect;
   run->poll.context = run;
@@ -121,6 +121,8 @@ static trax_status go(struct trax_run *run, uint64_t until) {
 trax_status trax_run_go(struct trax_run *run, uint64_t until) {
   if (!run->begun)
     begin(run);
+  if (run->engine->is_timed)
+    run->looked_at = run->t; /* a watch may have come since */
   const trax_status status = go(run, until);
   if (!run->ended) {
     if (run->engine->commit)

@@ -521,7 +521,7 @@ class Protocol(unittest.TestCase):
             taken.listen(1)
             port = str(taken.getsockname()[1])
             self.assertIn("Address already in use", self.refused("--gdb", port, path("calls")))
-        self.assertIn('--gdb: "65536" is not a whole number', self.refused("--gdb", "65536", path("calls")))
+        self.assertIn("--gdb: '65536' is not a whole number", self.refused("--gdb", "65536", path("calls")))
         self.assertIn("--gdb needs the engine fast or reference, not functional",
                       self.refused("--gdb", "0", "--engine", "functional", path("calls")))
         self.assertIn("none/x: cannot be written", self.refused("--gdb-symbols", "none/x", path("calls")))
