@@ -27,6 +27,7 @@ trax_status trax_input_open(trax_input *input, const char *path, trax_error *err
   if (S_ISDIR(status.st_mode))
     return trax_fail(error, "%s: cannot be read: %s", path, strerror(EISDIR));
   input->is_regular = S_ISREG(status.st_mode);
+  input->expected = input->is_regular ? (size_t)status.st_size : 0;
   return TRAX_OK;
 }
 
@@ -34,7 +35,7 @@ trax_status trax_input_open(trax_input *input, const char *path, trax_error *err
 static bool grow(trax_input *input, size_t most) {
   if (input->size < input->capacity)
     return true;
-  size_t capacity = input->capacity ? input->capacity * 2 : FIRST;
+  size_t capacity = input->capacity ? input->capacity * 2 : input->expected < FIRST ? FIRST : input->expected + 1;
   capacity = capacity < most ? capacity : most;
   uint8_t *bytes = realloc(input->bytes, capacity + 1);
   if (!bytes)
@@ -78,9 +79,9 @@ void trax_input_close(trax_input *input) {
 trax_status trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error) {
   trax_input input;
   trax_status status = trax_input_open(&input, path, error);
-  if (status == TRAX_OK)
+  if (status == TRAX_OK && input.expected <= limit)
     status = trax_input_read(&input, limit + 1, error); /* the byte that proves it too large */
-  if (status == TRAX_OK && input.size > limit)
+  if (status == TRAX_OK && (input.expected > limit || input.size > limit))
     status = trax_fail(error, "%s: more than %zu bytes", path, limit);
   if (status == TRAX_OK) {
     *bytes = input.bytes;

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -9,10 +10,10 @@
 #include <unistd.h>
 
 /* mkstemp makes files private; an output has the mode any other program would give it. */
-static mode_t usual_mode(void) {
+static mode_t usual_mode(mode_t wanted) {
   mode_t mask = umask(0);
   umask(mask);
-  return 0666 & ~mask;
+  return wanted & ~mask;
 }
 
 int trax_output_descriptor(const char *path) {
@@ -58,17 +59,14 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
   /* Through a symbolic link, the file it names is replaced, not the link. */
-  char *target = realpath(path, NULL);
-  if (target) {
-    free(output->path);
-    output->path = target;
-    if (access(target, W_OK) != 0)
-      return fail_closed(output, errno, error);
-  }
-  output->temporary = malloc(strlen(output->path) + sizeof ".XXXXXX");
+  output->target = realpath(path, NULL);
+  const bool exists = output->target != NULL;
+  if (exists ? access(path, W_OK) != 0 : !(output->target = strdup(path)))
+    return fail_closed(output, errno, error);
+  output->temporary = malloc(strlen(output->target) + sizeof ".XXXXXX");
   if (!output->temporary)
     return fail_closed(output, ENOMEM, error);
-  strcat(strcpy(output->temporary, output->path), ".XXXXXX");
+  strcat(strcpy(output->temporary, output->target), ".XXXXXX");
   int descriptor = mkstemp(output->temporary);
   if (descriptor < 0) {
     int code = errno;
@@ -76,7 +74,7 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
     output->temporary = NULL;
     return fail_closed(output, code, error);
   }
-  fchmod(descriptor, target ? existing.st_mode & 07777 : usual_mode());
+  fchmod(descriptor, exists ? existing.st_mode & 07777 : usual_mode(0666));
   output->file = fdopen(descriptor, "wb");
   if (!output->file) {
     int code = errno;
@@ -84,6 +82,13 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
     return fail_closed(output, code, error);
   }
   return TRAX_OK;
+}
+
+void trax_output_make_executable(trax_output *output) {
+  struct stat status;
+  const int descriptor = fileno(output->file);
+  if (output->temporary && fstat(descriptor, &status) == 0)
+    fchmod(descriptor, (status.st_mode & 07777) | usual_mode(0111));
 }
 
 trax_status trax_output_commit(trax_output *output, trax_error *error) {
@@ -103,7 +108,7 @@ trax_status trax_output_commit(trax_output *output, trax_error *error) {
     output->file = NULL;
   }
   if (!failure && output->temporary) {
-    if (rename(output->temporary, output->path) != 0) {
+    if (rename(output->temporary, output->target) != 0) {
       failure = errno;
     } else {
       free(output->temporary);
@@ -122,6 +127,7 @@ void trax_output_discard(trax_output *output) {
   if (output->temporary)
     unlink(output->temporary);
   free(output->temporary);
+  free(output->target);
   free(output->path);
   *output = (trax_output){0};
 }

@@ -88,9 +88,8 @@ void ld_report_suppressed(const ld_context *ctx);
 
 /* The bytes of a regular file of less than 4 GB; false after an error message. */
 bool ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size_t *size);
-/* Writes beside path and renames, so that path is never half written; a path that is no regular file is written
-   directly. mode is reduced by the umask. */
-bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode);
+/* Whole (trax/output.h), and no signal leaves a part of it; false after an error message. */
+bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, bool executable);
 
 static inline uint64_t ld_align(uint64_t value, uint32_t alignment) {
   return (value + alignment - 1) & ~(uint64_t)(alignment - 1);

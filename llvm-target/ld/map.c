@@ -133,11 +133,7 @@ bool ld_write_map(ld_context *ctx) {
   if (ctx->stack_report)
     fprintf(out, "\n%s", ctx->stack_report);
   fclose(out);
-  bool ok;
-  if (strcmp(path, "-") == 0)
-    ok = fwrite(text, 1, size, stdout) == size;
-  else
-    ok = ld_write_file(ctx, path, text, size, 0666);
+  const bool ok = ld_write_file(ctx, path, text, size, false);
   free(text);
   return ok;
 }

@@ -1,4 +1,8 @@
-/* The command line: one table of options, from which parsing and --help both work; response files. */
+/* The command line: one table of options, from which parsing and --help both work; response files.
+
+   It is not trax/options.h's: compilers and makefiles call this program as they call GNU ld, whose long names may have
+   one dash, whose letters take joined values, whose options have aliases, and where an option's place among the inputs
+   counts. */
 #include "ld.h"
 #include "trax/names.h"
 

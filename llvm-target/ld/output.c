@@ -199,5 +199,5 @@ bool ld_build_image(ld_context *ctx) {
 }
 
 bool ld_write_image(ld_context *ctx) {
-  return ld_write_file(ctx, ctx->options.output, ctx->image, ctx->image_size, ctx->options.relocatable ? 0666 : 0777);
+  return ld_write_file(ctx, ctx->options.output, ctx->image, ctx->image_size, !ctx->options.relocatable);
 }

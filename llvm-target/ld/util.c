@@ -1,14 +1,14 @@
 /* Memory, maps, files and diagnostics. */
 #include "ld.h"
 
+#include "trax/input.h"
+#include "trax/output.h"
 #include "trax/signals.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* --- memory: chunks that are freed together --- */
 
@@ -166,95 +166,49 @@ void ld_report_suppressed(const ld_context *ctx) {
 /* --- files --- */
 
 bool ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size_t *size) {
-  int fd = open(path, O_RDONLY | O_CLOEXEC);
-  struct stat status;
-  if (fd < 0 || fstat(fd, &status) != 0) {
-    ld_error(ctx, "%s: cannot open: %s", path, strerror(errno));
-    if (fd >= 0)
-      close(fd);
-    return false;
+  trax_input input;
+  trax_error error;
+  trax_status status = trax_input_open(&input, path, &error);
+  if (status == TRAX_OK && !input.is_regular)
+    status = trax_fail(&error, "%s: is not a regular file", path);
+  if (status == TRAX_OK && input.expected > UINT32_MAX)
+    status = trax_fail(&error, "%s: is larger than 4 GB", path);
+  if (status == TRAX_OK)
+    status = trax_input_read(&input, input.expected, &error);
+  if (status == TRAX_OK) {
+    uint8_t *kept = ld_alloc(ctx, input.size + 1); /* NUL-terminated, for response files */
+    memcpy(kept, input.bytes, input.size);
+    *bytes = kept;
+    *size = input.size;
+  } else {
+    ld_error(ctx, "%s", error.message);
   }
-  const char *problem = NULL;
-  if (!S_ISREG(status.st_mode))
-    problem = S_ISDIR(status.st_mode) ? "is a directory" : "is not a regular file";
-  else if (status.st_size > (off_t)UINT32_MAX)
-    problem = "is larger than 4 GB";
-  if (problem) {
-    ld_error(ctx, "%s: %s", path, problem);
-    close(fd);
-    return false;
-  }
-  size_t length = (size_t)status.st_size, done = 0;
-  uint8_t *buffer = ld_alloc(ctx, length + 1); /* NUL-terminated, for response files */
-  while (done < length) {
-    ssize_t count = read(fd, buffer + done, length - done);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count <= 0) {
-      ld_error(ctx, "%s: cannot read: %s", path, count < 0 ? strerror(errno) : "it became shorter while being read");
-      close(fd);
-      return false;
-    }
-    done += (size_t)count;
-  }
-  close(fd);
-  *bytes = buffer;
-  *size = length;
-  return true;
+  trax_input_close(&input);
+  return status == TRAX_OK;
 }
 
-static bool write_all(int fd, const void *bytes, size_t size) {
-  const char *from = bytes;
-  while (size > 0) {
-    ssize_t count = write(fd, from, size);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count < 0)
-      return false;
-    from += count;
-    size -= (size_t)count;
-  }
-  return true;
-}
-
-bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode) {
-  struct stat status;
-  if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-    int fd = S_ISDIR(status.st_mode) ? (errno = EISDIR, -1) : open(path, O_WRONLY | O_CLOEXEC);
-    bool ok = fd >= 0 && write_all(fd, bytes, size);
-    if (!ok)
-      ld_error(ctx, "%s: cannot write: %s", path, strerror(errno));
-    if (fd >= 0)
-      close(fd);
-    return ok;
-  }
-  char *temporary = ld_format(ctx, "%s.tmpXXXXXX", path);
+bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, bool executable) {
+  struct stat existing;
+  trax_output output;
+  trax_error error;
   sigset_t before;
-  trax_hold_signals(&before);
-  int fd = mkstemp(temporary);
-  if (fd < 0) {
+  /* What is written directly may keep it waiting, as a pipe, and leaves nothing to remove. */
+  const bool is_replaced =
+      trax_output_descriptor(path) < 0 && (stat(path, &existing) != 0 || S_ISREG(existing.st_mode));
+  if (is_replaced)
+    trax_hold_signals(&before);
+  trax_status status = trax_output_open(&output, path, &error);
+  if (status == TRAX_OK) {
+    if (executable)
+      trax_output_make_executable(&output);
+    fwrite(bytes, 1, size, output.file); /* a failure shows again when the file is closed */
+    status = trax_output_commit(&output, &error);
+  }
+  if (is_replaced)
     trax_allow_signals(&before);
-    ld_error(ctx, "%s: cannot write: %s", path, strerror(errno));
-    return false;
-  }
-  mode_t mask = umask(0);
-  umask(mask);
-  bool ok = write_all(fd, bytes, size) && fchmod(fd, (mode_t)mode & ~mask) == 0;
-  int reason = errno;
-  if (close(fd) != 0 && ok) {
-    ok = false;
-    reason = errno;
-  }
-  if (ok && rename(temporary, path) != 0) {
-    ok = false;
-    reason = errno;
-  }
-  if (!ok)
-    unlink(temporary);
-  trax_allow_signals(&before);
-  if (!ok)
-    ld_error(ctx, "%s: cannot write: %s", path, strerror(reason));
-  return ok;
+  if (status != TRAX_OK)
+    ld_error(ctx, "%s", error.message);
+  return status == TRAX_OK;
 }
 
 /* --- text --- */

@@ -1,4 +1,9 @@
 //===- ToolSupport.h - What the command-line tools share -----------------===//
+//
+// These tools take the options of LLVM's tools of the same kind, so options (cl::opt), messages and files are LLVM's and
+// not those of emulator/base; the check that no output is an input is base's.
+//
+//===----------------------------------------------------------------------===//
 #ifndef TRAX_TOOLS_TOOLSUPPORT_H
 #define TRAX_TOOLS_TOOLSUPPORT_H
 

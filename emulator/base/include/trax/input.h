@@ -19,6 +19,7 @@ typedef struct trax_input {
   bool is_regular; /* no pipe, no device */
   uint8_t *bytes;  /* from malloc, with a NUL behind the last */
   size_t size, capacity;
+  size_t expected; /* its size when it was opened, if it is regular */
 } trax_input;
 
 trax_status trax_input_open(trax_input *input, const char *path, trax_error *error);

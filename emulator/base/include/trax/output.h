@@ -15,12 +15,15 @@ extern "C" {
    file (a device, a pipe) is written directly. "-" and /dev/stdout are standard output, whatever that is; /dev/stderr
    and /dev/fd/N likewise. */
 typedef struct trax_output {
-  FILE *file; /* NULL: closed */
-  char *path;
+  FILE *file;      /* NULL: closed */
+  char *path;      /* as it was given, for messages */
   char *temporary; /* NULL: path is written directly */
+  char *target;    /* what the temporary file becomes: path, or what it refers to as a symbolic link */
 } trax_output;
 
 trax_status trax_output_open(trax_output *output, const char *path, trax_error *error);
+/* For everyone whom the umask lets. */
+void trax_output_make_executable(trax_output *output);
 /* Closes and renames. On an error nothing is left behind, and an earlier file of that name is untouched. */
 trax_status trax_output_commit(trax_output *output, trax_error *error);
 void trax_output_discard(trax_output *output);
