@@ -7,7 +7,7 @@
 #include <string.h>
 
 bool __wrap_ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size_t *size);
-bool __wrap_ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode);
+bool __wrap_ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, bool executable);
 int __wrap_access(const char *path, int mode);
 int __real_access(const char *path, int mode);
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
@@ -31,11 +31,11 @@ bool __wrap_ld_read_file(ld_context *ctx, const char *path, const uint8_t **byte
   return true;
 }
 
-bool __wrap_ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, unsigned mode) {
+bool __wrap_ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, bool executable) {
   (void)ctx, (void)path;
   for (size_t i = 0; i < size; i++) /* every byte is there */
     sum ^= ((const uint8_t *)bytes)[i];
-  images += (mode & 0111) != 0; /* the rest is maps */
+  images += executable; /* the rest is maps */
   return true;
 }
 
