@@ -132,6 +132,12 @@ void trax_output_discard(trax_output *output) {
   *output = (trax_output){0};
 }
 
+trax_status trax_output_flush(trax_error *error) {
+  return fflush(stdout) == 0 && !ferror(stdout)
+             ? TRAX_OK
+             : trax_fail(error, "standard output cannot be written: %s", strerror(errno));
+}
+
 trax_status trax_output_check(const char *path, trax_error *error) {
   struct stat existing;
   const int shared = trax_output_descriptor(path);

@@ -9,9 +9,9 @@
 #include "host/checkpoint.h"
 
 #include "engine/run.h"
+#include "trax/input.h"
 #include "trax/output.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -233,59 +233,54 @@ static trax_status refuse(const char *path, const char *why, trax_error *error) 
   return trax_fail(error, "%s: %s", path, why);
 }
 
-/* The compressed bytes; NULL with the reason if they are not there or not as they were written. */
-static uint8_t *read_body(FILE *file, struct header *header, const char *path, trax_error *error) {
-  if (fread(header, sizeof *header, 1, file) != 1 || memcmp(header->magic, magic, sizeof magic) != 0) {
-    refuse(path, "not a checkpoint", error);
-    return NULL;
-  }
-  if (header->version != VERSION) {
-    trax_fail(error, "%s: a checkpoint of version %" PRIu32 "; this program reads version %u", path, header->version,
-              VERSION);
-    return NULL;
-  }
-  const long begin = ftell(file);
-  const bool sized = begin >= 0 && fseek(file, 0, SEEK_END) == 0 &&
-                     (uint64_t)ftell(file) == (uint64_t)begin + header->compressed && fseek(file, begin, SEEK_SET) == 0;
-  uint8_t *body = sized ? malloc(header->compressed ? header->compressed : 1) : NULL;
-  if (!body || fread(body, 1, header->compressed, file) != header->compressed) {
-    refuse(path, "truncated or damaged", error);
-    free(body);
-    return NULL;
-  }
-  const XXH128_hash_t digest = digest_file(*header, body);
-  if (digest.low64 == header->body[0] && digest.high64 == header->body[1])
-    return body;
-  refuse(path, "damaged: its digest is another one", error);
-  free(body);
-  return NULL;
+/* The header, and behind it in input->bytes the compressed bytes, as they were written. */
+static trax_status read_file(trax_input *input, struct header *header, trax_error *error) {
+  trax_status status = trax_input_read(input, sizeof *header, error);
+  if (status != TRAX_OK)
+    return status;
+  if (input->size < sizeof *header || memcmp(input->bytes, magic, sizeof magic) != 0)
+    return refuse(input->path, "not a checkpoint", error);
+  memcpy(header, input->bytes, sizeof *header);
+  if (header->version != VERSION)
+    return trax_fail(error, "%s: a checkpoint of version %" PRIu32 "; this program reads version %u", input->path,
+                     header->version, VERSION);
+  if (input->expected - sizeof *header == header->compressed)
+    status = trax_input_read(input, input->expected, error);
+  if (status != TRAX_OK)
+    return status;
+  if (input->size - sizeof *header != header->compressed)
+    return refuse(input->path, "truncated or damaged", error);
+  const XXH128_hash_t digest = digest_file(*header, input->bytes + sizeof *header);
+  return digest.low64 == header->body[0] && digest.high64 == header->body[1]
+             ? TRAX_OK
+             : refuse(input->path, "damaged: its digest is another one", error);
+}
+
+static trax_status expand_file(struct trax_checkpoint *checkpoint, const trax_input *input, trax_error *error) {
+  const char *path = input->path;
+  const struct header *header = &checkpoint->header;
+  if (header->run[0] != checkpoint->run.low64 || header->run[1] != checkpoint->run.high64)
+    return refuse(path, "a checkpoint of another program, machine, or buffer", error);
+  if (header->pages > checkpoint->machine->space.size / PAGE || header->state / MOST_EXPANSION > header->compressed)
+    return refuse(path, "damaged: it cannot hold as much as it says", error);
+  uLongf size = header->state + (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
+  const uLongf expected = size;
+  checkpoint->content = malloc(size);
+  if (!checkpoint->content ||
+      uncompress(checkpoint->content, &size, input->bytes + sizeof *header, header->compressed) != Z_OK ||
+      size != expected)
+    return refuse(path, "damaged, or too large for this host's memory", error);
+  return TRAX_OK;
 }
 
 static trax_status read_checkpoint(struct trax_checkpoint *checkpoint, trax_error *error) {
-  const char *path = checkpoint->options.resume;
-  struct header *header = &checkpoint->header;
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
-  uint8_t *body = read_body(file, header, path, error);
-  fclose(file);
-  if (!body)
-    return TRAX_ERROR;
-  trax_status status = TRAX_OK;
-  if (header->run[0] != checkpoint->run.low64 || header->run[1] != checkpoint->run.high64) {
-    status = refuse(path, "a checkpoint of another program, machine, or buffer", error);
-  } else if (header->pages > checkpoint->machine->space.size / PAGE ||
-             header->state / MOST_EXPANSION > header->compressed) {
-    status = refuse(path, "damaged: it cannot hold as much as it says", error);
-  } else {
-    uLongf size = header->state + (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
-    const uLongf expected = size;
-    checkpoint->content = malloc(size);
-    if (!checkpoint->content || uncompress(checkpoint->content, &size, body, header->compressed) != Z_OK ||
-        size != expected)
-      status = refuse(path, "damaged, or too large for this host's memory", error);
-  }
-  free(body);
+  trax_input input;
+  trax_status status = trax_input_open(&input, checkpoint->options.resume, error);
+  if (status == TRAX_OK)
+    status = read_file(&input, &checkpoint->header, error);
+  if (status == TRAX_OK)
+    status = expand_file(checkpoint, &input, error);
+  trax_input_close(&input);
   return status;
 }
 

@@ -1,9 +1,7 @@
 /* trax-sim: configure, load, run, report. */
-#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "report/backtrace.h"
@@ -167,8 +165,8 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   const bool finished = run == TRAX_OK;
   trax_status result = TRAX_OK;
   trax_error reason;
-  if ((fflush(stdout) != 0 || ferror(stdout)) && !reader_gone)
-    result = trax_fail(error, "standard output cannot be written: %s", strerror(errno));
+  if (trax_output_flush(&reason) != TRAX_OK && !reader_gone)
+    result = trax_fail(error, "%s", reason.message);
   if (options->stats && trax_stats_write_json(machine, options->stats, &reason) != TRAX_OK && result == TRAX_OK)
     result = trax_fail(error, "%s", reason.message);
   if (options->report && write_report(machine, options->report, &reason) != TRAX_OK && result == TRAX_OK)
@@ -253,12 +251,9 @@ static int simulate(const trax_config *config, const struct trax_options *option
 
 static int flush_standard_output(int result) {
   trax_error error;
-  if (fflush(stdout) == 0 && !ferror(stdout))
+  if (trax_output_flush(&error) == TRAX_OK)
     return result;
-  if (reader_gone)
-    return EXIT_SIGNAL + SIGPIPE;
-  trax_fail(&error, "standard output cannot be written: %s", strerror(errno));
-  return complain(&error);
+  return reader_gone ? EXIT_SIGNAL + SIGPIPE : complain(&error);
 }
 
 int main(int count, char **arguments) {

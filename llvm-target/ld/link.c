@@ -1,5 +1,6 @@
 /* The whole linker as a function: relocatable objects and archives in, an executable for the TP out. */
 #include "ld.h"
+#include "trax/output.h"
 #include "trax/version.h"
 
 #include <stdlib.h>
@@ -50,8 +51,9 @@ static bool run(ld_context *ctx, int argc, char **argv) {
     if (ok && ctx->options.print_memory_usage)
       ld_print_memory_usage(ctx, stdout);
   }
-  if (fflush(stdout) != 0 || ferror(stdout)) {
-    ld_error(ctx, "cannot write to standard output");
+  trax_error error;
+  if (trax_output_flush(&error) != TRAX_OK) {
+    ld_error(ctx, "%s", error.message);
     ok = false;
   }
   ld_report_suppressed(ctx);

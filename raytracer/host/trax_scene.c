@@ -5,7 +5,6 @@
 #include "trax/progress.h"
 #include "trax/signals.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <signal.h>
@@ -178,10 +177,7 @@ static int complain(const trax_error *error) {
 /* The status, unless what was printed could not be written. */
 static int end_of_output(int status) {
   trax_error error;
-  if (fflush(stdout) == 0 && !ferror(stdout))
-    return status;
-  trax_fail(&error, "cannot write to standard output: %s", strerror(errno));
-  return complain(&error);
+  return trax_output_flush(&error) == TRAX_OK ? status : complain(&error);
 }
 
 int main(int argc, char **argv) {

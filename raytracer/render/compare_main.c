@@ -1,6 +1,7 @@
 /* trax-compare: do two pictures agree? */
 #include "render.h"
 #include "trax/options.h"
+#include "trax/output.h"
 
 #include <stdlib.h>
 
@@ -84,9 +85,10 @@ int main(int argc, char **argv) {
   struct arguments arguments = {.at_least = 100};
   trax_error error;
   const trax_parsed parsed = trax_command_parse(&command, &arguments, &argc, argv, &error);
-  if (parsed != TRAX_PARSED_RUN)
-    return parsed == TRAX_PARSED_DONE ? 0 : fail(error.message);
-  if (argc != 2)
+  if (parsed == TRAX_PARSED_WRONG)
+    return fail(error.message);
+  if (parsed == TRAX_PARSED_RUN && argc != 2)
     return fail("expected two pictures; trax-compare --help shows how");
-  return compare(argv[0], argv[1], &arguments);
+  const int status = parsed == TRAX_PARSED_RUN ? compare(argv[0], argv[1], &arguments) : 0;
+  return trax_output_flush(&error) == TRAX_OK ? status : fail(error.message);
 }

@@ -7,13 +7,12 @@
 #include "inputs.h"
 #include "options.h"
 #include "render.h"
+#include "trax/output.h"
 #include "trax/progress.h"
 #include "trax/signals.h"
 
-#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t reader_gone; /* nobody reads standard output any more: pictures are written all the same */
@@ -250,11 +249,11 @@ int main(int argc, char **argv) {
     }
   }
   options_release(&options);
-  const bool unwritten = fflush(stdout) != 0 || ferror(stdout);
+  const bool unwritten = trax_output_flush(&error) != TRAX_OK;
   if (exit_status == 0 && reader_gone) {
     exit_status = 128 + SIGPIPE;
   } else if (exit_status == 0 && unwritten) {
-    fprintf(stderr, "trax-render: error: standard output: %s\n", strerror(errno));
+    fprintf(stderr, "trax-render: error: %s\n", error.message);
     exit_status = 1;
   }
   return exit_status;

@@ -273,7 +273,7 @@ static void test_full_output(void **state) {
     assert_int_equal(waitpid(child, &outcome.status, 0), child);
     read_back(err, outcome.err, sizeof outcome.err);
     close(full);
-    assert_contains(outcome.err, "trax-scene: error: cannot write to standard output: No space left");
+    assert_contains(outcome.err, "trax-scene: error: standard output cannot be written: No space left");
     assert_int_equal(exit_status(&outcome), 1);
   }
 }

@@ -27,6 +27,8 @@ void trax_output_make_executable(trax_output *output);
 /* Closes and renames. On an error nothing is left behind, and an earlier file of that name is untouched. */
 trax_status trax_output_commit(trax_output *output, trax_error *error);
 void trax_output_discard(trax_output *output);
+/* Whether all that was printed to standard output is written: asked when a program ends. */
+trax_status trax_output_flush(trax_error *error);
 /* Can path be written? Asked before a long run, so that its results are not lost. */
 trax_status trax_output_check(const char *path, trax_error *error);
 
