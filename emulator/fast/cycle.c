@@ -98,14 +98,15 @@ static ALWAYS_INLINE uint64_t lose_fetches(struct trax_fast_tm *ftm, const bool 
 static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
+  if (!ftm->resident[ftm->icache_of[number]][ftm->fast->program.line[trax_fast_head(ftm, number)]]) {
+    trax_fast_show(ftm, number);
+    if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
+      trax_icache_look_up(icache, tm, number, t); /* who is refused by the memory queue asks again */
+      return false;
+    }
+  }
   ftm->looked_up += !(ftm->deferred >> number & 1);
-  if (ftm->resident[ftm->icache_of[number]][ftm->fast->program.line[trax_fast_head(ftm, number)]])
-    return true;
-  trax_fast_show(ftm, number);
-  if (trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc)))
-    return true;
-  trax_icache_look_up(icache, tm, number, t); /* who is refused by the memory queue asks again */
-  return false;
+  return true;
 }
 
 /* --- step 2 --- */

@@ -43,9 +43,9 @@
 #include "fast/variant.h"
 
 enum {
-  TRAX_BURST = 224,      /* most instructions of a burst; fits in trax_fast_heads.at */
-  TRAX_STRETCH = 32,     /* instructions of the program whose steps are noted at once: those from a multiple of it on */
-  TRAX_FAST_LINES = 1024 /* lines of the program that `resident` knows; the last entry stands for all others */
+  TRAX_BURST = 224,  /* most instructions of a burst; fits in trax_fast_heads.at */
+  TRAX_STRETCH = 32, /* instructions of the program whose steps are noted at once: those from a multiple of it on */
+  TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* that `resident` knows; the last entry stands for all others */
 };
 
 /* An instruction, what its function needs: four to a line of the host's cache. */
@@ -73,7 +73,7 @@ struct trax_fast_section {
 struct trax_fast_program {
   struct trax_fast_section *sections; /* [count], in one array of instructions */
   size_t count, inst_count;
-  uint32_t lines;              /* that `resident` knows */
+  uint32_t lines;              /* TRAX_FAST_LINES: or more */
   struct trax_fast_inst *inst; /* [inst_count] */
   struct trax_fast_note *note; /* [inst_count] */
   uint16_t *line;              /* [inst_count]: of the program, for `resident` */

@@ -10,17 +10,17 @@ static void drop_arrived(struct trax_fast_tp *ftp, const struct trax_tp *tp) {
 }
 
 /* Whether all lines of the burst are certainly there. What was noted of them may contain lines that are never executed,
-   and so never come. */
+   and so never come; of programs of more than 64 lines it tells nothing. */
 static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsigned count) {
   const struct trax_fast_tp *ftp = &ftm->tp[number];
-  const uint64_t missing = ftp->burst_lines & ~ftm->resident_lines[ftm->icache_of[number]];
-  if (!missing || ftm->fast->program.lines > 64)
-    return !missing;
+  const unsigned icache = ftm->icache_of[number];
+  if (!(ftp->burst_lines & ~ftm->resident_lines[icache]))
+    return true;
   for (unsigned i = 0; i < count;) {
     const uint8_t part = ftp->part[i];
     const uint32_t origin = ftp->origin[part]; /* as trax_fast_index, which wraps around */
     do
-      if (missing >> ftm->fast->program.line[origin + i] % 64 & 1)
+      if (!ftm->resident[icache][ftm->fast->program.line[origin + i]])
         return false;
     while (++i < count && ftp->part[i] == part);
   }

@@ -93,7 +93,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
                 jumps_oddly(&section->decoded[word], word, words));
     }
     lines += section->end / line_bytes - first_line + 1;
-    lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES - 1;
+    lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES;
   }
   program->lines = lines;
   program->outside = &program->inst[index];

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { TRAX_KNOWN_LINES = 1023 }; /* of the program, of which the engine knows whether they are in a cache */
+
 struct trax_fast_path {
   bool known; /* the fast engine has run */
 
@@ -15,9 +17,9 @@ struct trax_fast_path {
   bool uneven_units;    /* nor are the groups of adders and multipliers */
   bool many_data_banks; /* nor the banks of the data cache */
   bool hits_in_turn;    /* its hits are served one by one */
-  uint32_t text_lines;  /* lines of instructions of the program */
+  uint32_t text_lines;  /* lines of instructions of the program; TRAX_KNOWN_LINES + 1: or more */
 
-  uint64_t looked_up;     /* fetches whose line had to be looked up */
+  uint64_t looked_up;     /* fetches whose line had to be looked up, and was there */
   uint64_t single_hits;   /* of the data cache, served one by one */
   uint64_t at_issue;      /* instructions that executed when they were issued, not ahead of time */
   uint64_t single_cycles; /* through which several TMs went together, not each by itself for many cycles */

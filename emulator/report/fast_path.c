@@ -4,8 +4,6 @@
 
 #include <inttypes.h>
 
-enum { CERTAIN_LINES = 64 /* of which the engine knows at once whether they are there: a word's bits */ };
-
 struct table {
   FILE *out;
   bool any;
@@ -43,9 +41,8 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   if (!path->known || machine->stats.sampling.is_sampled)
     return;
   char lines[96];
-  if (path->text_lines > CERTAIN_LINES)
-    snprintf(lines, sizeof lines, "the program has %" PRIu32 " lines of instructions, more than %d", path->text_lines,
-             CERTAIN_LINES);
+  if (path->text_lines > TRAX_KNOWN_LINES)
+    snprintf(lines, sizeof lines, "the program has more than %d lines of instructions", TRAX_KNOWN_LINES);
   else
     snprintf(lines, sizeof lines, "the line was not there yet, or lines had gone since");
   char conflicts[96];

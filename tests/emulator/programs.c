@@ -98,6 +98,21 @@ static struct elf_file mix(void) {
   return simple(text, COUNT(text), data, sizeof data, false);
 }
 
+/* More instructions than the fast engine knows lines of, forty times. */
+static struct elf_file long_program(void) {
+  enum { LENGTH = 1500 };
+  uint32_t text[LENGTH + 5];
+  size_t n = 0;
+  text[n++] = I(ADDI, A1, ZERO, 40);
+  while (n < LENGTH + 1)
+    text[n++] = I(ADDI, T0, T0, 1);
+  text[n++] = I(ADDI, A1, A1, -1);
+  text[n++] = B(BEQ, A1, ZERO, 8);
+  text[n++] = J(ZERO, -4 * (LENGTH + 2));
+  text[n++] = T(ZERO, TRAX_TRAP_EXIT);
+  return simple(text, COUNT(text), "", 1, false);
+}
+
 static struct elf_file signature(void) {
   const uint32_t text[] = {U(LUI, A0, 1),
                            I(ADDI, A1, ZERO, 42),
@@ -123,12 +138,12 @@ static struct elf_file signature(void) {
 static const struct {
   const char *name;
   struct elf_file (*make)(void);
-} programs[] = {{"hello", hello}, {"exit3", exit3}, {"null", null},          {"abort", abort_program},
-                {"spin", spin},   {"items", items}, {"copy", copy},          {"mix", mix},
-                {"print", print}, {"idle", idle},   {"signature", signature}};
+} programs[] = {{"hello", hello}, {"exit3", exit3}, {"null", null},           {"abort", abort_program},
+                {"spin", spin},   {"items", items}, {"copy", copy},           {"mix", mix},
+                {"print", print}, {"idle", idle},   {"signature", signature}, {"long", long_program}};
 
-const char *const program_names[] = {"hello", "exit3", "null",  "abort", "spin",      "items",
-                                     "copy",  "mix",   "print", "idle",  "signature", NULL};
+const char *const program_names[] = {"hello", "exit3", "null", "abort",     "spin", "items", "copy",
+                                     "mix",   "print", "idle", "signature", "long", NULL};
 
 struct elf_file program_file(const char *name) {
   for (size_t i = 0; i < COUNT(programs); ++i)
