@@ -330,7 +330,9 @@ bool trax_windows_advance(struct trax_windows *windows, uint64_t *t, uint64_t un
   assert(until > *t);
   if (*t < windows->cautious_from && windows->cautious_from < until)
     until = windows->cautious_from;
-  if ((*t >= windows->cautious_from && *t < windows->cautious_until) || until - *t < LEAST_WINDOW) {
+  const bool cautious = *t >= windows->cautious_from && *t < windows->cautious_until;
+  if (cautious || until - *t < LEAST_WINDOW) {
+    chip->machine->fast_path.short_windows += !cautious;
     windows->kept = false; /* what is written in that cycle is not noted */
     return false;
   }

@@ -24,6 +24,7 @@ struct trax_fast_path {
   uint64_t at_issue;      /* instructions that executed when they were issued, not ahead of time */
   uint64_t single_cycles; /* through which several TMs went together, not each by itself for many cycles */
   uint64_t conflicts;     /* of TMs that ran ahead of each other and had to go back */
+  uint64_t short_windows; /* cycles in which TMs could not run ahead, since the run stops soon, as for a checkpoint */
 };
 
 #endif

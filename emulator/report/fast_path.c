@@ -45,8 +45,11 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
     snprintf(lines, sizeof lines, "the program has more than %d lines of instructions", TRAX_KNOWN_LINES);
   else
     snprintf(lines, sizeof lines, "the line was not there yet, or lines had gone since");
-  char conflicts[96];
-  snprintf(conflicts, sizeof conflicts, "conflicts of TMs in memory (%" PRIu64 "), and ends of runs", path->conflicts);
+  char conflicts[160];
+  snprintf(conflicts, sizeof conflicts,
+           "conflicts of TMs in memory (%" PRIu64 "), checkpoints and other stops close together (%" PRIu64
+           " cycles), and ends of runs",
+           path->conflicts, path->short_windows);
   fprintf(out, "\nSlow ways of the fast engine, which take more of the host's time and change no result\n");
   row(&table, "observed", path->observed ? cycles : 0, cycles, "cycles", "every instruction is told of");
   row(&table, "TMs cycle by cycle", path->single_cycles, cycles, "cycles",

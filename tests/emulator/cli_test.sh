@@ -114,6 +114,10 @@ slow "fetches bank by bank .* 100.00 % of the cycles" "icache.banks is above 16"
 slow "adders group by group .* 100.00 % of the cycles" "not one to each group alike" --set fpu.adders_per_cluster=2
 slow "data banks by fours .* 100.00 % of the cycles" "more than 8 banks" --set dcache.tps_per_bank=2
 slow "TMs cycle by cycle .* of the cycles" "memory answers too soon" --set memory.latency_cycles=1
+grep '^  TMs cycle by cycle' quick.txt | grep -q 'stops close together (0 cycles)' || fail "quick.txt: stops"
+run 0 --config 2x32 --report report.txt --checkpoint often.bin --checkpoint-every 10 mix.elf
+grep '^  TMs cycle by cycle' report.txt | grep -q ' 9[0-9.]* % of the cycles: .* stops close together ([1-9][0-9]* cycles)' ||
+  fail "report.txt: checkpoints in every tenth cycle"
 run 0 --stats - hello.elf
 prints hello
 prints '"cycles": '
