@@ -59,7 +59,8 @@ def make(folder, build):
     """Compiles the query programs and the suite with them."""
     for program in (build / "lib/trax").glob("query-*.elf"):
         compile_query(build, f"lib/trax/{program.name}", folder, folder / program.name)
-    shutil.copy(build / "lib/trax/trax-raytracer.elf", folder)
+    for program in ("trax-raytracer.elf", "trax-raytracer-exact.elf"):
+        shutil.copy(build / "lib/trax" / program, folder)
     link = command(build, "bin/render-extreme")
     for i, word in enumerate(link):
         if word.endswith("/query.c.o"):
