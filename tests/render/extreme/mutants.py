@@ -34,7 +34,7 @@ MUTANTS = [
     ("one-word", "stack.h", "trail->second = trail->upper_second;", "trail->second = 0;", "deepest"),
     ("no-offset", "shade.h", "float offset = bound * inverse_length", "float offset = 0 * inverse_length", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
-    ("exact-bound", "triangle.h", "* 0x1p-17f + 0x1p-38f", "* 0", "room-1e9"),
+    ("exact-bound", "triangle.h", "* 0x1p-17f + 0x1p-38f", "* 0", "tiny-1e16"),
     ("exact-scale", "triangle.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),
     ("exact-borrow", "exact.h", "carry = turned ? *at != 0 : both == 0;", "carry = 0;", "room-1e18"),
     ("exact-order", "exact.h", "sign ^ odd << 31", "sign", "room-1e9"),
