@@ -38,7 +38,7 @@ MUTANTS = [
     ("exact-scale", "triangle.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),
     ("exact-borrow", "exact.h", "carry = turned ? *at != 0 : both == 0;", "carry = 0;", "room-1e18"),
     ("exact-order", "exact.h", "sign ^ odd << 31", "sign", "room-1e9"),
-    ("exact-side", "shade.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "picture-both"),
+    ("exact-side", "shade.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "oblique"),
     ("exact-point", "shade.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "picture-both"),
     ("exact-way", "shade.h", "if (HITS_ARE_EXACT)\n    way = scale_way", "if (0)\n    way = scale_way", "tiny-lit"),
     ("far-start", "shade.h", "OFFSET_PER_WAY 0x1p-19f", "OFFSET_PER_WAY 0x1p-12f", "both"),

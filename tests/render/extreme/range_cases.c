@@ -74,6 +74,24 @@ static void make_ground(struct setup *setup, uint32_t rays) {
   }
 }
 
+/* The eye is so near the plane of a ground that in binary32 it might be on either side. */
+static void make_oblique(struct setup *setup, uint32_t rays) {
+  float p[3] = {8.1234567e8f, -3.3456789e8f, 5.7777777e8f}, q[3] = {-2.2345678e8f, 7.6543211e8f, 6.1357911e8f},
+        from_p[3], from_q[3];
+  for (int axis = 0; axis < 3; axis++)
+    from_p[axis] = -p[axis], from_q[axis] = -q[axis];
+  triangle_at(setup, q, p, from_p);
+  triangle_at(setup, from_q, from_p, p);
+  for (uint32_t i = 0; i < rays; i++) {
+    float from[3] = {any(setup), any(setup), any(setup)}, at[3];
+    const float far = exp2f(-32 * random_unit(&setup->seed)), across = far * any(setup);
+    for (int axis = 0; axis < 3; axis++)
+      at[axis] = far * (i & 1 ? q : from_q)[axis] + across * p[axis];
+    aim(setup, from, at);
+  }
+  setup->light[0] = 3, setup->light[1] = 4, setup->light[2] = 2;
+}
+
 /* --- tiny things --- */
 
 /* One beside the other, none within another or the floor: where surfaces cross, no ray starts between them. */
@@ -159,6 +177,8 @@ const struct extreme_case range_cases[] = {
     {"room-1e18", "the same of 1.7e18, the floor 0.001 below", make_room_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
     {"room-turned", "a room of 1e9, moved and turned", make_room_turned, CASE_CLOSED | CASE_BEYOND_BINARY32},
     {"ground", "two triangles of 1e8, 1.7 below the eye", make_ground, CASE_BEYOND_BINARY32},
+    {"oblique", "a ground of 1e9, the eye within 2 of it", make_oblique,
+     CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
     {"tiny-1e16", "rocks of 1 in a globe of 1e16", make_tiny_1e16, CASE_CLOSED},
     {"tiny-1e18", "rocks of 1e-9 in a globe of 1.5e18", make_tiny_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
     {"tiny-turned", "rocks of 1e-6 in a globe of 1e17, moved and turned", make_tiny_turned,
