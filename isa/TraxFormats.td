@@ -109,6 +109,9 @@ class TraxInst<TraxFormat format, bits<6> opcode, dag outs, dag ins, string asm,
   code Semantics = semantics;
   string Manual = manual;
   bit IsFlop = false;       // counts in the paper's GFLOPS (adds and multiplies)
+  bit IsCompare = false;    // floating-point comparison, minimum or maximum
+  bit IsConversion = false; // between integers and floats
+  bit IsRoot = false;       // reciprocal square root
   int ImmFirst = 0;         // immediates below are illegal
   int ImmLimit = -1;        // immediates from here on are illegal; -1: no limit
   int AccessBytes = 0;      // memory access size

@@ -32,6 +32,7 @@ def FADD : InstR<3, 0, "fadd", UnitFPAdd, [{ RD = trax_fadd(RA, RB); }], "Sum, r
 def FSUB : InstR<3, 1, "fsub", UnitFPAdd, [{ RD = trax_fsub(RA, RB); }], "Difference, rounded to nearest even.">;
 def FMUL : InstR<4, 0, "fmul", UnitFPMul, [{ RD = trax_fmul(RA, RB); }], "Product, rounded to nearest even.">;
 }
+let IsCompare = true in {
 def FMIN : InstR<3, 2, "fmin", UnitFPAdd, [{ RD = trax_fmin(RA, RB); }],
                  "The lesser operand (-0 is less than +0); the number if one operand is a NaN (IEEE 754-2019 minimumNumber).">;
 def FMAX : InstR<3, 3, "fmax", UnitFPAdd, [{ RD = trax_fmax(RA, RB); }],
@@ -40,6 +41,8 @@ def FEQ  : InstR<3, 4, "feq", UnitFPAdd, [{ RD = trax_feq(RA, RB); }], "1 if ra 
 def FLT  : InstR<3, 5, "flt", UnitFPAdd, [{ RD = trax_flt(RA, RB); }], "1 if ra is less than rb, else 0; 0 if either is a NaN.">;
 def FLE  : InstR<3, 6, "fle", UnitFPAdd, [{ RD = trax_fle(RA, RB); }],
                  "1 if ra is less than or equal to rb, else 0; 0 if either is a NaN.">;
+}
+let IsConversion = true in {
 def FCVT_W_S  : InstR1<5, 0, "fcvt.w.s", UnitFPAdd, [{ RD = trax_fcvt_w_s(RA); }],
                        "Float to signed integer, towards zero; saturates, NaN gives 0.">;
 def FCVT_WU_S : InstR1<5, 1, "fcvt.wu.s", UnitFPAdd, [{ RD = trax_fcvt_wu_s(RA); }],
@@ -48,8 +51,10 @@ def FCVT_S_W  : InstR1<5, 2, "fcvt.s.w", UnitFPAdd, [{ RD = trax_fcvt_s_w(RA); }
                        "Signed integer to float, rounded to nearest even.">;
 def FCVT_S_WU : InstR1<5, 3, "fcvt.s.wu", UnitFPAdd, [{ RD = trax_fcvt_s_wu(RA); }],
                        "Unsigned integer to float, rounded to nearest even.">;
+}
 def FDIV   : InstR<6, 0, "fdiv", UnitSpecial, [{ RD = FPDIV(RA, RB); }],
                    "Quotient, rounded to nearest even (the paper's FPDIV); to the unit's precision where the configuration reduces it.">;
+let IsRoot = true in
 def FRSQRT : InstR1<6, 1, "frsqrt", UnitSpecial, [{ RD = ISQRT(RA); }],
                     "Reciprocal square root, correctly rounded (IEEE 754-2019 rSqrt, the paper's iSQRT): +-0 gives +-infinity, +infinity gives +0, a negative number gives NaN.">;
 

@@ -104,7 +104,8 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   do_##NAME : {                                                                                                        \
     uint64_t next_pc = NOWHERE;                                                                                        \
     __VA_ARGS__                                                                                                        \
-    const bool is_relative = trax_fast_is_relative(TRAX_OP_##NAME);                                                    \
+    /* Its target is then imm / 4 behind it, and not the next one: all others stop bursts (jumps_oddly). */            \
+    const bool is_relative = (TRAX_FLAGS_##NAME & TRAX_IS_RELATIVE) != 0;                                              \
     if (next_pc != NOWHERE && (is_relative || (uint32_t)next_pc != PC + 4)) {                                          \
       jumps++;                                                                                                         \
       at = AT;                                                                                                         \

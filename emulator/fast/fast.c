@@ -118,12 +118,15 @@ static void collect(struct trax_fast *fast) {
 
 /* Loads and stores that went neither past nor through the data cache. */
 static void count_local(struct trax_tm_stats *stats) {
-  const uint64_t *count = stats->instructions;
-  stats->local_loads = count[TRAX_OP_LB] + count[TRAX_OP_LBU] + count[TRAX_OP_LH] + count[TRAX_OP_LHU] +
-                       count[TRAX_OP_LW] + count[TRAX_OP_LWNT] - stats->dcache_hits - stats->dcache_merged -
-                       stats->dcache_misses - stats->nontemporal_loads;
-  stats->local_stores = count[TRAX_OP_SB] + count[TRAX_OP_SH] + count[TRAX_OP_SW] + count[TRAX_OP_SWNT] -
-                        stats->store_hits - stats->store_misses - stats->nontemporal_stores;
+  uint64_t loads = 0, stores = 0;
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
+    const unsigned flags = trax_op_table[op].flags;
+    loads += (flags & (TRAX_IS_LOAD | TRAX_IS_ATOMIC)) == TRAX_IS_LOAD ? stats->instructions[op] : 0;
+    stores += flags & TRAX_IS_STORE ? stats->instructions[op] : 0;
+  }
+  stats->local_loads =
+      loads - stats->dcache_hits - stats->dcache_merged - stats->dcache_misses - stats->nontemporal_loads;
+  stats->local_stores = stores - stats->store_hits - stats->store_misses - stats->nontemporal_stores;
 }
 
 /* In the order of trax_fast_lost and its tally. */

@@ -228,13 +228,6 @@ static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_f
   return program->outside;
 }
 
-/* Jumps to pc + imm. In trax_fast_program.inst, such an instruction's target is imm / 4 behind it, and not the next
-   one: all others stop bursts. */
-static inline bool trax_fast_is_relative(unsigned op) {
-  return op == TRAX_OP_BEQ || op == TRAX_OP_BNE || op == TRAX_OP_BLT || op == TRAX_OP_BGE || op == TRAX_OP_BLTU ||
-         op == TRAX_OP_BGEU || op == TRAX_OP_JAL;
-}
-
 /* --- burst.c --- */
 /* Executes instructions from resume on, as steps 0...; returns how many: `limit` at most, and as many if that is less
    than TRAX_BURST and nothing stops it. */

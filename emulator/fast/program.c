@@ -34,7 +34,8 @@ static bool stops_burst(const struct trax_decoded *decoded) {
 /* Whether an instruction of a section of `words` jumps out of it, into the middle of a word or nowhere. */
 static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint32_t words) {
   const int64_t target = word + (int64_t)decoded->imm / 4;
-  return trax_fast_is_relative(decoded->op) && (decoded->imm % 4 || decoded->imm == 4 || target < 0 || target >= words);
+  return (trax_op_table[decoded->op].flags & TRAX_IS_RELATIVE) &&
+         (decoded->imm % 4 || decoded->imm == 4 || target < 0 || target >= words);
 }
 
 /* All registers, of a fence. */

@@ -119,7 +119,11 @@ static Instruction readInstruction(const Record *R) {
   I.IsAtomic = flag(R, "IsAtomic");
   I.IsNontemporal = flag(R, "IsNontemporal");
   I.IsFlop = flag(R, "IsFlop");
+  I.IsCompare = flag(R, "IsCompare");
+  I.IsConversion = flag(R, "IsConversion");
+  I.IsRoot = flag(R, "IsRoot");
   I.IsBranch = flag(R, "isBranch");
+  I.IsRelative = I.IsBranch && !flag(R, "isIndirectBranch");
   I.IsLoad = flag(R, "mayLoad") && I.AccessBytes;
   I.IsStore = flag(R, "mayStore") && I.AccessBytes && !I.IsAtomic;
   if (I.Manual.empty() || I.Semantics.empty())

@@ -30,6 +30,7 @@ struct Instruction {
   unsigned AccessBytes = 0;
   bool ReadsRA = false, ReadsRB = false, ReadsRD = false, WritesRD = false;
   bool IsLoad = false, IsStore = false, IsAtomic = false, IsNontemporal = false, IsBranch = false, IsFlop = false;
+  bool IsRelative = false, IsCompare = false, IsConversion = false, IsRoot = false;
 
   unsigned opcode() const { return Match >> 26; }
 };

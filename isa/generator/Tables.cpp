@@ -26,7 +26,11 @@ static std::string flags(const Instruction &I) {
   Add(I.IsAtomic, "TRAX_IS_ATOMIC");
   Add(I.IsNontemporal, "TRAX_IS_NONTEMPORAL");
   Add(I.IsBranch, "TRAX_IS_BRANCH");
+  Add(I.IsRelative, "TRAX_IS_RELATIVE");
   Add(I.IsFlop, "TRAX_IS_FLOP");
+  Add(I.IsCompare, "TRAX_IS_COMPARE");
+  Add(I.IsConversion, "TRAX_IS_CONVERSION");
+  Add(I.IsRoot, "TRAX_IS_ROOT");
   return Text.empty() ? "0" : Text;
 }
 

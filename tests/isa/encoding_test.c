@@ -118,11 +118,36 @@ static void test_known_words(void **state) {
   check_text((trax_inst){.op = TRAX_OP_HALT}, 0xA8000000u, "halt");
 }
 
+static void check_class(unsigned flag, const char *expected) {
+  char names[256] = "";
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
+    if (trax_op_table[op].flags & flag) {
+      strcat(names, *names ? " " : "");
+      strcat(names, trax_op_table[op].mnemonic);
+    }
+  assert_string_equal(names, expected);
+}
+
+static void test_classes(void **state) {
+  (void)state;
+  check_class(TRAX_IS_FLOP, "fadd fsub fmul");
+  check_class(TRAX_IS_COMPARE, "fmin fmax feq flt fle");
+  check_class(TRAX_IS_CONVERSION, "fcvt.w.s fcvt.wu.s fcvt.s.w fcvt.s.wu");
+  check_class(TRAX_IS_ROOT, "frsqrt");
+  check_class(TRAX_IS_LOAD, "lb lbu lh lhu lw lwnt ainc");
+  check_class(TRAX_IS_STORE, "sb sh sw swnt");
+  check_class(TRAX_IS_ATOMIC, "ainc");
+  check_class(TRAX_IS_NONTEMPORAL, "lwnt swnt");
+  check_class(TRAX_IS_BRANCH, "beq bne blt bge bltu bgeu jal jalr");
+  check_class(TRAX_IS_RELATIVE, "beq bne blt bge bltu bgeu jal");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_all_words),
       cmocka_unit_test(test_zero_and_ones_are_illegal),
       cmocka_unit_test(test_known_words),
+      cmocka_unit_test(test_classes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,8 +48,19 @@ enum {
   TRAX_IS_STORE = 1u << 5, /* not ainc */
   TRAX_IS_ATOMIC = 1u << 6,
   TRAX_IS_NONTEMPORAL = 1u << 7,
-  TRAX_IS_BRANCH = 1u << 8, /* conditional branches, jal, jalr */
-  TRAX_IS_FLOP = 1u << 9    /* counts in GFLOPS: adds and multiplies (paper, Table 1) */
+  TRAX_IS_BRANCH = 1u << 8,      /* conditional branches, jal, jalr */
+  TRAX_IS_RELATIVE = 1u << 9,    /* of those, the ones that go to pc + imm: all but jalr */
+  TRAX_IS_FLOP = 1u << 10,       /* counts in GFLOPS: adds and multiplies (paper, Table 1) */
+  TRAX_IS_COMPARE = 1u << 11,    /* floating-point comparison, minimum, maximum */
+  TRAX_IS_CONVERSION = 1u << 12, /* between integers and floats */
+  TRAX_IS_ROOT = 1u << 13        /* reciprocal square root */
+};
+
+/* The flags of each instruction as constants: TRAX_FLAGS_ADD. */
+enum {
+#define TRAX_INSTRUCTION(NAME, MNEMONIC, SYNTAX, FORMAT, UNIT, MASK, MATCH, FLAGS, BYTES) TRAX_FLAGS_##NAME = FLAGS,
+#include "trax/instructions.inc"
+#undef TRAX_INSTRUCTION
 };
 
 typedef struct trax_op_info {
