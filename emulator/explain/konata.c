@@ -38,10 +38,9 @@ static enum stage stage_of(trax_cause cause) {
   case TRAX_CAUSE_ICACHE_BANK:
   case TRAX_CAUSE_ICACHE_MISS:
     return FETCH;
-  case TRAX_CAUSE_FP_ADD:
-  case TRAX_CAUSE_FP_MUL:
-  case TRAX_CAUSE_INT_MUL:
-  case TRAX_CAUSE_SPECIAL:
+#define REFUSED(X, ID, ...) case TRAX_CAUSE_##ID:
+    TRAX_SHARED_UNITS(REFUSED, )
+#undef REFUSED
   case TRAX_CAUSE_DCACHE_BANK:
     return UNIT;
   case TRAX_CAUSE_MEMORY_QUEUE:

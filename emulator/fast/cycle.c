@@ -285,12 +285,43 @@ static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t 
   return granted;
 }
 
-static uint64_t askers_for_roots(const struct trax_fast_tm *ftm, uint64_t askers) {
-  uint64_t roots = 0;
-  for (uint64_t rest = askers; rest; rest &= rest - 1)
-    if (trax_fast_head_note(ftm, trax_first(rest))->decoded->op == TRAX_OP_FRSQRT)
-      roots |= rest & -rest;
-  return roots;
+/* Grants units of any kind, group by group. */
+static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *unit, uint64_t askers, uint64_t t) {
+  const struct trax_shared_kind *const kind = &unit->kind;
+  uint64_t winners = 0;
+  for (uint32_t group = 0; group < kind->groups; group++) {
+    const uint64_t all = askers & trax_group_mask(group, kind->group_size);
+    if (kind->is_pipelined) {
+      winners |= trax_arbiter_grant(&unit->turn[group], all, kind->per_group);
+      continue;
+    }
+    uint64_t *const free_from = &unit->free_from[(size_t)group * kind->per_group];
+    for (uint32_t i = 0; i < kind->per_group && all & ~winners; i++)
+      if (free_from[i] <= t) {
+        const uint64_t winner = trax_arbiter_grant(&unit->turn[group], all & ~winners, 1);
+        free_from[i] = t + trax_fast_head_note(ftm, trax_first(winner))->decoded->latency;
+        winners |= winner;
+      }
+  }
+  return winners;
+}
+
+_Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
+
+/* Grants the units without a place of their own; `bit`: of their numbers. Returns the winners. */
+static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t askers,
+                                            const uint64_t *bit, uint64_t t) {
+  uint64_t granted = 0;
+#pragma GCC unroll 8
+  for (unsigned unit = TRAX_FAST_FURTHER; unit < TRAX_SHARED_COUNT; unit++) {
+    uint64_t ask_it = askers;
+    for (unsigned k = 0; k < 3; k++)
+      ask_it &= (unit - TRAX_FAST_FURTHER) >> k & 1 ? bit[k] : ~bit[k];
+    const uint64_t won = ask_it ? grant_any(ftm, &ftm->tm->unit[unit], ask_it, t) : 0;
+    lost->unit[unit] = ask_it & ~won;
+    granted |= won;
+  }
+  return granted;
 }
 
 /* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do, and `banks`
@@ -300,24 +331,27 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
   struct trax_tm *tm = ftm->tm;
   uint64_t bit[TRAX_ASKS_BANK_SHIFT + TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&ftm->heads, wide, 0, TRAX_ASKS_BANK_SHIFT + 3, bit);
-  const uint64_t ready = ftm->ready, ready_low = ready & ~bit[3], ready_high = ready & bit[3];
+  const uint64_t ready = ftm->ready, ready_low = ready & ~bit[3];
+  const uint64_t further = (unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER ? ready & bit[1] & bit[2] & bit[3] : 0;
+  const uint64_t ready_high = ready & bit[3] & ~further;
   /* By kind: see TRAX_ASKS_FP_ADD and those that follow it. */
   uint64_t granted = ready_low & ~(bit[1] | bit[2]);
   uint64_t askers, won;
   const trax_fast_pair fp_askers = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
   const trax_fast_pair fp_won = trax_fast_grant_units(&ftm->fp, fp_askers);
   granted |= fp_won[0] | fp_won[1];
-  lost->fp_add = fp_askers[0] & ~fp_won[0];
-  lost->fp_mul = fp_askers[1] & ~fp_won[1];
+  lost->unit[TRAX_SHARED_FP_ADD] = fp_askers[0] & ~fp_won[0];
+  lost->unit[TRAX_SHARED_FP_MUL] = fp_askers[1] & ~fp_won[1];
   if ((askers = ready_low & bit[1] & bit[2])) {
     granted |= won = trax_fast_grant_units(&ftm->int_mul, (trax_fast_pair){askers, 0})[0];
-    lost->int_mul = askers & ~won;
+    lost->unit[TRAX_SHARED_INT_MUL] = askers & ~won;
   }
   if ((askers = ready_high & bit[1])) {
-    const bool differ = tm->special.root_interval != tm->special.interval;
-    granted |= won = trax_special_unit_grant(&tm->special, askers, differ ? askers_for_roots(ftm, askers) : 0, t);
-    lost->special = askers & ~won;
+    granted |= won = grant_any(ftm, &tm->unit[TRAX_SHARED_SPECIAL], askers, t);
+    lost->unit[TRAX_SHARED_SPECIAL] = askers & ~won;
   }
+  if (further)
+    granted |= grant_further(ftm, lost, further, bit + TRAX_ASKS_BANK_SHIFT, t);
   uint64_t queue_askers = ready_high & bit[2];
   *banks = askers = ready_high & ~(bit[1] | bit[2]);
   if (askers) {
@@ -348,7 +382,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
 
 static bool is_any(const trax_fast_losses *losses) {
   uint64_t any = 0;
-  for (unsigned i = 0; i < TRAX_FAST_LOSSES; i++)
+  for (unsigned i = 0; i < TRAX_FAST_COUNTERS; i++)
     any |= (*losses)[i];
   return any != 0;
 }

@@ -7,10 +7,10 @@
 
 static void create_units(struct trax_fast_units *unit, const struct trax_shared_unit *first,
                          const struct trax_shared_unit *second) {
-  const struct trax_shared_unit *const kinds[2] = {first, second};
-  unit->group_size = first->group_size;
-  unit->even = 64 % first->group_size == 0 && second->group_size == first->group_size && first->per_group == 1 &&
-               second->per_group == 1;
+  const struct trax_shared_kind *const kinds[2] = {&first->kind, &second->kind};
+  unit->group_size = first->kind.group_size;
+  unit->even = 64 % unit->group_size == 0 && kinds[1]->group_size == unit->group_size && kinds[0]->per_group == 1 &&
+               kinds[1]->per_group == 1;
   for (unsigned kind = 0; kind < 2; kind++) {
     unit->uneven[kind].groups = kinds[kind]->groups;
     unit->uneven[kind].per_group = kinds[kind]->per_group;
@@ -50,8 +50,8 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   ftm->data_banks = tm->dcache.banks;
   while (1u << ftm->data_bank_bits < ftm->data_banks)
     ftm->data_bank_bits++;
-  create_units(&ftm->fp, &tm->fp_add, &tm->fp_mul);
-  create_units(&ftm->int_mul, &tm->int_mul, &tm->int_mul);
+  create_units(&ftm->fp, &tm->unit[TRAX_SHARED_FP_ADD], &tm->unit[TRAX_SHARED_FP_MUL]);
+  create_units(&ftm->int_mul, &tm->unit[TRAX_SHARED_INT_MUL], &tm->unit[TRAX_SHARED_INT_MUL]);
   ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
   ftm->heads.steps = ftm->tp->asks;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* those that do not exist are looked at in place of nobody */
@@ -130,21 +130,28 @@ static void count_local(struct trax_tm_stats *stats) {
 }
 
 /* In the order of trax_fast_lost and its tally. */
-static const trax_cause loss_causes[] = {TRAX_CAUSE_ICACHE_BANK, TRAX_CAUSE_FP_ADD,  TRAX_CAUSE_FP_MUL,
-                                         TRAX_CAUSE_INT_MUL,     TRAX_CAUSE_SPECIAL, TRAX_CAUSE_DCACHE_BANK};
+static const trax_cause loss_causes[TRAX_FAST_LOSSES] = {
+#define CAUSE(MEMBER, CAUSE) TRAX_CAUSE_##CAUSE,
+    TRAX_FAST_LOST(CAUSE)
+#undef CAUSE
+};
 
 static void charge_losses(struct trax_fast_tm *ftm) {
   trax_fast_count_log(&ftm->tally);
   for (unsigned bit = 0; bit < 64; bit++)
-    for (unsigned lost = 0; lost < sizeof loss_causes / sizeof *loss_causes; lost++)
+    for (unsigned lost = 0; lost < TRAX_FAST_LOSSES; lost++)
       for (uint64_t tps = ftm->tally.planes[bit][lost]; tps; tps &= tps - 1)
         ftm->tm->tp_stats[trax_first(tps)].cycles[loss_causes[lost]] += (uint64_t)1 << bit;
   memset(&ftm->tally, 0, sizeof ftm->tally);
 }
 
 void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost *lost) {
-  const uint64_t losers[] = {lost->fetch, lost->fp_add, lost->fp_mul, lost->int_mul, lost->special, lost->bank};
-  for (unsigned i = 0; i < sizeof losers / sizeof *losers; i++)
+  const uint64_t losers[] = {
+#define LOSERS(MEMBER, CAUSE) lost->MEMBER,
+      TRAX_FAST_LOST(LOSERS)
+#undef LOSERS
+  };
+  for (unsigned i = 0; i < TRAX_FAST_LOSSES; i++)
     for (uint64_t rest = losers[i]; rest; rest &= rest - 1)
       trax_tm_tell(ftm->tm, trax_first(rest), loss_causes[i], ftm->tm->now, 1);
 }

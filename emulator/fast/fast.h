@@ -48,6 +48,9 @@ enum {
   TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* that `resident` knows; the last entry stands for all others */
 };
 
+/* The first of the shared units without a place of its own among what a step asks for. */
+#define TRAX_FAST_FURTHER ((unsigned)TRAX_SHARED_SPECIAL + 1)
+
 /* An instruction, what its function needs: four to a line of the host's cache. */
 struct trax_fast_inst {
   const void *operation; /* where burst.c executes it; for the first of a stretch, where the stretch is noted */

@@ -18,7 +18,8 @@ enum {
   TRAX_ASKS_INT_MUL = 3 << 1,
   TRAX_ASKS_BANK = 4 << 1, /* of the data cache */
   TRAX_ASKS_SPECIAL = 5 << 1,
-  TRAX_ASKS_QUEUE = 6 << 1, /* the memory queue without a bank */
+  TRAX_ASKS_QUEUE = 6 << 1,   /* the memory queue without a bank */
+  TRAX_ASKS_FURTHER = 7 << 1, /* a shared unit without a place of its own: which, where else the bank is */
   TRAX_ASKS_KIND = 7 << 1,
   TRAX_ASKS_BANK_SHIFT = 4,   /* which bank */
   TRAX_ASKS_FETCH_SHIFT = 10, /* and of the instruction cache, in the rest of the bits */

@@ -2,6 +2,8 @@
 #ifndef TRAX_FAST_MASKS_H
 #define TRAX_FAST_MASKS_H
 
+#include "machine/units.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -131,15 +133,21 @@ static inline uint16_t *trax_fast_fetch_turn(struct trax_fast_banks16 *banks, co
   return &banks->turn[icache / 2][bank][icache % 2];
 }
 
-/* The TPs that were refused something in a cycle, by what it was. */
+/* The TPs that were refused something in a cycle, by what it was: X(member, cause). */
+#define TRAX_FAST_LOST(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_LOST_UNIT, X) X(bank, DCACHE_BANK)
+#define TRAX_FAST_LOST_UNIT(X, ID, ...) X(unit[TRAX_SHARED_##ID], ID)
+enum { TRAX_FAST_LOSSES = TRAX_SHARED_COUNT + 2 };
+
 struct trax_fast_lost {
-  uint64_t fetch, fp_add, fp_mul, int_mul, special, bank;
+  uint64_t fetch, unit[TRAX_SHARED_COUNT], bank;
 };
 
 /* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
    charged to all TPs at once; several cycles together, since carries cost most. */
-enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */, TRAX_FAST_LOSSES = 8 };
-typedef uint64_t trax_fast_losses __attribute__((vector_size(8 * TRAX_FAST_LOSSES), may_alias)); /* as trax_fast_lost */
+enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */ };
+#define TRAX_FAST_COUNTERS (TRAX_FAST_LOSSES <= 8 ? 8 : TRAX_FAST_LOSSES <= 16 ? 16 : 32) /* a power of two */
+typedef uint64_t trax_fast_losses
+    __attribute__((vector_size(8 * TRAX_FAST_COUNTERS), may_alias)); /* in the order of TRAX_FAST_LOST */
 
 struct trax_fast_tally {
   trax_fast_losses planes[64];
@@ -153,13 +161,10 @@ void trax_fast_count_log(struct trax_fast_tally *tally);
 static inline void trax_fast_count(struct trax_fast_tally *tally, const struct trax_fast_lost *lost) {
   /* One by one: nobody looks at them soon, and a vector would have to be put together. */
   typedef uint64_t word __attribute__((may_alias));
-  word *const log = (word *)&tally->log[tally->logged];
-  log[0] = lost->fetch;
-  log[1] = lost->fp_add;
-  log[2] = lost->fp_mul;
-  log[3] = lost->int_mul;
-  log[4] = lost->special;
-  log[5] = lost->bank;
+  word *log = (word *)&tally->log[tally->logged];
+#define LOG(MEMBER, CAUSE) *log++ = lost->MEMBER;
+  TRAX_FAST_LOST(LOG)
+#undef LOG
   if (++tally->logged == TRAX_FAST_LOG)
     trax_fast_count_log(tally);
 }

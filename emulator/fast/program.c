@@ -4,18 +4,15 @@
 
 /* Whatever its address: of memory accesses, nothing. */
 static uint16_t asks_of(const struct trax_decoded *decoded) {
-  switch ((trax_ask)decoded->ask) {
-  case TRAX_ASK_FP_ADD:
-    return TRAX_ASKS_FP_ADD;
-  case TRAX_ASK_FP_MUL:
-    return TRAX_ASKS_FP_MUL;
-  case TRAX_ASK_INT_MUL:
-    return TRAX_ASKS_INT_MUL;
-  case TRAX_ASK_SPECIAL:
-    return TRAX_ASKS_SPECIAL;
-  default:
+  static const uint16_t own[] = {[TRAX_SHARED_FP_ADD] = TRAX_ASKS_FP_ADD,
+                                 [TRAX_SHARED_FP_MUL] = TRAX_ASKS_FP_MUL,
+                                 [TRAX_SHARED_INT_MUL] = TRAX_ASKS_INT_MUL,
+                                 [TRAX_SHARED_SPECIAL] = TRAX_ASKS_SPECIAL};
+  if (decoded->ask != TRAX_ASK_UNIT)
     return 0;
-  }
+  if (decoded->unit < TRAX_FAST_FURTHER)
+    return own[decoded->unit];
+  return (uint16_t)(TRAX_ASKS_FURTHER | (decoded->unit - TRAX_FAST_FURTHER) << TRAX_ASKS_BANK_SHIFT);
 }
 
 /* What depends on time, or acts on anything outside the TP, whatever its operands. */

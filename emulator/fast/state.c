@@ -107,11 +107,10 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT(tm->wheel_occupied);
   VISIT(tm->next_cycle);
   VISIT(tm->progressed);
-  VISIT(tm->fp_add.turn);
-  VISIT(tm->fp_mul.turn);
-  VISIT(tm->int_mul.turn);
-  VISIT(tm->special.free_from);
-  VISIT(tm->special.turn);
+  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++) {
+    VISIT(tm->unit[i].turn);
+    VISIT_ARRAY(tm->unit[i].free_from, trax_shared_unit_count(&tm->unit[i]));
+  }
   VISIT(tm->queue_turn);
   visit_queue(visitor, &tm->queue);
   for (uint32_t i = 0; i < tm->icaches; i++) {
@@ -242,7 +241,7 @@ uint64_t trax_state_layout(void *chip) {
   trax_state_visit(chip, add_piece, &layout);
   for (unsigned op = 0; op < TRAX_OP_COUNT; op++) /* what numbers mean */
     add_text(&layout, trax_op_table[op].mnemonic);
-#define CAUSE(ID, NAME, MEANING) add_text(&layout, NAME);
+#define CAUSE(ID, NAME, ...) add_text(&layout, NAME);
   TRAX_CAUSES(CAUSE)
 #undef CAUSE
   return layout.hash;

@@ -262,6 +262,21 @@ static void check_tp(struct checker *checker, const struct trax_tm *tm, unsigned
   expect(checker, charged == checker->t, "TM %u, TP %u: charged for %" PRIu64 " cycles", tm->number, number, charged);
 }
 
+static void check_units(struct checker *checker, const struct trax_tm *tm) {
+  static const char *const names[] = {
+#define NAME(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, ...) UNIT,
+      TRAX_SHARED_UNITS(NAME, )
+#undef NAME
+  };
+  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++) {
+    const struct trax_shared_unit *unit = &tm->unit[i];
+    check_turns(checker, unit->turn, 64, names[i]);
+    for (size_t j = 0; j < trax_shared_unit_count(unit); j++)
+      expect(checker, is_soon(checker, unit->free_from[j]), "TM %u, %s %zu: busy up to %" PRIu64, tm->number, names[i],
+             j, unit->free_from[j]);
+  }
+}
+
 static void check_tm(struct checker *checker, struct trax_tm *tm) {
   const uint64_t all = trax_group_mask(0, tm->tps), t = checker->t;
   struct wanted wanted = {0};
@@ -283,14 +298,8 @@ static void check_tm(struct checker *checker, struct trax_tm *tm) {
          tm->number, tm->holding);
   for (unsigned i = 0; i < tm->tps; i++)
     check_tp(checker, tm, i, fetching, &wanted);
-  check_turns(checker, tm->fp_add.turn, 64, "adder");
-  check_turns(checker, tm->fp_mul.turn, 64, "multiplier");
-  check_turns(checker, tm->int_mul.turn, 64, "integer multiplier");
-  check_turns(checker, &tm->special.turn, 1, "special unit");
+  check_units(checker, tm);
   check_turns(checker, &tm->queue_turn, 1, "memory queue");
-  for (unsigned i = 0; i < 64; i++)
-    expect(checker, is_soon(checker, tm->special.free_from[i]), "TM %u, special unit %u: busy up to %" PRIu64,
-           tm->number, i, tm->special.free_from[i]);
   expect(checker, tm->progressed <= t, "TM %u: the latest trap was before cycle %" PRIu64, tm->number, tm->progressed);
   expect(checker, tm->next_cycle <= (tm->awake ? t : trax_tm_next_cycle(tm, t - 1)),
          "TM %u: nothing happens before cycle %" PRIu64, tm->number, tm->next_cycle);

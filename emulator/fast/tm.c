@@ -32,15 +32,11 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_chip
                   trax_dcache_create(&tm->dcache, tm);
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
     complete = trax_icache_create(&tm->icache[i], i, tm);
+  for (trax_shared unit = 0; complete && unit < TRAX_SHARED_COUNT; unit++)
+    complete = trax_shared_unit_create(&tm->unit[unit], unit, config);
   if (!complete)
     return trax_fail(error, "out of memory");
 
-  trax_shared_unit_create(&tm->fp_add, config->fpu.tps_per_cluster, config->fpu.adders_per_cluster, tps);
-  trax_shared_unit_create(&tm->fp_mul, trax_config_mul_cluster(config), config->fpu.multipliers_per_cluster, tps);
-  trax_shared_unit_create(&tm->int_mul, config->int_mul.tps_per_unit, config->int_mul.units_per_group, tps);
-  trax_special_unit_create(&tm->special, config->special.units_per_tm,
-                           config->special.pipelined ? 1 : config->special.latency_cycles,
-                           config->special.pipelined ? 1 : trax_config_rsqrt_latency(config));
   for (uint32_t i = 0; i < tps; i++) {
     tm->tp[i].pc = machine->entry;
     tm->tp[i].inst = trax_text_at(tm->text, machine->entry);
@@ -53,6 +49,8 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_chip
 void trax_tm_destroy(struct trax_tm *tm) {
   for (uint32_t i = 0; tm->icache && i < tm->icaches; i++)
     trax_icache_destroy(&tm->icache[i]);
+  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
+    trax_shared_unit_destroy(&tm->unit[unit]);
   trax_dcache_destroy(&tm->dcache);
   free(tm->icache);
   trax_queue_destroy(&tm->queue);

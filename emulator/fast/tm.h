@@ -37,8 +37,7 @@ struct trax_tm {
 
   struct trax_icache *icache; /* [icaches] */
   uint32_t icaches;
-  struct trax_shared_unit fp_add, fp_mul, int_mul;
-  struct trax_special_unit special;
+  struct trax_shared_unit unit[TRAX_SHARED_COUNT];
   struct trax_dcache dcache;
   struct trax_queue queue;
   trax_arbiter queue_turn;

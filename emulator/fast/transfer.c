@@ -43,9 +43,9 @@ static void import_units(struct trax_fast_units *units, unsigned kind, const str
 
 static void export_arbiters(struct trax_fast_tm *ftm) {
   struct trax_tm *tm = ftm->tm;
-  export_units(&ftm->fp, 0, &tm->fp_add);
-  export_units(&ftm->fp, 1, &tm->fp_mul);
-  export_units(&ftm->int_mul, 0, &tm->int_mul);
+  export_units(&ftm->fp, 0, &tm->unit[TRAX_SHARED_FP_ADD]);
+  export_units(&ftm->fp, 1, &tm->unit[TRAX_SHARED_FP_MUL]);
+  export_units(&ftm->int_mul, 0, &tm->unit[TRAX_SHARED_INT_MUL]);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
@@ -55,9 +55,9 @@ static void export_arbiters(struct trax_fast_tm *ftm) {
 
 static void import_arbiters(struct trax_fast_tm *ftm) {
   const struct trax_tm *tm = ftm->tm;
-  import_units(&ftm->fp, 0, &tm->fp_add);
-  import_units(&ftm->fp, 1, &tm->fp_mul);
-  import_units(&ftm->int_mul, 0, &tm->int_mul);
+  import_units(&ftm->fp, 0, &tm->unit[TRAX_SHARED_FP_ADD]);
+  import_units(&ftm->fp, 1, &tm->unit[TRAX_SHARED_FP_MUL]);
+  import_units(&ftm->int_mul, 0, &tm->unit[TRAX_SHARED_INT_MUL]);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));

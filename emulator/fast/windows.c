@@ -17,7 +17,7 @@ enum {
   MOST_UNDO = 1 << 18,     /* words written to global memory, after which a state is kept in any case */
   FIRST_PAUSE = 64,        /* cycles that are run one by one after a conflict, besides those that contain it */
   LONGEST_PAUSE = 1 << 20, /* it doubles with each conflict that follows soon */
-  REGIONS_OF_A_TM = 32,
+  REGIONS_OF_A_TM = 32 + TRAX_SHARED_COUNT,
   REGIONS_OF_THE_MEMORY = 32,
 };
 
@@ -105,6 +105,9 @@ static void add_core(struct trax_windows *windows, struct trax_tm *tm) {
     add_region(windows, tm->queue.heap, tm->queue.depth * sizeof *tm->queue.heap);
     add_region(windows, tm->queue.places, tm->queue.depth * sizeof *tm->queue.places);
   }
+  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
+    if (tm->unit[i].free_from)
+      add_region(windows, tm->unit[i].free_from, trax_shared_unit_count(&tm->unit[i]) * sizeof *tm->unit[i].free_from);
   add_region(windows, tm->stats, sizeof *tm->stats);
   add_region(windows, tm->tp_stats, tm->tps * sizeof *tm->tp_stats);
   add_region(windows, tm->exit_statuses, tm->tps * sizeof *tm->exit_statuses);

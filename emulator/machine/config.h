@@ -54,14 +54,6 @@ double trax_config_value(const struct trax_config *config, const struct trax_con
 /* Is value one the key may have? The message names the key, the value and what is allowed. */
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);
 
-/* Keys whose value 0 stands for another key's. */
-static inline uint32_t trax_config_mul_cluster(const struct trax_config *config) {
-  return config->fpu.mul_tps_per_cluster ? config->fpu.mul_tps_per_cluster : config->fpu.tps_per_cluster;
-}
-static inline uint32_t trax_config_rsqrt_latency(const struct trax_config *config) {
-  return config->special.rsqrt_latency_cycles ? config->special.rsqrt_latency_cycles : config->special.latency_cycles;
-}
-
 /* All ranges and the relations between keys, whatever way the struct was filled; the machine relies on nothing else.
    The message names the key and what is allowed. */
 trax_status trax_config_validate(const struct trax_config *config, trax_error *error);

@@ -1,9 +1,10 @@
 #include "machine/machine.h"
+#include "machine/timing.h"
 
 #include <inttypes.h>
 
 /* What is known from the operations issued need not be counted while they are. */
-static void count_by_operation(struct trax_tm_stats *stats) {
+void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config) {
   stats->fences += stats->instructions[TRAX_OP_FENCE];
   for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
     const trax_op_info *info = &trax_op_table[op];
@@ -12,25 +13,17 @@ static void count_by_operation(struct trax_tm_stats *stats) {
       stats->flops += count;
     if (info->flags & TRAX_IS_ATOMIC)
       stats->atomics += count;
-    if (info->unit == TRAX_UNIT_FP_MUL)
-      stats->fp_mul_ops += count;
-    else if (info->unit == TRAX_UNIT_INT_MUL)
-      stats->int_mul_ops += count;
-    else if (info->unit == TRAX_UNIT_SPECIAL)
-      stats->special_ops += count;
+    switch (trax_timing_of((trax_op)op, config).unit) {
+#define ADD(X, ID, NAME, ...)                                                                                          \
+  case TRAX_SHARED_##ID:                                                                                               \
+    stats->NAME##_ops += count;                                                                                        \
+    break;
+      TRAX_SHARED_UNITS(ADD, )
+#undef ADD
+    case TRAX_SHARED_NONE:
+      break;
+    }
   }
-}
-
-static void count_adder_operations(struct trax_tm_stats *stats, const struct trax_config *config) {
-  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
-    if (trax_op_table[op].unit == TRAX_UNIT_FP_ADD &&
-        ((trax_op_table[op].flags & TRAX_IS_FLOP) || !config->fpu.compare_units))
-      stats->fp_add_ops += stats->instructions[op];
-}
-
-void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config) {
-  count_by_operation(stats);
-  count_adder_operations(stats, config);
 }
 
 static void add_stats(struct trax_tm_stats *sum, const struct trax_tm_stats *term) {

@@ -4,33 +4,34 @@
 #define TRAX_MACHINE_STATS_H
 
 #include "machine/config.h"
+#include "machine/units.h"
 #include "trax/isa.h"
 
 #include <stdint.h>
 
 /* What a thread-cycle is charged to: exactly one of these per thread and cycle, so that they add up to threads x cycles
-   (docs/timing.md, "Accounting"). ISSUED comes first, HALTED last. Unit of all: thread-cycles. */
+   (docs/timing.md, "Accounting"): identifier, name, the same for narrow columns, meaning. ISSUED comes first, HALTED
+   last. Unit of all: thread-cycles. */
 #define TRAX_CAUSES(X)                                                                                                 \
-  X(ISSUED, "issued", "an instruction was issued")                                                                     \
-  X(ICACHE_BANK, "icache_bank_conflict", "another TP had the instruction-cache bank")                                  \
-  X(ICACHE_MISS, "icache_miss", "the instruction's line was on its way")                                               \
-  X(DATA_LOCAL, "wait_local", "an operand was being loaded from local memory")                                         \
-  X(DATA_HIT, "wait_dcache_hit", "an operand was being loaded from the data cache")                                    \
-  X(DATA_MISS, "wait_memory", "an operand was being loaded from off-chip memory")                                      \
-  X(DATA_SPECIAL, "wait_special", "an operand was in the FPDIV/iSQRT unit")                                            \
-  X(DATA_ATOMIC, "wait_atomic", "an operand was the result of an atomic increment")                                    \
-  X(DATA_OTHER, "wait_other", "an operand was in a unit whose latency is configured above one cycle")                  \
-  X(FP_ADD, "fp_add_conflict", "another TP of the cluster had the adder")                                              \
-  X(FP_MUL, "fp_mul_conflict", "another TP of the cluster had the multiplier")                                         \
-  X(INT_MUL, "int_mul_conflict", "another TP had the integer multiplier")                                              \
-  X(SPECIAL, "special_conflict", "the FPDIV/iSQRT units were busy or given to other TPs")                              \
-  X(DCACHE_BANK, "dcache_bank_conflict", "another TP had the data-cache bank")                                         \
-  X(MEMORY_QUEUE, "memory_queue_full", "no miss register or no place in the TM's memory queue was free")               \
-  X(BRANCH, "branch_bubble", "the bubble after a taken branch")                                                        \
-  X(HALTED, "halted", "the thread had ended")
+  X(ISSUED, "issued", "issued", "an instruction was issued")                                                           \
+  X(ICACHE_BANK, "icache_bank_conflict", "i-bank", "another TP had the instruction-cache bank")                        \
+  X(ICACHE_MISS, "icache_miss", "i-miss", "the instruction's line was on its way")                                     \
+  X(DATA_LOCAL, "wait_local", "local", "an operand was being loaded from local memory")                                \
+  X(DATA_HIT, "wait_dcache_hit", "d-hit", "an operand was being loaded from the data cache")                           \
+  X(DATA_MISS, "wait_memory", "memory", "an operand was being loaded from off-chip memory")                            \
+  X(DATA_SPECIAL, "wait_special", "div", "an operand was in the FPDIV/iSQRT unit")                                     \
+  X(DATA_ATOMIC, "wait_atomic", "atomic", "an operand was the result of an atomic increment")                          \
+  X(DATA_OTHER, "wait_other", "other", "an operand was in a unit whose latency is configured above one cycle")         \
+  TRAX_SHARED_UNITS(TRAX_SHARED_CAUSE, X)                                                                              \
+  X(DCACHE_BANK, "dcache_bank_conflict", "d-bank", "another TP had the data-cache bank")                               \
+  X(MEMORY_QUEUE, "memory_queue_full", "queue", "no miss register or no place in the TM's memory queue was free")      \
+  X(BRANCH, "branch_bubble", "bubble", "the bubble after a taken branch")                                              \
+  X(HALTED, "halted", "halted", "the thread had ended")
+#define TRAX_SHARED_CAUSE(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, ...)                         \
+  X(ID, #NAME "_conflict", HEAD, REFUSED)
 
 typedef enum trax_cause {
-#define TRAX_CAUSE_ENUM(ID, NAME, MEANING) TRAX_CAUSE_##ID,
+#define TRAX_CAUSE_ENUM(ID, ...) TRAX_CAUSE_##ID,
   TRAX_CAUSES(TRAX_CAUSE_ENUM)
 #undef TRAX_CAUSE_ENUM
       TRAX_CAUSE_COUNT
@@ -42,10 +43,7 @@ typedef enum trax_cause {
   X(items, "items", "items", "items (pixels) the program reported with the items trap")                                \
   X(flops, "flops", "operations", "floating-point adds, subtractions and multiplications")                             \
   X(taken_branches, "taken_branches", "instructions", "branches and jumps that did not go to the next instruction")    \
-  X(fp_add_ops, "fp_add.operations", "operations", "operations the adders accepted")                                   \
-  X(fp_mul_ops, "fp_mul.operations", "operations", "operations the multipliers accepted")                              \
-  X(int_mul_ops, "int_mul.operations", "operations", "operations the integer multipliers accepted")                    \
-  X(special_ops, "special.operations", "operations", "operations the FPDIV/iSQRT units accepted")                      \
+  TRAX_SHARED_UNITS(TRAX_SHARED_COUNTER, X)                                                                            \
   X(icache_hits, "icache.hits", "lookups", "instruction fetches that found their line")                                \
   X(icache_misses, "icache.misses", "lookups", "instruction fetches that requested their line")                        \
   X(icache_merged, "icache.merged", "lookups", "instruction fetches whose line was already on its way")                \
@@ -70,6 +68,9 @@ typedef enum trax_cause {
   X(write_requests, "memory.write_requests", "requests", "transfers of stores, after combining")                       \
   X(memory_requests, "memory.requests", "requests", "requests to off-chip memory of any kind")                         \
   X(queue_peak, "memory.queue_peak", "requests", "most requests of one TM under way at once; for the chip, the sum")
+
+#define TRAX_SHARED_COUNTER(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, OPERATIONS, ...)           \
+  X(NAME##_ops, #NAME ".operations", "operations", OPERATIONS)
 
 /* Counted beyond the TMs, by the second-level cache and the memory controller. */
 #define TRAX_MEMORY_COUNTERS(X)                                                                                        \
@@ -130,7 +131,7 @@ struct trax_stats {
 
 /* Figures made from the counts, for reports: identifier, JSON name, unit, meaning, C expression over
    S (const struct trax_stats *) and C (const struct trax_config *), whose value is a number. A quotient of zero by zero
-   is reported as 0. TRAX_STATS_BYTES and the like are below. */
+   is reported as 0. machine/timing.h and report/energy.h have the functions that they call. */
 #define TRAX_FIGURES(X)                                                                                                \
   X(cycles, "cycles", "cycles",                                                                                        \
     "length of the run: from cycle 0 until every thread has ended and the last transfer "                              \
@@ -149,21 +150,12 @@ struct trax_stats {
   X(gflops, "gflops", "10^9 operations/s", "adds, subtractions and multiplications per simulated second",              \
     S->total.flops / TRAX_SECONDS(S, C) / 1e9)                                                                         \
   X(peak_gflops, "peak_gflops", "10^9 operations/s", "an operation per adder, per multiplier and cycle",               \
-    (double)(TRAX_ADDERS(C) + TRAX_MULTIPLIERS(C)) * C->chip.tms * C->chip.clock_mhz / 1e3)                            \
+    (double)(trax_shared_units(TRAX_SHARED_FP_ADD, C) + trax_shared_units(TRAX_SHARED_FP_MUL, C)) * C->chip.tms *      \
+        C->chip.clock_mhz / 1e3)                                                                                       \
   X(area_mm2, "area_mm2", "mm2 at 65 nm",                                                                              \
     "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs; no second-level cache, the paper's units",    \
-    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0))                                                            \
-  X(fp_add_utilisation, "fp_add.utilisation", "fraction", "share of cycles in which an adder accepted an operation",   \
-    (double)S->total.fp_add_ops / S->cycles / (TRAX_ADDERS(C) * C->chip.tms))                                          \
-  X(fp_mul_utilisation, "fp_mul.utilisation", "fraction",                                                              \
-    "share of cycles in which a multiplier accepted an operation",                                                     \
-    (double)S->total.fp_mul_ops / S->cycles / (TRAX_MULTIPLIERS(C) * C->chip.tms))                                     \
-  X(int_mul_utilisation, "int_mul.utilisation", "fraction",                                                            \
-    "share of cycles in which an integer multiplier accepted an operation",                                            \
-    (double)S->total.int_mul_ops / S->cycles / (TRAX_INT_MULS(C) * C->chip.tms))                                       \
-  X(special_utilisation, "special.utilisation", "fraction", "share of cycles in which an FPDIV/iSQRT unit was taken",  \
-    (C->special.pipelined ? (double)S->total.special_ops : TRAX_SPECIAL_CYCLES(S, C)) / S->cycles /                    \
-        (C->special.units_per_tm * C->chip.tms))                                                                       \
+    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0 + trax_shared_area(C)))                                      \
+  TRAX_SHARED_UNITS(TRAX_SHARED_FIGURE, X)                                                                             \
   X(issue_utilisation, "issue.utilisation", "fraction", "share of thread-cycles that issued an instruction",           \
     (double)S->instructions / S->cycles / S->threads)                                                                  \
   X(icache_hit_rate, "icache.hit_rate", "fraction", "hits per instruction-cache lookup",                               \
@@ -176,22 +168,7 @@ struct trax_stats {
     S->memory.bytes / TRAX_SECONDS(S, C) / 1e9)                                                                        \
   X(memory_utilisation, "memory.utilisation", "fraction", "share of the off-chip bandwidth used",                      \
     S->memory.bytes / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)                                             \
-  X(energy_fp_add, "energy.fp_add", "J", "adders: additions and subtractions", trax_energy_of(S, C).fp_add)            \
-  X(energy_fp_mul, "energy.fp_mul", "J", "multipliers", trax_energy_of(S, C).fp_mul)                                   \
-  X(energy_fp_other, "energy.fp_other", "J", "comparisons, minima, maxima, conversions",                               \
-    trax_energy_of(S, C).fp_other)                                                                                     \
-  X(energy_int_mul, "energy.int_mul", "J", "integer multipliers", trax_energy_of(S, C).int_mul)                        \
-  X(energy_special, "energy.special", "J", "FPDIV/iSQRT units", trax_energy_of(S, C).special)                          \
-  X(energy_integer, "energy.integer", "J", "the TPs' integer units: instructions, addresses, branches",                \
-    trax_energy_of(S, C).integer)                                                                                      \
-  X(energy_registers, "energy.registers", "J", "register files: an access for each operand and each result",           \
-    trax_energy_of(S, C).registers)                                                                                    \
-  X(energy_local, "energy.local_memory", "J", "local memories", trax_energy_of(S, C).local_memory)                     \
-  X(energy_icache, "energy.icache", "J", "instruction caches: fetches, and lines that arrive",                         \
-    trax_energy_of(S, C).icache)                                                                                       \
-  X(energy_dcache, "energy.dcache", "J", "data caches: loads, stores through them, and lines that arrive",             \
-    trax_energy_of(S, C).dcache)                                                                                       \
-  X(energy_l2, "energy.l2", "J", "second-level cache: requests, and lines that arrive", trax_energy_of(S, C).l2)       \
+  TRAX_ENERGIES(TRAX_ENERGY_FIGURE, X)                                                                                 \
   X(energy_total, "energy.total", "J",                                                                                 \
     "the sum of these: the chip's dynamic energy at 65 nm, without leakage and clock", trax_energy_of(S, C).total)     \
   X(energy_per_ray, "energy.per_ray", "J/ray", "the same for each ray", trax_energy_of(S, C).total / S->total.rays)    \
@@ -199,14 +176,10 @@ struct trax_stats {
     trax_energy_of(S, C).total / TRAX_SECONDS(S, C))                                                                   \
   X(energy_off_chip, "energy.off_chip", "J", "off-chip memory, which is not in the sum", trax_energy_of(S, C).off_chip)
 
+#define TRAX_SHARED_FIGURE(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, OPERATIONS, UTILISATION)    \
+  X(NAME##_utilisation, #NAME ".utilisation", "fraction", UTILISATION,                                                 \
+    trax_shared_cycles(TRAX_SHARED_##ID, C, &S->total, S->total.NAME##_ops) / S->cycles /                              \
+        (trax_shared_units(TRAX_SHARED_##ID, C) * C->chip.tms))
+#define TRAX_ENERGY_FIGURE(X, ID, MEANING) X(energy_##ID, "energy." #ID, "J", MEANING, trax_energy_of(S, C).ID)
 #define TRAX_SECONDS(S, C) ((double)(S)->cycles / ((C)->chip.clock_mhz * 1e6))
-/* Units of a TM: `COUNT` for each group of SIZE TPs. */
-#define TRAX_UNITS(C, SIZE, COUNT) (((C)->chip.tps_per_tm + (SIZE)-1) / (SIZE) * (COUNT))
-#define TRAX_ADDERS(C) TRAX_UNITS(C, (C)->fpu.tps_per_cluster, (C)->fpu.adders_per_cluster)
-#define TRAX_MULTIPLIERS(C) TRAX_UNITS(C, trax_config_mul_cluster(C), (C)->fpu.multipliers_per_cluster)
-#define TRAX_INT_MULS(C) TRAX_UNITS(C, (C)->int_mul.tps_per_unit, (C)->int_mul.units_per_group)
-#define TRAX_SPECIAL_CYCLES(S, C)                                                                                      \
-  ((double)(S)->total.instructions[TRAX_OP_FDIV] * (C)->special.latency_cycles +                                       \
-   (double)(S)->total.instructions[TRAX_OP_FRSQRT] * trax_config_rsqrt_latency(C))
-
 #endif

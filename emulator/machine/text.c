@@ -1,6 +1,7 @@
 #include "machine/text.h"
 
 #include "machine/machine.h"
+#include "machine/timing.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@ _Static_assert(sizeof(struct trax_decoded) <= 20,
 
 static const struct trax_decoded outside = {.ask = TRAX_ASK_OUTSIDE, .rd = TRAX_NO_REGISTER};
 
-static trax_ask ask_of(const trax_inst *inst, const struct trax_config *config) {
+static trax_ask ask_of(const trax_inst *inst, const struct trax_timing *timing) {
   const trax_op_info *info = &trax_op_table[inst->op];
   if (inst->op == TRAX_OP_ILLEGAL)
     return TRAX_ASK_ILLEGAL;
@@ -18,50 +19,19 @@ static trax_ask ask_of(const trax_inst *inst, const struct trax_config *config) 
     return TRAX_ASK_END;
   if (inst->op == TRAX_OP_FENCE)
     return TRAX_ASK_FENCE;
-  switch (info->unit) {
-  case TRAX_UNIT_INT_MUL:
-    return TRAX_ASK_INT_MUL;
-  case TRAX_UNIT_FP_ADD:
-    return config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP) ? TRAX_ASK_NOTHING : TRAX_ASK_FP_ADD;
-  case TRAX_UNIT_FP_MUL:
-    return TRAX_ASK_FP_MUL;
-  case TRAX_UNIT_SPECIAL:
-    return TRAX_ASK_SPECIAL;
-  case TRAX_UNIT_MEMORY:
+  if (info->unit == TRAX_UNIT_MEMORY)
     return TRAX_ASK_MEMORY;
-  default:
-    return TRAX_ASK_NOTHING;
-  }
-}
-
-static bool is_conversion(trax_op op) {
-  return op == TRAX_OP_FCVT_S_W || op == TRAX_OP_FCVT_S_WU || op == TRAX_OP_FCVT_W_S || op == TRAX_OP_FCVT_WU_S;
-}
-
-static uint32_t latency_of(const trax_inst *inst, const struct trax_config *config) {
-  const trax_op_info *info = &trax_op_table[inst->op];
-  switch (info->unit) {
-  case TRAX_UNIT_INT_MUL:
-    return config->int_mul.latency_cycles;
-  case TRAX_UNIT_FP_ADD:
-    return info->flags & TRAX_IS_FLOP ? config->fpu.add_latency_cycles
-           : is_conversion(inst->op)  ? config->fpu.convert_latency_cycles
-                                      : config->fpu.compare_latency_cycles;
-  case TRAX_UNIT_FP_MUL:
-    return config->fpu.mul_latency_cycles;
-  case TRAX_UNIT_SPECIAL:
-    return inst->op == TRAX_OP_FRSQRT ? trax_config_rsqrt_latency(config) : config->special.latency_cycles;
-  default:
-    return config->tp.int_latency_cycles;
-  }
+  return timing->unit == TRAX_SHARED_NONE ? TRAX_ASK_NOTHING : TRAX_ASK_UNIT;
 }
 
 static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_config *config) {
   const trax_inst inst = trax_decode(word);
   const unsigned flags = trax_op_table[inst.op].flags;
+  const struct trax_timing timing = trax_timing_of(inst.op, config);
   return (struct trax_decoded){
       .op = (uint8_t)inst.op,
-      .ask = (uint8_t)ask_of(&inst, config),
+      .ask = (uint8_t)ask_of(&inst, &timing),
+      .unit = (uint8_t)timing.unit,
       .rd = flags & TRAX_WRITES_RD && inst.rd ? inst.rd : TRAX_NO_REGISTER,
       .ra = inst.ra,
       .rb = inst.rb,
@@ -70,11 +40,11 @@ static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_
       .wait_rd = flags & (TRAX_WRITES_RD | TRAX_READS_RD) ? inst.rd : 0,
       .bytes = (uint8_t)trax_op_table[inst.op].access_bytes,
       .bank = (uint8_t)(pc / 4 % config->icache.banks),
-      .cause = trax_op_table[inst.op].unit == TRAX_UNIT_SPECIAL ? TRAX_CAUSE_DATA_SPECIAL : TRAX_CAUSE_DATA_OTHER,
+      .cause = (uint8_t)timing.cause,
       .is_store = (flags & TRAX_IS_STORE) != 0,
       .is_atomic = (flags & TRAX_IS_ATOMIC) != 0,
       .is_nontemporal = (flags & TRAX_IS_NONTEMPORAL) != 0,
-      .latency = (uint16_t)latency_of(&inst, config),
+      .latency = (uint16_t)timing.latency,
       .imm = inst.imm,
   };
 }

@@ -11,10 +11,7 @@
 /* What an instruction asks for when its operands are usable (docs/timing.md, "Units"). */
 typedef enum trax_ask {
   TRAX_ASK_NOTHING, /* it executes on the TP's own units */
-  TRAX_ASK_FP_ADD,
-  TRAX_ASK_FP_MUL,
-  TRAX_ASK_INT_MUL,
-  TRAX_ASK_SPECIAL,
+  TRAX_ASK_UNIT,    /* a shared one */
   TRAX_ASK_MEMORY,  /* by its address: local memory, a data-cache bank, or the memory queue */
   TRAX_ASK_END,     /* halt and the exit trap: a place for what the write-combining buffer holds */
   TRAX_ASK_FENCE,   /* the same, and that its TP's requests have completed */
@@ -26,9 +23,10 @@ typedef enum trax_ask {
 enum { TRAX_NO_REGISTER = 32 }; /* where results for r0 go; never read */
 
 struct trax_decoded {
-  uint8_t op;  /* trax_op */
-  uint8_t ask; /* trax_ask */
-  uint8_t rd;  /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
+  uint8_t op;   /* trax_op */
+  uint8_t ask;  /* trax_ask */
+  uint8_t unit; /* trax_shared, of TRAX_ASK_UNIT */
+  uint8_t rd;   /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
   uint8_t ra, rb;
   uint8_t wait_ra, wait_rb, wait_rd; /* registers that must be usable; 0 where there is nothing to wait for */
   uint8_t bytes;                     /* of a memory access */

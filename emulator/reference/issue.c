@@ -90,9 +90,10 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   if (trax_ref_accesses_local(tp))
     trax_ref_result(tp, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
-  else if (!trax_ref_accesses_memory(tp))
-    trax_ref_result(tp, t + trax_ref_latency(tp, tm->config),
-                    trax_ref_info(tp)->unit == TRAX_UNIT_SPECIAL ? TRAX_CAUSE_DATA_SPECIAL : TRAX_CAUSE_DATA_OTHER);
+  else if (!trax_ref_accesses_memory(tp)) {
+    const struct trax_timing timing = trax_ref_timing(tp, tm->config);
+    trax_ref_result(tp, t + timing.latency, timing.cause);
+  }
 }
 
 static void count(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {

@@ -8,6 +8,7 @@
 #define TRAX_REFERENCE_H
 
 #include "machine/machine.h"
+#include "machine/timing.h"
 #include "trax/isa.h"
 
 enum { MOST = 64 }; /* TMs, TPs of a TM, banks, units: the configuration allows no more */
@@ -86,6 +87,12 @@ struct trax_ref_tp {
   bool charged; /* for this cycle: it does nothing in the later steps */
 };
 
+/* Of TPs that share units of a kind (Units). */
+struct trax_ref_group {
+  trax_ref_turn turn;
+  uint64_t free_from[MOST]; /* by unit */
+};
+
 struct trax_ref_tm {
   uint32_t number, tps;
   const struct trax_config *config;
@@ -93,9 +100,7 @@ struct trax_ref_tm {
   FILE *output; /* the guest's, or NULL */
   struct trax_ref_tp tp[MOST];
   struct trax_ref_icache icache[MOST];
-  trax_ref_turn fp_add[MOST], fp_mul[MOST], int_mul[MOST]; /* by group */
-  trax_ref_turn special;
-  uint64_t special_free[MOST]; /* the cycle from which the unit is */
+  struct trax_ref_group group[TRAX_SHARED_COUNT][MOST];
   struct trax_ref_lines dcache;
   trax_ref_turn dcache_bank[MOST];
   struct trax_ref_request *queue; /* [places], the oldest first */
@@ -195,8 +200,8 @@ void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 
 /* --- Units: units.c --- */
 void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
-/* Of an instruction that does not access memory: the cycles to its result. */
-uint32_t trax_ref_latency(const struct trax_ref_tp *tp, const struct trax_config *config);
+/* Of an instruction that does not access memory: what it asks for, and the cycles to its result. */
+struct trax_timing trax_ref_timing(const struct trax_ref_tp *tp, const struct trax_config *config);
 
 /* --- Data cache: data_cache.c --- */
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);

@@ -1,13 +1,11 @@
 /* The figures are those of SimTRaX, the public simulator of the paper's group: 65 nm and 1 GHz as far as it says. */
 #include "report/energy.h"
 
+#include "machine/timing.h"
 #include "trax/isa.h"
 
-#include <stddef.h>
-
 /* nJ for an operation. */
-static const double fp_add_nj = 0.0074, fp_mul_nj = 0.0142, fp_compare_nj = 0.000536, convert_nj = 0.001;
-static const double int_mul_nj = 0.0177, special_nj = 0.1563, integer_nj = 0.000572;
+static const double integer_nj = 0.000572; /* of the TPs' own units; machine/units.h has the others */
 static const double register_nj = 0.00789613, local_nj = 0.00692867; /* for each access */
 
 /* Off-chip memory is not SimTRaX's: 1.3 to 2.6 nJ for 64 bits of DRAM (Horowitz, "Computing's energy problem", ISSCC
@@ -66,24 +64,13 @@ static void add_operations(struct trax_energy *energy, unsigned op, double count
   const unsigned registers = ((flags & TRAX_READS_RA) != 0) + ((flags & TRAX_READS_RB) != 0) +
                              ((flags & TRAX_READS_RD) != 0) + ((flags & TRAX_WRITES_RD) != 0);
   energy->registers += count * registers * register_nj;
-  switch ((int)trax_op_table[op].unit) {
-  case TRAX_UNIT_FP_ADD:
-    if (flags & TRAX_IS_FLOP)
-      energy->fp_add += count * fp_add_nj;
-    else if (op == TRAX_OP_FCVT_W_S || op == TRAX_OP_FCVT_WU_S || op == TRAX_OP_FCVT_S_W || op == TRAX_OP_FCVT_S_WU)
-      energy->fp_other += count * convert_nj;
-    else
-      energy->fp_other += count * fp_compare_nj;
+  switch (trax_class_of((trax_op)op)) {
+#define ADD(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, CAUSE, NJ, ENERGY)                                                   \
+  case TRAX_CLASS_##ID:                                                                                                \
+    energy->ENERGY += count * NJ;                                                                                      \
     break;
-  case TRAX_UNIT_FP_MUL:
-    energy->fp_mul += count * fp_mul_nj;
-    break;
-  case TRAX_UNIT_INT_MUL:
-    energy->int_mul += count * int_mul_nj;
-    break;
-  case TRAX_UNIT_SPECIAL:
-    energy->special += count * special_nj;
-    break;
+    TRAX_CLASSES(ADD)
+#undef ADD
   default: /* the TP's own; of memory instructions the address */
     energy->integer += count * integer_nj;
     break;
@@ -113,10 +100,11 @@ struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct t
   }
 
   energy.off_chip = off_chip_nj_per_byte * (double)stats->memory.bytes;
-  double *const all = (double *)&energy;
-  for (size_t i = 0; i < sizeof energy / sizeof *all; i++)
-    all[i] *= 1e-9;
-  energy.total = energy.fp_add + energy.fp_mul + energy.fp_other + energy.int_mul + energy.special + energy.integer +
-                 energy.registers + energy.local_memory + energy.icache + energy.dcache + energy.l2;
+  energy.off_chip *= 1e-9;
+#define ADD(X, ID, MEANING)                                                                                            \
+  energy.ID *= 1e-9;                                                                                                   \
+  energy.total += energy.ID;
+  TRAX_ENERGIES(ADD, )
+#undef ADD
   return energy;
 }

@@ -7,12 +7,9 @@
 
 /* J */
 struct trax_energy {
-  double fp_add, fp_mul;
-  double fp_other; /* comparison, min, max, conversion */
-  double int_mul, special;
-  double integer; /* the TPs' integer units: their instructions, addresses, branches */
-  double registers, local_memory;
-  double icache, dcache, l2;
+#define TRAX_ENERGY_FIELD(X, ID, MEANING) double ID;
+  TRAX_ENERGIES(TRAX_ENERGY_FIELD, )
+#undef TRAX_ENERGY_FIELD
   double total;    /* of those above */
   double off_chip; /* apart from the total */
 };

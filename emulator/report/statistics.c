@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "engine/run.h"
+#include "machine/timing.h"
 #include "program/program.h"
 #include "report/energy.h"
 
 const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
-#define NAME(ID, NAME, MEANING) NAME,
+#define NAME(ID, NAME, ...) NAME,
     TRAX_CAUSES(NAME)
 #undef NAME
 };
@@ -102,7 +103,7 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
   static const struct trax_stats no_stats = {0};
   static const struct trax_config no_config = TRAX_CONFIG_DEFAULT;
   static const char *const cause_meanings[TRAX_CAUSE_COUNT] = {
-#define MEANING(ID, NAME, MEANING) MEANING,
+#define MEANING(ID, NAME, HEAD, MEANING) MEANING,
       TRAX_CAUSES(MEANING)
 #undef MEANING
   };
@@ -182,12 +183,10 @@ bool trax_stats_get(const trax_machine *machine, const char *name, double *value
 /* --- text --- */
 
 const char *const trax_cause_heads[TRAX_CAUSE_COUNT] = {
-    [TRAX_CAUSE_ISSUED] = "issued",    [TRAX_CAUSE_ICACHE_BANK] = "i-bank", [TRAX_CAUSE_ICACHE_MISS] = "i-miss",
-    [TRAX_CAUSE_DATA_LOCAL] = "local", [TRAX_CAUSE_DATA_HIT] = "d-hit",     [TRAX_CAUSE_DATA_MISS] = "memory",
-    [TRAX_CAUSE_DATA_SPECIAL] = "div", [TRAX_CAUSE_DATA_ATOMIC] = "atomic", [TRAX_CAUSE_DATA_OTHER] = "other",
-    [TRAX_CAUSE_FP_ADD] = "add-c",     [TRAX_CAUSE_FP_MUL] = "mul-c",       [TRAX_CAUSE_INT_MUL] = "imul-c",
-    [TRAX_CAUSE_SPECIAL] = "div-c",    [TRAX_CAUSE_DCACHE_BANK] = "d-bank", [TRAX_CAUSE_MEMORY_QUEUE] = "queue",
-    [TRAX_CAUSE_BRANCH] = "bubble",    [TRAX_CAUSE_HALTED] = "halted"};
+#define HEAD(ID, NAME, HEAD, MEANING) HEAD,
+    TRAX_CAUSES(HEAD)
+#undef HEAD
+};
 
 struct listing {
   FILE *out;

@@ -143,7 +143,7 @@ void bench_expect_issues(const struct bench *bench, unsigned thread, const uint6
 void bench_expect_charges(const struct bench *bench, unsigned thread, const uint64_t *pairs, size_t count,
                           const char *file, int line) {
   static const char *const names[] = {
-#define NAME(ID, JSON, MEANING) JSON,
+#define NAME(ID, JSON, ...) JSON,
       TRAX_CAUSES(NAME)
 #undef NAME
   };

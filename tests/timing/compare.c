@@ -124,7 +124,7 @@ bool different_bytes(struct difference *to, const char *name, const void *x, con
 static bool different_causes(struct difference *to, const char *where, size_t number, const uint64_t *x,
                              const uint64_t *y) {
   static const char *const names[] = {
-#define NAME(ID, JSON, MEANING) JSON,
+#define NAME(ID, JSON, ...) JSON,
       TRAX_CAUSES(NAME)
 #undef NAME
   };

@@ -21,10 +21,17 @@ MUTANTS = [
     ("reference/operands.c", "if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0)", "if (trax_ref_is(tp, TRAX_WRITES_RD))"),
     ("reference/operands.c", "if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {", "if (tp->holds && !tp->ended && trax_ref_accesses_memory(tp)) {"),
     # --- Units ---
-    ("reference/units.c", "if (tm->special_free[unit] > t)", "if (tm->special_free[unit] > t + 1)"),
-    ("reference/units.c", "config->special.pipelined ? 1 :", "config->special.pipelined ? 2 :"),
-    ("reference/units.c", "compares && config->fpu.compare_units ?", "compares && !config->fpu.compare_units ?"),
-    ("reference/units.c", "const bool compares = unit == TRAX_UNIT_FP_ADD && !trax_ref_is(tp, TRAX_IS_FLOP);", "const bool compares = unit == TRAX_UNIT_FP_ADD;"),
+    ("reference/units.c", "if (group->free_from[unit] > t)", "if (group->free_from[unit] > t + 1)"),
+    ("reference/units.c", "kind->is_pipelined ? 1 :", "kind->is_pipelined ? 2 :"),
+    ("reference/units.c", "unit < kind->per_group; unit++", "unit < kind->per_group && unit < 1; unit++"),
+    # The table, which both engines read: tests with numbers of their own notice.
+    ("machine/units.h", "X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, C->fpu.compare_units ?", "X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, !C->fpu.compare_units ?"),
+    ("machine/units.h", "X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_ADD,", "X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_MUL,"),
+    ("machine/units.h", "trax_or(C->fpu.mul_tps_per_cluster, C->fpu.tps_per_cluster)", "C->fpu.tps_per_cluster"),
+    ("machine/units.h", "C->special.pipelined, 0,", "true, 0,"),
+    ("machine/units.h", "trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles)", "C->special.latency_cycles"),
+    ("machine/units.h", "C->fpu.convert_latency_cycles, DATA_OTHER", "C->fpu.compare_latency_cycles, DATA_OTHER"),
+    ("machine/units.h", "C->int_mul.latency_cycles, DATA_OTHER", "C->int_mul.latency_cycles, DATA_SPECIAL"),
     ("reference/issue.c", "tp->bubble_ends = t + 1 + tm->config->tp.branch_bubble_cycles;", "tp->bubble_ends = t + tm->config->tp.branch_bubble_cycles;"),
     ("reference/issue.c", "if (tp->pc != pc + 4) {", "if (trax_ref_is(tp, TRAX_IS_BRANCH)) {"),
     ("reference/issue.c", "t + tm->config->tp.local_latency_cycles", "t + tm->config->tp.int_latency_cycles"),
@@ -79,8 +86,6 @@ MUTANTS = [
     ("reference/l2.c", "address / config->l2.line_bytes % config->l2.banks", "address / 64 % config->l2.banks"),
     ("reference/lines.c", "if (places[way].used < places[least].used)", "if (places[way].used > places[least].used)"),
     ("reference/lines.c", "  if (found)\n    found->used = ++lines->uses;\n", ""),
-    ("reference/units.c", "i < count; i++", "i < count && i < 1; i++"),
-    ("reference/units.c", "config->fpu.mul_tps_per_cluster ? config->fpu.mul_tps_per_cluster : adder_size", "adder_size"),
     # --- Faults ---
     ("reference/faults.c", "if (fault->kind && fault->thread < thread)", "if (fault->kind)"),
     ("reference/faults.c", "if (pc % 4 != 0)", "if (pc % 2 != 0)"),
@@ -148,11 +153,13 @@ MUTANTS = [
     ("fast/tp.c", "{tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd}",
      "{tp->inst->wait_rb, tp->inst->wait_ra, tp->inst->wait_rd}"),
     # The special units have one round robin.
-    ("fast/unit.c", "trax_arbiter_grant(&unit->turn, askers & ~winners, 1)",
-     "trax_arbiter_grant(&(trax_arbiter){unit->turn}, askers & ~winners, 1)"),
+    ("fast/cycle.c", "trax_arbiter_grant(&unit->turn[group], all & ~winners, 1)",
+     "trax_arbiter_grant(&(trax_arbiter){unit->turn[group]}, all & ~winners, 1)"),
+    # When a TM goes back, so do they.
+    ("fast/windows.c", "if (tm->unit[i].free_from)", "if (0)"),
     # As many operations are accepted as units are free.
-    ("fast/unit.c", "i < unit->units && askers",
-     "i < unit->units && !winners && askers"),
+    ("fast/cycle.c", "i < kind->per_group && all & ~winners;",
+     "i < kind->per_group && i < 1 && all & ~winners;"),
     # The winner goes to the back.
     ("fast/arbiter.h", "(uint8_t)((winner + 1) & 63)",
      "(uint8_t)(winner & 63)"),
@@ -228,9 +235,6 @@ MUTANTS = [
     # The bank of an instruction.
     ("machine/text.c", "pc / 4 % config->icache.banks",
      "pc / 8 % config->icache.banks"),
-    # Comparisons on units of the TP's own.
-    ("machine/text.c", "config->fpu.compare_units && !(info->flags & TRAX_IS_FLOP)",
-     "config->fpu.compare_units && false"),
     # The run ends when the bus is idle.
     ("fast/chip.c", "idle_from > *t + 1 ? idle_from : *t + 1;",
      "*t + 1;"),
@@ -247,8 +251,8 @@ MUTANTS = [
     ("fast/cycle.c", "pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE",
      "TRAX_FAULT_EXECUTE"),
     # Losers of integer multipliers are charged.
-    ("fast/cycle.c", "lost->int_mul = askers & ~won;",
-     "lost->int_mul = askers & ~won & ~(askers & -askers);"),
+    ("fast/cycle.c", "lost->unit[TRAX_SHARED_INT_MUL] = askers & ~won;",
+     "lost->unit[TRAX_SHARED_INT_MUL] = askers & ~won & ~(askers & -askers);"),
     # A refused access is charged to the queue.
     ("fast/cycle.c", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),

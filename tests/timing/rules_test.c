@@ -48,7 +48,7 @@ static struct trax_config config_of(const struct rule *rule) {
 
 static uint64_t charged(const struct bench *bench, const char *name) {
   static const char *const names[] = {
-#define NAME(ID, JSON, MEANING) JSON,
+#define NAME(ID, JSON, ...) JSON,
       TRAX_CAUSES(NAME)
 #undef NAME
   };

@@ -1,0 +1,78 @@
+/* What executes instructions, and how long that takes (docs/timing.md, "Units"), declared once: decoding, both timed
+   engines, causes, counters, figures, energy and the page's tables come from the rows here. In their expressions, C is
+   the configuration, a const struct trax_config *. */
+#ifndef TRAX_MACHINE_UNITS_H
+#define TRAX_MACHINE_UNITS_H
+
+/* Units that TPs of a TM share, a row U(X, ...) for each kind, in the order of the statistics:
+     identifier; name, of which those of its statistics are made
+     TPs of a group; units of a group; whether they are pipelined: if not, a unit is taken for an instruction's latency
+     mm2 of a unit at 65 nm, 0 where the fit of area_mm2 has it
+     words: a unit; the cause of being refused, short and long; what the counter of operations and the utilisation mean
+   A row needs nothing else of the emulator but the keys of config_keys.h and the class below that asks for it. The
+   first four have places of their own in the fast engine (fast/cycle.c), and the first three of them must be pipelined.
+ */
+/* clang-format off */
+#define TRAX_SHARED_UNITS(U, X)                                                                                                            \
+  U(X, FP_ADD, fp_add, C->fpu.tps_per_cluster, C->fpu.adders_per_cluster, true, 0, "adder",                                                \
+    "add-c", "another TP of the cluster had the adder", "operations the adders accepted",                                                  \
+    "share of cycles in which an adder accepted an operation")                                                                             \
+  U(X, FP_MUL, fp_mul, trax_or(C->fpu.mul_tps_per_cluster, C->fpu.tps_per_cluster), C->fpu.multipliers_per_cluster, true, 0, "multiplier", \
+    "mul-c", "another TP of the cluster had the multiplier", "operations the multipliers accepted",                                        \
+    "share of cycles in which a multiplier accepted an operation")                                                                         \
+  U(X, INT_MUL, int_mul, C->int_mul.tps_per_unit, C->int_mul.units_per_group, true, 0, "integer multiplier",                               \
+    "imul-c", "another TP had the integer multiplier", "operations the integer multipliers accepted",                                      \
+    "share of cycles in which an integer multiplier accepted an operation")                                                                \
+  U(X, SPECIAL, special, C->chip.tps_per_tm, C->special.units_per_tm, C->special.pipelined, 0, "FPDIV/iSQRT unit",                         \
+    "div-c", "the FPDIV/iSQRT units were busy or given to other TPs", "operations the FPDIV/iSQRT units accepted",                         \
+    "share of cycles in which an FPDIV/iSQRT unit was taken")
+
+/* Classes of instructions that execute on more than the TP's integer unit and sequencer:
+     identifier; unit and flag of the ISA's records (isa/include/trax/isa.h; 0: any), of which the first row that fits counts
+     what it asks for: a TRAX_SHARED_..., or TRAX_SHARED_NONE, and the same in words
+     latency; cause of a wait for the result
+     nJ of an operation, and which of TRAX_ENERGIES it belongs to (report/energy.c says where the figures are from) */
+#define TRAX_CLASSES(X)                                                                                                                    \
+  X(INT_MUL, INT_MUL, 0, TRAX_SHARED_INT_MUL, "integer multiplier", C->int_mul.latency_cycles, DATA_OTHER, 0.0177, int_mul)                \
+  X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_ADD, "adder", C->fpu.add_latency_cycles, DATA_OTHER, 0.0074, fp_add)                      \
+  X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, C->fpu.compare_units ? TRAX_SHARED_NONE : TRAX_SHARED_FP_ADD,                                     \
+    "adder; the TP's own if `fpu.compare_units`", C->fpu.compare_latency_cycles, DATA_OTHER, 0.000536, fp_other)                           \
+  X(CONVERSION, FP_ADD, TRAX_IS_CONVERSION, C->fpu.compare_units ? TRAX_SHARED_NONE : TRAX_SHARED_FP_ADD,                                  \
+    "adder; the TP's own if `fpu.compare_units`", C->fpu.convert_latency_cycles, DATA_OTHER, 0.001, fp_other)                              \
+  X(FP_MUL, FP_MUL, 0, TRAX_SHARED_FP_MUL, "multiplier", C->fpu.mul_latency_cycles, DATA_OTHER, 0.0142, fp_mul)                            \
+  X(ROOT, SPECIAL, TRAX_IS_ROOT, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit",                                                                  \
+    trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles), DATA_SPECIAL, 0.1563, special)                                    \
+  X(DIVISION, SPECIAL, 0, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit", C->special.latency_cycles, DATA_SPECIAL, 0.1563, special)
+
+/* Where energy goes, a row E(X, ...) each: identifier, meaning. */
+#define TRAX_ENERGIES(E, X)                                                                                                                \
+  E(X, fp_add, "adders: additions and subtractions")                                                                                       \
+  E(X, fp_mul, "multipliers")                                                                                                              \
+  E(X, fp_other, "comparisons, minima, maxima, conversions")                                                                               \
+  E(X, int_mul, "integer multipliers")                                                                                                     \
+  E(X, special, "FPDIV/iSQRT units")                                                                                                       \
+  E(X, integer, "the TPs' integer units: instructions, addresses, branches")                                                               \
+  E(X, registers, "register files: an access for each operand and each result")                                                            \
+  E(X, local_memory, "local memories")                                                                                                     \
+  E(X, icache, "instruction caches: fetches, and lines that arrive")                                                                       \
+  E(X, dcache, "data caches: loads, stores through them, and lines that arrive")                                                           \
+  E(X, l2, "second-level cache: requests, and lines that arrive")
+/* clang-format on */
+
+typedef enum trax_shared {
+#define TRAX_SHARED_ENUM(X, ID, ...) TRAX_SHARED_##ID,
+  TRAX_SHARED_UNITS(TRAX_SHARED_ENUM, )
+#undef TRAX_SHARED_ENUM
+      TRAX_SHARED_COUNT,
+  TRAX_SHARED_NONE = TRAX_SHARED_COUNT /* the TP's own units */
+} trax_shared;
+
+typedef enum trax_class {
+#define TRAX_CLASS_ENUM(ID, ...) TRAX_CLASS_##ID,
+  TRAX_CLASSES(TRAX_CLASS_ENUM)
+#undef TRAX_CLASS_ENUM
+      TRAX_CLASS_OWN, /* all others */
+  TRAX_CLASS_COUNT
+} trax_class;
+
+#endif
