@@ -120,8 +120,8 @@ MUTANTS = [
     ("fast/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
     ("fast/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin", "address <= tp->run_end && address + bytes > tp->run_begin"),
     ("fast/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
-    ("fast/unit.c", "(winner & roots ? unit->root_interval : unit->interval)", "(winner & roots ? unit->interval : unit->root_interval)"),
-    ("fast/unit.c", "if (unit->free_from[i] <= t)", "if (unit->free_from[i] <= t + 1)"),
+    ("fast/cycle.c", "free_from[i] = t + trax_fast_head_note(ftm, trax_first(winner))->decoded->latency;", "free_from[i] = t + trax_fast_head_note(ftm, trax_first(all))->decoded->latency;"),
+    ("fast/cycle.c", "if (free_from[i] <= t)", "if (free_from[i] <= t + 1)"),
     ("fast/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}", "(struct trax_instant){t, 0}"),
     ("fast/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
     ("fast/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
@@ -257,11 +257,11 @@ MUTANTS = [
     ("fast/cycle.c", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
     # Carries of the counters of conflicts.
-    ("fast/cycle.c", "(*(SUM) & one_) | (either_ & other_)",
-     "(*(SUM) & one_)"),
+    ("fast/cycle.c", "(*(SUM)&one_) | (either_ & other_)",
+     "(*(SUM)&one_)"),
     # Round robin of banks.
-    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS) - 1)) |",
-     "(*(WINNERS) - 1) |"),
+    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS)-1)) |",
+     "(*(WINNERS)-1) |"),
     # Round robin of units in even groups.
     ("fast/masks.h", "(asked_groups & ~(winners | (winners - first)))",
      "(asked_groups & ~(winners - first))"),
