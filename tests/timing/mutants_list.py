@@ -257,11 +257,11 @@ MUTANTS = [
     ("fast/cycle.c", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
     # Carries of the counters of conflicts.
-    ("fast/cycle.c", "(*(SUM)&one_) | (either_ & other_)",
-     "(*(SUM)&one_)"),
+    ("fast/cycle.c", "(*(SUM) & one_) | (either_ & other_)",
+     "(*(SUM) & one_)"),
     # Round robin of banks.
-    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS)-1)) |",
-     "(*(WINNERS)-1) |"),
+    ("fast/masks.h", "(*(WINNERS) | (*(WINNERS) - 1)) |",
+     "(*(WINNERS) - 1) |"),
     # Round robin of units in even groups.
     ("fast/masks.h", "(asked_groups & ~(winners | (winners - first)))",
      "(asked_groups & ~(winners - first))"),
