@@ -53,10 +53,10 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   tp->inst = fast->program.note[ftp->resume - fast->program.inst].decoded;
   tp->pc = ftp->resume_pc;
   tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
-  trax_fast_defer(ftm, number, asks, head, tp->address);
+  trax_fast_execute_at_issue(ftm, number, asks, head, tp->address);
 }
 
-void trax_fast_come_back(struct trax_fast *fast) {
+void trax_fast_roll_back(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++)
     for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
       come_back(fast, &fast->tm[i], tp);
@@ -64,6 +64,6 @@ void trax_fast_come_back(struct trax_fast *fast) {
 
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {
   if (trax_fast_is_loaded(&fast->blocks, address))
-    trax_fast_come_back(fast);
+    trax_fast_roll_back(fast);
   trax_fast_set_written(&fast->blocks, address);
 }

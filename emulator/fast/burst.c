@@ -15,12 +15,12 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
   return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
-/* Notes `count` instructions from index on as steps `at`..., a part of the burst. */
-static inline void note_part(struct trax_fast_tp *ftp, unsigned part, unsigned at, const uint16_t *asks, uint32_t index,
+/* Notes `count` instructions from index on as steps `at`..., a segment of the burst. */
+static inline void note_segment(struct trax_fast_tp *ftp, unsigned segment, unsigned at, const uint16_t *asks, uint32_t index,
                              const unsigned count) {
   memcpy(ftp->asks + at, asks, count * sizeof *asks);
-  memset(ftp->part + at, (int)part, count);
-  ftp->origin[part] = index - at;
+  memset(ftp->segment + at, (int)segment, count);
+  ftp->origin[segment] = index - at;
 }
 
 #define BURST burst_whole

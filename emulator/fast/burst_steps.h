@@ -1,4 +1,4 @@
-/* A burst of one TP, for burst.c, which includes this twice: as BURST that ends before a stretch that might not fit,
+/* A burst of one TP, for burst.c, which includes this twice: as BURST that ends before a chunk that might not fit,
    and, EXACTLY, as one that executes as many instructions as it may. */
 static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number, unsigned limit,
                       const void *const **operations) {
@@ -6,7 +6,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 #define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
-      [TRAX_OP_ILLEGAL] = &&stop, [TRAX_OP_COUNT] = &&stretch};
+      [TRAX_OP_ILLEGAL] = &&stop, [TRAX_OP_COUNT] = &&chunk};
   if (!ftm) {
     *operations = places;
     return 0;
@@ -25,7 +25,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
   const uint32_t input = fast->blocks.input, input_bytes = fast->blocks.input_bytes;
   uint32_t address, word, jumps = 0;
-  unsigned loads = 0, part = 0;
+  unsigned loads = 0, segment = 0;
   uint64_t resume_pc = ftp->resume_pc; /* of the outside */
   int64_t *const changes = ftm->changes;
   uint64_t lines = 0;
@@ -34,7 +34,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   uintptr_t begin = (uintptr_t)inst;
   unsigned at;
   changes[inst - program->inst]++;
-  goto stretch;
+  goto chunk;
 
 #define AT ((unsigned)(((uintptr_t)inst - begin) / sizeof *inst))
 #include "machine/semantics_begin.h"
@@ -96,7 +96,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 /* Each operation goes on to the next one by itself, which the host's branch predictor learns far better than one switch
    for all. */
 #if EXACTLY
-#define GO_ON() goto stretch
+#define GO_ON() goto chunk
 #else
 #define GO_ON() __extension__({ goto * inst->operation; })
 #endif
@@ -119,7 +119,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
       }                                                                                                                \
       changes[inst - program->inst]++;                                                                                 \
       begin = (uintptr_t)inst - (at + 1) * sizeof *inst;                                                               \
-      goto stretch;                                                                                                    \
+      goto chunk;                                                                                                    \
     } else {                                                                                                           \
       inst++;                                                                                                          \
     }                                                                                                                  \
@@ -129,18 +129,18 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 #undef TRAX_SEMANTICS
 #include "machine/semantics_end.h"
 
-stretch:
+chunk:
   at = AT;
   const uint32_t index = (uint32_t)(inst - program->inst);
   lines |= program->lines_ahead[index];
 #if EXACTLY
   if (at == limit)
     goto stop;
-  note_part(ftp, part++, at, program->asks + index, index, 1);
+  note_segment(ftp, segment++, at, program->asks + index, index, 1);
 #else
-  if (at + TRAX_STRETCH - index % TRAX_STRETCH > limit)
+  if (at + TRAX_CHUNK - index % TRAX_CHUNK > limit)
     goto stop;
-  note_part(ftp, part++, at, program->asks + index, index, TRAX_STRETCH); /* or what is left of it */
+  note_segment(ftp, segment++, at, program->asks + index, index, TRAX_CHUNK); /* or what is left of it */
 #endif
   __extension__({ goto *places[inst->op]; });
 

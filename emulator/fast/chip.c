@@ -2,7 +2,7 @@
 
 #include "fast/state.h"
 #include "fast/variant.h"
-#include "fast/windows.h"
+#include "fast/epochs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -55,14 +55,14 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   chip->variant = variant_of(run->engine);
   if (chip->variant->create(chip, error))
     return TRAX_ERROR;
-  return trax_windows_create(chip, run->options->host_threads, error);
+  return trax_epochs_create(chip, run->options->host_threads, error);
 }
 
 static void destroy(void *context) {
   struct trax_chip *chip = context;
   if (!chip)
     return;
-  trax_windows_destroy(chip->windows);
+  trax_epochs_destroy(chip->epochs);
   if (chip->variant)
     chip->variant->destroy(chip->fast);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
@@ -104,7 +104,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   enum { CYCLES = 1024 }; /* run one by one in a call */
   struct trax_chip *chip = context;
   for (unsigned cycles = 0; cycles < CYCLES && *t < until && !chip->end; cycles++) {
-    if (chip->windows && trax_windows_advance(chip->windows, t, until))
+    if (chip->epochs && trax_epochs_advance(chip->epochs, t, until))
       return TRAX_GOES_ON;
     const uint64_t before = *t;
     if (run_cycle(chip, t) == TRAX_HAS_FAULTED)
@@ -123,8 +123,8 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
 
 static void commit(void *context) {
   const struct trax_chip *chip = context;
-  if (chip->windows)
-    trax_windows_forget(chip->windows);
+  if (chip->epochs)
+    trax_epochs_commit(chip->epochs);
 }
 
 /* --- between cycles --- */

@@ -14,7 +14,7 @@ struct trax_chip {
   struct trax_memory memory;
   const struct trax_fast_variant *variant;
   struct trax_fast *fast;       /* the variant's */
-  struct trax_windows *windows; /* if its TMs run ahead of each other; else NULL */
+  struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */
   uint64_t end;                 /* when all threads have ended: the cycle in which the last transfer is over; else 0 */
 };
 

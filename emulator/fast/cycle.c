@@ -1,5 +1,5 @@
 /* The five steps of a TM's cycle on masks of its TPs (docs/timing.md, "A cycle"). */
-#include "fast/ahead.h"
+#include "fast/store_buffer.h"
 #include "fast/head.h"
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
@@ -35,9 +35,9 @@ static ALWAYS_INLINE uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
     trax_tm_wake_sleepers(tm, t);
   const uint64_t woken = tm->awake & ~awake;
-  const uint64_t taken_up = ftm->taken_up;
-  ftm->taken_up = 0;
-  return (woken & tm->holding) | taken_up;
+  const uint64_t resumed_holding = ftm->resumed_holding;
+  ftm->resumed_holding = 0;
+  return (woken & tm->holding) | resumed_holding;
 }
 
 /* --- step 1 --- */
@@ -51,7 +51,7 @@ static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
 }
 
 /* Grants the banks of one instruction cache after another; returns the losers. */
-static uint64_t lose_fetches_somehow(struct trax_fast_tm *ftm, uint64_t askers, const uint64_t *bit) {
+static uint64_t refuse_fetches_of_any_shape(struct trax_fast_tm *ftm, uint64_t askers, const uint64_t *bit) {
   const struct trax_tm *tm = ftm->tm;
   const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
   uint64_t losers = 0;
@@ -77,21 +77,21 @@ static uint64_t lose_fetches_somehow(struct trax_fast_tm *ftm, uint64_t askers, 
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
-static ALWAYS_INLINE uint64_t lose_fetches(struct trax_fast_tm *ftm, const bool wide, uint64_t askers) {
+static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_fast_tm *ftm, const bool wide, uint64_t askers) {
   uint64_t bit[TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_FETCH_SHIFT, 4, bit);
   if (ftm->simple_fetch) {
 #ifdef __AVX512BW__
     if (wide)
-      return trax_fast_lose_four(&ftm->behind16, askers, bit);
+      return trax_fast_refuse_four(&ftm->rr_mask16, askers, bit);
 #endif
     uint64_t losers = 0;
     for (unsigned pair = 0; pair < 2 && askers >> 32 * pair; pair++)
-      losers |= (uint64_t)trax_fast_lose_pair(&ftm->behind16, pair, askers, bit) << 32 * pair;
+      losers |= (uint64_t)trax_fast_refuse_pair(&ftm->rr_mask16, pair, askers, bit) << 32 * pair;
     return losers;
   }
   trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_FETCH_SHIFT + 4, 2, bit + 4);
-  return lose_fetches_somehow(ftm, askers, bit);
+  return refuse_fetches_of_any_shape(ftm, askers, bit);
 }
 
 /* A bank has let the TP look up the line of its head. True if it is there. */
@@ -170,14 +170,14 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, bool fetc
 
 /* Steps 1 and 2; woken: those whose operands may be usable now. */
 static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool wide, uint64_t woken,
-                                          struct trax_fast_lost *lost, uint64_t t) {
+                                          struct trax_fast_refused *lost, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   if (ftm->outside)
     fault_outside(ftm, t);
   const uint64_t askers = tm->awake & ~tm->holding;
   uint64_t hits = 0;
   if (askers) {
-    const uint64_t losers = lose_fetches(ftm, wide, askers);
+    const uint64_t losers = refuse_fetches(ftm, wide, askers);
     lost->fetch = losers;
     hits = askers & ~losers;
   }
@@ -225,10 +225,10 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool w
   uint64_t winners = 0, there = 0;
   if (__builtin_expect(ftm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
     const trax_fast_lanes first = by_low_bits & (none + (askers & ~bit[2]));
-    grant_four_banks(ftm, &ftm->data_bank_behind[0], &first, &winners, &there);
+    grant_four_banks(ftm, &ftm->data_bank_rr_mask[0], &first, &winners, &there);
     if (ftm->data_banks > TRAX_FAST_LANES) {
       const trax_fast_lanes second = by_low_bits & (none + (askers & bit[2]));
-      grant_four_banks(ftm, &ftm->data_bank_behind[1], &second, &winners, &there);
+      grant_four_banks(ftm, &ftm->data_bank_rr_mask[1], &second, &winners, &there);
     }
   } else {
     trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 3, 1, bit + 3);
@@ -238,7 +238,7 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool w
       for (uint32_t k = 2; k < ftm->data_bank_bits; k++)
         asking &= first >> k & 1 ? bit[k] : ~bit[k];
       const trax_fast_lanes four = by_low_bits & (none + asking);
-      grant_four_banks(ftm, &ftm->data_bank_behind[first / TRAX_FAST_LANES], &four, &winners, &there);
+      grant_four_banks(ftm, &ftm->data_bank_rr_mask[first / TRAX_FAST_LANES], &four, &winners, &there);
     }
   }
   *hits = there & ~ftm->deferred;
@@ -309,7 +309,7 @@ static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *uni
 _Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
 
 /* Grants the units without a place of their own; `bit`: of their numbers. Returns the winners. */
-static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct trax_fast_lost *lost, uint64_t askers,
+static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct trax_fast_refused *lost, uint64_t askers,
                                             const uint64_t *bit, uint64_t t) {
   uint64_t granted = 0;
 #pragma GCC unroll 8
@@ -326,7 +326,7 @@ static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct tra
 
 /* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do, and `banks`
    those who ask for a data bank. */
-static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_lost *lost,
+static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_refused *lost,
                                     uint64_t *slow, uint64_t *banks, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   uint64_t bit[TRAX_ASKS_BANK_SHIFT + TRAX_FAST_BANK_BITS];
@@ -374,27 +374,27 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
 /* Adds two bits of each counter to the one in *sum; returns what is carried to the next one. */
 #define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
   (__extension__({                                                                                                     \
-    const trax_fast_losses one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                    \
-    const trax_fast_losses carry_ = (*(SUM) & one_) | (either_ & other_);                                              \
+    const trax_fast_refusals one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                    \
+    const trax_fast_refusals carry_ = (*(SUM) & one_) | (either_ & other_);                                              \
     *(SUM) = either_ ^ other_;                                                                                         \
     carry_;                                                                                                            \
   }))
 
-static bool is_any(const trax_fast_losses *losses) {
+static bool is_any(const trax_fast_refusals *losses) {
   uint64_t any = 0;
   for (unsigned i = 0; i < TRAX_FAST_COUNTERS; i++)
     any |= (*losses)[i];
   return any != 0;
 }
 
-void trax_fast_count_log(struct trax_fast_tally *tally) {
-  const trax_fast_losses none = {0};
-  trax_fast_losses carry = none;
+void trax_fast_count_log(struct trax_fast_refusal_counts *tally) {
+  const trax_fast_refusals none = {0};
+  trax_fast_refusals carry = none;
   for (; tally->logged < TRAX_FAST_LOG; tally->logged++)
     tally->log[tally->logged] = none;
   unsigned count = TRAX_FAST_LOG; /* of terms of the bit, from the log's beginning on */
   for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
-    trax_fast_losses sum = tally->log[0];
+    trax_fast_refusals sum = tally->log[0];
     count /= 2;
     for (unsigned i = 0; i < count; i++)
       tally->log[i] = ADD_TWO(&sum, tally->log[2 * i + 1], tally->log[2 * i + 2]);
@@ -409,7 +409,7 @@ void trax_fast_count_log(struct trax_fast_tally *tally) {
 struct turn {
   struct trax_fast_tm *ftm;
   uint64_t t, woken, granted, slow, banks;
-  struct trax_fast_lost lost;
+  struct trax_fast_refused lost;
 };
 
 static ALWAYS_INLINE void begin(struct turn *turn) {
@@ -469,7 +469,7 @@ void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t) {
 }
 
 static inline bool runs(const struct trax_fast_tm *ftm, uint64_t end) {
-  return ftm->tm->next_cycle < end && !ftm->tm->ahead->stop && !ftm->tm->fault.kind;
+  return ftm->tm->next_cycle < end && !ftm->tm->buffer->stop && !ftm->tm->fault.kind;
 }
 
 static ALWAYS_INLINE void run_two(struct trax_fast_tm *one, struct trax_fast_tm *other, uint64_t end, const bool wide) {

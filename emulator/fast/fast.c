@@ -129,31 +129,31 @@ static void count_local(struct trax_tm_stats *stats) {
   stats->local_stores = stores - stats->store_hits - stats->store_misses - stats->nontemporal_stores;
 }
 
-/* In the order of trax_fast_lost and its tally. */
-static const trax_cause loss_causes[TRAX_FAST_LOSSES] = {
+/* In the order of trax_fast_refused and its tally. */
+static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
 #define CAUSE(MEMBER, CAUSE) TRAX_CAUSE_##CAUSE,
-    TRAX_FAST_LOST(CAUSE)
+    TRAX_FAST_REFUSED(CAUSE)
 #undef CAUSE
 };
 
-static void charge_losses(struct trax_fast_tm *ftm) {
+static void charge_refusals(struct trax_fast_tm *ftm) {
   trax_fast_count_log(&ftm->tally);
   for (unsigned bit = 0; bit < 64; bit++)
-    for (unsigned lost = 0; lost < TRAX_FAST_LOSSES; lost++)
+    for (unsigned lost = 0; lost < TRAX_FAST_REFUSALS; lost++)
       for (uint64_t tps = ftm->tally.planes[bit][lost]; tps; tps &= tps - 1)
-        ftm->tm->tp_stats[trax_first(tps)].cycles[loss_causes[lost]] += (uint64_t)1 << bit;
+        ftm->tm->tp_stats[trax_first(tps)].cycles[refusal_causes[lost]] += (uint64_t)1 << bit;
   memset(&ftm->tally, 0, sizeof ftm->tally);
 }
 
-void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost *lost) {
+void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_refused *lost) {
   const uint64_t losers[] = {
 #define LOSERS(MEMBER, CAUSE) lost->MEMBER,
-      TRAX_FAST_LOST(LOSERS)
+      TRAX_FAST_REFUSED(LOSERS)
 #undef LOSERS
   };
-  for (unsigned i = 0; i < TRAX_FAST_LOSSES; i++)
+  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
     for (uint64_t rest = losers[i]; rest; rest &= rest - 1)
-      trax_tm_tell(ftm->tm, trax_first(rest), loss_causes[i], ftm->tm->now, 1);
+      trax_tm_tell(ftm->tm, trax_first(rest), refusal_causes[i], ftm->tm->now, 1);
 }
 
 /* Of the current burst: how much was issued. */
@@ -209,7 +209,7 @@ static void settle(struct trax_fast *fast) {
     struct trax_fast_tm *ftm = &fast->tm[i];
     for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
       count_burst(ftm, tp);
-    charge_losses(ftm);
+    charge_refusals(ftm);
     count_ahead(ftm, -1);
   }
   collect(fast);

@@ -31,7 +31,7 @@
 #define trax_fast_blocks_create TRAX_FAST_NAME(trax_fast_blocks_create, TRAX_FAST_VARIANT)
 #define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
 #define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
-#define trax_fast_come_back TRAX_FAST_NAME(trax_fast_come_back, TRAX_FAST_VARIANT)
+#define trax_fast_roll_back TRAX_FAST_NAME(trax_fast_roll_back, TRAX_FAST_VARIANT)
 #define trax_fast_plan TRAX_FAST_NAME(trax_fast_plan, TRAX_FAST_VARIANT)
 #define trax_fast_export TRAX_FAST_NAME(trax_fast_export, TRAX_FAST_VARIANT)
 #define trax_fast_import TRAX_FAST_NAME(trax_fast_import, TRAX_FAST_VARIANT)
@@ -44,7 +44,7 @@
 
 enum {
   TRAX_BURST = 224,  /* most instructions of a burst; fits in trax_fast_heads.at */
-  TRAX_STRETCH = 32, /* instructions of the program whose steps are noted at once: those from a multiple of it on */
+  TRAX_CHUNK = 32, /* instructions of the program whose steps are noted at once: those from a multiple of it on */
   TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* that `resident` knows; the last entry stands for all others */
 };
 
@@ -53,7 +53,7 @@ enum {
 
 /* An instruction, what its function needs: four to a line of the host's cache. */
 struct trax_fast_inst {
-  const void *operation; /* where burst.c executes it; for the first of a stretch, where the stretch is noted */
+  const void *operation; /* where burst.c executes it; for the first of a chunk, where the chunk is noted */
   int32_t imm;
   uint8_t op; /* trax_op; TRAX_OP_ILLEGAL where a burst must stop: then only `decoded` knows */
   uint8_t rd, ra, rb;
@@ -80,8 +80,8 @@ struct trax_fast_program {
   struct trax_fast_inst *inst; /* [inst_count] */
   struct trax_fast_note *note; /* [inst_count] */
   uint16_t *line;              /* [inst_count]: of the program, for `resident` */
-  uint16_t *asks;              /* [inst_count + TRAX_STRETCH]: of a step, unless its address says more */
-  uint64_t *lines_ahead;       /* [inst_count]: bit line % 64 of the lines from here to a jump or the stretch's end */
+  uint16_t *asks;              /* [inst_count + TRAX_CHUNK]: of a step, unless its address says more */
+  uint64_t *lines_ahead;       /* [inst_count]: bit line % 64 of the lines from here to a jump or the chunk's end */
   struct trax_fast_inst *outside; /* the last */
 };
 
@@ -101,10 +101,10 @@ struct trax_fast_tp {
 
   /* The steps of the burst, what timing needs of instructions that have been executed; or only the deferred head.
      Behind the last one there may be more. */
-  _Alignas(64) uint16_t asks[TRAX_BURST + TRAX_STRETCH];
-  uint8_t part[TRAX_BURST + TRAX_STRETCH]; /* of the burst, of instructions in a row: trax_fast_index */
+  _Alignas(64) uint16_t asks[TRAX_BURST + TRAX_CHUNK];
+  uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* of the burst: trax_fast_index */
   uint32_t address[TRAX_BURST];            /* of the loads of global memory, one after the other */
-  uint32_t origin[TRAX_BURST + 1];         /* [part]: the index of its first instruction minus the number of its step */
+  uint32_t origin[TRAX_BURST + 1];         /* [segment]: the index of its first instruction minus the number of its step */
 
   /* How to get back to the burst's beginning (blocks.c). */
   const struct trax_fast_inst *begin;
@@ -132,14 +132,14 @@ struct trax_fast_tm {
   uint64_t outside;   /* the head cannot be fetched */
   uint64_t busy;      /* busy_registers is not 0 */
   uint64_t uncertain; /* a line of the burst may not be there */
-  uint64_t taken_up;  /* hold an instruction since before the run was taken up: its operands are looked at again */
+  uint64_t resumed_holding;  /* hold an instruction since before the run was taken up: its operands are looked at again */
 
   /* For each bank of the instruction caches, the TPs behind the latest winner. `simple_fetch`: 16 TPs share a cache of
      at most 16 banks that let one into each; then the TPs of all caches are handled together (heads.h). Else the banks
      of one cache after another's, each beginning a vector. */
   bool simple_fetch;
   uint32_t vectors; /* of a cache */
-  struct trax_fast_banks16 behind16;
+  struct trax_fast_banks16 rr_mask16;
   trax_fast_lanes *behind;
   uint32_t data_banks, data_bank_bits;
   bool hits_in_turn;                    /* a hit of the data cache needs more than counting: latency, or order of use */
@@ -149,8 +149,8 @@ struct trax_fast_tm {
 
   struct trax_fast_units fp;      /* adders, multipliers */
   struct trax_fast_units int_mul; /* integer multipliers, nothing */
-  trax_fast_lanes data_bank_behind[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
-  struct trax_fast_tally tally;
+  trax_fast_lanes data_bank_rr_mask[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
+  struct trax_fast_refusal_counts tally;
 
   /* What took a slow way (machine/fast_path.h): fetches that were looked up, hits of the data cache that were served
      one by one, instructions that executed at issue. */
@@ -190,7 +190,7 @@ struct trax_fast {
 
 /* The index of a step's instruction, in trax_fast_program.inst. */
 static inline uint32_t trax_fast_index(const struct trax_fast_tp *ftp, unsigned step) {
-  return ftp->origin[ftp->part[step]] + step;
+  return ftp->origin[ftp->segment[step]] + step;
 }
 
 /* Of the TP's head. */
@@ -236,7 +236,7 @@ static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_f
    than TRAX_BURST and nothing stops it. */
 unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned tp, unsigned limit);
 
-/* Where each trax_op is executed, TRAX_OP_ILLEGAL stops, and, at TRAX_OP_COUNT, where a stretch is noted. */
+/* Where each trax_op is executed, TRAX_OP_ILLEGAL stops, and, at TRAX_OP_COUNT, where a chunk is noted. */
 const void *const *trax_fast_operations(void);
 
 /* --- head.c --- */
@@ -251,7 +251,7 @@ void trax_fast_line_has_come(struct trax_fast_tm *ftm, unsigned icache, uint32_t
 
 /* --- fast.c --- */
 /* Tells an observer who was refused something in the current cycle. */
-void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_lost *lost);
+void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_refused *lost);
 
 /* --- cycle.c --- */
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
@@ -267,7 +267,7 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
 /* Every TP goes back to what it has issued, and is deferred. */
-void trax_fast_come_back(struct trax_fast *fast);
+void trax_fast_roll_back(struct trax_fast *fast);
 
 /* --- transfer.c: trax_fast_variant's functions of these names --- */
 void trax_fast_export(struct trax_fast *fast);

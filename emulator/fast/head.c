@@ -17,12 +17,12 @@ static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsign
   if (!(ftp->burst_lines & ~ftm->resident_lines[icache]))
     return true;
   for (unsigned i = 0; i < count;) {
-    const uint8_t part = ftp->part[i];
-    const uint32_t origin = ftp->origin[part]; /* as trax_fast_index, which wraps around */
+    const uint8_t segment = ftp->segment[i];
+    const uint32_t origin = ftp->origin[segment]; /* as trax_fast_index, which wraps around */
     do
       if (!ftm->resident[icache][ftm->fast->program.line[origin + i]])
         return false;
-    while (++i < count && ftp->part[i] == part);
+    while (++i < count && ftp->segment[i] == segment);
   }
   return true;
 }
@@ -68,7 +68,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     trax_fast_set_head(&ftm->heads, number, 0);
   } else {
     const uint32_t index = (uint32_t)(ftp->resume - ftm->fast->program.inst);
-    trax_fast_defer(ftm, number, ftm->fast->program.asks[index] & TRAX_ASKS_FETCH, index, 0);
+    trax_fast_execute_at_issue(ftm, number, ftm->fast->program.asks[index] & TRAX_ASKS_FETCH, index, 0);
     tp->inst = ftm->fast->program.note[index].decoded;
     tp->pc = ftp->resume_pc;
     ftm->outside |= tp->inst->ask == TRAX_ASK_OUTSIDE ? bit : 0;

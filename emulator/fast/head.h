@@ -22,12 +22,12 @@ static inline __attribute__((always_inline)) void trax_fast_issue_quickly(struct
 }
 
 /* Makes a step the only one, executed at issue. */
-static inline void trax_fast_defer(struct trax_fast_tm *ftm, unsigned number, uint16_t asks, uint32_t index,
+static inline void trax_fast_execute_at_issue(struct trax_fast_tm *ftm, unsigned number, uint16_t asks, uint32_t index,
                                    uint32_t address) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   ftm->deferred |= (uint64_t)1 << number;
   ftp->asks[0] = asks | TRAX_ASKS_SLOWLY;
-  ftp->part[0] = 0;
+  ftp->segment[0] = 0;
   ftp->origin[0] = index;
   ftp->address[0] = address;
   ftm->heads.last[number] = ftm->heads.load[number] = 0;

@@ -1,5 +1,5 @@
 /* Step 5: those who were granted all they asked for issue, in order. */
-#include "fast/ahead.h"
+#include "fast/store_buffer.h"
 #include "fast/head.h"
 
 /* A head that has not run ahead: the core executes it. False if it faulted. */
@@ -8,10 +8,10 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &ftm->tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
   const uint32_t pc = tp->pc, index = trax_fast_head(ftm, number);
-  if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE && !ftm->tm->ahead)
+  if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE && !ftm->tm->buffer)
     trax_fast_block_written(ftm->fast, tp->address);
-  if (inst->is_atomic && ftm->tm->ahead)
-    trax_ahead_increment(ftm->tm->ahead, t, tp->address);
+  if (inst->is_atomic && ftm->tm->buffer)
+    trax_store_buffer_increment(ftm->tm->buffer, t, tp->address);
   if (inst->is_atomic)
     ftp->atomics |= (uint64_t)1 << inst->rd;
   if (!trax_tp_execute(ftm->tm, number, t))

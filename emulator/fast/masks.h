@@ -68,7 +68,7 @@ static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
 
 /* Grants the banks of a pair of caches; `askers` of both, `plane`: the bits of the numbers of the banks they ask.
    Returns the losers. */
-static inline uint32_t trax_fast_lose_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t askers,
+static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t askers,
                                            const uint64_t *plane) {
   static const _Alignas(64) uint32_t match[4][16] = {
 #define BANKS(K) /* all bits in those whose bit K is 0 */                                                              \
@@ -96,7 +96,7 @@ static inline uint32_t trax_fast_lose_pair(struct trax_fast_banks16 *banks, unsi
 
 #ifdef __AVX512BW__
 /* The same for four caches, whose turns are in banks->of_four. */
-static inline uint64_t trax_fast_lose_four(struct trax_fast_banks16 *banks, uint64_t askers, const uint64_t *plane) {
+static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, uint64_t askers, const uint64_t *plane) {
   typedef uint16_t turns __attribute__((vector_size(64), may_alias));
   __m512i asking = _mm512_set1_epi64((long long)askers);
 #pragma GCC unroll 3
@@ -134,36 +134,36 @@ static inline uint16_t *trax_fast_fetch_turn(struct trax_fast_banks16 *banks, co
 }
 
 /* The TPs that were refused something in a cycle, by what it was: X(member, cause). */
-#define TRAX_FAST_LOST(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_LOST_UNIT, X) X(bank, DCACHE_BANK)
+#define TRAX_FAST_REFUSED(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_LOST_UNIT, X) X(bank, DCACHE_BANK)
 #define TRAX_FAST_LOST_UNIT(X, ID, ...) X(unit[TRAX_SHARED_##ID], ID)
-enum { TRAX_FAST_LOSSES = TRAX_SHARED_COUNT + 2 };
+enum { TRAX_FAST_REFUSALS = TRAX_SHARED_COUNT + 2 };
 
-struct trax_fast_lost {
+struct trax_fast_refused {
   uint64_t fetch, unit[TRAX_SHARED_COUNT], bank;
 };
 
 /* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
    charged to all TPs at once; several cycles together, since carries cost most. */
 enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */ };
-#define TRAX_FAST_COUNTERS (TRAX_FAST_LOSSES <= 8 ? 8 : TRAX_FAST_LOSSES <= 16 ? 16 : 32) /* a power of two */
-typedef uint64_t trax_fast_losses
-    __attribute__((vector_size(8 * TRAX_FAST_COUNTERS), may_alias)); /* in the order of TRAX_FAST_LOST */
+#define TRAX_FAST_COUNTERS (TRAX_FAST_REFUSALS <= 8 ? 8 : TRAX_FAST_REFUSALS <= 16 ? 16 : 32) /* a power of two */
+typedef uint64_t trax_fast_refusals
+    __attribute__((vector_size(8 * TRAX_FAST_COUNTERS), may_alias)); /* in the order of TRAX_FAST_REFUSED */
 
-struct trax_fast_tally {
-  trax_fast_losses planes[64];
-  trax_fast_losses log[TRAX_FAST_LOG];
+struct trax_fast_refusal_counts {
+  trax_fast_refusals planes[64];
+  trax_fast_refusals log[TRAX_FAST_LOG];
   uint32_t logged;
 };
 
 /* Adds the log to the planes. */
-void trax_fast_count_log(struct trax_fast_tally *tally);
+void trax_fast_count_log(struct trax_fast_refusal_counts *tally);
 
-static inline void trax_fast_count(struct trax_fast_tally *tally, const struct trax_fast_lost *lost) {
+static inline void trax_fast_count(struct trax_fast_refusal_counts *tally, const struct trax_fast_refused *lost) {
   /* One by one: nobody looks at them soon, and a vector would have to be put together. */
   typedef uint64_t word __attribute__((may_alias));
   word *log = (word *)&tally->log[tally->logged];
 #define LOG(MEMBER, CAUSE) *log++ = lost->MEMBER;
-  TRAX_FAST_LOST(LOG)
+  TRAX_FAST_REFUSED(LOG)
 #undef LOG
   if (++tally->logged == TRAX_FAST_LOG)
     trax_fast_count_log(tally);

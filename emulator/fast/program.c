@@ -49,7 +49,7 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
   const void *const *const operations = trax_fast_operations();
   const bool slow = decoded->ask != TRAX_ASK_MEMORY && decoded->latency > 1;
   const uint8_t op = stops || stops_burst(decoded) ? TRAX_OP_ILLEGAL : decoded->op;
-  program->inst[index] = (struct trax_fast_inst){.operation = operations[index % TRAX_STRETCH ? op : TRAX_OP_COUNT],
+  program->inst[index] = (struct trax_fast_inst){.operation = operations[index % TRAX_CHUNK ? op : TRAX_OP_COUNT],
                                                  .op = op,
                                                  .rd = decoded->rd,
                                                  .ra = decoded->ra,
@@ -72,7 +72,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     return trax_fail(error, "%zu instructions are too many for the fast engine", total);
   program->sections = calloc(text->count ? text->count : 1, sizeof *program->sections);
   program->inst = malloc(total * sizeof *program->inst);
-  program->asks = calloc(total + TRAX_STRETCH, sizeof *program->asks);
+  program->asks = calloc(total + TRAX_CHUNK, sizeof *program->asks);
   program->note = malloc(total * sizeof *program->note);
   program->line = malloc(total * sizeof *program->line);
   program->lines_ahead = calloc(total + 1, sizeof *program->lines_ahead);
@@ -97,7 +97,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   program->outside = &program->inst[index];
   predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* none is at an odd address */
   for (size_t i = total; i-- > 0;) {
-    const bool goes_on = (i + 1) % TRAX_STRETCH && program->inst[i].op != TRAX_OP_JAL; /* jalr may, too */
+    const bool goes_on = (i + 1) % TRAX_CHUNK && program->inst[i].op != TRAX_OP_JAL; /* jalr may, too */
     program->lines_ahead[i] = (uint64_t)1 << program->line[i] % 64 | (goes_on ? program->lines_ahead[i + 1] : 0);
   }
   return TRAX_OK;

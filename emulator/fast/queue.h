@@ -37,7 +37,7 @@ struct trax_request {
 struct trax_queue {
   struct trax_request *requests; /* [depth] */
   uint32_t depth, oldest, count, started;
-  uint32_t shown; /* of a ring's `count`, how many the memory knows of: all, unless the TM runs ahead (fast/ahead.h) */
+  uint32_t shown; /* of a ring's `count`, how many the memory knows of: all, unless the TM runs ahead (fast/store_buffer.h) */
   uint32_t peak;  /* largest count */
 
   uint16_t *heap;   /* [depth]; NULL: the places are a ring */

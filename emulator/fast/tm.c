@@ -1,6 +1,6 @@
 #include "fast/tm.h"
 
-#include "fast/ahead.h"
+#include "fast/store_buffer.h"
 #include "fast/chip.h"
 
 #include <stdlib.h>
@@ -173,8 +173,8 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   }
   stats->memory_requests++;
   trax_queue_push(&tm->queue, request);
-  if (tm->ahead)
-    trax_ahead_request(tm->ahead, tm->now);
+  if (tm->buffer)
+    trax_store_buffer_request(tm->buffer, tm->now);
   else
     trax_memory_show(&tm->chip->memory, tm);
 }

@@ -21,7 +21,7 @@ struct trax_tm {
   const struct trax_text *text;
   FILE *output;                         /* of the guest; may be NULL */
   const struct trax_observer *observer; /* NULL: nobody */
-  struct trax_ahead *ahead;             /* while it runs ahead of the other TMs; else NULL */
+  struct trax_store_buffer *buffer;             /* while it runs ahead of the other TMs; else NULL */
   uint64_t now;                         /* the cycle that is being simulated */
   uint32_t running;                     /* threads that have not ended */
 

@@ -1,6 +1,6 @@
 #include "fast/tp.h"
 
-#include "fast/ahead.h"
+#include "fast/store_buffer.h"
 #include "fast/chip.h"
 #include "machine/traps.h"
 #include "trax/semantics.h"
@@ -37,15 +37,15 @@ static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) 
 
 static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
-  if (tm->ahead && address < TRAX_LOCAL_BASE)
-    return trax_ahead_load(tm->ahead, &tm->machine->space, address, bytes);
+  if (tm->buffer && address < TRAX_LOCAL_BASE)
+    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
   memcpy(&value, place(tm, tp, address), bytes);
   return value;
 }
 
 static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
-  if (tm->ahead && address < TRAX_LOCAL_BASE)
-    trax_ahead_store(tm->ahead, tm->now, address, value, bytes);
+  if (tm->buffer && address < TRAX_LOCAL_BASE)
+    trax_store_buffer_store(tm->buffer, tm->now, address, value, bytes);
   else
     memcpy(place(tm, tp, address), &value, bytes);
 }
@@ -75,8 +75,8 @@ static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t co
     trax_tm_end_thread(tm, number, t + 1, (int32_t)value);
     return true;
   }
-  if (tm->ahead && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS)) {
-    tm->ahead->stop = true; /* output is in the order of all threads */
+  if (tm->buffer && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS)) {
+    tm->buffer->stop = true; /* output is in the order of all threads */
     return true;
   }
   const trax_fault_kind fault =

@@ -17,13 +17,13 @@ static uint64_t behind_of(trax_arbiter pointer) {
 
 static uint64_t get_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
   if (ftm->simple_fetch)
-    return (uint64_t)*trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) << 16 * icache;
+    return (uint64_t)*trax_fast_fetch_turn(&ftm->rr_mask16, ftm->wide, icache, bank) << 16 * icache;
   return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
 }
 
 static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
   if (ftm->simple_fetch)
-    *trax_fast_fetch_turn(&ftm->behind16, ftm->wide, icache, bank) = (uint16_t)(behind >> 16 * icache);
+    *trax_fast_fetch_turn(&ftm->rr_mask16, ftm->wide, icache, bank) = (uint16_t)(behind >> 16 * icache);
   else
     ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
 }
@@ -50,7 +50,7 @@ static void export_arbiters(struct trax_fast_tm *ftm) {
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
   for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_behind)[bank]);
+    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_rr_mask)[bank]);
 }
 
 static void import_arbiters(struct trax_fast_tm *ftm) {
@@ -62,11 +62,11 @@ static void import_arbiters(struct trax_fast_tm *ftm) {
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));
   for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    ((uint64_t *)ftm->data_bank_behind)[bank] = behind_of(tm->dcache.bank[bank]);
+    ((uint64_t *)ftm->data_bank_rr_mask)[bank] = behind_of(tm->dcache.bank[bank]);
 }
 
 void trax_fast_export(struct trax_fast *fast) {
-  trax_fast_come_back(fast);
+  trax_fast_roll_back(fast);
   for (uint32_t i = 0; i < fast->chip->tms; i++)
     export_arbiters(&fast->tm[i]);
 }
@@ -129,7 +129,7 @@ void trax_fast_import(struct trax_fast *fast, uint64_t t) {
     find_resident_lines(ftm);
     ftm->ready = ftm->outside = 0;
     ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
-    ftm->taken_up = tm->awake & tm->holding;
+    ftm->resumed_holding = tm->awake & tm->holding;
     for (unsigned tp = 0; tp < tm->tps; tp++)
       if (!(tm->ended >> tp & 1))
         take_up(ftm, tp, t);

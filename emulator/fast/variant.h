@@ -18,7 +18,7 @@ struct trax_fast_variant {
   void (*destroy)(struct trax_fast *fast); /* which may be NULL */
   /* Arrivals and the five steps of a TM; sets its next_cycle. */
   void (*cycle)(struct trax_fast *fast, uint32_t tm, uint64_t t);
-  /* All cycles before `end` of the `count` TMs from `first` on, at most TRAX_FAST_ABREAST, which run ahead (windows.h);
+  /* All cycles before `end` of the `count` TMs from `first` on, at most TRAX_FAST_ABREAST, which run ahead (epochs.h);
      less of one that stops or faults. */
   void (*run_ahead)(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
   /* Adds the instructions executed since the last call to the TMs' statistics; before the run's end, also those that

@@ -12,7 +12,7 @@ struct trax_fast_path {
 
   /* What holds of the whole run. */
   bool observed;        /* each instruction executes by itself, and TMs go from cycle to cycle together */
-  bool no_windows;      /* TMs go from cycle to cycle together, since memory answers too soon */
+  bool no_epochs;      /* TMs go from cycle to cycle together, since memory answers too soon */
   bool general_fetch;   /* the banks of the instruction caches are not served all at once */
   bool uneven_units;    /* nor are the groups of adders and multipliers */
   bool many_data_banks; /* nor the banks of the data cache */
@@ -24,7 +24,7 @@ struct trax_fast_path {
   uint64_t at_issue;      /* instructions that executed when they were issued, not ahead of time */
   uint64_t single_cycles; /* through which several TMs went together, not each by itself for many cycles */
   uint64_t conflicts;     /* of TMs that ran ahead of each other and had to go back */
-  uint64_t short_windows; /* cycles in which TMs could not run ahead, since the run stops soon, as for a checkpoint */
+  uint64_t short_epochs; /* cycles in which TMs could not run ahead, since the run stops soon, as for a checkpoint */
 };
 
 #endif

@@ -49,12 +49,12 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   snprintf(conflicts, sizeof conflicts,
            "conflicts of TMs in memory (%" PRIu64 "), checkpoints and other stops close together (%" PRIu64
            " cycles), and ends of runs",
-           path->conflicts, path->short_windows);
+           path->conflicts, path->short_epochs);
   fprintf(out, "\nSlow ways of the fast engine, which take more of the host's time and change no result\n");
   row(&table, "observed", path->observed ? cycles : 0, cycles, "cycles", "every instruction is told of");
   row(&table, "TMs cycle by cycle", path->single_cycles, cycles, "cycles",
       path->observed     ? "every instruction is told of"
-      : path->no_windows ? "memory answers too soon (memory.latency_cycles)"
+      : path->no_epochs ? "memory answers too soon (memory.latency_cycles)"
                          : conflicts);
   row(&table, "fetches bank by bank", path->general_fetch ? cycles : 0, cycles, "cycles", fetch_reason(config));
   row(&table, "adders group by group", path->uneven_units ? cycles : 0, cycles, "cycles",

@@ -98,8 +98,7 @@ def main():
             print(run(os.path.join(binaries, "timing-engines-test"), "--count", 30, "--jobs", 2, *settings(keys)).strip())
         check_statistics(binaries, SCRATCH)
         run(os.path.join(binaries, "timing-units-page"), os.path.join(SCRATCH, "docs", "timing.md"))
-        run("sh", os.path.join(SCRATCH, "tests", "emulator", "docs_test.sh"), os.path.join(binaries, "trax-sim"),
-            os.path.join(SCRATCH, "docs", "emulator.md"))
+        run(sys.executable, os.path.join(SCRATCH, "tests", "commands", "help_test.py"), binaries, SCRATCH)
     finally:
         shutil.rmtree(SCRATCH, ignore_errors=True)
     print(f"{len(files)} files, {len(failures)} failures")

@@ -24,7 +24,7 @@ TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
 TESTS += [(["timing-beyond-test"], {})]
 TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {}),
-          (["timing-windows-test"], {}), (["timing-checkpoint-test"], {})]
+          (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {})]
 TARGETS = sorted({test[0][0] for test in TESTS})
 
 
@@ -108,7 +108,7 @@ def main():
         caught[2] += 1
         if "-test" in outcome:
             caught[0] += 1
-            caught[1] += not outcome.startswith(("timing-engines", "timing-state", "timing-windows", "timing-checkpoint"))
+            caught[1] += not outcome.startswith(("timing-engines", "timing-state", "timing-epochs", "timing-checkpoint"))
         print(f"{outcome:28} {name}: {old.strip()}  ->  {new.strip()}", flush=True)
     for kind, (caught, by_hand, total) in totals.items():
         print(f"{kind}: {caught} of {total} caught, {by_hand} by counts derived by hand")

@@ -98,7 +98,7 @@ MUTANTS = [
     ("fast/masks.h", "for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {", "for (uint32_t unit = 1; unit && all; unit--) {"),
     ("fast/cycle.c", "for (uint32_t port = 0; port < ports; port++)", "for (uint32_t port = 0; port < ports && port < 1; port++)"),
     # --- steps 1 and 2 ---
-    ("fast/cycle.c", "return (woken & tm->holding) | taken_up;", "return (woken & tm->holding) | (taken_up & 0);"),
+    ("fast/cycle.c", "return (woken & tm->holding) | resumed_holding;", "return (woken & tm->holding) | (resumed_holding & 0);"),
     ("fast/cycle.c", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
     ("fast/cycle.c", "ftm->busy_registers[number] &= ~waits;", "ftm->busy_registers[number] = 0;"),
     ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END || ", "if ("),
@@ -156,7 +156,7 @@ MUTANTS = [
     ("fast/cycle.c", "trax_arbiter_grant(&unit->turn[group], all & ~winners, 1)",
      "trax_arbiter_grant(&(trax_arbiter){unit->turn[group]}, all & ~winners, 1)"),
     # When a TM goes back, so do they.
-    ("fast/windows.c", "if (tm->unit[i].free_from)", "if (0)"),
+    ("fast/epochs.c", "if (tm->unit[i].free_from)", "if (0)"),
     # As many operations are accepted as units are free.
     ("fast/cycle.c", "i < kind->per_group && all & ~winners;",
      "i < kind->per_group && i < 1 && all & ~winners;"),
@@ -275,8 +275,8 @@ MUTANTS = [
     ("fast/issue.c", "latency = ftm->tm->config->tp.local_latency_cycles;\n    cause",
      "latency = 1;\n    cause"),
     # Stores are noted before others may see them.
-    ("fast/issue.c", "tp->address < TRAX_LOCAL_BASE && !ftm->tm->ahead)",
-     "tp->address < TRAX_LOCAL_BASE - 0x80000000u && inst->bytes > 1 && !ftm->tm->ahead)"),
+    ("fast/issue.c", "tp->address < TRAX_LOCAL_BASE && !ftm->tm->buffer)",
+     "tp->address < TRAX_LOCAL_BASE - 0x80000000u && inst->bytes > 1 && !ftm->tm->buffer)"),
     # Arrived increments are forgotten.
     ("fast/head.c", "ftp->atomics &= ~(rest & -rest);",
      "ftp->atomics = 0;"),
@@ -308,14 +308,14 @@ MUTANTS = [
     ("fast/head.c", "(ftm->busy | ftm->uncertain) & bit ? 0 : NO_LOOK;",
      "NO_LOOK;"),
     # Which instruction a step is.
-    ("fast/burst.c", "ftp->origin[part] = index - at;",
-     "ftp->origin[part] = index - (at & 127);"),
+    ("fast/burst.c", "ftp->origin[segment] = index - at;",
+     "ftp->origin[segment] = index - (at & 127);"),
     # Round robin of units by bytes.
     ("fast/masks.h", "TRAX_FAST_ARBITRATE(groups, (groups *)&units->behind, (groups)askers, &winners);",
      "trax_fast_pair all = {-1, -1};\n    TRAX_FAST_ARBITRATE(groups, (groups *)&all, (groups)askers, &winners);"),
     # A write calls back those who have run ahead.
-    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))\n    trax_fast_come_back",
-     "if (trax_fast_is_loaded(&fast->blocks, address) && address % 16)\n    trax_fast_come_back"),
+    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))\n    trax_fast_roll_back",
+     "if (trax_fast_is_loaded(&fast->blocks, address) && address % 16)\n    trax_fast_roll_back"),
     # Local memory is as it was.
     ("fast/blocks.c", "memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);",
      "memcpy(tp->local + undo->offset, &undo->word, 2);"),
@@ -332,33 +332,33 @@ MUTANTS = [
     ("fast/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/windows.c", "writer->round == windows->round && writer->tm != i)",
-     "writer->round == windows->round && writer->tm != i && writer->tm < 64)"),
+    ("fast/epochs.c", "writer->round == epochs->round && writer->tm != i)",
+     "writer->round == epochs->round && writer->tm != i && writer->tm < 64)"),
     # A word that several wrote conflicts.
-    ("fast/windows.c", "writer->tm = BY_SEVERAL;",
+    ("fast/epochs.c", "writer->tm = BY_SEVERAL;",
      "writer->tm = tm;"),
     # What was loaded ahead and is written is loaded again.
-    ("fast/windows.c", "  if (trax_fast_is_loaded(&fast->blocks, write->address))\n    return false;",
+    ("fast/epochs.c", "  if (trax_fast_is_loaded(&fast->blocks, write->address))\n    return false;",
      "  if (trax_fast_is_loaded(&fast->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
-    ("fast/windows.c", "for (uint32_t i = windows->chip->tms; i-- > 0;) {",
+    ("fast/epochs.c", "for (uint32_t i = epochs->chip->tms; i-- > 0;) {",
      "for (uint32_t i = 0; i < windows->chip->tms; i++) {"),
     # Memory is restored.
-    ("fast/windows.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
+    ("fast/epochs.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
     # The controller is restored.
-    ("fast/windows.c", "add_region(windows, &chip->memory, sizeof chip->memory);",
-     "add_region(windows, &chip->memory, 0);"),
+    ("fast/epochs.c", "add_region(epochs, &chip->memory, sizeof chip->memory);",
+     "add_region(epochs, &chip->memory, 0);"),
     # Increments are noted as writes.
-    ("fast/windows.c", "windows->failed |= !note_writer(windows, address, BY_CONTROLLER);",
+    ("fast/epochs.c", "epochs->failed |= !note_writer(epochs, address, BY_CONTROLLER);",
      "(void)address; (void)windows;"),
     # Requests are shown in their cycle.
-    ("fast/windows.c", "ahead->requests[*request] <= t; ++*request)",
-     "ahead->requests[*request] <= t + 1; ++*request)"),
+    ("fast/epochs.c", "buffer->requests[*request] <= t; ++*request)",
+     "buffer->requests[*request] <= t + 1; ++*request)"),
     # Stores are performed before the increments of later cycles.
-    ("fast/windows.c", "if (next_write <= t && !write_up_to",
+    ("fast/epochs.c", "if (next_write <= t && !write_up_to",
      "if (t == 0 && !write_up_to"),
     # A TM sees its own stores.
-    ("fast/ahead.c", "if (own->round == ahead->round)\n      word",
-     "if (own->round == ahead->round && own->mask == ~0u)\n      word"),
+    ("fast/store_buffer.c", "if (own->round == buffer->round)\n      word",
+     "if (own->round == buffer->round && own->mask == ~0u)\n      word"),
 ]

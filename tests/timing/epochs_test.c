@@ -1,13 +1,13 @@
-/* TMs that run ahead of each other (emulator/fast/windows.h) against the reference engine: what one of them writes
-   while others read, write or increment it, in every order and distance within a window. Threads are quiet for so long
-   that windows are running when it happens, and after it. */
+/* TMs that run ahead of each other (emulator/fast/epochs.h) against the reference engine: what one of them writes
+   while others read, write or increment it, in every order and distance within an epoch. Threads are quiet for so long
+   that epochs are running when it happens, and after it. */
 #include "compare.h"
 
 #include <string.h>
 
 enum {
   MOST_WORDS = 512,
-  LATENCY = 17,     /* and so about the length of a window */
+  LATENCY = 17,     /* and so about the length of an epoch */
   QUIET = 200,      /* turns of a loop of two instructions */
   AFTERWARDS = 800, /* so many that no state is kept from before when the run ends, which is found cycle by cycle */
   OTHER = 8,        /* of the same small block as the word at DATA, which this makes one that has been written */
@@ -190,11 +190,11 @@ static void write_program(struct program *program, const struct scenario *scenar
 
 static const double PLENTY = 100000; /* GB/s: all have their instructions in the same cycle */
 
-/* `bandwidth`: GB/s; if it is little, requests wait for the bus all the time, and windows are long. */
-static void check(const struct scenario *scenario, const unsigned delay[3], unsigned window, double bandwidth) {
+/* `bandwidth`: GB/s; if it is little, requests wait for the bus all the time, and epochs are long. */
+static void check(const struct scenario *scenario, const unsigned delay[3], unsigned epoch, double bandwidth) {
   struct trax_config config = bench_far(3, 1);
   config.icache.line_bytes = config.icache.bytes = 4096;
-  config.memory.latency_cycles = window;
+  config.memory.latency_cycles = epoch;
   config.memory.bandwidth_gbps = bandwidth;
   if (bandwidth < PLENTY)
     config.memory.min_transfer_bytes = 4096; /* as an instruction line, so that those do not come far apart */
@@ -206,7 +206,7 @@ static void check(const struct scenario *scenario, const unsigned delay[3], unsi
   struct difference difference;
   if (different_runs(&difference, &reference, &fast))
     fail_msg("%s, after %u, %u and %u cycles more, latency %u, %g GB/s: %s", scenario->name, delay[0], delay[1],
-             delay[2], window, bandwidth, difference.text);
+             delay[2], epoch, bandwidth, difference.text);
   end(&reference);
   end(&fast);
 }
@@ -219,7 +219,7 @@ static void in_any_order(void **state) {
         check(&scenarios[i], (unsigned[]){first, second, 5 + second % 3}, LATENCY, PLENTY);
 }
 
-/* Far apart: the other's window may be over, and increments happen late. */
+/* Far apart: the other's epoch may be over, and increments happen late. */
 static void at_any_distance(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)

@@ -1,0 +1,431 @@
+#include "fast/epochs.h"
+
+#include "fast/chip.h"
+#include "fast/fast.h"
+#include "fast/pool.h"
+#include "fast/store_buffer.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  LEAST_EPOCH = 16,             /* cycles; shorter ones are not worth it */
+  MOST_AHEAD = 1024,            /* cycles for which the controller serves requests before an epoch */
+  FIRST_SNAPSHOT_INTERVAL = 64, /* shortest epochs after which another state is kept to which the run can go back; */
+  LONGEST_SNAPSHOT_INTERVAL = 1024, /* it doubles as long as it does not */
+  MOST_UNDO = 1 << 18,              /* words written to global memory, after which a state is kept in any case */
+  FIRST_PAUSE = 64,                 /* cycles that are run one by one after a conflict, besides those that contain it */
+  LONGEST_PAUSE = 1 << 20,          /* it doubles with each conflict that follows soon */
+  REGIONS_OF_A_TM = 32 + TRAX_SHARED_COUNT,
+  REGIONS_OF_THE_MEMORY = 32,
+};
+
+/* Bytes that change during the run. */
+struct region {
+  void *bytes;
+  size_t size;
+};
+
+/* What a word of global memory was before it was written. */
+struct undo {
+  uint32_t address, word;
+};
+
+/* Who wrote a word in the current epoch. */
+enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
+
+struct writer {
+  uint64_t round;
+  uint32_t address;
+  uint16_t tm; /* or BY_... */
+  bool early;  /* incremented before the epoch, in which this was to happen */
+};
+
+struct trax_epochs {
+  struct trax_chip *chip;
+  struct trax_pool *pool;
+  uint32_t abreast;                  /* TMs that one thread runs together */
+  struct trax_store_buffer *buffers; /* [tms] */
+  uint64_t length;                   /* cycles of the shortest epoch: from a request to its completion */
+  uint64_t end;                      /* of the current one */
+  bool early;                        /* what the controller does now is to happen in the epoch's course */
+
+  /* The state to which the run can go back. */
+  bool has_snapshot;
+  uint64_t snapshot_cycle;
+  unsigned snapshot_interval; /* shortest epochs */
+  struct region *regions;     /* [region_count] */
+  size_t region_count, snapshot_size;
+  uint8_t *snapshot; /* all regions, one behind the other */
+  struct undo *undo; /* [undo_count]: writes to global memory since then */
+  size_t undo_count, undo_capacity;
+
+  uint64_t cautious_from, cautious_until; /* the cycles between these are run one by one */
+  uint64_t pause;
+
+  struct writer *writers; /* [writer_capacity], a power of two; open addressing */
+  size_t writer_count, writer_capacity;
+  uint64_t round;
+  bool failed;                       /* out of memory */
+  size_t *next_write, *next_request; /* [tms]: of the buffers, those that have not been dealt with */
+};
+
+/* --- snapshots --- */
+
+static void add_region(struct trax_epochs *epochs, void *bytes, size_t size) {
+  epochs->regions[epochs->region_count++] = (struct region){bytes, size};
+  epochs->snapshot_size += size;
+}
+
+static void add_memory_region(void *epochs, void *bytes, size_t size) {
+  add_region(epochs, bytes, size);
+}
+
+static void add_tags(struct trax_epochs *epochs, const struct trax_cache_tags *tags) {
+  const size_t sets = (size_t)tags->set_mask + 1;
+  add_region(epochs, tags->lines, sets * tags->ways * sizeof *tags->lines);
+  add_region(epochs, tags->next, sets * sizeof *tags->next);
+}
+
+static void add_core(struct trax_epochs *epochs, struct trax_tm *tm) {
+  const size_t waiters = (size_t)tm->tps * TRAX_NUM_REGISTERS;
+  add_region(epochs, tm, sizeof *tm);
+  add_region(epochs, tm->tp, tm->tps * sizeof *tm->tp);
+  add_region(epochs, tm->icache, tm->icaches * sizeof *tm->icache);
+  for (uint32_t i = 0; i < tm->icaches; i++) {
+    add_tags(epochs, &tm->icache[i].tags);
+    add_region(epochs, tm->icache[i].pending, tm->tps * sizeof *tm->icache[i].pending);
+  }
+  add_tags(epochs, &tm->dcache.tags);
+  add_region(epochs, tm->dcache.mshr, tm->dcache.mshr_limit * sizeof *tm->dcache.mshr);
+  add_region(epochs, tm->dcache.next_waiter, waiters * sizeof *tm->dcache.next_waiter);
+  add_region(epochs, tm->queue.requests, tm->queue.depth * sizeof *tm->queue.requests);
+  if (tm->queue.heap) {
+    add_region(epochs, tm->queue.heap, tm->queue.depth * sizeof *tm->queue.heap);
+    add_region(epochs, tm->queue.places, tm->queue.depth * sizeof *tm->queue.places);
+  }
+  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
+    if (tm->unit[i].free_from)
+      add_region(epochs, tm->unit[i].free_from, trax_shared_unit_count(&tm->unit[i]) * sizeof *tm->unit[i].free_from);
+  add_region(epochs, tm->stats, sizeof *tm->stats);
+  add_region(epochs, tm->tp_stats, tm->tps * sizeof *tm->tp_stats);
+  add_region(epochs, tm->exit_statuses, tm->tps * sizeof *tm->exit_statuses);
+}
+
+static void add_fast(struct trax_epochs *epochs, struct trax_fast_tm *ftm) {
+  const struct trax_tm *tm = ftm->tm;
+  const size_t vectors = (size_t)tm->icaches * ftm->vectors * sizeof(trax_fast_lanes);
+  add_region(epochs, ftm, sizeof *ftm);
+  add_region(epochs, ftm->tp, tm->tps * sizeof *ftm->tp);
+  add_region(epochs, ftm->changes, (ftm->fast->program.inst_count + 1) * sizeof *ftm->changes);
+  add_region(epochs, ftm->resident, tm->icaches * sizeof *ftm->resident);
+  add_region(epochs, ftm->resident_lines, tm->icaches * sizeof *ftm->resident_lines);
+  add_region(epochs, ftm->behind, vectors);
+}
+
+static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
+  uint8_t *to = epochs->snapshot;
+  for (size_t i = 0; i < epochs->region_count; to += epochs->regions[i++].size)
+    memcpy(to, epochs->regions[i].bytes, epochs->regions[i].size);
+  epochs->has_snapshot = true;
+  epochs->snapshot_cycle = t;
+  epochs->undo_count = 0;
+}
+
+static void roll_back(struct trax_epochs *epochs) {
+  const struct trax_chip *chip = epochs->chip;
+  const uint8_t *from = epochs->snapshot;
+  for (size_t i = 0; i < epochs->region_count; from += epochs->regions[i++].size)
+    memcpy(epochs->regions[i].bytes, from, epochs->regions[i].size);
+  while (epochs->undo_count) {
+    const struct undo *undo = &epochs->undo[--epochs->undo_count];
+    memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
+  }
+}
+
+void trax_epochs_commit(struct trax_epochs *epochs) {
+  epochs->has_snapshot = false;
+}
+
+/* --- the end of an epoch --- */
+
+static bool grow(void **array, size_t count, size_t *capacity, size_t size) {
+  if (count < *capacity)
+    return true;
+  const size_t larger = *capacity ? 2 * *capacity : 1024;
+  void *moved = realloc(*array, larger * size);
+  if (!moved)
+    return false;
+  *array = moved;
+  *capacity = larger;
+  return true;
+}
+
+static struct writer *find_writer(const struct trax_epochs *epochs, uint32_t address) {
+  const size_t mask = epochs->writer_capacity - 1;
+  size_t i = (address >> 2) * (size_t)0x9E3779B1u & mask;
+  while (epochs->writers[i].round == epochs->round && epochs->writers[i].address != address)
+    i = (i + 1) & mask;
+  return &epochs->writers[i];
+}
+
+static bool grow_writers(struct trax_epochs *epochs) {
+  if (2 * epochs->writer_count < epochs->writer_capacity)
+    return true;
+  struct trax_epochs larger = {.round = epochs->round, .writer_capacity = 2 * epochs->writer_capacity};
+  larger.writers = calloc(larger.writer_capacity, sizeof *larger.writers);
+  if (!larger.writers)
+    return false;
+  for (size_t i = 0; i < epochs->writer_capacity; i++)
+    if (epochs->writers[i].round == epochs->round)
+      *find_writer(&larger, epochs->writers[i].address) = epochs->writers[i];
+  free(epochs->writers);
+  epochs->writers = larger.writers;
+  epochs->writer_capacity = larger.writer_capacity;
+  return true;
+}
+
+/* The word at `address` is about to be written by a TM or the controller. NULL: out of memory. */
+static const struct writer *note_writer(struct trax_epochs *epochs, uint32_t address, uint32_t tm) {
+  if (!grow((void **)&epochs->undo, epochs->undo_count, &epochs->undo_capacity, sizeof *epochs->undo) ||
+      !grow_writers(epochs))
+    return NULL;
+  struct undo *undo = &epochs->undo[epochs->undo_count++];
+  undo->address = address & ~3u;
+  memcpy(&undo->word, epochs->chip->machine->space.bytes + undo->address, sizeof undo->word);
+  struct writer *writer = find_writer(epochs, undo->address);
+  if (writer->round != epochs->round) {
+    *writer = (struct writer){epochs->round, undo->address, (uint16_t)tm, epochs->early};
+    epochs->writer_count++;
+  } else if (writer->tm != tm) {
+    writer->tm = BY_SEVERAL;
+  }
+  return writer;
+}
+
+/* False: what was loaded before it is written must be loaded again, or what was incremented before, incremented. */
+static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_write *write, uint32_t tm) {
+  struct trax_fast *fast = epochs->chip->fast;
+  if (trax_fast_is_loaded(&fast->blocks, write->address))
+    return false;
+  trax_fast_set_written(&fast->blocks, write->address);
+  if (!write->bytes)
+    return true;
+  const struct writer *writer = note_writer(epochs, write->address, tm);
+  if (!writer || writer->early)
+    return false;
+  memcpy(epochs->chip->machine->space.bytes + write->address, &write->value, write->bytes);
+  return true;
+}
+
+/* The stores of the cycles up to t, in the order of cycles and TMs. *next receives the cycle of the next one. */
+static bool write_up_to(struct trax_epochs *epochs, uint64_t t, uint64_t *next) {
+  while (true) {
+    uint32_t first = 0;
+    uint64_t cycle = TRAX_NEVER;
+    for (uint32_t i = epochs->chip->tms; i-- > 0;) {
+      const struct trax_store_buffer *buffer = &epochs->buffers[i];
+      if (epochs->next_write[i] < buffer->write_count && buffer->writes[epochs->next_write[i]].cycle <= cycle) {
+        cycle = buffer->writes[epochs->next_write[i]].cycle;
+        first = i;
+      }
+    }
+    *next = cycle;
+    if (cycle > t)
+      return true;
+    if (!perform(epochs, &epochs->buffers[first].writes[epochs->next_write[first]++], first))
+      return false;
+  }
+}
+
+/* The controller learns of the requests made up to cycle t. Returns the cycle of the next one. */
+static uint64_t show_requests(struct trax_epochs *epochs, uint64_t t) {
+  struct trax_chip *chip = epochs->chip;
+  uint64_t next = TRAX_NEVER;
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    const struct trax_store_buffer *buffer = &epochs->buffers[i];
+    size_t *request = &epochs->next_request[i];
+    for (; *request < buffer->request_count && buffer->requests[*request] <= t; ++*request)
+      trax_memory_show(&chip->memory, &chip->tm[i]);
+    if (*request < buffer->request_count && buffer->requests[*request] < next)
+      next = buffer->requests[*request];
+  }
+  return next;
+}
+
+/* The controller is about to increment a word. */
+static void note_increment(void *context, uint32_t address) {
+  struct trax_epochs *epochs = context;
+  epochs->failed |= !note_writer(epochs, address, BY_CONTROLLER);
+}
+
+/* Step 3 of all cycles of the epoch, but for what has been done before it. */
+static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
+  struct trax_chip *chip = epochs->chip;
+  struct trax_memory *memory = &chip->memory;
+  uint64_t next_request = 0, next_write = 0;
+  while (t < epochs->end) {
+    if (next_request <= t)
+      next_request = show_requests(epochs, t);
+    if (next_write <= t && !write_up_to(epochs, t, &next_write))
+      return false;
+    trax_memory_cycle(memory, chip->tm, &chip->machine->space, t);
+    const uint64_t next = trax_memory_next_cycle(memory, t);
+    t = next < next_request ? next : next_request;
+  }
+  return write_up_to(epochs, epochs->end, &next_write);
+}
+
+/* Whether a TM has read what somebody else wrote in this epoch. */
+static bool has_read_too_early(const struct trax_epochs *epochs) {
+  for (uint32_t i = 0; epochs->writer_count && i < epochs->chip->tms; i++) {
+    const struct trax_store_buffer *buffer = &epochs->buffers[i];
+    for (size_t j = 0; j < buffer->read_count; j++) {
+      const struct writer *writer = find_writer(epochs, buffer->reads[j]);
+      if (writer->round == epochs->round && writer->tm != i)
+        return true;
+    }
+  }
+  return false;
+}
+
+static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
+  const struct trax_chip *chip = epochs->chip;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (epochs->buffers[i].stop || chip->tm[i].fault.kind)
+      return false;
+  if (!trax_chip_running(chip))
+    return false; /* the run's end is found cycle by cycle */
+  memset(epochs->next_write, 0, chip->tms * sizeof *epochs->next_write);
+  memset(epochs->next_request, 0, chip->tms * sizeof *epochs->next_request);
+  return run_controller(epochs, begin) && !epochs->failed && !has_read_too_early(epochs);
+}
+
+/* --- epochs --- */
+
+static void run_tms(void *context, uint32_t group) {
+  const struct trax_epochs *epochs = context;
+  const struct trax_chip *chip = epochs->chip;
+  const uint32_t first = group * epochs->abreast, left = chip->tms - first;
+  chip->variant->run_ahead(chip->fast, first, left < epochs->abreast ? left : epochs->abreast, epochs->end);
+}
+
+/* Begins an epoch: whatever waits for memory and is served in the same cycles whatever the TMs request in them is
+   served now, and the epoch ends when what is requested in it might come back. */
+static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) {
+  const struct trax_chip *chip = epochs->chip;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (chip->tm[i].next_cycle < t)
+      chip->tm[i].next_cycle = t;
+  epochs->round++;
+  epochs->writer_count = 0;
+  epochs->failed = false;
+  epochs->early = true;
+  const uint64_t ahead = trax_memory_run_ahead(&epochs->chip->memory, chip->tm, chip->tms, &chip->machine->space, t,
+                                               until - t < MOST_AHEAD ? until : t + MOST_AHEAD);
+  epochs->early = false;
+  epochs->end = until - t < ahead - t + epochs->length ? until : ahead + epochs->length;
+}
+
+bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until) {
+  struct trax_chip *chip = epochs->chip;
+  assert(until > *t);
+  if (*t < epochs->cautious_from && epochs->cautious_from < until)
+    until = epochs->cautious_from;
+  const bool cautious = *t >= epochs->cautious_from && *t < epochs->cautious_until;
+  if (cautious || until - *t < LEAST_EPOCH) {
+    chip->machine->fast_path.short_epochs += !cautious;
+    epochs->has_snapshot = false; /* what is written in that cycle is not noted */
+    return false;
+  }
+  if (!epochs->has_snapshot) {
+    epochs->snapshot_interval = FIRST_SNAPSHOT_INTERVAL;
+    take_snapshot(epochs, *t);
+  } else if (*t - epochs->snapshot_cycle >= epochs->snapshot_interval * epochs->length ||
+             epochs->undo_count >= MOST_UNDO) {
+    if (epochs->snapshot_interval < LONGEST_SNAPSHOT_INTERVAL)
+      epochs->snapshot_interval *= 2;
+    epochs->pause = FIRST_PAUSE;
+    take_snapshot(epochs, *t);
+  }
+  chip->memory.before_increment = note_increment;
+  chip->memory.context = epochs;
+  begin_epoch(epochs, *t, until);
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    trax_store_buffer_begin(&epochs->buffers[i]);
+    chip->tm[i].buffer = &epochs->buffers[i];
+  }
+  trax_pool_run(epochs->pool);
+  for (uint32_t i = 0; i < chip->tms; i++)
+    chip->tm[i].buffer = NULL;
+  const bool ended = end_epoch(epochs, *t);
+  chip->memory.before_increment = NULL;
+  if (ended) {
+    *t = epochs->end;
+    return true;
+  }
+  roll_back(epochs);
+  chip->machine->fast_path.conflicts++;
+  epochs->cautious_from = *t; /* the epochs up to this one are the same again */
+  epochs->cautious_until = epochs->end + epochs->pause;
+  if (epochs->pause < LONGEST_PAUSE)
+    epochs->pause *= 2;
+  *t = epochs->snapshot_cycle;
+  return true;
+}
+
+trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error) {
+  const uint64_t length = trax_memory_least_latency(&chip->machine->config);
+  if (!threads)
+    threads = trax_host_processors();
+  if (threads > chip->tms)
+    threads = chip->tms;
+  chip->machine->fast_path.no_epochs = length < LEAST_EPOCH;
+  if (chip->tms < 2 || length < LEAST_EPOCH || chip->machine->observer)
+    return TRAX_OK;
+  struct trax_epochs *epochs = chip->epochs = calloc(1, sizeof *epochs);
+  if (!epochs)
+    return trax_fail(error, "out of memory");
+  epochs->chip = chip;
+  epochs->length = length;
+  epochs->pause = FIRST_PAUSE;
+  epochs->writer_capacity = 1024;
+  epochs->buffers = calloc(chip->tms, sizeof *epochs->buffers);
+  epochs->regions = calloc((size_t)chip->tms * (REGIONS_OF_A_TM + 3 * TRAX_MAX_TPS_PER_TM) + REGIONS_OF_THE_MEMORY,
+                           sizeof *epochs->regions);
+  epochs->writers = calloc(epochs->writer_capacity, sizeof *epochs->writers);
+  epochs->next_write = calloc(chip->tms, sizeof *epochs->next_write);
+  epochs->next_request = calloc(chip->tms, sizeof *epochs->next_request);
+  if (!epochs->buffers || !epochs->regions || !epochs->writers || !epochs->next_write || !epochs->next_request)
+    return trax_fail(error, "out of memory");
+  add_region(epochs, &chip->memory, sizeof chip->memory);
+  trax_memory_visit_state(&chip->memory, add_memory_region, epochs);
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    add_core(epochs, &chip->tm[i]);
+    add_fast(epochs, &chip->fast->tm[i]);
+  }
+  epochs->snapshot = malloc(epochs->snapshot_size);
+  if (!epochs->snapshot)
+    return trax_fail(error, "out of memory");
+  epochs->abreast = chip->tms / threads < TRAX_FAST_ABREAST ? chip->tms / threads : TRAX_FAST_ABREAST;
+  const uint32_t groups = (chip->tms + epochs->abreast - 1) / epochs->abreast;
+  epochs->pool = trax_pool_create(threads, groups, run_tms, epochs, error);
+  return epochs->pool ? TRAX_OK : TRAX_ERROR;
+}
+
+void trax_epochs_destroy(struct trax_epochs *epochs) {
+  if (!epochs)
+    return;
+  trax_pool_destroy(epochs->pool);
+  for (uint32_t i = 0; epochs->buffers && i < epochs->chip->tms; i++)
+    trax_store_buffer_destroy(&epochs->buffers[i]);
+  free(epochs->buffers);
+  free(epochs->regions);
+  free(epochs->snapshot);
+  free(epochs->undo);
+  free(epochs->writers);
+  free(epochs->next_write);
+  free(epochs->next_request);
+  free(epochs);
+}
