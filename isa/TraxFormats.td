@@ -172,11 +172,14 @@ class InstStore<bits<6> op, int bytes, string mnemonic, code semantics, string m
   let mayStore = true;
   let AccessBytes = bytes;
 }
-class InstB<bits<6> op, string mnemonic, code semantics, string manual>
+// A branch if a condition holds, or unless it does: two of the same condition are each other's inverse.
+class InstB<bits<6> op, string mnemonic, string condition, string sense, code semantics, string manual>
     : TraxInst<FormatB, op, (outs), (ins GPR:$ra, GPR:$rb, brtarget:$offset), mnemonic#"\t$ra, $rb, $offset", UnitControl,
                semantics, manual> {
   bits<5> ra; bits<5> rb; bits<16> offset;
   let Inst{25-21} = ra; let Inst{20-16} = rb; let Inst{15-0} = offset;
   let isBranch = true;
   let isTerminator = true;
+  string Condition = condition;
+  string Sense = sense; // "if" or "unless"
 }

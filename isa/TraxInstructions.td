@@ -96,14 +96,14 @@ def AINC : InstLoad<30, 4, "ainc", [{ RD = ATOMIC_INC(RA + IMM); }],
                     "Atomic increment of a word of global memory: rd receives the value before it; the address must be a multiple of 4.">;
 
 //--- control -----------------------------------------------------------------
-def BEQ  : InstB<32, "beq", [{ if (RA == RB) NEXT_PC = PC + IMM; }], "Branch if equal.">;
-def BNE  : InstB<33, "bne", [{ if (RA != RB) NEXT_PC = PC + IMM; }], "Branch if not equal.">;
-def BLT  : InstB<34, "blt", [{ if (trax_signed(RA) < trax_signed(RB)) NEXT_PC = PC + IMM; }],
+def BEQ  : InstB<32, "beq", "eq", "if", [{ if (RA == RB) NEXT_PC = PC + IMM; }], "Branch if equal.">;
+def BNE  : InstB<33, "bne", "eq", "unless", [{ if (RA != RB) NEXT_PC = PC + IMM; }], "Branch if not equal.">;
+def BLT  : InstB<34, "blt", "lt", "if", [{ if (trax_signed(RA) < trax_signed(RB)) NEXT_PC = PC + IMM; }],
                  "Branch if less, as signed numbers.">;
-def BGE  : InstB<35, "bge", [{ if (trax_signed(RA) >= trax_signed(RB)) NEXT_PC = PC + IMM; }],
+def BGE  : InstB<35, "bge", "lt", "unless", [{ if (trax_signed(RA) >= trax_signed(RB)) NEXT_PC = PC + IMM; }],
                  "Branch if greater or equal, as signed numbers.">;
-def BLTU : InstB<36, "bltu", [{ if (RA < RB) NEXT_PC = PC + IMM; }], "Branch if less, as unsigned numbers.">;
-def BGEU : InstB<37, "bgeu", [{ if (RA >= RB) NEXT_PC = PC + IMM; }], "Branch if greater or equal, as unsigned numbers.">;
+def BLTU : InstB<36, "bltu", "ltu", "if", [{ if (RA < RB) NEXT_PC = PC + IMM; }], "Branch if less, as unsigned numbers.">;
+def BGEU : InstB<37, "bgeu", "ltu", "unless", [{ if (RA >= RB) NEXT_PC = PC + IMM; }], "Branch if greater or equal, as unsigned numbers.">;
 
 let isBranch = true in
 def JAL : TraxInst<FormatJ, 38, (outs GPR:$rd), (ins jaltarget:$offset), "jal\t$rd, $offset", UnitControl,

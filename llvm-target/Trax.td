@@ -19,6 +19,17 @@ include "TraxPatterns.td"
 
 def TraxInstrInfo : InstrInfo;
 
+// The inverse of a conditional branch.
+class InverseBranch<string from, string to> : InstrMapping {
+  let FilterClass = "InstB";
+  let RowFields = ["Condition"];
+  let ColFields = ["Sense"];
+  let KeyCol = [from];
+  let ValueCols = [[to]];
+}
+def inverseOfIf : InverseBranch<"if", "unless">;
+def inverseOfUnless : InverseBranch<"unless", "if">;
+
 def TraxAsmParser : AsmParser {
   let ShouldEmitMatchRegisterAltName = true;
 }

@@ -14,6 +14,7 @@
 using namespace llvm;
 
 #define GET_INSTRINFO_CTOR_DTOR
+#define GET_INSTRMAP_INFO
 #include "TraxGenInstrInfo.inc"
 
 TraxInstrInfo::TraxInstrInfo() : TraxGenInstrInfo(Trax::ADJCALLSTACKDOWN, Trax::ADJCALLSTACKUP) {}
@@ -145,37 +146,14 @@ bool TraxInstrInfo::areMemAccessesTriviallyDisjoint(const MachineInstr &A, const
 
 //--- branches -----------------------------------------------------------------
 
-static bool isConditionalBranch(const MachineInstr &MI) {
-  switch (MI.getOpcode()) {
-  case Trax::BEQ:
-  case Trax::BNE:
-  case Trax::BLT:
-  case Trax::BGE:
-  case Trax::BLTU:
-  case Trax::BGEU:
-    return true;
-  default:
-    return false;
-  }
+/// The inverse of a conditional branch; -1 of other instructions.
+static int inverseBranch(unsigned Opcode) {
+  int Inverse = Trax::inverseOfIf(Opcode);
+  return Inverse < 0 ? Trax::inverseOfUnless(Opcode) : Inverse;
 }
 
-static unsigned oppositeBranch(unsigned Opcode) {
-  switch (Opcode) {
-  case Trax::BEQ:
-    return Trax::BNE;
-  case Trax::BNE:
-    return Trax::BEQ;
-  case Trax::BLT:
-    return Trax::BGE;
-  case Trax::BGE:
-    return Trax::BLT;
-  case Trax::BLTU:
-    return Trax::BGEU;
-  case Trax::BGEU:
-    return Trax::BLTU;
-  default:
-    llvm_unreachable("not a conditional branch");
-  }
+static bool isConditionalBranch(const MachineInstr &MI) {
+  return inverseBranch(MI.getOpcode()) >= 0;
 }
 
 static void parseConditionalBranch(MachineInstr &MI, MachineBasicBlock *&Target,
@@ -273,7 +251,7 @@ void TraxInstrInfo::insertIndirectBranch(MachineBasicBlock &MBB, MachineBasicBlo
 }
 
 bool TraxInstrInfo::reverseBranchCondition(SmallVectorImpl<MachineOperand> &Cond) const {
-  Cond[0].setImm(oppositeBranch(Cond[0].getImm()));
+  Cond[0].setImm(inverseBranch(Cond[0].getImm()));
   return false;
 }
 
