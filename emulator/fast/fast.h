@@ -44,7 +44,7 @@
 
 enum {
   TRAX_BURST = 224,  /* most instructions of a burst; fits in trax_fast_heads.at */
-  TRAX_CHUNK = 32, /* instructions of the program whose steps are noted at once: those from a multiple of it on */
+  TRAX_CHUNK = 32,   /* instructions of the program whose steps are noted at once: those from a multiple of it on */
   TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* that `resident` knows; the last entry stands for all others */
 };
 

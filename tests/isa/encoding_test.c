@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -118,28 +119,33 @@ static void test_known_words(void **state) {
   check_text((trax_inst){.op = TRAX_OP_HALT}, 0xA8000000u, "halt");
 }
 
-static void check_class(unsigned flag, const char *expected) {
-  char names[256] = "";
-  for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
-    if (trax_op_table[op].flags & flag) {
-      strcat(names, *names ? " " : "");
-      strcat(names, trax_op_table[op].mnemonic);
-    }
-  assert_string_equal(names, expected);
+/* The first of these instructions are of the class, those behind "-" are not. */
+static void check_class(unsigned flag, const char *names) {
+  bool expected = true;
+  char name[16];
+  for (int length; sscanf(names, "%15s%n", name, &length) == 1; names += length) {
+    unsigned op = 0;
+    while (op < TRAX_OP_COUNT && strcmp(trax_op_table[op].mnemonic, name) != 0)
+      op++;
+    if (strcmp(name, "-") == 0)
+      expected = false;
+    else if (op == TRAX_OP_COUNT || ((trax_op_table[op].flags & flag) != 0) != expected)
+      fail_msg("%s: flag 0x%x", name, flag);
+  }
 }
 
 static void test_classes(void **state) {
   (void)state;
-  check_class(TRAX_IS_FLOP, "fadd fsub fmul");
-  check_class(TRAX_IS_COMPARE, "fmin fmax feq flt fle");
-  check_class(TRAX_IS_CONVERSION, "fcvt.w.s fcvt.wu.s fcvt.s.w fcvt.s.wu");
-  check_class(TRAX_IS_ROOT, "frsqrt");
-  check_class(TRAX_IS_LOAD, "lb lbu lh lhu lw lwnt ainc");
-  check_class(TRAX_IS_STORE, "sb sh sw swnt");
-  check_class(TRAX_IS_ATOMIC, "ainc");
-  check_class(TRAX_IS_NONTEMPORAL, "lwnt swnt");
-  check_class(TRAX_IS_BRANCH, "beq bne blt bge bltu bgeu jal jalr");
-  check_class(TRAX_IS_RELATIVE, "beq bne blt bge bltu bgeu jal");
+  check_class(TRAX_IS_FLOP, "fadd fsub fmul - fmin fcvt.s.w fdiv mul");
+  check_class(TRAX_IS_COMPARE, "fmin fmax feq flt fle - fadd fmul fcvt.w.s slt");
+  check_class(TRAX_IS_CONVERSION, "fcvt.w.s fcvt.wu.s fcvt.s.w fcvt.s.wu - fadd fmin fdiv");
+  check_class(TRAX_IS_ROOT, "frsqrt - fdiv");
+  check_class(TRAX_IS_LOAD, "lb lbu lh lhu lw lwnt ainc - sb sh sw swnt");
+  check_class(TRAX_IS_STORE, "sb sh sw swnt - lw lwnt ainc");
+  check_class(TRAX_IS_ATOMIC, "ainc - lw sw lwnt");
+  check_class(TRAX_IS_NONTEMPORAL, "lwnt swnt - lw sw ainc");
+  check_class(TRAX_IS_BRANCH, "beq bne blt bge bltu bgeu jal jalr - add trap halt");
+  check_class(TRAX_IS_RELATIVE, "beq bne blt bge bltu bgeu jal - jalr add trap");
 }
 
 int main(void) {

@@ -2,7 +2,8 @@
 /* The tables of docs/timing.md, "Units", as machine/units.h has them.
 
      timing-units-page              prints them
-     timing-units-page FILE         ends with status 1 if FILE does not contain them */
+     timing-units-page FILE         ends with status 1 if those of FILE are others; --update behind it puts them there
+ */
 #include "machine/units.h"
 #include "trax/isa.h"
 
@@ -71,39 +72,78 @@ static void print_units(FILE *out) {
 #undef UNIT
 }
 
-static void (*const tables[])(FILE *out) = {print_classes, print_units};
+/* The tables, and the text of the page that each of them follows; a blank line is behind it. */
+static const struct {
+  void (*print)(FILE *out);
+  const char *before;
+} tables[] = {
+    {print_classes, "| loads and stores of local memory | the TP's own | `tp.local_latency_cycles` |\n"},
+    {print_units, "The TPs of a group share units of each kind:\n\n"},
+};
 enum { TABLES = sizeof tables / sizeof *tables };
+
+static void fail(const char *path, const char *what) {
+  fprintf(stderr, "timing-units-page: %s: %s\n", path, what);
+  exit(EXIT_FAILURE);
+}
+
+static char *print_table(unsigned i) {
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out)
+    fail("a table", "out of memory");
+  tables[i].print(out);
+  fclose(out);
+  return text;
+}
 
 static char *read_file(const char *path) {
   FILE *file = fopen(path, "rb");
   char *text = calloc(1, 1 << 20);
-  if (!file || !text || !fread(text, 1, (1 << 20) - 1, file)) {
-    fprintf(stderr, "timing-units-page: cannot read %s\n", path);
-    exit(EXIT_FAILURE);
-  }
+  if (!file || !text || !fread(text, 1, (1 << 20) - 1, file))
+    fail(path, "cannot be read");
   fclose(file);
   return text;
 }
 
-int main(int count, char **arguments) {
-  int status = EXIT_SUCCESS;
-  char *page = count > 1 ? read_file(arguments[1]) : NULL;
+/* Prints the page with the tables as they are to be. */
+static void print_page(FILE *out, const char *path, const char *page) {
   for (unsigned i = 0; i < TABLES; i++) {
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-      return EXIT_FAILURE;
-    tables[i](out);
-    fclose(out);
-    if (!page) {
-      printf("%s\n", text);
-    } else if (!strstr(page, text)) {
-      fprintf(stderr, "%s has not got:\n%s", arguments[1], text);
-      status = EXIT_FAILURE;
-    }
-    free(text);
+    const char *begin = strstr(page, tables[i].before);
+    begin = begin ? begin + strlen(tables[i].before) : NULL;
+    const char *end = begin ? strstr(begin, "\n\n") : NULL;
+    if (!end)
+      fail(path, "has lost a table");
+    char *table = print_table(i);
+    fprintf(out, "%.*s%s", (int)(begin - page), page, table);
+    free(table);
+    page = end + 1;
+  }
+  fputs(page, out);
+}
+
+int main(int count, char **arguments) {
+  if (count < 2) {
+    for (unsigned i = 0; i < TABLES; i++)
+      tables[i].print(stdout);
+    return EXIT_SUCCESS;
+  }
+  char *page = read_file(arguments[1]), *expected = NULL;
+  size_t size;
+  FILE *out = open_memstream(&expected, &size);
+  if (!out)
+    fail(arguments[1], "out of memory");
+  print_page(out, arguments[1], page);
+  fclose(out);
+  if (count > 2 && strcmp(arguments[2], "--update") == 0) {
+    FILE *file = fopen(arguments[1], "wb");
+    if (!file || fputs(expected, file) < 0 || fclose(file))
+      fail(arguments[1], "cannot be written");
+  } else if (strcmp(page, expected) != 0) {
+    fail(arguments[1], "its tables of units are not those of emulator/machine/units.h; --update puts them there");
   }
   free(page);
-  return status;
+  free(expected);
+  return EXIT_SUCCESS;
 }
