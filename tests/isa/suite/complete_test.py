@@ -21,7 +21,7 @@ MORE = [
     ('def CLZ : InstR1<5, 4, "clz", UnitInt, [{ RD = RA; }], "Count.">;', "clz (CLZ) has no test"),
     ('def MULI : InstI<18, "muli", [{ RD = RA * IMM; }], "Multiply.">;', "muli (MULI) has no test"),
     ('def LWX : InstLoad<31, 4, "lwx", [{ RD = LOAD32(RA + IMM); }], "Load.">;', "lwx (LWX) has no test"),
-    ('def BALWAYS : InstB<47, "balways", [{ NEXT_PC = PC + IMM; }], "Branch.">;', "balways (BALWAYS) has no test"),
+    ('def BALWAYS : InstB<47, "balways", "always", "if", [{ NEXT_PC = PC + IMM; }], "Branch.">;', "balways (BALWAYS) has no test"),
     ('def AUIPC : InstU<19, "auipc", uimm16, UnitInt, [{ RD = PC + (IMM << 16); }], "Add.">;', "auipc (AUIPC) has no test"),
 ]
 failures = 0
