@@ -5,8 +5,8 @@
    masks of a TM's TPs: what will be asked for is noted when an instruction becomes its TP's next one, the head, and
    stays until it is granted (cycle.c, issue.c).
 
-   Everything rare is the core's: arrivals, misses, requests, faults, traps, and the execution of instructions that
-   must not run ahead, in the core's own structures. A TM touches nothing of another one but through blocks.c and
+   Everything rare is done by tm.c, tp.c and the files of caches and memory: arrivals, misses, requests, faults, traps, and the execution of instructions that
+   must not run ahead, in structures of their own. A TM touches nothing of another one but through blocks.c and
    the memory controller. */
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
@@ -242,7 +242,7 @@ const void *const *trax_fast_operations(void);
 /* --- head.c --- */
 /* All steps are used up: the next burst. If nothing can run ahead, the head is deferred. */
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
-/* The core's view of the head: inst, pc, address. */
+/* Brings the head to where tm.c and tp.c find it: inst, pc, address. */
 void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
 /* The first `issued` of the `executed` steps of the TP's burst are over, and no others will be. */
 void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned executed, unsigned issued);

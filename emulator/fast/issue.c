@@ -2,7 +2,7 @@
 #include "fast/store_buffer.h"
 #include "fast/head.h"
 
-/* A head that has not run ahead: the core executes it. False if it faulted. */
+/* A head that has not run ahead: tp.c executes it. False if it faulted. */
 static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   struct trax_tp *tp = &ftm->tm->tp[number];

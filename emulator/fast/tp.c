@@ -51,21 +51,7 @@ static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint
 }
 
 uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t) {
-  switch (number) {
-  case TRAX_SR_THREAD:
-    return tm->number * tm->tps + tp;
-  case TRAX_SR_TM:
-    return tm->number;
-  case TRAX_SR_TP:
-    return tp;
-  case TRAX_SR_THREADS:
-    return tm->config->chip.tms * tm->tps;
-  case TRAX_SR_CYCLE:
-    return (uint32_t)t;
-  case TRAX_SR_CYCLEH:
-    return (uint32_t)(t >> 32);
-  }
-  return 0; /* the decoder lets no other pass */
+  return trax_special_register(tm->config, tm->number * tm->tps + tp, number, t);
 }
 
 /* False if it faulted. */
@@ -109,18 +95,7 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
 #define TRAP(VALUE, CODE) (alive = trap(tm, number, VALUE, (int32_t)(CODE), t))
 #define FENCE(KIND) fence(tm, KIND)
 #define HALT() (tm->progressed = t + 1, trax_tm_end_thread(tm, number, t + 1, 0))
-  switch ((trax_op)inst->op) {
-#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
-  case TRAX_OP_##NAME:                                                                                                 \
-    __VA_ARGS__                                                                                                        \
-    break;
-#include "trax/semantics.inc"
-#undef TRAX_SEMANTICS
-#include "machine/semantics_end.h"
-  case TRAX_OP_ILLEGAL: /* faulted before */
-  case TRAX_OP_COUNT:
-    break;
-  }
+#include "machine/semantics_switch.h"
 
   if (!alive)
     return false;

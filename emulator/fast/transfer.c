@@ -1,4 +1,4 @@
-/* Between cycles, the machine in the core's structures: for those who look at all of it, keep it or change it. The
+/* Between cycles, the machine in the structures of tm.h, tp.h and memory.h: for those who look at all of it, keep it or change it. The
    engine has a form of its own for what can run ahead (bursts), for arbiters, and for what can be told from the rest.
  */
 #include "fast/head.h"

@@ -62,24 +62,6 @@ static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
   return text->outside;
 }
 
-static uint32_t special_register(const struct chip *chip, const struct thread *thread, uint32_t number,
-                                 uint64_t executed) {
-  switch (number) {
-  case TRAX_SR_THREAD:
-    return thread->number;
-  case TRAX_SR_TM:
-    return thread->tm;
-  case TRAX_SR_TP:
-    return thread->tp;
-  case TRAX_SR_THREADS:
-    return chip->threads;
-  case TRAX_SR_CYCLE:
-    return (uint32_t)executed;
-  default: /* TRAX_SR_CYCLEH; others are illegal */
-    return (uint32_t)(executed >> 32);
-  }
-}
-
 #include "functional/turn.h"
 
 /* --- what run_quickly leaves --- */
@@ -153,7 +135,7 @@ static bool execute(struct chip *chip, struct thread *thread) {
 #define LOAD(ADDRESS, BYTES) load(chip, thread, ADDRESS, BYTES)
 #define STORE(ADDRESS, VALUE, BYTES) (word = (VALUE), memcpy(place(chip, thread, ADDRESS), &word, BYTES))
 #define ATOMIC_INC(ADDRESS) increment(chip, thread, ADDRESS)
-#define SPECIAL_REGISTER(NUMBER) special_register(chip, thread, NUMBER, thread->executed)
+#define SPECIAL_REGISTER(NUMBER) trax_special_register(&chip->machine->config, thread->number, NUMBER, thread->executed)
 #define TRAP(VALUE, CODE)                                                                                              \
   do {                                                                                                                 \
     const uint32_t value_ = (VALUE);                                                                                   \
@@ -164,18 +146,7 @@ static bool execute(struct chip *chip, struct thread *thread) {
   } while (0)
 #define FENCE(KIND) ((void)(KIND))
 #define HALT() end_thread(chip, thread, 0)
-  switch ((trax_op)inst->op) {
-#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
-  case TRAX_OP_##NAME:                                                                                                 \
-    __VA_ARGS__                                                                                                        \
-    break;
-#include "trax/semantics.inc"
-#undef TRAX_SEMANTICS
-#include "machine/semantics_end.h"
-  case TRAX_OP_ILLEGAL: /* faulted before */
-  case TRAX_OP_COUNT:
-    break;
-  }
+#include "machine/semantics_switch.h"
   if (kind) {
     fault(chip, thread, inst, kind, address);
     return false;

@@ -71,7 +71,8 @@ static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t 
     goto slow;                                                                                                         \
     0u;                                                                                                                \
   }))
-#define SPECIAL_REGISTER(NUMBER) special_register(chip, thread, NUMBER, count + (uint64_t)(inst - begin))
+#define SPECIAL_REGISTER(NUMBER)                                                                                       \
+  trax_special_register(&chip->machine->config, thread->number, NUMBER, count + (uint64_t)(inst - begin))
 #define TRAP(VALUE, CODE) goto slow
 #define FENCE(KIND) goto slow
 #define HALT() goto slow

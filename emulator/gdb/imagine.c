@@ -1,6 +1,7 @@
 /* Where a thread's next instructions will lead it, as far as that depends on the thread alone. */
 #include "gdb/stub.h"
 #include "machine/text.h"
+#include "machine/traps.h"
 #include "trax/semantics.h"
 
 #include <string.h>
@@ -10,23 +11,6 @@ struct imagined {
   uint32_t reg[TRAX_NUM_REGISTERS + 1], pc;
   uint8_t local[TRAX_LOCAL_SIZE];
 };
-
-static uint32_t special_register(const struct trax_gdb *gdb, uint32_t thread, uint32_t number) {
-  switch (number) {
-  case TRAX_SR_THREAD:
-    return thread;
-  case TRAX_SR_TM:
-    return thread / gdb->tps;
-  case TRAX_SR_TP:
-    return thread % gdb->tps;
-  case TRAX_SR_THREADS:
-    return gdb->threads;
-  case TRAX_SR_CYCLE:
-    return (uint32_t)gdb->cycle;
-  default: /* TRAX_SR_CYCLEH; others are illegal */
-    return (uint32_t)(gdb->cycle >> 32);
-  }
-}
 
 /* Whether the instruction acts on nothing but the thread. */
 static bool is_harmless(const struct trax_gdb *gdb, const struct imagined *it, const struct trax_decoded *inst) {
@@ -65,22 +49,11 @@ static void step(const struct trax_gdb *gdb, uint32_t thread, struct imagined *i
 #define LOAD(ADDRESS, BYTES) load(gdb, it, ADDRESS, BYTES)
 #define STORE(ADDRESS, VALUE, BYTES) (word = (VALUE), memcpy(it->local + ((ADDRESS)-TRAX_LOCAL_BASE), &word, BYTES))
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), 0u)
-#define SPECIAL_REGISTER(NUMBER) special_register(gdb, thread, NUMBER)
+#define SPECIAL_REGISTER(NUMBER) trax_special_register(&gdb->machine->config, thread, NUMBER, gdb->cycle)
 #define TRAP(VALUE, CODE) ((void)(VALUE))
 #define FENCE(KIND) ((void)(KIND))
 #define HALT() ((void)0)
-    switch ((trax_op)inst->op) {
-#define TRAX_SEMANTICS(NAME, ...)                                                                                      \
-  case TRAX_OP_##NAME:                                                                                                 \
-    __VA_ARGS__                                                                                                        \
-    break;
-#include "trax/semantics.inc"
-#undef TRAX_SEMANTICS
-#include "machine/semantics_end.h"
-    case TRAX_OP_ILLEGAL:
-    case TRAX_OP_COUNT:
-      break;
-    }
+#include "machine/semantics_switch.h"
   }
   it->pc = next_pc;
 }

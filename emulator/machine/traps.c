@@ -47,3 +47,20 @@ trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, 
   }
   return TRAX_FAULT_NONE;
 }
+
+uint32_t trax_special_register(const struct trax_config *config, uint32_t thread, uint32_t number, uint64_t t) {
+  switch (number) {
+  case TRAX_SR_THREAD:
+    return thread;
+  case TRAX_SR_TM:
+    return thread / config->chip.tps_per_tm;
+  case TRAX_SR_TP:
+    return thread % config->chip.tps_per_tm;
+  case TRAX_SR_THREADS:
+    return config->chip.tms * config->chip.tps_per_tm;
+  case TRAX_SR_CYCLE:
+    return (uint32_t)t;
+  default: /* TRAX_SR_CYCLEH; others are illegal */
+    return (uint32_t)(t >> 32);
+  }
+}

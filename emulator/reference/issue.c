@@ -20,24 +20,6 @@ static void store(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t addre
   memcpy(place(tm, tp, address), &value, bytes);
 }
 
-static uint32_t special_register(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t number,
-                                 uint64_t t) {
-  switch (number) {
-  case TRAX_SR_THREAD:
-    return tm->number * tm->tps + tp->number;
-  case TRAX_SR_TM:
-    return tm->number;
-  case TRAX_SR_TP:
-    return tp->number;
-  case TRAX_SR_THREADS:
-    return tm->config->chip.tms * tm->tps;
-  case TRAX_SR_CYCLE:
-    return (uint32_t)t;
-  default: /* TRAX_SR_CYCLEH; others are illegal */
-    return (uint32_t)(t >> 32);
-  }
-}
-
 static void end(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t status) {
   tp->ended = true;
   tm->machine->exit_statuses[tm->number * tm->tps + tp->number] = (int32_t)status;
@@ -63,7 +45,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 #define LOAD(ADDRESS, BYTES) load(tm, tp, ADDRESS, BYTES)
 #define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
-#define SPECIAL_REGISTER(NUMBER) special_register(tm, tp, NUMBER, t)
+#define SPECIAL_REGISTER(NUMBER) trax_special_register(tm->config, tm->number * tm->tps + tp->number, NUMBER, t)
 #define TRAP(VALUE, CODE) fault = trap(tm, tp, VALUE, CODE)
 #define FENCE(KIND) ((void)(KIND), trax_ref_fence(tm, tp))
 #define HALT() end(tm, tp, 0)
