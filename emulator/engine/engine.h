@@ -4,6 +4,7 @@
 #define TRAX_ENGINE_ENGINE_H
 
 #include "machine/machine.h"
+#include "machine/section.h"
 
 struct trax_run;
 
@@ -22,9 +23,6 @@ struct trax_thread {
   uint32_t pc;    /* of its next instruction */
   bool ended;
 };
-
-/* Pieces of a state: `count` elements of `size` bytes each; name: of the field in the source, a literal. */
-typedef void trax_state_visitor(void *context, const char *name, void *bytes, size_t size, size_t count);
 
 struct trax_engine {
   const char *name;          /* of --engine */
@@ -62,11 +60,10 @@ struct trax_engine {
   uint32_t (*queued)(const void *chip, uint32_t tm, uint64_t t);
 
   /* Checkpoints; NULL: the engine has none. visit: all that the rest of the run depends on besides global memory, and
-     all that was counted, in pieces whose sizes and order depend on the configuration alone. After export_state; to
-     read it also after settle. layout: a hash of what is visited. check: whether a state that may have come from
-     anywhere can be taken up before cycle t; NULL if so, else what is wrong, in `text`. import_state follows. */
-  void (*visit)(void *chip, trax_state_visitor *visit, void *context);
-  uint64_t (*layout)(void *chip);
+     all that was counted, in sections whose sizes and order depend on the configuration alone. After export_state; to
+     read it also after settle. check: whether a state that may have come from anywhere can be taken up before cycle t;
+     NULL if so, else what is wrong, in `text`. import_state follows. */
+  void (*visit)(void *chip, trax_section_visitor *visit, void *context);
   const char *(*check)(void *chip, uint64_t t, char text[128]);
 };
 

@@ -199,8 +199,7 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
     .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
     .create = create, .destroy = destroy, .advance = advance, .commit = commit, .collect = collect, .settle = settle,  \
     .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,                    \
-    .progressed = progressed, .queued = queued, .visit = trax_state_visit, .layout = trax_state_layout,                \
-    .check = trax_state_check                                                                                          \
+    .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check                   \
   }
 
 const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has", NULL);

@@ -5,23 +5,28 @@
 #include "fast/arbiter.h"
 #include "fast/cache_tags.h"
 #include "machine/config.h"
+#include "machine/section.h"
 
 struct trax_tm;
 
 /* A miss register. The registers that wait for its line form a list through trax_dcache.next_waiter. */
+#define TRAX_MSHR_STATE(X, S)                                                                                          \
+  X(S, uint32_t, line, )                                                                                               \
+  X(S, uint16_t, first_waiter, )                                                                                       \
+  X(S, uint16_t, passing, ) /* 1: the line does not enter the cache */
 struct trax_mshr {
-  uint32_t line;
-  uint16_t first_waiter;
-  uint16_t passing; /* 1: the line does not enter the cache */
+  TRAX_MSHR_STATE(TRAX_FIELD, )
 };
 
+#define TRAX_DCACHE_STATE(X, S)                                                                                        \
+  X(S, trax_arbiter, bank, [TRAX_MAX_TPS_PER_TM])                                                                      \
+  X(S, uint32_t, mshr_count, ) /* miss registers in use */
 struct trax_dcache {
+  TRAX_DCACHE_STATE(TRAX_FIELD, )
   struct trax_cache_tags tags;
-  uint32_t banks;
-  trax_arbiter bank[TRAX_MAX_TPS_PER_TM];
+  uint32_t banks, mshr_limit;
   struct trax_mshr *mshr; /* [mshr_limit], the first mshr_count in use */
-  uint32_t mshr_count, mshr_limit;
-  uint16_t *next_waiter; /* [tps * 32]: by TP * 32 + register; a register waits for one line at a time */
+  uint16_t *next_waiter;  /* [tps * 32]: by TP * 32 + register; a register waits for one line at a time */
 };
 
 bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm);

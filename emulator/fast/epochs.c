@@ -3,6 +3,7 @@
 #include "fast/chip.h"
 #include "fast/fast.h"
 #include "fast/pool.h"
+#include "fast/state.h"
 #include "fast/store_buffer.h"
 
 #include <assert.h>
@@ -17,14 +18,6 @@ enum {
   MOST_UNDO = 1 << 18,              /* words written to global memory, after which a state is kept in any case */
   FIRST_PAUSE = 64,                 /* cycles that are run one by one after a conflict, besides those that contain it */
   LONGEST_PAUSE = 1 << 20,          /* it doubles with each conflict that follows soon */
-  REGIONS_OF_A_TM = 32 + TRAX_SHARED_COUNT,
-  REGIONS_OF_THE_MEMORY = 32,
-};
-
-/* Bytes that change during the run. */
-struct region {
-  void *bytes;
-  size_t size;
 };
 
 /* What a word of global memory was before it was written. */
@@ -54,10 +47,10 @@ struct trax_epochs {
   /* The state to which the run can go back. */
   bool has_snapshot;
   uint64_t snapshot_cycle;
-  unsigned snapshot_interval; /* shortest epochs */
-  struct region *regions;     /* [region_count] */
-  size_t region_count, snapshot_size;
-  uint8_t *snapshot; /* all regions, one behind the other */
+  unsigned snapshot_interval;    /* shortest epochs */
+  struct trax_section *sections; /* [section_count] */
+  size_t section_count, snapshot_size;
+  uint8_t *snapshot; /* all sections, one behind the other */
   struct undo *undo; /* [undo_count]: writes to global memory since then */
   size_t undo_count, undo_capacity;
 
@@ -73,61 +66,32 @@ struct trax_epochs {
 
 /* --- snapshots --- */
 
-static void add_region(struct trax_epochs *epochs, void *bytes, size_t size) {
-  epochs->regions[epochs->region_count++] = (struct region){bytes, size};
-  epochs->snapshot_size += size;
+static void note_section(void *context, const struct trax_section *section) {
+  struct trax_epochs *epochs = context;
+  epochs->section_count++;
+  epochs->snapshot_size += section->size * section->count;
+  if (epochs->sections)
+    epochs->sections[epochs->section_count - 1] = *section;
 }
 
-static void add_memory_region(void *epochs, void *bytes, size_t size) {
-  add_region(epochs, bytes, size);
-}
-
-static void add_tags(struct trax_epochs *epochs, const struct trax_cache_tags *tags) {
-  const size_t sets = (size_t)tags->set_mask + 1;
-  add_region(epochs, tags->lines, sets * tags->ways * sizeof *tags->lines);
-  add_region(epochs, tags->next, sets * sizeof *tags->next);
-}
-
-static void add_core(struct trax_epochs *epochs, struct trax_tm *tm) {
-  const size_t waiters = (size_t)tm->tps * TRAX_NUM_REGISTERS;
-  add_region(epochs, tm, sizeof *tm);
-  add_region(epochs, tm->tp, tm->tps * sizeof *tm->tp);
-  add_region(epochs, tm->icache, tm->icaches * sizeof *tm->icache);
-  for (uint32_t i = 0; i < tm->icaches; i++) {
-    add_tags(epochs, &tm->icache[i].tags);
-    add_region(epochs, tm->icache[i].pending, tm->tps * sizeof *tm->icache[i].pending);
-  }
-  add_tags(epochs, &tm->dcache.tags);
-  add_region(epochs, tm->dcache.mshr, tm->dcache.mshr_limit * sizeof *tm->dcache.mshr);
-  add_region(epochs, tm->dcache.next_waiter, waiters * sizeof *tm->dcache.next_waiter);
-  add_region(epochs, tm->queue.requests, tm->queue.depth * sizeof *tm->queue.requests);
-  if (tm->queue.heap) {
-    add_region(epochs, tm->queue.heap, tm->queue.depth * sizeof *tm->queue.heap);
-    add_region(epochs, tm->queue.places, tm->queue.depth * sizeof *tm->queue.places);
-  }
-  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
-    if (tm->unit[i].free_from)
-      add_region(epochs, tm->unit[i].free_from, trax_shared_unit_count(&tm->unit[i]) * sizeof *tm->unit[i].free_from);
-  add_region(epochs, tm->stats, sizeof *tm->stats);
-  add_region(epochs, tm->tp_stats, tm->tps * sizeof *tm->tp_stats);
-  add_region(epochs, tm->exit_statuses, tm->tps * sizeof *tm->exit_statuses);
-}
-
-static void add_fast(struct trax_epochs *epochs, struct trax_fast_tm *ftm) {
-  const struct trax_tm *tm = ftm->tm;
-  const size_t vectors = (size_t)tm->icaches * ftm->vectors * sizeof(trax_fast_lanes);
-  add_region(epochs, ftm, sizeof *ftm);
-  add_region(epochs, ftm->tp, tm->tps * sizeof *ftm->tp);
-  add_region(epochs, ftm->changes, (ftm->fast->program.inst_count + 1) * sizeof *ftm->changes);
-  add_region(epochs, ftm->resident, tm->icaches * sizeof *ftm->resident);
-  add_region(epochs, ftm->resident_lines, tm->icaches * sizeof *ftm->resident_lines);
-  add_region(epochs, ftm->behind, vectors);
+/* Notes how many sections there are, and then which. */
+static bool note_sections(struct trax_epochs *epochs) {
+  trax_state_visit(epochs->chip, note_section, epochs);
+  epochs->sections = calloc(epochs->section_count, sizeof *epochs->sections);
+  epochs->section_count = epochs->snapshot_size = 0;
+  if (epochs->sections)
+    trax_state_visit(epochs->chip, note_section, epochs);
+  return epochs->sections;
 }
 
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
   uint8_t *to = epochs->snapshot;
-  for (size_t i = 0; i < epochs->region_count; to += epochs->regions[i++].size)
-    memcpy(to, epochs->regions[i].bytes, epochs->regions[i].size);
+  for (size_t i = 0; i < epochs->section_count; i++) {
+    const struct trax_section *section = &epochs->sections[i];
+    if (section->count)
+      memcpy(to, section->bytes, section->size * section->count);
+    to += section->size * section->count;
+  }
   epochs->has_snapshot = true;
   epochs->snapshot_cycle = t;
   epochs->undo_count = 0;
@@ -136,8 +100,12 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
 static void roll_back(struct trax_epochs *epochs) {
   const struct trax_chip *chip = epochs->chip;
   const uint8_t *from = epochs->snapshot;
-  for (size_t i = 0; i < epochs->region_count; from += epochs->regions[i++].size)
-    memcpy(epochs->regions[i].bytes, from, epochs->regions[i].size);
+  for (size_t i = 0; i < epochs->section_count; i++) {
+    const struct trax_section *section = &epochs->sections[i];
+    if (section->count)
+      memcpy(section->bytes, from, section->size * section->count);
+    from += section->size * section->count;
+  }
   while (epochs->undo_count) {
     const struct undo *undo = &epochs->undo[--epochs->undo_count];
     memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
@@ -392,19 +360,11 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
   epochs->pause = FIRST_PAUSE;
   epochs->writer_capacity = 1024;
   epochs->buffers = calloc(chip->tms, sizeof *epochs->buffers);
-  epochs->regions = calloc((size_t)chip->tms * (REGIONS_OF_A_TM + 3 * TRAX_MAX_TPS_PER_TM) + REGIONS_OF_THE_MEMORY,
-                           sizeof *epochs->regions);
   epochs->writers = calloc(epochs->writer_capacity, sizeof *epochs->writers);
   epochs->next_write = calloc(chip->tms, sizeof *epochs->next_write);
   epochs->next_request = calloc(chip->tms, sizeof *epochs->next_request);
-  if (!epochs->buffers || !epochs->regions || !epochs->writers || !epochs->next_write || !epochs->next_request)
+  if (!epochs->buffers || !note_sections(epochs) || !epochs->writers || !epochs->next_write || !epochs->next_request)
     return trax_fail(error, "out of memory");
-  add_region(epochs, &chip->memory, sizeof chip->memory);
-  trax_memory_visit_state(&chip->memory, add_memory_region, epochs);
-  for (uint32_t i = 0; i < chip->tms; i++) {
-    add_core(epochs, &chip->tm[i]);
-    add_fast(epochs, &chip->fast->tm[i]);
-  }
   epochs->snapshot = malloc(epochs->snapshot_size);
   if (!epochs->snapshot)
     return trax_fail(error, "out of memory");
@@ -421,7 +381,7 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
   for (uint32_t i = 0; epochs->buffers && i < epochs->chip->tms; i++)
     trax_store_buffer_destroy(&epochs->buffers[i]);
   free(epochs->buffers);
-  free(epochs->regions);
+  free(epochs->sections);
   free(epochs->snapshot);
   free(epochs->undo);
   free(epochs->writers);

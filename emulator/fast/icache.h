@@ -4,20 +4,26 @@
 
 #include "fast/arbiter.h"
 #include "fast/cache_tags.h"
+#include "machine/section.h"
 
 struct trax_tm;
 
+/* A line on its way. */
+#define TRAX_ICACHE_PENDING_STATE(X, S)                                                                                \
+  X(S, uint32_t, line, )                                                                                               \
+  X(S, uint64_t, waiting, ) /* mask of TPs */
 struct trax_icache_pending {
-  uint32_t line;    /* on its way */
-  uint64_t waiting; /* TPs; their numbers in the TM */
+  TRAX_ICACHE_PENDING_STATE(TRAX_FIELD, )
 };
 
+#define TRAX_ICACHE_STATE(X, S)                                                                                        \
+  X(S, trax_arbiter, bank, [64])                                                                                       \
+  X(S, uint32_t, pending_count, ) /* lines on their way */
 struct trax_icache {
+  TRAX_ICACHE_STATE(TRAX_FIELD, )
   uint32_t number;
   struct trax_cache_tags tags;
-  trax_arbiter bank[64];
-  struct trax_icache_pending *pending; /* [pending_count], at most one per TP */
-  uint32_t pending_count;
+  struct trax_icache_pending *pending; /* [tps], the first pending_count in use */
   uint64_t gone; /* the number of the line whose place the latest arrival took, plus 1; 0: the place was empty */
 };
 

@@ -39,17 +39,6 @@ void trax_l2_destroy(struct trax_l2 *l2) {
   free(l2);
 }
 
-void trax_l2_visit_state(struct trax_l2 *l2, void (*visit)(void *context, void *bytes, size_t size), void *context) {
-  const size_t sets = (size_t)l2->tags.set_mask + 1;
-  visit(context, l2, sizeof *l2);
-  visit(context, l2->tags.lines, sets * l2->tags.ways * sizeof *l2->tags.lines);
-  visit(context, l2->tags.next, sets * sizeof *l2->tags.next);
-  visit(context, l2->bank, l2->banks * sizeof *l2->bank);
-  visit(context, l2->mshr, l2->mshr_limit * sizeof *l2->mshr);
-  visit(context, l2->line, l2->mshr_limit * sizeof *l2->line);
-  visit(context, l2->used, l2->mshr_limit * sizeof *l2->used);
-}
-
 /* --- lines on their way --- */
 
 /* The line's index in l2->line, or used_count if it is not on its way. */

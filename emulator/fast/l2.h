@@ -6,32 +6,34 @@
 #include "fast/memory.h"
 
 /* A miss register: a line on its way. */
+#define TRAX_L2_MSHR_STATE(X, S)                                                                                       \
+  X(S, struct trax_request, request, )      /* for the line */                                                         \
+  X(S, uint64_t, arrival, )                 /* TRAX_NEVER until its transfer begins */                                 \
+  X(S, struct trax_request_list, waiters, ) /* requests of TMs, as long as the arrival is unknown */
 struct trax_l2_mshr {
-  struct trax_request request;      /* for the line */
-  uint64_t arrival;                 /* TRAX_NEVER until its transfer begins */
-  struct trax_request_list waiters; /* requests of TMs, as long as the arrival is unknown */
+  TRAX_L2_MSHR_STATE(TRAX_FIELD, )
 };
 
+#define TRAX_L2_STATE(X, S)                                                                                            \
+  X(S, uint32_t, waiting, )                                   /* requests that wait for banks */                       \
+  X(S, uint32_t, used_count, )                                /* lines on their way */                                 \
+  X(S, struct trax_request_list, coming, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */         \
+  X(S, uint64_t, next_arrival, )                              /* TRAX_NEVER if none is */
+
 struct trax_l2 {
+  TRAX_L2_STATE(TRAX_FIELD, )
   struct trax_cache_tags tags;
   uint32_t banks, latency;
-  uint32_t line_cost;        /* bytes of a line's transfer */
-  uint32_t waiting;          /* requests that wait for banks */
+  uint32_t line_cost; /* bytes of a line's transfer */
+  uint32_t mshr_limit;
   struct trax_waiting *bank; /* [banks] */
-
   struct trax_l2_mshr *mshr; /* [mshr_limit] */
   uint32_t *line;            /* [mshr_limit]: numbers of the lines on their way, used_count of them, and */
   uint16_t *used;            /* the miss registers that hold them; behind those, the free ones */
-  uint32_t used_count, mshr_limit;
-  struct trax_request_list coming[TRAX_MAX_CHANNELS]; /* lines whose arrival is known, in its order */
-  uint64_t next_arrival;                              /* TRAX_NEVER if none is */
 };
 
 trax_status trax_l2_create(struct trax_l2 **l2, const struct trax_config *config, trax_error *error);
 void trax_l2_destroy(struct trax_l2 *l2); /* which may be NULL */
-
-/* As trax_memory_visit_state, with the structure. */
-void trax_l2_visit_state(struct trax_l2 *l2, void (*visit)(void *context, void *bytes, size_t size), void *context);
 
 /* The cache's part of step 3 of cycle t. */
 void trax_l2_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t);

@@ -69,16 +69,6 @@ void trax_memory_destroy(struct trax_memory *memory) {
   trax_l2_destroy(memory->l2);
 }
 
-void trax_memory_visit_state(struct trax_memory *memory, void (*visit)(void *context, void *bytes, size_t size),
-                             void *context) {
-  visit(context, memory->stats, sizeof *memory->stats);
-  for (uint32_t i = 0; i < memory->channels; i++)
-    if (memory->channel[i].waiting)
-      visit(context, memory->channel[i].waiting, sizeof *memory->channel[i].waiting);
-  if (memory->l2)
-    trax_l2_visit_state(memory->l2, visit, context);
-}
-
 /* --- lists --- */
 
 struct trax_waiting *trax_waiting_create(uint32_t count) {

@@ -20,31 +20,48 @@ typedef uint32_t trax_request_id;
 #define TRAX_LINE_REQUEST ((trax_request_id)TRAX_MAX_TMS << TRAX_REQUEST_BITS)
 
 /* First in, first out; linked by trax_request.next. */
+#define TRAX_REQUEST_LIST_STATE(X, S)                                                                                  \
+  X(S, trax_request_id, first, ) /* TRAX_NO_REQUEST if the list is empty */                                            \
+  X(S, trax_request_id, last, )
 struct trax_request_list {
-  trax_request_id first, last; /* first is TRAX_NO_REQUEST if it is empty */
+  TRAX_REQUEST_LIST_STATE(TRAX_FIELD, )
 };
 static const struct trax_request_list trax_empty_list = {TRAX_NO_REQUEST, TRAX_NO_REQUEST};
 
 /* Who waits for a channel or a bank of the second-level cache. */
+#define TRAX_WAITING_STATE(X, S)                                                                                       \
+  X(S, uint64_t, tms, ) /* mask: whose list is not empty */                                                            \
+  X(S, trax_arbiter, turn, )                                                                                           \
+  X(S, struct trax_request_list, of, [TRAX_MAX_TMS])
 struct trax_waiting {
-  uint64_t tms; /* mask: whose list is not empty */
-  trax_arbiter turn;
-  struct trax_request_list of[TRAX_MAX_TMS];
+  TRAX_WAITING_STATE(TRAX_FIELD, )
 };
 
 /* An instant: whole cycles, and units of the next one, fewer than units_per_cycle. In units alone it would not fit in
    64 bits after some 10^10 cycles. */
+#define TRAX_INSTANT_STATE(X, S)                                                                                       \
+  X(S, uint64_t, cycle, )                                                                                              \
+  X(S, uint64_t, units, )
 struct trax_instant {
-  uint64_t cycle, units;
+  TRAX_INSTANT_STATE(TRAX_FIELD, )
 };
 
+#define TRAX_CHANNEL_STATE(X, S)                                                                                       \
+  X(S, struct trax_instant, free_from, )   /* f */                                                                     \
+  X(S, struct trax_request_list, passed, ) /* by the second-level cache */
 struct trax_channel {
-  struct trax_instant free_from;   /* f */
-  struct trax_request_list passed; /* by the second-level cache */
-  struct trax_waiting *waiting;    /* without one, unless the TMs' queues are rings; else NULL */
+  TRAX_CHANNEL_STATE(TRAX_FIELD, )
+  struct trax_waiting *waiting; /* without a second-level cache, unless the TMs' queues are rings; else NULL */
 };
+
+/* `keeps_order`: one channel and nothing else; then the TMs' queues are rings. */
+#define TRAX_MEMORY_STATE(X, S)                                                                                        \
+  X(S, trax_arbiter, turn, ) /* of the channel, if keeps_order */                                                      \
+  X(S, uint64_t, tms, )      /* mask: TMs with requests that wait for it */                                            \
+  X(S, uint32_t, waiting, )  /* requests that wait for channels; unless keeps_order */
 
 struct trax_memory {
+  TRAX_MEMORY_STATE(TRAX_FIELD, )
   /* Bus time in units: a cycle has units_per_cycle of them, a byte takes units_per_byte. B = MB/s / MHz / channels
      bytes per cycle, so with the fraction in lowest terms these are its numerator and denominator. */
   uint64_t units_per_cycle, units_per_byte;
@@ -52,10 +69,7 @@ struct trax_memory {
   uint32_t atomic_latency; /* of atomic increments besides */
   uint32_t channels, interleave_shift;
   struct trax_channel channel[TRAX_MAX_CHANNELS];
-  bool keeps_order;   /* one channel and nothing else: the TMs' queues are rings */
-  trax_arbiter turn;  /* of that channel, and */
-  uint64_t tms;       /* mask: TMs with requests that wait for it */
-  uint32_t waiting;   /* requests that wait for channels; unless keeps_order */
+  bool keeps_order;
   struct trax_l2 *l2; /* NULL: there is none */
   struct trax_memory_stats *stats;
   void (*before_increment)(void *context, uint32_t address); /* of a word; may be NULL */
@@ -74,10 +88,6 @@ void trax_memory_destroy(struct trax_memory *memory);
 
 /* The memory learns of the TM's oldest request that it does not know of: it waits from now on. */
 void trax_memory_show(struct trax_memory *memory, struct trax_tm *tm);
-
-/* Calls visit for all bytes that change during a run, besides those of the structure itself. */
-void trax_memory_visit_state(struct trax_memory *memory, void (*visit)(void *context, void *bytes, size_t size),
-                             void *context);
 
 /* Step 3 of cycle t: takes requests and starts transfers. Lowers tm[].next_cycle where a completion comes sooner. */
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t);

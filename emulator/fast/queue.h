@@ -7,8 +7,9 @@
 #ifndef TRAX_FAST_QUEUE_H
 #define TRAX_FAST_QUEUE_H
 
+#include "machine/section.h"
+
 #include <stdbool.h>
-#include <stdint.h>
 
 #define TRAX_NO_REQUEST UINT32_MAX
 
@@ -20,30 +21,38 @@ typedef enum trax_request_kind {
   TRAX_REQUEST_ATOMIC
 } trax_request_kind;
 
+#define TRAX_REQUEST_STATE(X, S)                                                                                       \
+  X(S, uint8_t, kind, )        /* trax_request_kind */                                                                 \
+  X(S, uint8_t, tp, )          /* LOAD and ATOMIC: whose */                                                            \
+  X(S, uint8_t, rd, )          /* LOAD and ATOMIC: register that waits */                                              \
+  X(S, uint8_t, icache, )      /* INSTRUCTION_LINE: which cache */                                                     \
+  X(S, uint32_t, line, )       /* INSTRUCTION_LINE and DATA_LINE: number */                                            \
+  X(S, uint32_t, address, )    /* of the first byte */                                                                 \
+  X(S, uint32_t, bytes, )      /* of the transfer; 0 in a place that is free, unless in a ring */                      \
+  X(S, uint32_t, value, )      /* ATOMIC: the word before the increment, once started */                               \
+  X(S, uint32_t, next, )       /* in a list of the memory, or of the fresh; not in a ring */                           \
+  X(S, uint64_t, number, )     /* how many its TM had made before; not in a ring */                                    \
+  X(S, uint64_t, completion, ) /* cycle, once started */
 struct trax_request {
-  uint8_t kind;        /* trax_request_kind */
-  uint8_t tp;          /* LOAD and ATOMIC: whose */
-  uint8_t rd;          /* LOAD and ATOMIC: register that waits */
-  uint8_t icache;      /* INSTRUCTION_LINE: which cache */
-  uint32_t line;       /* INSTRUCTION_LINE and DATA_LINE: number */
-  uint32_t address;    /* of the first byte */
-  uint32_t bytes;      /* of the transfer; 0 in a place that is free, unless in a ring */
-  uint32_t value;      /* ATOMIC: the word before the increment, once started */
-  uint32_t next;       /* in one of the memory's lists, or of the fresh; not in a ring */
-  uint64_t number;     /* how many its TM had made before; not in a ring */
-  uint64_t completion; /* cycle, once started */
+  TRAX_REQUEST_STATE(TRAX_FIELD, )
 };
 
+/* `shown`: how many of a ring's requests the memory knows of; all, unless the TM runs ahead (fast/store_buffer.h). */
+#define TRAX_QUEUE_STATE(X, S)                                                                                         \
+  X(S, uint32_t, oldest, )                                                                                             \
+  X(S, uint32_t, count, )                                                                                              \
+  X(S, uint32_t, started, )                                                                                            \
+  X(S, uint32_t, shown, )                                                                                              \
+  X(S, uint32_t, peak, ) /* largest count */                                                                           \
+  X(S, uint32_t, first_fresh, )                                                                                        \
+  X(S, uint32_t, last_fresh, )                                                                                         \
+  X(S, uint64_t, made, ) /* requests */
 struct trax_queue {
+  TRAX_QUEUE_STATE(TRAX_FIELD, )
+  uint32_t depth;
   struct trax_request *requests; /* [depth] */
-  uint32_t depth, oldest, count, started;
-  uint32_t shown; /* of a ring's `count`, how many the memory knows of: all, unless the TM runs ahead (fast/store_buffer.h) */
-  uint32_t peak;  /* largest count */
-
-  uint16_t *heap;   /* [depth]; NULL: the places are a ring */
-  uint16_t *places; /* [depth]: behind the first `count`, the places that are free */
-  uint32_t first_fresh, last_fresh;
-  uint64_t made; /* requests */
+  uint16_t *heap;                /* [depth]; NULL: the places are a ring */
+  uint16_t *places;              /* [depth]: behind the first `count`, the places that are free */
 };
 
 /* False if there is no memory for it; to be destroyed either way. */

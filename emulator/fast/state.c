@@ -1,248 +1,157 @@
 #include "fast/state.h"
 
+#include "fast/fast.h"
 #include "fast/l2.h"
 
-#include <assert.h>
-#include <string.h>
-
 struct visitor {
-  trax_state_visitor *visit;
+  trax_section_visitor *visit;
   void *context;
 };
 
-#define VISIT(LVALUE) visitor->visit(visitor->context, #LVALUE, &(LVALUE), sizeof(LVALUE), 1)
-#define VISIT_ARRAY(POINTER, COUNT) visitor->visit(visitor->context, #POINTER, POINTER, sizeof *(POINTER), COUNT)
+/* --- fields --- */
 
-/* Every structure is visited field by field, so that its padding is nowhere and its layout is what is visited. What a
-   configuration has not got is visited as nothing, by the same names: the layout is that of all configurations. */
+#define FIELDS(NAME, LIST) static const struct trax_field NAME##_fields[] = {LIST(TRAX_FIELD_ROW, struct NAME)}
+FIELDS(trax_icache_pending, TRAX_ICACHE_PENDING_STATE);
+FIELDS(trax_icache, TRAX_ICACHE_STATE);
+FIELDS(trax_mshr, TRAX_MSHR_STATE);
+FIELDS(trax_dcache, TRAX_DCACHE_STATE);
+FIELDS(trax_request, TRAX_REQUEST_STATE);
+FIELDS(trax_queue, TRAX_QUEUE_STATE);
+FIELDS(trax_shared_unit, TRAX_SHARED_UNIT_STATE);
+FIELDS(trax_tp, TRAX_TP_STATE);
+FIELDS(trax_tm, TRAX_TM_STATE);
+FIELDS(trax_request_list, TRAX_REQUEST_LIST_STATE);
+FIELDS(trax_waiting, TRAX_WAITING_STATE);
+FIELDS(trax_instant, TRAX_INSTANT_STATE);
+FIELDS(trax_channel, TRAX_CHANNEL_STATE);
+FIELDS(trax_memory, TRAX_MEMORY_STATE);
+FIELDS(trax_l2_mshr, TRAX_L2_MSHR_STATE);
+FIELDS(trax_l2, TRAX_L2_STATE);
 
-static void visit_request(const struct visitor *visitor, struct trax_request *request) {
-  VISIT(request->kind);
-  VISIT(request->tp);
-  VISIT(request->rd);
-  VISIT(request->icache);
-  VISIT(request->line);
-  VISIT(request->address);
-  VISIT(request->bytes);
-  VISIT(request->value);
-  VISIT(request->next);
-  VISIT(request->number);
-  VISIT(request->completion);
-}
+/* Statistics have a list of their counters already. What it lacks stands here; the assertions say that this is all. */
+#define ROW(S, TYPE, NAME) {#TYPE, #NAME, offsetof(struct S, NAME), sizeof(((struct S *)0)->NAME)},
+#define TM_ROW(ID, ...) ROW(trax_tm_stats, uint64_t, ID)
+#define MEMORY_ROW(ID, ...) ROW(trax_memory_stats, uint64_t, ID)
+#define ONE(...) +1
+static const struct trax_field trax_tp_stats_fields[] = {ROW(trax_tp_stats, uint64_t, cycles)};
+static const struct trax_field trax_tm_stats_fields[] = {
+    ROW(trax_tm_stats, uint64_t, cycles) ROW(trax_tm_stats, uint64_t, instructions) TRAX_TM_COUNTERS(TM_ROW)};
+static const struct trax_field trax_channel_stats_fields[] = {ROW(trax_channel_stats, uint64_t, transfers)
+                                                                  ROW(trax_channel_stats, uint64_t, bytes)};
+static const struct trax_field trax_memory_stats_fields[] = {ROW(trax_memory_stats, struct trax_channel_stats, channel)
+                                                                 TRAX_MEMORY_COUNTERS(MEMORY_ROW)};
+_Static_assert(sizeof(struct trax_tp_stats) == TRAX_CAUSE_COUNT * sizeof(uint64_t), "a field has no row");
+_Static_assert(sizeof(struct trax_tm_stats) ==
+                   (TRAX_CAUSE_COUNT + TRAX_OP_COUNT TRAX_TM_COUNTERS(ONE)) * sizeof(uint64_t),
+               "a field has no row");
+_Static_assert(sizeof(struct trax_channel_stats) == 2 * sizeof(uint64_t), "a field has no row");
+_Static_assert(sizeof(struct trax_memory_stats) == (2 * TRAX_MAX_CHANNELS TRAX_MEMORY_COUNTERS(ONE)) * sizeof(uint64_t),
+               "a field has no row");
 
-static void visit_list(const struct visitor *visitor, struct trax_request_list *list) {
-  VISIT(list->first);
-  VISIT(list->last);
-}
+/* --- sections --- */
 
-static void visit_waiting(const struct visitor *visitor, struct trax_waiting *waiting) {
-  VISIT(waiting->tms);
-  VISIT(waiting->turn);
-  for (unsigned i = 0; i < TRAX_MAX_TMS; i++)
-    visit_list(visitor, &waiting->of[i]);
-}
+#define COUNT_OF(ARRAY) (sizeof(ARRAY) / sizeof *(ARRAY))
+#define VISIT(...) visitor->visit(visitor->context, &(struct trax_section){__VA_ARGS__})
+
+/* `COUNT` structures. */
+#define VISIT_ALL(NAME, POINTER, COUNT)                                                                                \
+  VISIT(#NAME, NAME##_fields, COUNT_OF(NAME##_fields), POINTER, sizeof(struct NAME), COUNT)
+
+/* A structure that is only a field of others: its fields are part of their layout. */
+#define VISIT_NONE(NAME) VISIT_ALL(NAME, NULL, 0)
+
+/* An array of numbers. */
+#define VISIT_NUMBERS(TYPE, POINTER, COUNT)                                                                            \
+  VISIT(#POINTER, &(const struct trax_field){#TYPE, "", 0, sizeof(TYPE)}, 1, 1 ? (POINTER) : (TYPE *)NULL,             \
+        sizeof(TYPE), COUNT)
+
+/* What follows from the rest. */
+#define VISIT_DERIVED(POINTER, COUNT) VISIT(#POINTER, NULL, 0, POINTER, sizeof *(POINTER), COUNT)
 
 static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *tags) {
   const size_t sets = (size_t)tags->set_mask + 1;
-  VISIT_ARRAY(tags->lines, sets * tags->ways);
-  VISIT_ARRAY(tags->next, sets);
+  VISIT_NUMBERS(uint64_t, tags->lines, sets * tags->ways);
+  VISIT_NUMBERS(uint32_t, tags->next, sets);
 }
 
 static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {
-  for (uint32_t i = 0; i < queue->depth; i++)
-    visit_request(visitor, &queue->requests[i]);
-  VISIT_ARRAY(queue->heap, queue->heap ? queue->depth : 0);
-  VISIT_ARRAY(queue->places, queue->heap ? queue->depth : 0);
-  VISIT(queue->oldest);
-  VISIT(queue->count);
-  VISIT(queue->started);
-  VISIT(queue->shown);
-  VISIT(queue->peak);
-  VISIT(queue->first_fresh);
-  VISIT(queue->last_fresh);
-  VISIT(queue->made);
+  VISIT_ALL(trax_queue, queue, 1);
+  VISIT_ALL(trax_request, queue->requests, queue->depth);
+  VISIT_NUMBERS(uint16_t, queue->heap, queue->heap ? queue->depth : 0);
+  VISIT_NUMBERS(uint16_t, queue->places, queue->heap ? queue->depth : 0);
 }
 
-static void visit_tp(const struct visitor *visitor, struct trax_tp *tp) {
-  VISIT(tp->reg);
-  VISIT(tp->pc);
-  VISIT(tp->address);
-  VISIT(tp->usable);
-  VISIT(tp->usable_cause);
-  VISIT(tp->run_begin);
-  VISIT(tp->run_end);
-  VISIT(tp->writes);
-  VISIT(tp->increments);
-  VISIT(tp->asleep_since);
-  VISIT(tp->asleep_until);
-  VISIT(tp->asleep_cause);
-  VISIT(tp->local);
+static void visit_unit(const struct visitor *visitor, struct trax_shared_unit *unit) {
+  VISIT_ALL(trax_shared_unit, unit, 1);
+  VISIT_NUMBERS(uint64_t, unit->free_from, trax_shared_unit_count(unit));
 }
 
-static void visit_tm_stats(const struct visitor *visitor, struct trax_tm_stats *stats) {
-  VISIT(stats->cycles);
-  VISIT(stats->instructions);
-#define COUNTER(ID, NAME, UNIT, MEANING) VISIT(stats->ID);
-  TRAX_TM_COUNTERS(COUNTER)
-#undef COUNTER
+static void visit_icache(const struct visitor *visitor, struct trax_icache *icache, uint32_t tps) {
+  VISIT_ALL(trax_icache, icache, 1);
+  VISIT_ALL(trax_icache_pending, icache->pending, tps);
+  visit_tags(visitor, &icache->tags);
 }
 
-static void visit_memory_stats(const struct visitor *visitor, struct trax_memory_stats *memory_stats) {
-#define COUNTER(ID, NAME, UNIT, MEANING) VISIT(memory_stats->ID);
-  TRAX_MEMORY_COUNTERS(COUNTER)
-#undef COUNTER
-  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++) {
-    VISIT(memory_stats->channel[i].transfers);
-    VISIT(memory_stats->channel[i].bytes);
-  }
+static void visit_dcache(const struct visitor *visitor, struct trax_dcache *dcache, uint32_t tps) {
+  VISIT_ALL(trax_dcache, dcache, 1);
+  VISIT_ALL(trax_mshr, dcache->mshr, dcache->mshr_limit);
+  VISIT_NUMBERS(uint16_t, dcache->next_waiter, (size_t)tps * TRAX_NUM_REGISTERS);
+  visit_tags(visitor, &dcache->tags);
 }
 
 static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
-  VISIT(tm->running);
-  VISIT(tm->awake);
-  VISIT(tm->holding);
-  VISIT(tm->awaiting);
-  VISIT(tm->ended);
-  VISIT(tm->wheel);
-  VISIT(tm->wheel_occupied);
-  VISIT(tm->next_cycle);
-  VISIT(tm->progressed);
-  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++) {
-    VISIT(tm->unit[i].turn);
-    VISIT_ARRAY(tm->unit[i].free_from, trax_shared_unit_count(&tm->unit[i]));
-  }
-  VISIT(tm->queue_turn);
+  VISIT_ALL(trax_tm, tm, 1); /* the structures in it follow, since they have lists of their own */
+  VISIT_ALL(trax_tp, tm->tp, tm->tps);
+  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
+    visit_unit(visitor, &tm->unit[i]);
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    visit_icache(visitor, &tm->icache[i], tm->tps);
+  visit_dcache(visitor, &tm->dcache, tm->tps);
   visit_queue(visitor, &tm->queue);
-  for (uint32_t i = 0; i < tm->icaches; i++) {
-    visit_tags(visitor, &tm->icache[i].tags);
-    VISIT(tm->icache[i].bank);
-    for (uint32_t j = 0; j < tm->tps; j++) {
-      VISIT(tm->icache[i].pending[j].line);
-      VISIT(tm->icache[i].pending[j].waiting);
-    }
-    VISIT(tm->icache[i].pending_count);
-  }
-  visit_tags(visitor, &tm->dcache.tags);
-  VISIT(tm->dcache.bank);
-  for (uint32_t i = 0; i < tm->dcache.mshr_limit; i++) {
-    VISIT(tm->dcache.mshr[i].line);
-    VISIT(tm->dcache.mshr[i].first_waiter);
-    VISIT(tm->dcache.mshr[i].passing);
-  }
-  VISIT(tm->dcache.mshr_count);
-  VISIT_ARRAY(tm->dcache.next_waiter, (size_t)tm->tps * TRAX_NUM_REGISTERS);
-  for (uint32_t i = 0; i < tm->tps; i++)
-    visit_tp(visitor, &tm->tp[i]);
-  visit_tm_stats(visitor, tm->stats);
-  for (uint32_t i = 0; i < tm->tps; i++)
-    VISIT(tm->tp_stats[i].cycles);
-  VISIT_ARRAY(tm->exit_statuses, tm->tps);
+  VISIT_ALL(trax_tm_stats, tm->stats, 1);
+  VISIT_ALL(trax_tp_stats, tm->tp_stats, tm->tps);
+  VISIT_NUMBERS(int32_t, tm->exit_statuses, tm->tps);
 }
 
 static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
+  VISIT_ALL(trax_l2, l2, 1);
+  VISIT_ALL(trax_waiting, l2->bank, l2->banks);
+  VISIT_ALL(trax_l2_mshr, l2->mshr, l2->mshr_limit);
+  VISIT_NUMBERS(uint32_t, l2->line, l2->mshr_limit);
+  VISIT_NUMBERS(uint16_t, l2->used, l2->mshr_limit);
   visit_tags(visitor, &l2->tags);
-  VISIT(l2->waiting);
-  for (uint32_t i = 0; i < l2->banks; i++)
-    visit_waiting(visitor, &l2->bank[i]);
-  for (uint32_t i = 0; i < l2->mshr_limit; i++) {
-    visit_request(visitor, &l2->mshr[i].request);
-    VISIT(l2->mshr[i].arrival);
-    visit_list(visitor, &l2->mshr[i].waiters);
-  }
-  VISIT_ARRAY(l2->line, l2->mshr_limit);
-  VISIT_ARRAY(l2->used, l2->mshr_limit);
-  VISIT(l2->used_count);
-  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    visit_list(visitor, &l2->coming[i]);
-  VISIT(l2->next_arrival);
-}
-
-static void visit_no_l2(const struct visitor *visitor) {
-  uint64_t line = 0;
-  uint32_t next = 0, number = 0;
-  uint16_t used = 0;
-  struct trax_waiting bank = {0};
-  struct trax_l2_mshr mshr = {0};
-  struct trax_l2 nothing = {.tags = {.ways = 1, .lines = &line, .next = &next},
-                            .banks = 1,
-                            .bank = &bank,
-                            .mshr = &mshr,
-                            .line = &number,
-                            .used = &used,
-                            .mshr_limit = 1};
-  visit_l2(visitor, &nothing);
 }
 
 static void visit_memory(const struct visitor *visitor, struct trax_memory *memory) {
-  for (uint32_t i = 0; i < memory->channels; i++) {
-    struct trax_waiting nothing = {0};
-    VISIT(memory->channel[i].free_from.cycle);
-    VISIT(memory->channel[i].free_from.units);
-    visit_list(visitor, &memory->channel[i].passed);
-    visit_waiting(visitor, memory->channel[i].waiting ? memory->channel[i].waiting : &nothing);
-  }
-  VISIT(memory->turn);
-  VISIT(memory->tms);
-  VISIT(memory->waiting);
-  visit_memory_stats(visitor, memory->stats);
+  VISIT_ALL(trax_memory, memory, 1);
+  VISIT_ALL(trax_channel, memory->channel, memory->channels);
+  for (uint32_t i = 0; i < memory->channels; i++)
+    VISIT_ALL(trax_waiting, memory->channel[i].waiting, memory->channel[i].waiting ? 1 : 0);
+  VISIT_ALL(trax_memory_stats, memory->stats, 1);
   if (memory->l2)
     visit_l2(visitor, memory->l2);
-  else
-    visit_no_l2(visitor);
 }
 
-void trax_state_visit(void *state, trax_state_visitor *visit, void *context) {
+/* The fast engine's own form of a TM. Its program, and what it knows of blocks of memory, hold for every cycle. */
+static void visit_fast_tm(const struct visitor *visitor, struct trax_fast_tm *ftm) {
+  const struct trax_tm *tm = ftm->tm;
+  VISIT_DERIVED(ftm, 1);
+  VISIT_DERIVED(ftm->tp, tm->tps);
+  VISIT_DERIVED(ftm->changes, ftm->fast->program.inst_count + 1);
+  VISIT_DERIVED(ftm->resident, tm->icaches);
+  VISIT_DERIVED(ftm->resident_lines, tm->icaches);
+  VISIT_DERIVED(ftm->behind, (size_t)tm->icaches * ftm->vectors);
+}
+
+void trax_state_visit(void *state, trax_section_visitor *visit, void *context) {
   struct trax_chip *chip = state;
-  const struct visitor visitor = {visit, context};
+  const struct visitor the_visitor = {visit, context}, *visitor = &the_visitor;
+  VISIT_NONE(trax_request_list);
+  VISIT_NONE(trax_instant);
+  VISIT_NONE(trax_channel_stats);
   for (uint32_t i = 0; i < chip->tms; i++)
-    visit_tm(&visitor, &chip->tm[i]);
-  visit_memory(&visitor, &chip->memory);
-}
-
-/* --- layout --- */
-
-enum { MOST_PIECES = 256 };
-
-struct layout {
-  const char *name[MOST_PIECES]; /* [count]: those that have been seen */
-  size_t count;
-  uint64_t hash;
-};
-
-/* FNV-1a. */
-static void add_bytes(struct layout *layout, const void *bytes, size_t size) {
-  for (const uint8_t *byte = bytes; size--; byte++)
-    layout->hash = (layout->hash ^ *byte) * 0x100000001B3u;
-}
-
-static void add_text(struct layout *layout, const char *text) {
-  add_bytes(layout, text, strlen(text) + 1);
-}
-
-/* Once, however many structures there are of the kind. */
-static void add_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
-  struct layout *layout = context;
-  const uint64_t bits = size;
-  size_t i = 0;
-  (void)bytes;
-  (void)count;
-  while (i < layout->count && layout->name[i] != name && strcmp(layout->name[i], name) != 0)
-    i++;
-  if (i < layout->count)
-    return;
-  assert(i < MOST_PIECES);
-  layout->name[layout->count++] = name;
-  add_text(layout, name);
-  add_bytes(layout, &bits, sizeof bits);
-}
-
-uint64_t trax_state_layout(void *chip) {
-  struct layout layout = {.hash = 0xCBF29CE484222325u};
-  trax_state_visit(chip, add_piece, &layout);
-  for (unsigned op = 0; op < TRAX_OP_COUNT; op++) /* what numbers mean */
-    add_text(&layout, trax_op_table[op].mnemonic);
-#define CAUSE(ID, NAME, ...) add_text(&layout, NAME);
-  TRAX_CAUSES(CAUSE)
-#undef CAUSE
-  return layout.hash;
+    visit_tm(visitor, &chip->tm[i]);
+  visit_memory(visitor, &chip->memory);
+  for (uint32_t i = 0; i < chip->tms; i++)
+    visit_fast_tm(visitor, &chip->fast->tm[i]);
 }

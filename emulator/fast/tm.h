@@ -13,7 +13,21 @@
 
 struct trax_chip;
 
+/* A TP is awake, or asleep until a cycle (in the wheel), until an arrival (awaiting, or in an instruction cache's
+   list), or for good (ended). */
+#define TRAX_TM_STATE(X, S)                                                                                            \
+  X(S, uint64_t, awake, ) /* this and the next three: masks of TPs */                                                  \
+  X(S, uint64_t, holding, )                                                                                            \
+  X(S, uint64_t, awaiting, )                                                                                           \
+  X(S, uint64_t, ended, )                                                                                              \
+  X(S, uint64_t, wheel, [TRAX_WHEEL]) /* [cycle % 64]: who wakes */                                                    \
+  X(S, uint64_t, wheel_occupied, )    /* slots that are not empty */                                                   \
+  X(S, uint64_t, next_cycle, )        /* no earlier cycle changes anything in this TM */                               \
+  X(S, uint64_t, progressed, )        /* the cycle after the latest trap or halt; 0: there was none */                 \
+  X(S, uint32_t, running, )           /* threads that have not ended */                                                \
+  X(S, trax_arbiter, queue_turn, )
 struct trax_tm {
+  TRAX_TM_STATE(TRAX_FIELD, )
   uint32_t number, tps;
   struct trax_chip *chip;
   const struct trax_config *config;
@@ -21,26 +35,15 @@ struct trax_tm {
   const struct trax_text *text;
   FILE *output;                         /* of the guest; may be NULL */
   const struct trax_observer *observer; /* NULL: nobody */
-  struct trax_store_buffer *buffer;             /* while it runs ahead of the other TMs; else NULL */
+  struct trax_store_buffer *buffer;     /* while it runs ahead of the other TMs; else NULL */
   uint64_t now;                         /* the cycle that is being simulated */
-  uint32_t running;                     /* threads that have not ended */
 
-  struct trax_tp *tp; /* [tps] */
-
-  /* Masks of TPs. A TP is awake, or asleep until a cycle (in the wheel), until an arrival (awaiting, or in an
-     instruction cache's list), or for good (ended). */
-  uint64_t awake, holding, awaiting, ended;
-  uint64_t wheel[TRAX_WHEEL]; /* [cycle % 64]: who wakes */
-  uint64_t wheel_occupied;    /* slots that are not empty */
-  uint64_t next_cycle;        /* no earlier cycle changes anything in this TM */
-  uint64_t progressed;        /* the cycle after the latest trap or halt; 0: there was none */
-
+  struct trax_tp *tp;         /* [tps] */
   struct trax_icache *icache; /* [icaches] */
   uint32_t icaches;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];
   struct trax_dcache dcache;
   struct trax_queue queue;
-  trax_arbiter queue_turn;
 
   struct trax_fault fault; /* of the current cycle: the lowest TP's */
 

@@ -4,29 +4,30 @@
 #define TRAX_FAST_TP_H
 
 #include "machine/machine.h"
+#include "machine/section.h"
 #include "machine/text.h"
 #include "machine/watch.h" /* TRAX_NEVER: also of a register that becomes usable with an arrival */
 
+/* run_begin, run_end: the write-combining buffer, a run of bytes in one 64-byte block; empty if they are equal.
+   asleep_...: a sleeping TP asks for nothing; it is charged when it wakes. */
+#define TRAX_TP_STATE(X, S)                                                                                            \
+  X(S, uint32_t, reg, [TRAX_NUM_REGISTERS + 1]) /* [TRAX_NO_REGISTER] swallows results for r0 */                       \
+  X(S, uint32_t, pc, )                                                                                                 \
+  X(S, uint32_t, address, )                             /* of the access that is being asked for */                    \
+  X(S, uint16_t, writes, )                              /* in the memory queue */                                      \
+  X(S, uint16_t, increments, )                          /* in the memory queue */                                      \
+  X(S, uint64_t, usable, [TRAX_NUM_REGISTERS + 1])      /* cycle from which the register is usable */                  \
+  X(S, uint8_t, usable_cause, [TRAX_NUM_REGISTERS + 1]) /* trax_cause of waiting for it */                             \
+  X(S, uint8_t, asleep_cause, )                                                                                        \
+  X(S, uint32_t, run_begin, )                                                                                          \
+  X(S, uint32_t, run_end, )                                                                                            \
+  X(S, uint64_t, asleep_since, )                                                                                       \
+  X(S, uint64_t, asleep_until, ) /* of those in the wheel */                                                           \
+  X(S, uint8_t, local, [TRAX_LOCAL_SIZE])
 struct trax_tp {
-  uint32_t reg[TRAX_NUM_REGISTERS + 1]; /* [TRAX_NO_REGISTER] swallows results for r0 */
-  uint32_t pc;
+  TRAX_TP_STATE(TRAX_FIELD, )
   const struct trax_decoded *inst; /* at pc; whether it is fetched says trax_tm.holding */
-  uint32_t address;                /* of the access that is being asked for */
-  uint8_t outcome;                 /* of that access: TRAX_OUTCOME_MISS ..., noted when it is served */
-  uint16_t writes;                 /* of its requests, those in the memory queue; and */
-
-  uint64_t usable[TRAX_NUM_REGISTERS + 1];      /* cycle from which the register is usable */
-  uint8_t usable_cause[TRAX_NUM_REGISTERS + 1]; /* trax_cause of waiting for it */
-  uint16_t increments;                          /* here, so that both need no room */
-
-  uint32_t run_begin, run_end; /* the write-combining buffer: a run of bytes in one 64-byte block; empty if equal */
-
-  /* A sleeping TP asks for nothing; it is charged when it wakes. */
-  uint64_t asleep_since;
-  uint64_t asleep_until; /* of those in the wheel */
-  uint8_t asleep_cause;
-
-  uint8_t local[TRAX_LOCAL_SIZE];
+  uint8_t outcome;                 /* of the access: TRAX_OUTCOME_MISS ..., noted when it is served */
 };
 
 struct trax_tm;

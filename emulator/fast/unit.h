@@ -4,13 +4,16 @@
 #define TRAX_FAST_UNIT_H
 
 #include "fast/arbiter.h"
+#include "machine/section.h"
 #include "machine/timing.h"
+
+#define TRAX_SHARED_UNIT_STATE(X, S) X(S, trax_arbiter, turn, [64]) /* [groups] */
 
 /* All of a kind, in groups of TPs. */
 struct trax_shared_unit {
   struct trax_shared_kind kind;
-  uint64_t *free_from;   /* [group][unit]: cycle; NULL of pipelined ones, which are always free */
-  trax_arbiter turn[64]; /* [groups] */
+  uint64_t *free_from; /* [group][unit]: cycle; NULL of pipelined ones, which are always free */
+  TRAX_SHARED_UNIT_STATE(TRAX_FIELD, )
 };
 
 bool trax_shared_unit_create(struct trax_shared_unit *unit, trax_shared which, const struct trax_config *config);

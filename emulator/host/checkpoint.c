@@ -1,13 +1,14 @@
 /* A checkpoint's file, all numbers little endian:
 
      struct header
-     deflate stream (zlib) of: the state (engine/engine.h, "Checkpoints"); then pages of memory that are not as they
-   were before cycle 0, each with its number in 4 bytes before it
+     deflate stream (zlib) of: the state's layout (engine/layout.h); the fields of its sections (machine/section.h);
+     then pages of memory that are not as they were before cycle 0, each with its number in 4 bytes before it
 
    Before cycle 0, memory holds the program and its buffers. So a checkpoint needs both again, and is only taken up by a
    machine that is the same then: the header has a digest of configuration and memory. */
 #include "host/checkpoint.h"
 
+#include "engine/layout.h"
 #include "engine/run.h"
 #include "trax/input.h"
 #include "trax/output.h"
@@ -20,7 +21,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 3, LEVEL = 1, MOST_EXPANSION = 1100 /* of deflate */ };
+enum { PAGE = 4096, VERSION = 4, LEVEL = 1, MOST_EXPANSION = 1100 /* of deflate */ };
 
 static const char magic[8] = "TRAXckpt";
 
@@ -34,7 +35,7 @@ struct header {
   uint64_t state;      /* bytes */
   uint64_t compressed; /* bytes that follow */
   uint64_t run[2];     /* digest of what the run began with */
-  uint64_t layout;     /* of the state: trax_state_layout */
+  uint64_t layouts;    /* entries */
   uint64_t body[2];    /* digest of the bytes that follow and of the header, with zero here */
 };
 
@@ -147,10 +148,10 @@ static void add(void *context, const void *bytes, size_t size) {
   content->count += size;
 }
 
-static void add_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
-  (void)name;
-  if (count)
-    add(context, bytes, size * count);
+static void add_section(void *context, const struct trax_section *section) {
+  for (size_t i = 0; i < section->count; i++)
+    for (size_t j = 0; j < section->field_count; j++)
+      add(context, (uint8_t *)section->bytes + section->size * i + section->fields[j].offset, section->fields[j].size);
 }
 
 static void add_page(void *context, uint32_t number, const uint8_t *page) {
@@ -178,9 +179,11 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
   trax_run_settle(run, t);
   if (run->options->output)
     fflush(run->options->output); /* it is of the time before */
-  run->engine->visit(run->chip, add_piece, &content);
-  struct header header = {
-      .version = VERSION, .cycle = t, .state = content.count, .layout = run->engine->layout(run->chip)};
+  struct trax_layout layouts[TRAX_MOST_LAYOUTS];
+  struct header header = {.version = VERSION, .cycle = t, .layouts = trax_layout_of(run->engine, run->chip, layouts)};
+  add(&content, layouts, header.layouts * sizeof *layouts);
+  run->engine->visit(run->chip, add_section, &content);
+  header.state = content.count - header.layouts * sizeof *layouts;
   memcpy(header.magic, magic, sizeof magic);
   visit_pages(&run->machine->space, add_page, &content);
   header.pages = content.pages;
@@ -261,9 +264,11 @@ static trax_status expand_file(struct trax_checkpoint *checkpoint, const trax_in
   const struct header *header = &checkpoint->header;
   if (header->run[0] != checkpoint->run.low64 || header->run[1] != checkpoint->run.high64)
     return refuse(path, "a checkpoint of another program, machine, or buffer", error);
-  if (header->pages > checkpoint->machine->space.size / PAGE || header->state / MOST_EXPANSION > header->compressed)
+  if (header->pages > checkpoint->machine->space.size / PAGE || header->layouts > TRAX_MOST_LAYOUTS ||
+      header->state / MOST_EXPANSION > header->compressed)
     return refuse(path, "damaged: it cannot hold as much as it says", error);
-  uLongf size = header->state + (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
+  uLongf size = header->layouts * sizeof(struct trax_layout) + header->state +
+                (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
   const uLongf expected = size;
   checkpoint->content = malloc(size);
   if (!checkpoint->content ||
@@ -299,23 +304,36 @@ static void take(struct reader *reader, void *bytes, size_t size) {
   reader->left -= size;
 }
 
-static void take_piece(void *context, const char *name, void *bytes, size_t size, size_t count) {
-  (void)name;
-  if (count)
-    take(context, bytes, size * count);
+static void take_section(void *context, const struct trax_section *section) {
+  for (size_t i = 0; i < section->count; i++)
+    for (size_t j = 0; j < section->field_count; j++)
+      take(context, (uint8_t *)section->bytes + section->size * i + section->fields[j].offset, section->fields[j].size);
+}
+
+/* Another build's layout is refused, with the section where it begins to differ. */
+static trax_status check_layouts(const struct trax_checkpoint *checkpoint, struct trax_run *run, trax_error *error) {
+  struct trax_layout ours[TRAX_MOST_LAYOUTS];
+  const size_t count = trax_layout_of(run->engine, run->chip, ours);
+  for (size_t i = 0; i < count || i < checkpoint->header.layouts; i++) {
+    const struct trax_layout *its = (const struct trax_layout *)checkpoint->content + i;
+    if (i < count && i < checkpoint->header.layouts && memcmp(&ours[i], its, sizeof *its) == 0)
+      continue;
+    return trax_fail(error, "%s: its state has another layout, from %s on: it was written by another build of trax-sim",
+                     checkpoint->options.resume, i < count ? ours[i].name : "its last section");
+  }
+  return TRAX_OK;
 }
 
 /* For trax_machine.prepare. */
 static trax_status resume(void *context, struct trax_run *run, trax_error *error) {
   struct trax_checkpoint *checkpoint = context;
   const struct header *header = &checkpoint->header;
-  struct reader reader = {checkpoint->content, header->state, false};
+  struct reader reader = {checkpoint->content + header->layouts * sizeof(struct trax_layout), header->state, false};
   char wrong[128];
-  if (header->layout != run->engine->layout(run->chip))
-    return refuse(checkpoint->options.resume,
-                  "its state has another layout: it was written by another build of trax-sim", error);
+  if (check_layouts(checkpoint, run, error))
+    return TRAX_ERROR;
   trax_run_export(run); /* nothing has run ahead */
-  run->engine->visit(run->chip, take_piece, &reader);
+  run->engine->visit(run->chip, take_section, &reader);
   if (reader.failed || reader.left)
     return refuse(checkpoint->options.resume, "its state is of another size", error);
   reader.left = (size_t)header->pages * (PAGE + sizeof(uint32_t));

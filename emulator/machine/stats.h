@@ -90,10 +90,10 @@ struct trax_channel_stats {
   uint64_t transfers, bytes;
 };
 
-struct trax_memory_stats {
 #define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
+
+struct trax_memory_stats {
   TRAX_MEMORY_COUNTERS(TRAX_COUNTER_FIELD)
-#undef TRAX_COUNTER_FIELD
   struct trax_channel_stats channel[TRAX_MAX_CHANNELS];
 };
 
@@ -104,10 +104,10 @@ struct trax_tp_stats {
 struct trax_tm_stats {
   uint64_t cycles[TRAX_CAUSE_COUNT];    /* thread-cycles: sum over the TPs; filled when the run ends */
   uint64_t instructions[TRAX_OP_COUNT]; /* issued, by operation */
-#define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
   TRAX_TM_COUNTERS(TRAX_COUNTER_FIELD)
-#undef TRAX_COUNTER_FIELD
 };
+
+#undef TRAX_COUNTER_FIELD
 
 /* What a sampled run (sampling/slots.c) says about its estimates. */
 struct trax_sampling_stats {

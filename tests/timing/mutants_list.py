@@ -136,7 +136,7 @@ MUTANTS = [
     ("fast/dcache.c", "if (!dcache->mshr[i].passing)\n", "if (true)\n"),
     ("fast/dcache.c", "if (dcache->mshr[i].passing)\n        return false;\n", ""),
     ("fast/cache_tags.h", "memset(tags->lines, 0, places * sizeof", "memset(tags->lines, 0, places / 2 * sizeof"),
-    ("fast/state.c", "  VISIT(tp->writes);\n", ""),
+    ("fast/state.c", "dcache->mshr, dcache->mshr_limit);", "dcache->mshr, 0);"),
     ("fast/program.c", "return ~1u;", "return ~3u;"),
     ("fast/cycle.c", " || inst->ask == TRAX_ASK_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
@@ -156,7 +156,7 @@ MUTANTS = [
     ("fast/cycle.c", "trax_arbiter_grant(&unit->turn[group], all & ~winners, 1)",
      "trax_arbiter_grant(&(trax_arbiter){unit->turn[group]}, all & ~winners, 1)"),
     # When a TM goes back, so do they.
-    ("fast/epochs.c", "if (tm->unit[i].free_from)", "if (0)"),
+    ("fast/state.c", "unit->free_from, trax_shared_unit_count(unit));", "unit->free_from, 0);"),
     # As many operations are accepted as units are free.
     ("fast/cycle.c", "i < kind->per_group && all & ~winners;",
      "i < kind->per_group && i < 1 && all & ~winners;"),
@@ -347,8 +347,7 @@ MUTANTS = [
     ("fast/epochs.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
     # The controller is restored.
-    ("fast/epochs.c", "add_region(epochs, &chip->memory, sizeof chip->memory);",
-     "add_region(epochs, &chip->memory, 0);"),
+    ("fast/state.c", "VISIT_ALL(trax_memory, memory, 1);", "VISIT_ALL(trax_memory, memory, 0);"),
     # Increments are noted as writes.
     ("fast/epochs.c", "epochs->failed |= !note_writer(epochs, address, BY_CONTROLLER);",
      "(void)address; (void)windows;"),
