@@ -31,6 +31,6 @@ struct trax_section {
 typedef void trax_section_visitor(void *context, const struct trax_section *section);
 
 #define TRAX_FIELD(S, TYPE, NAME, ARRAY) TYPE NAME ARRAY;
-#define TRAX_FIELD_ROW(S, TYPE, NAME, ARRAY) {#TYPE, #NAME #ARRAY, offsetof(S, NAME), sizeof(((S *)0)->NAME)},
+#define TRAX_FIELD_ROW(S, TYPE, NAME, ARRAY) {#TYPE, #NAME, offsetof(S, NAME), sizeof(((S *)0)->NAME)},
 
 #endif

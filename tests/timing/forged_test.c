@@ -197,8 +197,10 @@ static void damage_header(const struct trax_config *config, const uint32_t *prog
 
 /* Another build's: the file says of which section the layout is another one. */
 static void damage_layout(const struct trax_config *config, const uint32_t *program, size_t count) {
-  for (size_t at = 0; at < layout_bytes; at++) {
-    const struct trax_layout *layout = (const struct trax_layout *)content + at / sizeof *layout;
+  enum { BYTES_OF_EACH = 4 };
+  for (size_t i = 0; i < BYTES_OF_EACH * layout_bytes / sizeof(struct trax_layout); i++) {
+    const struct trax_layout *layout = (const struct trax_layout *)content + i / BYTES_OF_EACH;
+    const size_t at = i / BYTES_OF_EACH * sizeof *layout + any(0, sizeof *layout - 1);
     damaged[at] ^= (uint8_t)(1u << any(0, 7));
     write_file(header);
     memcpy(damaged, content, content_bytes);
