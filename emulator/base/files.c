@@ -11,12 +11,13 @@
 enum { MOST_LINKS = 40 };
 
 struct trax_file_use {
-  char *path, *option; /* option: NULL if it is clear */
+  char *path, *option; /* option: NULL if no message needs to name it */
   bool is_output;
-  enum { ANY_NUMBER, STREAM, REGULAR } kind; /* what may be written any number of times, a redirected stream, a file */
+  /* ANY_NUMBER: may be written any number of times; STREAM: a standard stream redirected to a file. */
+  enum { ANY_NUMBER, STREAM, REGULAR } kind;
   dev_t device;                              /* of the file, or of its nearest folder that exists */
   ino_t inode;
-  char *rest; /* what does not exist yet, below that folder; "" if the file exists */
+  char *rest; /* the part of the path below that folder, which does not exist yet; "" if the file exists */
 };
 
 /* --- which file a path names --- */
@@ -31,7 +32,7 @@ static char *joined(const char *folder, size_t length, const char *name) {
   return path;
 }
 
-/* What a symbolic link refers to, from malloc; NULL: path is none. */
+/* Returns the target of a symbolic link, from malloc; NULL if path is not a symbolic link. */
 static char *link_target(const char *path) {
   char target[4096];
   const ssize_t length = readlink(path, target, sizeof target - 1);
@@ -42,7 +43,8 @@ static char *link_target(const char *path) {
   return target[0] == '/' || !slash ? strdup(target) : joined(path, (size_t)(slash - path), target);
 }
 
-/* Of a path that does not exist. False when out of memory. */
+/* Identifies a path that does not exist by its nearest existing folder and the rest of the path. False: out of memory.
+ */
 static bool find_folder(struct trax_file_use *use, const char *path) {
   char *folder = strdup(path), *rest = strdup(""), *target;
   for (unsigned links = 0; folder && rest;) {
@@ -57,7 +59,7 @@ static bool find_folder(struct trax_file_use *use, const char *path) {
       free(folder);
       return true;
     }
-    if (links < MOST_LINKS && (target = link_target(folder))) { /* of a file that does not exist */
+    if (links < MOST_LINKS && (target = link_target(folder))) { /* a link to a file that does not exist */
       free(folder);
       folder = target;
       links++;

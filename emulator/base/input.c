@@ -18,8 +18,8 @@ static trax_status interrupted(const trax_input *input, trax_error *error) {
 }
 
 trax_status trax_input_open(trax_input *input, const char *path, trax_error *error) {
-  /* Without O_NONBLOCK the opening of a pipe would wait for its writer, and a signal that comes just before would not
-     end that. */
+  /* Without O_NONBLOCK, open would wait for the writer of a pipe, and a signal that arrives just before open would not
+     interrupt the wait. */
   *input = (trax_input){.path = path, .descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
   struct stat status;
   if (input->descriptor < 0 || fstat(input->descriptor, &status) != 0)
@@ -31,7 +31,7 @@ trax_status trax_input_open(trax_input *input, const char *path, trax_error *err
   return TRAX_OK;
 }
 
-/* Room for one more byte, and the NUL. */
+/* Makes room for one more byte and the NUL. */
 static bool grow(trax_input *input, size_t most) {
   if (input->size < input->capacity)
     return true;
@@ -80,7 +80,7 @@ trax_status trax_read_file(const char *path, size_t limit, uint8_t **bytes, size
   trax_input input;
   trax_status status = trax_input_open(&input, path, error);
   if (status == TRAX_OK && input.expected <= limit)
-    status = trax_input_read(&input, limit + 1, error); /* the byte that proves it too large */
+    status = trax_input_read(&input, limit + 1, error); /* one byte more proves that the file is too large */
   if (status == TRAX_OK && (input.expected > limit || input.size > limit))
     status = trax_fail(error, "%s: more than %zu bytes", path, limit);
   if (status == TRAX_OK) {

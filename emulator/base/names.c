@@ -4,7 +4,8 @@
 
 enum { LONGEST_NAME = 63 }; /* longer ones get no suggestion */
 
-/* Insertions, deletions, substitutions and exchanges of neighbours that turn a into b (optimal string alignment). */
+/* The least number of insertions, deletions, substitutions and exchanges of neighbours that turn a into b (optimal
+   string alignment). */
 static unsigned edit_distance(const char *a, const char *b) {
   size_t rows = strlen(a), columns = strlen(b);
   unsigned row[3][LONGEST_NAME + 1];

@@ -21,9 +21,9 @@ static bool is_optional(const trax_option *option) {
   return option->argument && strncmp(option->argument, "[=", 2) == 0;
 }
 
-/* --- which option --- */
+/* --- finding the option --- */
 
-/* For suggestions: no mistyped name is near "". */
+/* The name that a suggestion may propose. A removed option has "", which is near no mistyped name. */
 static const char *row_name(const void *rows, size_t i) {
   const trax_option *row = (const trax_option *)rows + i;
   return row->instead ? "" : row->name;
@@ -74,7 +74,7 @@ static const trax_option *find_letter(const trax_command *command, const char *l
   return NULL;
 }
 
-/* --- its value --- */
+/* --- reading its value --- */
 
 trax_status trax_option_refuse(const trax_option *option, const char *value, trax_error *error, const char *format,
                                ...) {
@@ -98,7 +98,7 @@ trax_status trax_option_number(const trax_option *option, const char *text, uint
   return TRAX_OK;
 }
 
-static trax_status take_choice(const trax_option *option, const char *value, unsigned *choice, trax_error *error) {
+static trax_status set_choice(const trax_option *option, const char *value, unsigned *choice, trax_error *error) {
   char names[300] = "";
   size_t used = 0;
   for (unsigned i = 0; option->choices[i]; i++) {
@@ -113,7 +113,7 @@ static trax_status take_choice(const trax_option *option, const char *value, uns
   return trax_option_refuse(option, value, error, "is none of %s", names);
 }
 
-static trax_status take(const trax_option *option, void *target, const char *value, trax_error *error) {
+static trax_status set_value(const trax_option *option, void *target, const char *value, trax_error *error) {
   void *field = (char *)target + option->offset;
   uint64_t number;
   switch (option->kind) {
@@ -127,7 +127,7 @@ static trax_status take(const trax_option *option, void *target, const char *val
     return TRAX_OK;
   case TRAX_OPTION_UNSIGNED:
     if (option->choices)
-      return take_choice(option, value, field, error);
+      return set_choice(option, value, field, error);
     if (trax_option_number(option, value, option->least, option->most, &number, error) != TRAX_OK)
       return TRAX_ERROR;
     *(unsigned *)field = (unsigned)number;
@@ -144,11 +144,11 @@ static trax_status take(const trax_option *option, void *target, const char *val
 struct parser {
   const trax_command *command;
   void *target;
-  int count, next; /* of the arguments: the one to look at */
+  int count, next; /* next: the index of the next argument */
   char **arguments;
 };
 
-/* value: what is joined to the option, or NULL; spelled: for messages. */
+/* value: the text joined to the option ("=VALUE", "-oVALUE"), or NULL; spelled: the option's name in messages. */
 static trax_parsed apply(struct parser *parser, const trax_option *option, const char *value, const char *spelled,
                          trax_error *error) {
   const trax_command *command = parser->command;
@@ -178,7 +178,7 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
     printf("%s " TRAX_VERSION "\n", command->name);
     return TRAX_PARSED_DONE;
   default:
-    return take(option, parser->target, value, error) == TRAX_OK ? TRAX_PARSED_RUN : TRAX_PARSED_WRONG;
+    return set_value(option, parser->target, value, error) == TRAX_OK ? TRAX_PARSED_RUN : TRAX_PARSED_WRONG;
   }
 }
 
@@ -193,7 +193,7 @@ static trax_parsed parse_name(struct parser *parser, const char *text, trax_erro
   return apply(parser, option, equals ? equals + 1 : NULL, spelled, error);
 }
 
-/* Switches may stand together, and the last of them may take a value. */
+/* One-letter switches may be joined, and the last of them may take a value. */
 static trax_parsed parse_letters(struct parser *parser, const char *text, trax_error *error) {
   for (; *text; text++) {
     const trax_option *option = find_letter(parser->command, text, error);
@@ -228,7 +228,7 @@ trax_parsed trax_command_parse(const trax_command *command, void *target, int *c
   return TRAX_PARSED_RUN;
 }
 
-/* --- what else follows from the table --- */
+/* --- help and files --- */
 
 static void print_lines(FILE *out, const char *text, unsigned indent) {
   for (bool first = true; *text; first = false) {
@@ -240,7 +240,7 @@ static void print_lines(FILE *out, const char *text, unsigned indent) {
 
 void trax_command_help(const trax_command *command, FILE *out) {
   fprintf(out, "usage: %s ", command->name);
-  for (const char *line = command->synopsis; *line;) { /* each with the name of the program */
+  for (const char *line = command->synopsis; *line;) { /* each line begins with the program's name */
     const int length = (int)strcspn(line, "\n");
     fprintf(out, "%.*s\n", length, line);
     line += length + (line[length] == '\n');

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* mkstemp makes files private; an output has the mode any other program would give it. */
+/* The permissions that open would set. mkstemp makes private files. */
 static mode_t usual_mode(mode_t wanted) {
   mode_t mask = umask(0);
   umask(mask);
@@ -46,7 +46,7 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
     output->file = stdout;
     return TRAX_OK;
   }
-  if (shared >= 0) { /* opened anew, a file would be written from its beginning */
+  if (shared >= 0) { /* to open it again would overwrite a file from its beginning */
     const int copy = dup(shared);
     output->file = copy < 0 ? NULL : fdopen(copy, "ab");
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
@@ -58,7 +58,7 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
     output->file = fopen(path, "wb");
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
-  /* Through a symbolic link, the file it names is replaced, not the link. */
+  /* If path is a symbolic link, the file that it refers to is replaced, not the link. */
   output->target = realpath(path, NULL);
   const bool exists = output->target != NULL;
   if (exists ? access(path, W_OK) != 0 : !(output->target = strdup(path)))
@@ -93,14 +93,14 @@ void trax_output_make_executable(trax_output *output) {
 
 trax_status trax_output_commit(trax_output *output, trax_error *error) {
   int failure = 0;
-  if (ferror(output->file)) { /* perhaps long ago: what fails now tells why, and is thrown away */
+  if (ferror(output->file)) { /* errno of that failure may be lost: another write fails for the same reason */
     clearerr(output->file);
     failure = fputc('\n', output->file) == EOF || fflush(output->file) != 0 ? errno : EIO;
   } else if (fflush(output->file) != 0) {
     failure = errno;
   }
   if (output->file == stdout) {
-    if (failure == EPIPE) /* whoever read it wants no more; main says so by its exit status */
+    if (failure == EPIPE) /* the reader has closed the pipe; main reports that by its exit status */
       failure = 0;
   } else {
     if (fclose(output->file) != 0 && !failure)
@@ -143,7 +143,7 @@ trax_status trax_output_check(const char *path, trax_error *error) {
   const int shared = trax_output_descriptor(path);
   if (shared >= 0)
     return fcntl(shared, F_GETFL) >= 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
-  /* Opening a pipe or a device may wait or do something: only asked for permission. */
+  /* To open a pipe or a device may wait or have effects, so only its permissions are checked. */
   if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode))
     return access(path, W_OK) == 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
   trax_output output;
@@ -157,11 +157,11 @@ trax_status trax_write_file(const char *path, const void *bytes, size_t size, tr
   trax_output output;
   if (trax_output_open(&output, path, error) != TRAX_OK)
     return TRAX_ERROR;
-  fwrite(bytes, 1, size, output.file); /* a failure shows again when the file is closed */
+  fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
   return trax_output_commit(&output, error);
 }
 
-/* Where the ending begins, behind its dot; NULL: there is none. */
+/* Returns the ending, without its dot; NULL if there is none. */
 static const char *ending_of(const char *path) {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
   return dot && dot > name ? dot + 1 : NULL;

@@ -12,13 +12,13 @@ enum { PATH = 4096, MOST_PROCESSORS = 1 << 16 };
 
 /* --- files --- */
 
-/* root, directory and name as one path; false if it is too long. */
+/* Joins root, directory and name to one path. False: the path is too long. */
 static bool join(char path[PATH], const char *root, const char *directory, const char *name) {
   const int length = snprintf(path, PATH, "%s%s%s%s", root, directory, *name ? "/" : "", name);
   return length > 0 && length < PATH;
 }
 
-/* The first numbers of a file; how many there are. */
+/* Reads up to two numbers at the beginning of a file and returns how many it has read. */
 static int read_numbers(const char *root, const char *directory, const char *name, long long number[2]) {
   char path[PATH];
   FILE *file = join(path, root, directory, name) ? fopen(path, "re") : NULL;
@@ -29,7 +29,7 @@ static int read_numbers(const char *root, const char *directory, const char *nam
   return count > 0 ? count : 0;
 }
 
-/* Whether `list`, of words with commas between them, has the word. */
+/* Whether `list`, words separated by commas, contains the word. */
 static bool has_word(const char *list, const char *word) {
   const size_t length = strlen(word);
   for (const char *at = list; (at = strstr(at, word)); at += length)
@@ -49,7 +49,7 @@ static unsigned whole_processors(long long quota, long long period) {
 
 static unsigned quota_of_directory(const char *root, const char *directory, bool second_version) {
   long long number[2], period[2];
-  if (second_version) /* "max", which is no number, or the quota, and the period */
+  if (second_version) /* "QUOTA PERIOD", or "max PERIOD" for no quota */
     return read_numbers(root, directory, "cpu.max", number) == 2 ? whole_processors(number[0], number[1]) : UINT_MAX;
   return read_numbers(root, directory, "cpu.cfs_quota_us", number) >= 1 &&
                  read_numbers(root, directory, "cpu.cfs_period_us", period) >= 1
@@ -57,8 +57,8 @@ static unsigned quota_of_directory(const char *root, const char *directory, bool
              : UINT_MAX;
 }
 
-/* The path of the process's group: of version 2 that of the line "0::PATH", of version 1 that of "N:...,cpu,...:PATH".
-   From malloc; NULL if there is none. */
+/* Returns the path of the process's group, from malloc, or NULL if there is none. The line is "0::PATH" for version 2
+   and "N:...,cpu,...:PATH" for version 1. */
 static char *group_path(const char *root, bool second_version) {
   char path[PATH], *line = NULL, *found = NULL;
   size_t size = 0;
@@ -78,7 +78,7 @@ static char *group_path(const char *root, bool second_version) {
   return found;
 }
 
-/* mountinfo writes a blank, a backslash and the like as \ooo. */
+/* Decodes \ooo, by which mountinfo writes blanks and backslashes. */
 static void unescape(char *text) {
   char *to = text;
   for (; *text; to++)
@@ -91,7 +91,7 @@ static void unescape(char *text) {
   *to = '\0';
 }
 
-/* The least quota of the group and those around it, as far as the mount shows them. */
+/* The least quota of the group and of the groups that contain it, as far as they are in the mount. */
 static unsigned quota_of_mount(const char *root, char *mounted, char *mount_point, bool second_version) {
   char *group = group_path(root, second_version), directory[PATH];
   unsigned least = UINT_MAX;
@@ -123,7 +123,7 @@ unsigned trax_quota_processors(const char *root) {
   FILE *file = join(path, root, "/proc/self/mountinfo", "") ? fopen(path, "re") : NULL;
   while (file && getline(&line, &size, file) > 0) {
     char mounted[PATH], mount_point[PATH], type[64], options[PATH] = "";
-    const char *separator = strstr(line, " - "); /* optional fields are before it */
+    const char *separator = strstr(line, " - "); /* a variable number of optional fields precedes it */
     if (!separator || sscanf(line, "%*s %*s %*s %4095s %4095s", mounted, mount_point) != 2 ||
         sscanf(separator, " - %63s %*s %4095s", type, options) < 1)
       continue;
@@ -139,7 +139,7 @@ unsigned trax_quota_processors(const char *root) {
   return least;
 }
 
-/* --- all --- */
+/* --- affinity --- */
 
 static unsigned affine_processors(void) {
   for (int processors = CPU_SETSIZE; processors <= MOST_PROCESSORS; processors *= 2) { /* until the mask fits */

@@ -25,7 +25,7 @@ static void print_time_left(FILE *out, double seconds) {
     fprintf(out, ", %lu:%02lu left", whole / 60, whole % 60);
 }
 
-/* Whether the line is to be drawn. */
+/* Whether the line must be drawn again. A new step starts the clock. */
 static bool is_due(trax_progress_line *line, const char *step, double fraction, double now) {
   const bool is_new = strncmp(line->step, step, sizeof line->step - 1) != 0;
   if (is_new || (line->first < 0 && fraction >= 0)) {
@@ -43,7 +43,7 @@ bool trax_progress_line_show(trax_progress_line *line, const char *step, double 
   const double now = trax_seconds();
   if (!is_due(line, step, fraction, now))
     return false;
-  /* One write: an interrupt may end any, and would else leave a line without its beginning. */
+  /* The line is one write, so that an interrupt between writes cannot leave a part of it. */
   char text[512];
   FILE *out = fmemopen(text, sizeof text, "w");
   if (!out)
@@ -57,7 +57,7 @@ bool trax_progress_line_show(trax_progress_line *line, const char *step, double 
     fprintf(out, ", %.1f %%", 100 * (fraction < 1 ? fraction : 1));
   if (line->first >= 0 && fraction > line->first && fraction <= 1 && now - line->begun > 2 * REDRAW_SECONDS)
     print_time_left(out, (now - line->begun) * (1 - fraction) / (fraction - line->first));
-  fprintf(out, "\033[K"); /* what the line before had more */
+  fprintf(out, "\033[K"); /* erases the rest of a longer line before */
   fclose(out);
   fputs(text, line->terminal);
   fflush(line->terminal);

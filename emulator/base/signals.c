@@ -13,7 +13,7 @@ enum { COUNT = sizeof numbers / sizeof *numbers };
 static void on_signal(int number) {
   if (!trax_signal)
     trax_signal = number;
-  trax_default_signals(); /* the next one, whichever it is, ends the program */
+  trax_default_signals(); /* a second signal, of any number, ends the program */
 }
 
 void trax_catch_signal(int number) {
@@ -39,10 +39,10 @@ void trax_default_signals(void) {
 void trax_end_by_signal(void) {
   const int number = trax_signal;
   fflush(stdout);
-  setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); /* SIGQUIT has been answered */
+  setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); /* no core file: SIGQUIT has been handled */
   signal(number, SIG_DFL);
   raise(number);
-  _Exit(128 + number); /* it is blocked */
+  _Exit(128 + number); /* reached only if the signal is blocked */
 }
 
 void trax_hold_signals(sigset_t *before) {

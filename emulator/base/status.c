@@ -10,7 +10,7 @@ trax_status trax_fail(trax_error *error, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
-    if (error->message[0] == ':') { /* of a file whose name is empty */
+    if (error->message[0] == ':') { /* the message is about a file whose name is empty */
       memmove(error->message + 2, error->message, sizeof error->message - 2);
       memcpy(error->message, "\"\"", 2);
       error->message[sizeof error->message - 1] = '\0';

@@ -7,7 +7,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* Accesses this far below local memory are a stack that grew too deep, not a wild pointer. */
+/* An access at most this many bytes below local memory counts as a stack overflow, one farther away as a wild pointer.
+ */
 #define STACK_OVERFLOW_WINDOW 0x10000u
 
 static void *allocate_lazily(size_t bytes) {

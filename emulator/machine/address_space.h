@@ -1,5 +1,6 @@
-/* Global memory: one flat block of host memory, allocated by the host as it is touched, with permissions for every 64
-   bytes. Local memory belongs to the TP (tp.h). Every guest address passes trax_space_check before it is used. */
+/* Global memory: one flat block of host memory, which the host allocates page by page on first use, with permissions
+   for every 64 bytes. The engines keep local memory with each thread. Every guest address is checked by
+   trax_space_check before it is used. */
 #ifndef TRAX_MACHINE_ADDRESS_SPACE_H
 #define TRAX_MACHINE_ADDRESS_SPACE_H
 
@@ -19,13 +20,13 @@ struct trax_segment {
 };
 
 struct trax_space {
-  uint8_t *bytes;        /* bytes[address]; the null page is there but never accessible */
+  uint8_t *bytes;        /* bytes[address]; includes the null page, which the guest cannot access */
   uint64_t size;         /* end of global memory */
-  uint8_t *restrictions; /* per granule; zero is read and write, the state of memory no segment covers */
+  uint8_t *restrictions; /* per granule; 0 permits reads and writes, also where no segment is */
   struct trax_segment *segments;
   size_t segment_count;
   size_t mapped_bytes, restriction_bytes;
-  uint32_t input, input_bytes; /* the largest buffer that the host has filled, in whole granules: programs read it */
+  uint32_t input, input_bytes; /* the largest buffer filled by the host, in whole granules; programs mostly read it */
 };
 
 enum { TRAX_RESTRICT_WRITE = 1, TRAX_MAPPED = 2, TRAX_STACK_END = 4 };
@@ -38,14 +39,14 @@ void trax_space_destroy(struct trax_space *space);
 trax_status trax_space_map(struct trax_space *space, uint32_t address, uint32_t bytes, unsigned permissions,
                            uint8_t **host, trax_error *error);
 
-/* Makes [address, address + bytes), which belongs to no segment, the end of a stack: writes to it are an overflow. Both
-   are multiples of 64 and the range lies in global memory. */
+/* Makes [address, address + bytes) the guard of a stack: a write to it is a stack overflow. The range lies in global
+   memory outside all segments; both numbers are multiples of 64. */
 void trax_space_guard(struct trax_space *space, uint32_t address, uint32_t bytes);
 
 /* The kind of fault of a global access that is out of bounds or misaligned. */
 trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address, uint32_t bytes);
 
-/* The kind of fault of a write to an address of global memory that takes none. */
+/* The kind of fault of a write to a read-only address of global memory. */
 trax_fault_kind trax_space_why_not_written(const struct trax_space *space, uint32_t address);
 
 /* TRAX_FAULT_NONE if an access of 1, 2 or 4 bytes to global memory is allowed. */
@@ -59,8 +60,8 @@ static inline trax_fault_kind trax_space_check(const struct trax_space *space, u
   return TRAX_FAULT_NONE;
 }
 
-/* Copies the NUL-terminated string at a global address, cut to size - 1 characters. False if it leaves global memory
-   before it ends. */
+/* Copies the NUL-terminated string at a global address, truncated to size - 1 characters. False: the string reaches the
+   end of global memory before its NUL. */
 bool trax_space_string(const struct trax_space *space, uint32_t address, char *text, size_t size);
 
 #endif

@@ -38,7 +38,7 @@ static bool is_power_of_two(double value) {
 }
 
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error) {
-  const bool in_range = value >= key->least && value <= key->most; /* not a NaN either */
+  const bool in_range = value >= key->least && value <= key->most; /* false for a NaN */
   switch (key->kind) {
   case TRAX_KIND_FLAG:
     if (value != 0 && value != 1)
@@ -66,7 +66,7 @@ trax_status trax_config_check_value(const struct trax_config_key *key, double va
   return TRAX_OK;
 }
 
-/* A line of the cache `name` must not be longer than the value of `limit`. */
+/* Checks that a line of the cache `name` is not longer than `limit`, the value of the key `limit_name`. */
 static trax_status check_line(const char *name, uint32_t line_bytes, const char *limit_name, uint32_t limit,
                               trax_error *error) {
   if (line_bytes > limit)

@@ -1,5 +1,5 @@
-/* The machine's configuration: a plain struct with one member per key of machine/config_keys.h. The key of a value is
-   its path in the struct ("memory.bandwidth_gbps"); emulator/host/config.c reads and prints keys. */
+/* The machine's configuration: a plain struct with one member per key of machine/config_keys.h. A key's name is the
+   member's path in the struct ("memory.bandwidth_gbps"); emulator/host/config.c reads and prints keys. */
 #ifndef TRAX_MACHINE_CONFIG_H
 #define TRAX_MACHINE_CONFIG_H
 
@@ -26,7 +26,7 @@ struct trax_config {
 #undef TRAX_KEY_REAL
 };
 
-/* Initialiser with the defaults: one TP, everything else as in the paper or, where it is silent, our choice. */
+/* Initialiser with the defaults: one TP, everything else as in the paper or, where the paper is silent, our choice. */
 #define TRAX_CONFIG_NOTHING(SECTION)
 #define TRAX_CONFIG_INITIAL(SECTION, KEY, DEFAULT, ...) .SECTION.KEY = DEFAULT,
 #define TRAX_CONFIG_DEFAULT                                                                                            \
@@ -35,15 +35,15 @@ struct trax_config {
                      TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)                                                         \
   }
 
-/* One row of the table, for code that goes through all keys. */
+/* One row of the table, for code that visits all keys. */
 struct trax_config_key {
   const char *name; /* "memory.bandwidth_gbps" */
   const char *section, *key;
   enum { TRAX_KIND_COUNT, TRAX_KIND_POWER, TRAX_KIND_FLAG, TRAX_KIND_REAL } kind;
   size_t offset;               /* in struct trax_config */
-  double initial, least, most; /* exact: every value fits */
+  double initial, least, most; /* a double holds every value exactly */
   const char *unit, *meaning;  /* unit is "" for flags */
-  bool paper;                  /* the default is the paper's */
+  bool paper;                  /* the paper states the default */
 };
 
 extern const struct trax_config_key trax_config_keys[];
@@ -51,11 +51,11 @@ extern const size_t trax_config_key_count;
 
 /* The value of a key in a configuration; counts and flags as numbers. */
 double trax_config_value(const struct trax_config *config, const struct trax_config_key *key);
-/* Is value one the key may have? The message names the key, the value and what is allowed. */
+/* Checks that the key may have the value. The message names the key, the value and what is allowed. */
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);
 
-/* All ranges and the relations between keys, whatever way the struct was filled; the machine relies on nothing else.
-   The message names the key and what is allowed. */
+/* Checks all ranges and the relations between keys, which are all that the machine relies on. The message names the key
+   and what is allowed. */
 trax_status trax_config_validate(const struct trax_config *config, trax_error *error);
 
 #endif

@@ -1,30 +1,33 @@
-/* What of a run of the fast engine took one of its slow ways. Results do not depend on it, but how long they take. */
+/* How often a run of the fast engine left its fast path, and why. This affects the run's time on the host, not its
+   results. */
 #ifndef TRAX_MACHINE_FAST_PATH_H
 #define TRAX_MACHINE_FAST_PATH_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { TRAX_KNOWN_LINES = 1023 }; /* of the program, of which the engine knows whether they are in a cache */
+enum {
+  TRAX_KNOWN_LINES = 1023
+}; /* the engine tracks which of the program's first lines each instruction cache holds */
 
 struct trax_fast_path {
   bool known; /* the fast engine has run */
 
-  /* What holds of the whole run. */
-  bool observed;        /* each instruction executes by itself, and TMs go from cycle to cycle together */
-  bool no_epochs;      /* TMs go from cycle to cycle together, since memory answers too soon */
-  bool general_fetch;   /* the banks of the instruction caches are not served all at once */
-  bool uneven_units;    /* nor are the groups of adders and multipliers */
-  bool many_data_banks; /* nor the banks of the data cache */
-  bool hits_in_turn;    /* its hits are served one by one */
+  /* Properties of the whole run. */
+  bool observed;        /* every instruction is a burst of its own, and all TMs simulate the same cycle */
+  bool no_epochs;       /* all TMs simulate the same cycle, since the memory latency is too short for an epoch */
+  bool general_fetch;   /* the banks of the instruction caches are arbitrated one cache after the other */
+  bool uneven_units;    /* adders and multipliers are arbitrated one group after the other */
+  bool many_data_banks; /* the banks of the data cache are arbitrated four at a time */
+  bool hits_in_turn;    /* hits of the data cache are served one by one */
   uint32_t text_lines;  /* lines of instructions of the program; TRAX_KNOWN_LINES + 1: or more */
 
-  uint64_t looked_up;     /* fetches whose line had to be looked up, and was there */
-  uint64_t single_hits;   /* of the data cache, served one by one */
-  uint64_t at_issue;      /* instructions that executed when they were issued, not ahead of time */
-  uint64_t single_cycles; /* through which several TMs went together, not each by itself for many cycles */
-  uint64_t conflicts;     /* of TMs that ran ahead of each other and had to go back */
-  uint64_t short_epochs; /* cycles in which TMs could not run ahead, since the run stops soon, as for a checkpoint */
+  uint64_t looked_up;     /* fetches that hit and whose line had to be looked up */
+  uint64_t single_hits;   /* hits of the data cache that were served one by one */
+  uint64_t at_issue;      /* instructions that executed at issue, not ahead of time */
+  uint64_t single_cycles; /* cycles outside epochs, if there are several TMs */
+  uint64_t conflicts;     /* epochs that ended in a conflict, after which the chip rolled back */
+  uint64_t short_epochs;  /* cycles without an epoch because the run stops soon, as for a checkpoint */
 };
 
 #endif

@@ -1,4 +1,4 @@
-/* What a guest may not do, and the record of where it did (docs/timing.md, "Faults"). */
+/* The kinds of faults, and the record of a fault (docs/timing.md, "Faults"). */
 #ifndef TRAX_MACHINE_FAULT_H
 #define TRAX_MACHINE_FAULT_H
 
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* identifier, its word in a signature (docs/isa.md, "Faults"), what happened in words */
+/* identifier, name in a signature (docs/isa.md, "Faults"), description */
 #define TRAX_FAULTS(X)                                                                                                 \
   X(NONE, "none", "no fault")                                                                                          \
   X(NULL_PAGE, "null", "access to the null page")                                                                      \
@@ -30,7 +30,7 @@ typedef enum trax_fault_kind {
 
 struct trax_fault {
   trax_fault_kind kind;
-  uint32_t address; /* the data address, the pc of EXECUTE and MISALIGNED_PC, ABORT's message; else 0 */
+  uint32_t address; /* the data address; EXECUTE and MISALIGNED_PC: the pc; ABORT: the message's address; else 0 */
   uint32_t bytes;   /* size of the access; 0 if none */
   bool write;       /* the access was a store or an atomic increment */
   uint32_t pc;
@@ -41,7 +41,7 @@ struct trax_fault {
   uint8_t local[TRAX_LOCAL_SIZE];         /* the thread's memory */
 };
 
-const char *trax_fault_text(trax_fault_kind kind);
-const char *trax_fault_name(trax_fault_kind kind); /* "null" */
+const char *trax_fault_text(trax_fault_kind kind); /* the description, "access to the null page" */
+const char *trax_fault_name(trax_fault_kind kind); /* the name in a signature, "null" */
 
 #endif

@@ -1,5 +1,5 @@
-/* One machine: configuration, memory, program, those who watch it, and the outcome of its run. It knows no engine.
-   Internal to the library; emulator/host adds the program's symbols and buffers through the host members. */
+/* One machine: configuration, memory, program, watches, and the outcome of its run. It knows no engine. Internal to the
+   library; emulator/program adds the program's symbols and buffers through the host members. */
 #ifndef TRAX_MACHINE_MACHINE_H
 #define TRAX_MACHINE_MACHINE_H
 
@@ -21,49 +21,49 @@ struct trax_machine {
   bool has_program; /* trax_machine_set_entry was called */
   bool has_run;
 
-  /* Owned by emulator/host: symbols, lines, buffers. Destroyed with the machine if not NULL. */
+  /* Owned by emulator/program: symbols, lines, buffers. Destroyed with the machine if not NULL. */
   void *host;
   void (*host_destroy)(void *host);
 
   struct trax_watch *watches; /* the first; NULL: none (machine/watch.h) */
 
-  const struct trax_observer *observer; /* of the run; NULL: nobody (machine/observer.h) */
+  const struct trax_observer *observer; /* of the run; NULL: none (machine/observer.h) */
 
-  /* Called before the first cycle if not NULL: may bring the run to where another one was (engine/engine.h). */
+  /* Called before the first cycle if not NULL: may restore the state of another run (engine/engine.h). */
   trax_status (*prepare)(void *context, struct trax_run *run, trax_error *error);
   void *prepare_context;
 
   /* The outcome; valid after trax_machine_run. */
   trax_status status; /* of the run */
-  bool at_limit;      /* of TRAX_STUCK: max_cycles passed; otherwise a watch ended the run */
+  bool at_limit;      /* TRAX_STUCK: max_cycles passed; otherwise a watch ended the run */
   struct trax_fault fault;
   struct trax_stats stats;
   struct trax_tm_stats *tm_stats; /* [tms] */
   struct trax_tp_stats *tp_stats; /* [threads], by thread number */
   int32_t *exit_statuses;         /* [threads] */
 
-  struct trax_fast_path fast_path; /* no result: how the fast engine came by them */
+  struct trax_fast_path fast_path; /* statistics of the fast engine itself, not of the simulated machine */
 
-  struct trax_run *run; /* while it runs, or can go on; else NULL */
+  struct trax_run *run; /* from the beginning to the end of a run; else NULL */
   void (*run_destroy)(struct trax_machine *machine);
 };
 
-/* Makes [address, address + bytes) a segment of global memory; *host receives where its bytes, all zero, are. Errors:
-   out of range, not 64-byte aligned, overlapping, writable and executable, or after the run. */
+/* Makes [address, address + bytes) a segment of global memory; *host receives the address of its zeroed bytes. Errors:
+   out of range, not 64-byte aligned, overlapping, both writable and executable, or after the run. */
 trax_status trax_machine_map(struct trax_machine *machine, uint32_t address, uint32_t bytes, unsigned permissions,
                              uint8_t **host, trax_error *error);
-/* Where all threads start: inside an executable segment, a multiple of 4. */
+/* Sets the address at which all threads start. Error: it is not a multiple of 4 in an executable segment. */
 trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry, trax_error *error);
 
-/* Adds the counts that follow from the operations issued; done once, at the run's end. */
+/* Adds the counts that follow from the operations issued. To be called once, at the run's end. */
 void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config);
-/* Between cycles, after trax_run_settle: total and instructions of *stats become what has been counted so far. */
+/* Between cycles, after trax_run_settle: sets total and instructions of *stats to the counts so far. */
 void trax_stats_sum(const struct trax_machine *machine, struct trax_stats *stats);
-/* After the run: sums up, and checks the rule of accounting, that every thread is charged every cycle once. charged:
-   for what it did; otherwise charges are estimates, or there are none. */
+/* After the run: sums up the TMs' statistics and checks that every thread is charged exactly once for every cycle.
+   charged: the charges are exact; otherwise they are estimates, or there are none. Error: the check fails. */
 trax_status trax_stats_collect(struct trax_machine *machine, bool charged, trax_error *error);
 
-/* The fault that ended the run; its kind is TRAX_FAULT_NONE if none did. */
+/* The fault that ended the run; its kind is TRAX_FAULT_NONE if there was none. */
 const struct trax_fault *trax_machine_fault(const struct trax_machine *machine);
 
 #endif

@@ -1,19 +1,20 @@
-/* Those who watch a run instruction by instruction: profiles, traces, time lines. Every thread-cycle is told exactly
-   once, by `issue` if the cause is TRAX_CAUSE_ISSUED and else by `charge`, so that what an observer adds up equals the
-   statistics (docs/timing.md, "Accounting").
+/* Observers: profiles, traces and time lines, which follow a run instruction by instruction. The engine notifies an
+   observer of every thread-cycle exactly once, by `issue` if the cause is TRAX_CAUSE_ISSUED and by `charge` otherwise.
+   So an observer's sums equal the statistics (docs/timing.md, "Accounting").
 
-   What an engine promises:
-   - issue comes after the instruction's effect, in the order of (cycle, TM, TP) over the whole chip; for an instruction
-     that faults it does not come.
-   - A TP's charges are stretches of cycles without gaps or overlaps, and come in the order of time: those before an
-     issue come before it, those after it later. One stretch may come in several pieces. All that happened before cycle
-     t has been told when trax_run_settle(run, t) returns, hence at the run's end.
-   - The charges of different TPs come in any order; who wants the same from every engine acts on issues.
-   - arrival comes when an atomic increment's old value is written to its register: in the order of (cycle, TM), and
-     before the issues of its cycle in its TM.
-   - All calls come from the thread that called trax_machine_run.
+   An engine guarantees:
+   - issue is called after the instruction's effect, in the order of (cycle, TM, TP) over the whole chip. It is not
+     called for an instruction that faults.
+   - A TP's charges are intervals of cycles without gaps or overlaps, in the order of time; those before an issue are
+     reported before it. One interval may be reported in several pieces. When trax_run_settle(run, t) returns, all
+     cycles before t have been reported.
+   - The charges of different TPs may be reported in any order, which differs between engines.
+   - arrival is called when an atomic increment's old value is written to its register, in the order of (cycle, TM),
+     before the issues of the same cycle and TM.
+   - All calls are made by the host thread that called trax_machine_run.
 
-   A run that nobody observes pays nothing for this; one that is observed does not run ahead. */
+   A run without an observer pays nothing for this. In a run with one, the fast engine does not execute ahead of time.
+ */
 #ifndef TRAX_MACHINE_OBSERVER_H
 #define TRAX_MACHINE_OBSERVER_H
 
@@ -21,12 +22,12 @@
 
 #include <stdint.h>
 
-/* What became of an access to global memory: bits of trax_issue.outcome. */
+/* The outcome of an access to global memory: bits of trax_issue.outcome. */
 enum {
-  TRAX_OUTCOME_HIT = 1,     /* the line was there: of a load or a store through the data cache */
-  TRAX_OUTCOME_MISS = 2,    /* the load requested its line */
-  TRAX_OUTCOME_MERGED = 4,  /* the line was on its way */
-  TRAX_OUTCOME_COMBINED = 8 /* the store joined the TP's earlier one */
+  TRAX_OUTCOME_HIT = 1,     /* a load or store through the data cache found its line */
+  TRAX_OUTCOME_MISS = 2,    /* a load requested its line */
+  TRAX_OUTCOME_MERGED = 4,  /* a load's line was already on its way */
+  TRAX_OUTCOME_COMBINED = 8 /* a store was combined with the TP's earlier one */
 };
 
 struct trax_issue {
@@ -34,8 +35,8 @@ struct trax_issue {
   uint32_t tm, tp, pc;
   uint32_t next_pc;
   uint32_t word;
-  uint32_t result;  /* the destination's new value, if it has one (of an atomic increment: see arrival); of a store what
-                       is stored, of a trap its operand */
+  uint32_t result;  /* the new value of the destination register (of an atomic increment: see arrival); of a store the
+                       value stored, of a trap its operand */
   uint32_t address; /* of a memory access */
   uint8_t outcome;
 };
@@ -48,9 +49,9 @@ struct trax_arrival {
 
 struct trax_observer {
   void *context;
-  /* Any of them may be NULL. */
+  /* Any function may be NULL. */
   void (*issue)(void *context, const struct trax_issue *issue);
-  /* The TP was charged to `cause` in the cycles from `since` on. */
+  /* The TP was charged to `cause` for `cycles` cycles from `since` on. */
   void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles);
   void (*arrival)(void *context, const struct trax_arrival *arrival);
 };

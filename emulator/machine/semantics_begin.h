@@ -1,8 +1,8 @@
-/* The names that the instructions' semantics are written in (isa/TraxFormats.td), before trax/semantics.inc is
-   included; machine/semantics_end.h, behind it, takes them away. What executes has `reg`, the TP's registers, `inst`, a
-   pointer to the decoded instruction, and `next_pc`, and defines the rest itself: PC, LOAD(ADDRESS, BYTES),
-   STORE(ADDRESS, VALUE, BYTES), ATOMIC_INC, SPECIAL_REGISTER, TRAP, HALT, and PRECISION, of the special unit in bits.
- */
+/* Defines the names that the instructions' semantics use (isa/TraxFormats.td). It is included before
+   trax/semantics.inc; machine/semantics_end.h, included after it, undefines them. The including function has `reg`, the
+   thread's registers, `inst`, a pointer to the decoded instruction, and `next_pc`. It defines the other names itself:
+   PC, LOAD(ADDRESS, BYTES), STORE(ADDRESS, VALUE, BYTES), ATOMIC_INC, SPECIAL_REGISTER, TRAP, FENCE, HALT, and
+   PRECISION, the bits of the special unit's results. */
 #define RD reg[inst->rd]
 #define RA reg[inst->ra]
 #define RB reg[inst->rb]

@@ -1,4 +1,4 @@
-/* The end of machine/semantics_begin.h, with what its includer defines. */
+/* Undefines the names of machine/semantics_begin.h and those that its includer defines. */
 #undef RD
 #undef RA
 #undef RB

@@ -1,5 +1,6 @@
-/* One instruction, behind machine/semantics_begin.h and the definitions that it asks for; ends with
-   machine/semantics_end.h. An illegal word has faulted before and does nothing here. */
+/* Executes one instruction by a switch over the semantics. It is included after machine/semantics_begin.h and the
+   definitions that the includer owes, and includes machine/semantics_end.h. An illegal word has faulted before and does
+   nothing here. */
 switch ((trax_op)inst->op) {
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
   case TRAX_OP_##NAME:                                                                                                 \

@@ -3,7 +3,7 @@
 
 #include <inttypes.h>
 
-/* What is known from the operations issued need not be counted while they are. */
+/* Counts that follow from the operations issued are computed at the end instead of being counted during the run. */
 void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config) {
   stats->fences += stats->instructions[TRAX_OP_FENCE];
   for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
@@ -70,7 +70,7 @@ trax_status trax_stats_collect(struct trax_machine *machine, bool charged, trax_
   }
   if (charged)
     machine->stats.instructions = machine->stats.total.cycles[TRAX_CAUSE_ISSUED];
-  else /* charges are estimates, or there are none */
+  else
     for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
       machine->stats.instructions += machine->stats.total.instructions[op];
   return TRAX_OK;

@@ -9,9 +9,9 @@
 
 #include <stdint.h>
 
-/* What a thread-cycle is charged to: exactly one of these per thread and cycle, so that they add up to threads x cycles
-   (docs/timing.md, "Accounting"): identifier, name, the same for narrow columns, meaning. ISSUED comes first, HALTED
-   last. Unit of all: thread-cycles. */
+/* The causes to which thread-cycles are charged (docs/timing.md, "Accounting"): identifier, name, name for narrow
+   columns, meaning. Every thread is charged to exactly one cause in every cycle, so that the causes add up to
+   threads x cycles. ISSUED comes first, HALTED last. Their unit is thread-cycles. */
 #define TRAX_CAUSES(X)                                                                                                 \
   X(ISSUED, "issued", "issued", "an instruction was issued")                                                           \
   X(ICACHE_BANK, "icache_bank_conflict", "i-bank", "another TP had the instruction-cache bank")                        \
@@ -37,7 +37,7 @@ typedef enum trax_cause {
       TRAX_CAUSE_COUNT
 } trax_cause;
 
-/* Counted in every TM; the chip's figure is the sum. */
+/* Counters of each TM; the chip's figure is the sum: identifier, name, unit, meaning. */
 #define TRAX_TM_COUNTERS(X)                                                                                            \
   X(rays, "rays", "rays", "rays the program reported with the rays trap")                                              \
   X(items, "items", "items", "items (pixels) the program reported with the items trap")                                \
@@ -72,7 +72,7 @@ typedef enum trax_cause {
 #define TRAX_SHARED_COUNTER(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, OPERATIONS, ...)           \
   X(NAME##_ops, #NAME ".operations", "operations", OPERATIONS)
 
-/* Counted beyond the TMs, by the second-level cache and the memory controller. */
+/* Counters of the second-level cache and the memory controller: identifier, name, unit, meaning. */
 #define TRAX_MEMORY_COUNTERS(X)                                                                                        \
   X(bytes, "memory.bytes", "bytes", "moved to and from off-chip memory")                                               \
   X(transfers, "memory.transfers", "transfers", "transfers to and from off-chip memory")                               \
@@ -102,21 +102,21 @@ struct trax_tp_stats {
 };
 
 struct trax_tm_stats {
-  uint64_t cycles[TRAX_CAUSE_COUNT];    /* thread-cycles: sum over the TPs; filled when the run ends */
+  uint64_t cycles[TRAX_CAUSE_COUNT];    /* thread-cycles: the sum over the TPs, filled in when the run ends */
   uint64_t instructions[TRAX_OP_COUNT]; /* issued, by operation */
   TRAX_TM_COUNTERS(TRAX_COUNTER_FIELD)
 };
 
 #undef TRAX_COUNTER_FIELD
 
-/* What a sampled run (sampling/slots.c) says about its estimates. */
+/* How a sampled run was sampled, and its confidence interval (sampling/). */
 struct trax_sampling_stats {
   bool is_sampled;
   trax_slot_sampling asked;
   uint64_t windows; /* ranges of slots that were measured */
-  double low, high; /* cycles: 95 % interval */
-  uint64_t detailed_cycles, detailed_instructions, detailed_slots;
-  double predicted; /* sum of the costs that were guessed; 0: none */
+  double low, high; /* bounds of the 95 % confidence interval of the cycles */
+  uint64_t detailed_cycles, detailed_instructions, detailed_slots; /* simulated */
+  double predicted;                                                /* sum of the predicted costs; 0: there were none */
 };
 
 struct trax_stats {
@@ -129,9 +129,9 @@ struct trax_stats {
   struct trax_sampling_stats sampling;
 };
 
-/* Figures made from the counts, for reports: identifier, JSON name, unit, meaning, C expression over
-   S (const struct trax_stats *) and C (const struct trax_config *), whose value is a number. A quotient of zero by zero
-   is reported as 0. machine/timing.h and report/energy.h have the functions that they call. */
+/* Figures that the reports compute from the counts: identifier, JSON name, unit, meaning, and a C expression over S
+   (const struct trax_stats *) and C (const struct trax_config *). 0/0 is reported as 0. machine/timing.h and
+   report/energy.h have the functions that the expressions call. */
 #define TRAX_FIGURES(X)                                                                                                \
   X(cycles, "cycles", "cycles",                                                                                        \
     "length of the run: from cycle 0 until every thread has ended and the last transfer "                              \

@@ -8,30 +8,30 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What an instruction asks for when its operands are usable (docs/timing.md, "Units"). */
+/* The resource that an instruction needs once its operands are usable (docs/timing.md, "Units"). */
 typedef enum trax_ask {
-  TRAX_ASK_NOTHING, /* it executes on the TP's own units */
-  TRAX_ASK_UNIT,    /* a shared one */
-  TRAX_ASK_MEMORY,  /* by its address: local memory, a data-cache bank, or the memory queue */
-  TRAX_ASK_END,     /* halt and the exit trap: a place for what the write-combining buffer holds */
-  TRAX_ASK_FENCE,   /* the same, and that its TP's requests have completed */
-  TRAX_ASK_ILLEGAL, /* faults */
-  TRAX_ASK_OUTSIDE, /* not text: cannot be fetched */
+  TRAX_ASK_NOTHING, /* none: it executes on the TP's own units */
+  TRAX_ASK_UNIT,    /* a shared unit */
+  TRAX_ASK_MEMORY,  /* local memory, a data-cache bank or the memory queue, by its address */
+  TRAX_ASK_END,     /* halt and the exit trap: a queue place, unless the write-combining buffer is empty */
+  TRAX_ASK_FENCE,   /* the same, and it waits for its TP's requests */
+  TRAX_ASK_ILLEGAL, /* none: it faults */
+  TRAX_ASK_OUTSIDE, /* none: the pc is not in the text, and the fetch faults */
   TRAX_ASK_COUNT
 } trax_ask;
 
-enum { TRAX_NO_REGISTER = 32 }; /* where results for r0 go; never read */
+enum { TRAX_NO_REGISTER = 32 }; /* the destination of results for r0; never read */
 
 struct trax_decoded {
   uint8_t op;   /* trax_op */
   uint8_t ask;  /* trax_ask */
-  uint8_t unit; /* trax_shared, of TRAX_ASK_UNIT */
+  uint8_t unit; /* TRAX_ASK_UNIT: trax_shared */
   uint8_t rd;   /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
   uint8_t ra, rb;
-  uint8_t wait_ra, wait_rb, wait_rd; /* registers that must be usable; 0 where there is nothing to wait for */
+  uint8_t wait_ra, wait_rb, wait_rd; /* registers that must be usable before issue; 0: none */
   uint8_t bytes;                     /* of a memory access */
   uint8_t bank;                      /* of the instruction cache */
-  uint8_t cause;                     /* trax_cause of a wait for the result, unless memory decides */
+  uint8_t cause;                     /* trax_cause of a wait for the result, unless it comes from memory */
   uint8_t is_store : 1, is_atomic : 1, is_nontemporal : 1;
   uint16_t latency;
   int32_t imm;
@@ -39,7 +39,7 @@ struct trax_decoded {
 
 struct trax_text_section {
   uint32_t begin, end;
-  struct trax_decoded *decoded; /* [(end - begin) / 4 + 1]; the last is outside */
+  struct trax_decoded *decoded; /* [(end - begin) / 4 + 1]; the last one is TRAX_ASK_OUTSIDE */
 };
 
 struct trax_text {
@@ -47,20 +47,21 @@ struct trax_text {
   size_t count;
 };
 
-/* Decodes all executable segments. A last, incomplete word of a segment is outside. */
+/* Decodes all executable segments. An incomplete last word of a segment is TRAX_ASK_OUTSIDE. */
 trax_status trax_text_create(struct trax_text *text, const struct trax_space *space, const struct trax_config *config,
                              trax_error *error);
 void trax_text_destroy(struct trax_text *text);
 
-/* Whether the access of an instruction to its address is allowed. */
+/* Checks an instruction's access to its address. TRAX_FAULT_NONE: it is allowed. */
 trax_fault_kind trax_access_check(const struct trax_decoded *inst, const struct trax_space *space, uint32_t address);
 
-/* Notes the fault of an instruction; who and when, registers and local memory are left to the engine. */
+/* Fills in the record of an instruction's fault, except for thread, cycle, registers and local memory, which the engine
+   adds. */
 void trax_fault_record(struct trax_fault *fault, const struct trax_space *space, const struct trax_decoded *inst,
                        trax_fault_kind kind, uint32_t pc, uint32_t address);
 
-/* The instruction at pc; one that is TRAX_ASK_OUTSIDE if there is none. Following it up to the first one outside is
-   allowed: consecutive instructions are consecutive in memory. */
+/* Returns the instruction at pc, or one that is TRAX_ASK_OUTSIDE if pc is not in the text. Consecutive instructions are
+   consecutive in memory, up to and including the first one that is TRAX_ASK_OUTSIDE. */
 const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t pc);
 
 #endif

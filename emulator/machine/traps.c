@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Writes the string at a global address, or in a thread's local memory. Gives the fault if the string leaves memory;
-   then nothing is written. */
+/* Prints the string at an address of global memory or of the thread's local memory. Returns a fault and prints nothing
+   if the string reaches the end of memory before its NUL. */
 static trax_fault_kind put_string(const struct trax_space *space, const uint8_t *local, uint32_t address,
                                   FILE *output) {
   const char *text, *end;

@@ -1,4 +1,4 @@
-/* Calls of the host (docs/isa.md, "Traps"), and special registers ("Special registers"). */
+/* Traps (docs/isa.md, "Traps") and special registers ("Special registers"). */
 #ifndef TRAX_MACHINE_TRAPS_H
 #define TRAX_MACHINE_TRAPS_H
 
@@ -8,12 +8,12 @@
 
 #include <stdio.h>
 
-/* Performs `trap value, code` of a thread with that local memory; TRAX_TRAP_EXIT is the engine's. Output goes to
-   `output` unless that is NULL. Gives the fault of the trap, which then had no effect. */
+/* Performs `trap value, code`, except for TRAX_TRAP_EXIT, which the engine performs. local: the thread's local memory;
+   output: receives the guest's output, NULL discards it. Returns the trap's fault; a trap that faults has no effect. */
 trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, struct trax_tm_stats *stats,
                           FILE *output, uint32_t value, int32_t code);
 
-/* What rdsr of special register `number`, which exists, gives a thread in cycle t. */
+/* Returns the value of special register `number`, which must exist, for a thread in cycle t. */
 uint32_t trax_special_register(const struct trax_config *config, uint32_t thread, uint32_t number, uint64_t t);
 
 #endif

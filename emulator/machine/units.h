@@ -1,17 +1,16 @@
-/* What executes instructions, and how long that takes (docs/timing.md, "Units"), declared once: decoding, both timed
-   engines, causes, counters, figures, energy and the page's tables come from the rows here. In their expressions, C is
-   the configuration, a const struct trax_config *. */
+/* The units that execute instructions, and their latencies (docs/timing.md, "Units"), declared once: decoding, both
+   timed engines, causes, counters, figures, energy and the page's tables follow from these rows. In their expressions,
+   C is the configuration, a const struct trax_config *. */
 #ifndef TRAX_MACHINE_UNITS_H
 #define TRAX_MACHINE_UNITS_H
 
-/* Units that TPs of a TM share, a row U(X, ...) for each kind, in the order of the statistics:
-     identifier; name, of which those of its statistics are made
-     TPs of a group; units of a group; whether they are pipelined: if not, a unit is taken for an instruction's latency
-     mm2 of a unit at 65 nm, 0 where the fit of area_mm2 has it
-     words: a unit; the cause of being refused, short and long; what the counter of operations and the utilisation mean
-   A row needs nothing else of the emulator but the keys of config_keys.h and the class below that asks for it. The
-   first four have places of their own in the fast engine (fast/cycle.c), and the first three of them must be pipelined.
- */
+/* Units that the TPs of a TM share, a row U(X, ...) for each kind, in the order of the statistics:
+     identifier; name, from which the names of its statistics are made
+     TPs of a group; units of a group; whether they are pipelined: if not, a unit is busy for an instruction's latency
+     mm2 of a unit at 65 nm, 0 if the fit of area_mm2 includes it
+     descriptions: a unit; the cause of a refusal, short and long; the counter of operations; the utilisation
+   A new row needs keys in config_keys.h and a class below that uses the unit, and no other change of the emulator. The
+   fast engine has special code for the first four (fast/cycle.c), of which the first three must be pipelined. */
 /* clang-format off */
 #define TRAX_SHARED_UNITS(U, X)                                                                                                            \
   U(X, FP_ADD, fp_add, C->fpu.tps_per_cluster, C->fpu.adders_per_cluster, true, 0, "adder",                                                \
@@ -28,10 +27,10 @@
     "share of cycles in which an FPDIV/iSQRT unit was taken")
 
 /* Classes of instructions that execute on more than the TP's integer unit and sequencer:
-     identifier; unit and flag of the ISA's records (isa/include/trax/isa.h; 0: any), of which the first row that fits counts
-     what it asks for: a TRAX_SHARED_..., or TRAX_SHARED_NONE, and the same in words
+     identifier; unit and flag of the ISA's records (isa/include/trax/isa.h; 0: any flag); the first row that matches counts
+     the shared unit that it needs: a TRAX_SHARED_... or TRAX_SHARED_NONE, and its description
      latency; cause of a wait for the result
-     nJ of an operation, and which of TRAX_ENERGIES it belongs to (report/energy.c says where the figures are from) */
+     nJ of an operation, and the member of TRAX_ENERGIES that it is added to (report/energy.c names the figures' sources) */
 #define TRAX_CLASSES(X)                                                                                                                    \
   X(INT_MUL, INT_MUL, 0, TRAX_SHARED_INT_MUL, "integer multiplier", C->int_mul.latency_cycles, DATA_OTHER, 0.0177, int_mul)                \
   X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_ADD, "adder", C->fpu.add_latency_cycles, DATA_OTHER, 0.0074, fp_add)                      \
@@ -44,7 +43,7 @@
     trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles), DATA_SPECIAL, 0.1563, special)                                    \
   X(DIVISION, SPECIAL, 0, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit", C->special.latency_cycles, DATA_SPECIAL, 0.1563, special)
 
-/* Where energy goes, a row E(X, ...) each: identifier, meaning. */
+/* The consumers of energy, a row E(X, ...) each: identifier, meaning. */
 #define TRAX_ENERGIES(E, X)                                                                                                                \
   E(X, fp_add, "adders: additions and subtractions")                                                                                       \
   E(X, fp_mul, "multipliers")                                                                                                              \

@@ -1,4 +1,4 @@
-/* Files that are read whole. */
+/* Files that are read completely into memory. */
 #ifndef TRAX_INPUT_H
 #define TRAX_INPUT_H
 
@@ -8,28 +8,29 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The most that a text which people write may have: configurations, views, materials. The largest of the project has a
-   hundredth of it. */
+/* The limit, in bytes, of text files that people write: configurations, views, materials. The largest one of the
+   project has a hundredth of it. */
 #define TRAX_TEXT_LIMIT ((size_t)1 << 20)
 
-/* A file that is read bit by bit. */
+/* A file that is read in several steps. */
 typedef struct trax_input {
   const char *path; /* for messages */
   int descriptor;
-  bool is_regular; /* no pipe, no device */
-  uint8_t *bytes;  /* from malloc, with a NUL behind the last */
+  bool is_regular; /* neither a pipe nor a device */
+  uint8_t *bytes;  /* from malloc, with a NUL after the last byte */
   size_t size, capacity;
-  size_t expected; /* its size when it was opened, if it is regular */
+  size_t expected; /* the file's size when it was opened, if it is regular; else 0 */
 } trax_input;
 
 trax_status trax_input_open(trax_input *input, const char *path, trax_error *error);
-/* Reads on until there are `size` bytes, or all. What is no regular file (a pipe, a terminal) is waited for until a
-   signal comes (trax/signals.h): TRAX_INTERRUPTED. */
+/* Reads until `size` bytes or the whole file are in memory. Returns TRAX_INTERRUPTED if a signal arrives while it waits
+   for a pipe or a terminal (trax/signals.h). */
 trax_status trax_input_read(trax_input *input, size_t size, trax_error *error);
-/* Closes it; its bytes are released unless they were taken (and set to NULL). */
+/* Closes the file and releases its bytes. A caller that keeps the bytes sets input->bytes to NULL before. */
 void trax_input_close(trax_input *input);
 
-/* A whole file of at most limit bytes. *bytes is from malloc, has a NUL behind the last byte, and is the caller's. */
+/* Reads a whole file of at most limit bytes. *bytes is from malloc, has a NUL after the last byte, and belongs to the
+   caller. */
 trax_status trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error);
 
 #endif

@@ -6,12 +6,12 @@
 extern "C" {
 #endif
 
-/* The number of processors of the affinity mask, or fewer if a quota of the process's control groups, version 1 or 2, is
-   less: whole processors, and at least one. */
+/* The number of processors in the affinity mask, reduced to the CPU quota of the process's control groups (version 1 or
+   2), rounded down, at least 1. */
 unsigned trax_host_processors(void);
 
-/* What the quotas allow, UINT_MAX if there are none. All paths, /proc/self/cgroup and mountinfo among them, begin with
-   `root`: "" but for tests. */
+/* The number of processors that the quotas allow, UINT_MAX without a quota. `root` is put before the paths of the files
+   read (/proc/self/cgroup, /proc/self/mountinfo, and the groups' own); it is "" except in tests. */
 unsigned trax_quota_processors(const char *root);
 
 #ifdef __cplusplus

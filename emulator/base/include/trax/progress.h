@@ -1,4 +1,4 @@
-/* One line on a terminal that says how far a long step has come, and how long it will take. */
+/* A progress line on a terminal: the step, how much of it is done, and the time left. */
 #ifndef TRAX_PROGRESS_H
 #define TRAX_PROGRESS_H
 
@@ -6,26 +6,26 @@
 #include <stdio.h>
 
 typedef struct trax_progress_line {
-  FILE *terminal;      /* NULL: nobody sees it */
+  FILE *terminal;      /* NULL: there is no terminal, and nothing is drawn */
   const char *program; /* the line's first word */
-  bool drawn;          /* a line is there */
+  bool drawn;          /* the line is on the terminal */
   char step[64];
-  double begun, drawn_at; /* seconds */
-  double first;           /* the fraction when the step began */
+  double begun, drawn_at; /* seconds, of trax_seconds */
+  double first;           /* the fraction at the beginning of the step */
 } trax_progress_line;
 
-/* On standard error, if that is a terminal and nobody asked for quiet. */
+/* The line is on standard error. Nothing is drawn if that is not a terminal or if `quiet`. */
 void trax_progress_line_begin(trax_progress_line *line, const char *program, bool quiet);
-/* Draws the line, but at most ten times a second; returns whether it did. fraction: 0 to 1, or negative if unknown;
-   detail: NULL or what to add. A new step, by its text, starts the clock anew. */
+/* Draws the line, at most ten times a second, and returns whether it has drawn it. fraction: 0 to 1, negative if
+   unknown; detail: more text, or NULL. A new text of `step` begins a new step, for which the time left starts again. */
 bool trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail);
 void trax_progress_line_clear(trax_progress_line *line);
 
-/* Standard output for others that write to the same terminal: takes the line away before it writes. NULL if there is no
-   memory for it. Closed with fclose; standard output stays open. */
+/* A stream to standard output that erases the line before it writes. NULL: out of memory. fclose leaves standard output
+   open. */
 FILE *trax_progress_line_output(trax_progress_line *line);
 
-/* Of a clock that is never set. */
+/* Seconds of the monotonic clock. */
 double trax_seconds(void);
 
 #endif

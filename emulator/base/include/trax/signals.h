@@ -1,8 +1,7 @@
-/* Interrupts. SIGINT, SIGTERM and SIGHUP mean the same to every program of the project: it stops, removes what it has
-   not finished, ends its children, says so in a line, and ends by the signal itself, so that its parent sees death by
-   that signal (in a shell: exit status 130, 143, 129). A second signal ends it at once. What was ignored when the
-   program was started (nohup) stays ignored. Programs that have nothing to remove leave the signals alone, which is the
-   same. */
+/* Interrupts. Every program of the project handles SIGINT, SIGTERM and SIGHUP alike: it stops, removes unfinished
+   files, ends its children, prints a line, and ends by the signal itself, so that its parent sees death by that signal
+   (in a shell: exit status 130, 143, 129). A second signal ends it at once. Signals that were ignored when the program
+   was started (nohup) stay ignored. Programs without unfinished files keep the default action. */
 #ifndef TRAX_SIGNALS_H
 #define TRAX_SIGNALS_H
 
@@ -12,19 +11,19 @@
 extern "C" {
 #endif
 
-/* The number of the first signal that came; 0: none. Long work looks at it through its options' `interrupt`; calls that
-   wait return with EINTR. */
+/* The number of the first signal that arrived; 0: none. Long computations poll it through the `interrupt` of their
+   options; system calls that wait return EINTR. */
 extern volatile sig_atomic_t trax_signal;
 
 void trax_catch_signals(void);
-/* One more, which means the same. */
+/* Handles one more signal in the same way. */
 void trax_catch_signal(int number);
-/* In a child: each ends it at once. */
+/* Restores the default actions, as in a child. */
 void trax_default_signals(void);
-/* The end of a program that was interrupted; called when trax_signal is one. */
+/* Ends the program by the signal in trax_signal, which must not be 0. */
 __attribute__((noreturn)) void trax_end_by_signal(void);
 
-/* From now until trax_allow_signals they wait: no file is left half-written. */
+/* Blocks the signals until trax_allow_signals, so that a group of operations on files is not interrupted. */
 void trax_hold_signals(sigset_t *before);
 void trax_allow_signals(const sigset_t *before);
 

@@ -1,4 +1,4 @@
-/* What functions return, and why they failed. */
+/* The status that functions return, and the message of an error. */
 #ifndef TRAX_STATUS_H
 #define TRAX_STATUS_H
 
@@ -9,17 +9,17 @@ extern "C" {
 typedef enum trax_status {
   TRAX_OK = 0,
   TRAX_ERROR,       /* bad input: the message names the place */
-  TRAX_FAULT,       /* the guest did what it must not; trax_machine_print_fault tells */
+  TRAX_FAULT,       /* the guest caused a fault, which trax_machine_print_fault reports */
   TRAX_INTERRUPTED, /* options.interrupt became true; statistics are partial */
-  TRAX_STUCK        /* the watchdog: max_cycles passed; statistics are partial */
+  TRAX_STUCK        /* max_cycles passed, or the watchdog ended the run; statistics are partial */
 } trax_status;
 
 typedef struct trax_error {
   char message[1024];
 } trax_error;
 
-/* Puts the message into *error (which may be NULL) and returns TRAX_ERROR. A message that begins with an empty name, as
-   in "%s: cannot be read", begins with "" instead. */
+/* Formats the message into *error (which may be NULL) and returns TRAX_ERROR. If a message such as "%s: cannot be read"
+   begins with an empty name, the name is written as two quotation marks. */
 __attribute__((format(printf, 2, 3))) trax_status trax_fail(trax_error *error, const char *format, ...);
 
 #ifdef __cplusplus
