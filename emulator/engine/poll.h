@@ -1,10 +1,10 @@
-/* The host during a run: progress for whoever asked for it, and whether the run is to stop. */
+/* Polling during a run: calls the progress callback of the options, and reads their interrupt flag. */
 #ifndef TRAX_ENGINE_POLL_H
 #define TRAX_ENGINE_POLL_H
 
 #include "machine/machine.h"
 
-enum { TRAX_POLL_INTERVAL = 4096 }; /* cycles from one look at the host to the next */
+enum { TRAX_POLL_INTERVAL = 4096 }; /* cycles between polls */
 
 struct trax_poll {
   const struct trax_machine *machine;
@@ -13,20 +13,20 @@ struct trax_poll {
   void *context;
   uint64_t items_before, instructions_before;
   double begun, reported; /* seconds of the host's clock */
-  unsigned countdown;     /* cycles until the host is looked at */
+  unsigned countdown;     /* cycles until the next poll */
 };
 
 void trax_poll_begin(struct trax_poll *poll, const struct trax_machine *machine, const trax_run_options *options);
 
-/* Looks at the host before cycle t. True if the run is to stop. */
+/* Polls before cycle t. True: the run is to stop. */
 bool trax_poll_now(struct trax_poll *poll, uint64_t t);
 
-/* The same if an interval has passed. */
+/* Polls if an interval has passed. */
 static inline bool trax_poll(struct trax_poll *poll, uint64_t t) {
   return poll->countdown == 0 && trax_poll_now(poll, t);
 }
 
-/* So many cycles have passed. */
+/* Counts `cycles` cycles of the interval. */
 static inline void trax_poll_pass(struct trax_poll *poll, uint64_t cycles) {
   poll->countdown -= poll->countdown < cycles ? poll->countdown : (unsigned)cycles;
 }

@@ -51,8 +51,7 @@ static void collect(void *run) {
     it->engine->collect(it->chip);
 }
 
-/* Calls those whose time it is to look at the machine before cycle t. *next receives the cycle in which someone looks
-   again. */
+/* Calls the watches that are due before cycle t. *next receives the next cycle in which one is due. */
 static trax_status look(struct trax_run *run, uint64_t t, uint64_t *next) {
   trax_status status = TRAX_OK;
   *next = TRAX_NEVER;
@@ -74,7 +73,7 @@ static void begin(struct trax_run *run) {
   const uint64_t asked = run->options->max_cycles && timed ? run->options->max_cycles : TRAX_NEVER;
   run->begun = true;
   run->t = run->begin;
-  run->limit = asked > run->begin ? asked : run->begin; /* a resumed run may be beyond it already */
+  run->limit = asked > run->begin ? asked : run->begin; /* a resumed run may begin beyond the limit */
   run->looked_at = TRAX_NEVER;
   trax_poll_begin(&run->poll, run->machine, run->options);
   run->poll.collect = collect;
@@ -88,7 +87,7 @@ static uint64_t earliest(const struct trax_run *run, uint64_t until) {
 
 static trax_status go(struct trax_run *run, uint64_t until) {
   const struct trax_engine *engine = run->engine;
-  run->ended = true; /* unless it gets to `until` */
+  run->ended = true; /* unless `until` is reached */
   while (true) {
     if (run->t >= until) {
       run->ended = false;
@@ -122,14 +121,14 @@ trax_status trax_run_go(struct trax_run *run, uint64_t until) {
   if (!run->begun)
     begin(run);
   if (run->engine->is_timed)
-    run->looked_at = run->t; /* a watch may have come since */
+    run->looked_at = run->t; /* a watch may have been added since */
   const trax_status status = go(run, until);
   if (!run->ended) {
     if (run->engine->commit)
       run->engine->commit(run->chip);
     return status;
   }
-  trax_run_settle(run, run->t); /* a fault is known from here on */
+  trax_run_settle(run, run->t); /* records the fault, which the watches may read */
   for (struct trax_watch *watch = run->machine->watches; watch; watch = watch->others)
     if (watch->end)
       watch->end(watch, run, status, run->t);

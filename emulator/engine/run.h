@@ -1,4 +1,5 @@
-/* The run of a machine's program by an engine: one loop for all of them, and what others may ask while it goes on. */
+/* The run of a machine's program by an engine: one loop for all engines, and what watches may read and change between
+   its cycles. */
 #ifndef TRAX_ENGINE_RUN_H
 #define TRAX_ENGINE_RUN_H
 
@@ -13,35 +14,34 @@ struct trax_run {
   const struct trax_run_options *options;
   void *chip;            /* the engine's */
   struct trax_text text; /* the program, decoded */
-  uint64_t begin;        /* the first cycle; not 0 if the run goes on with another one's */
+  uint64_t begin;        /* the first cycle; not 0 if the run resumes another one */
 
   bool begun, ended;
-  uint64_t t;         /* the next cycle; the length of the run once it has ended */
+  uint64_t t;         /* the next cycle; after the end, the length of the run */
   uint64_t limit;     /* of cycles */
-  uint64_t looked_at; /* the cycle in which a watch looks next */
+  uint64_t looked_at; /* the next cycle in which a watch is due */
   struct trax_poll poll;
 };
 
-/* To be destroyed either way. */
+/* After an error, too, the run must be destroyed. */
 trax_status trax_run_create(struct trax_run *run, struct trax_machine *machine, const struct trax_engine *engine,
                             const struct trax_run_options *options, trax_error *error);
 void trax_run_destroy(struct trax_run *run);
 
-/* Goes on to the end, a fault, an interrupt, the limit of cycles, or until a watch ends it: then `ended` is set, and
-   the watches have been told. Or stops before cycle `until`, TRAX_NEVER if it is not to; then the run can go on. An
-   engine without time runs to its end. */
+/* Runs until the program ends or faults, an interrupt, the limit of cycles, or the end by a watch: then `ended` is set,
+   and `end` of the watches has been called. Or it stops before cycle `until` (TRAX_NEVER: does not), after which the
+   run can be continued. An engine without time runs to its end. */
 trax_status trax_run_go(struct trax_run *run, uint64_t until);
 
 /* --- between cycles --- */
 
 void trax_run_settle(struct trax_run *run, uint64_t t);
-/* See engine.h: everything is where trax_run_thread finds it. The run can go on. */
+/* export_state of the engine, which trax_run_thread needs. The run can be continued. */
 void trax_run_export(struct trax_run *run);
-/* Goes on before cycle t with what was changed since. */
+/* import_state of the engine: the run goes on before cycle t with the state as changed since the export. */
 void trax_run_import(struct trax_run *run, uint64_t t);
 /* After trax_run_export, or after the run. */
 struct trax_thread trax_run_thread(const struct trax_run *run, uint32_t thread);
-/* The cycle after the latest trap or halt of any thread, as far as the engine remembers. */
 uint64_t trax_run_progressed(const struct trax_run *run);
 uint32_t trax_run_queued(const struct trax_run *run, uint32_t tm, uint64_t t);
 

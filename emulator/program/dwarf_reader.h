@@ -1,4 +1,4 @@
-/* Reading DWARF's sections: numbers of a fixed length, and LEB128 (DWARF 5, section 7.6). */
+/* A reader of DWARF sections: numbers of fixed size, and LEB128 (DWARF 5, section 7.6). */
 #ifndef TRAX_PROGRAM_DWARF_READER_H
 #define TRAX_PROGRAM_DWARF_READER_H
 
@@ -6,13 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Reads of damaged information give 0 or NULL and set `bad`. */
+/* A read beyond `end` returns 0 or NULL and sets `bad`. */
 typedef struct {
   const uint8_t *at, *end;
   bool bad;
 } trax_dwarf_reader;
 
-/* The next bytes, behind which the reader goes on. */
+/* Returns the next `bytes` bytes and moves past them. */
 static inline const uint8_t *trax_dwarf_take(trax_dwarf_reader *reader, uint64_t bytes) {
   const uint8_t *at = reader->at;
   if (bytes > (uint64_t)(reader->end - at)) {
@@ -24,7 +24,7 @@ static inline const uint8_t *trax_dwarf_take(trax_dwarf_reader *reader, uint64_t
   return at;
 }
 
-/* Little endian; of at most 4 bytes. */
+/* Reads a little-endian number of at most 4 bytes. */
 static inline uint32_t trax_dwarf_fixed(trax_dwarf_reader *reader, unsigned bytes) {
   uint32_t value = 0;
   const uint8_t *at = trax_dwarf_take(reader, bytes);
@@ -33,7 +33,7 @@ static inline uint32_t trax_dwarf_fixed(trax_dwarf_reader *reader, unsigned byte
   return value;
 }
 
-/* Its low 64 bits. */
+/* Reads a LEB128 number; bits above 64 are dropped. */
 static inline uint64_t trax_dwarf_leb(trax_dwarf_reader *reader, bool is_signed) {
   uint64_t value = 0;
   for (unsigned shift = 0;; shift += 7) {

@@ -9,7 +9,7 @@
 #include "trax/abi.h"
 #include "trax/input.h"
 
-/* libelf converts headers; every offset they contain is checked here against the file before it is followed. */
+/* libelf converts the headers. Every offset in them is checked here against the file's size before it is used. */
 
 static bool inside_file(const trax_image *image, uint64_t offset, uint64_t bytes) {
   return offset <= image->size && bytes <= image->size - offset;
@@ -115,7 +115,7 @@ static trax_status add_segment(trax_image *image, unsigned index, const Elf32_Ph
   return TRAX_OK;
 }
 
-/* Thread-local objects need no loading (docs/abi.md, "Program start"), but they must fit. */
+/* Thread-local objects are not loaded (docs/abi.md, "Program start"), but must fit into local memory. */
 static trax_status check_thread_local(const trax_image *image, unsigned index, const Elf32_Phdr *header,
                                       trax_error *error) {
   if (header->p_filesz != 0)
@@ -183,7 +183,7 @@ static trax_status check_entry(const trax_image *image, trax_error *error) {
   return trax_fail(error, "%s: entry 0x%08x is not an instruction in an executable segment", image->path, image->entry);
 }
 
-/* A table's section header after its range is known to be good; NULL with *error set otherwise. */
+/* Returns a section header whose range lies in the file; NULL with *error set otherwise. */
 static const Elf32_Shdr *section_in_file(const trax_image *image, size_t index, const char *what, trax_error *error) {
   const Elf32_Shdr *section = elf32_getshdr(elf_getscn(image->elf, index));
   if (!section)
@@ -258,26 +258,26 @@ static trax_status read_symbols(trax_image *image, const Elf32_Ehdr *header, tra
   return TRAX_OK;
 }
 
-/* An executable is at most this large: all of memory as initialised data, and as much again of debug information. */
+/* The limit of an executable's size: initialised data for all of memory, and as much debug information. */
 #define IMAGE_LIMIT ((size_t)8 << 30)
 
-static void reach(size_t *end, uint64_t offset, uint64_t bytes) {
-  const uint64_t here = offset + bytes;
-  if (here > *end)
-    *end = here < IMAGE_LIMIT ? (size_t)here : IMAGE_LIMIT;
+static void extend_to(size_t *end, uint64_t offset, uint64_t bytes) {
+  const uint64_t range_end = offset + bytes;
+  if (range_end > *end)
+    *end = range_end < IMAGE_LIMIT ? (size_t)range_end : IMAGE_LIMIT;
 }
 
-/* Where the tables of headers end. */
+/* Returns the offset at which the tables of headers end. */
 static size_t end_of_tables(const trax_input *input) {
   Elf32_Ehdr header;
   memcpy(&header, input->bytes, sizeof header);
   size_t end = sizeof header;
-  reach(&end, header.e_phoff, (uint64_t)header.e_phnum * sizeof(Elf32_Phdr));
-  reach(&end, header.e_shoff, (uint64_t)header.e_shnum * sizeof(Elf32_Shdr));
+  extend_to(&end, header.e_phoff, (uint64_t)header.e_phnum * sizeof(Elf32_Phdr));
+  extend_to(&end, header.e_shoff, (uint64_t)header.e_shnum * sizeof(Elf32_Shdr));
   return end;
 }
 
-/* Where the last of what the headers describe ends. */
+/* Returns the greatest end of the segments and sections, or `end` if that is greater. */
 static size_t end_of_contents(const trax_input *input, size_t end) {
   Elf32_Ehdr header;
   memcpy(&header, input->bytes, sizeof header);
@@ -285,14 +285,14 @@ static size_t end_of_contents(const trax_input *input, size_t end) {
     Elf32_Phdr segment = {0};
     if (input->size - at >= sizeof segment)
       memcpy(&segment, input->bytes + at, sizeof segment);
-    reach(&end, segment.p_offset, segment.p_filesz);
+    extend_to(&end, segment.p_offset, segment.p_filesz);
   }
   for (size_t i = 0, at; i < header.e_shnum && (at = header.e_shoff + i * sizeof(Elf32_Shdr)) < input->size; i++) {
     Elf32_Shdr section = {.sh_type = SHT_NOBITS};
     if (input->size - at >= sizeof section)
       memcpy(&section, input->bytes + at, sizeof section);
     if (section.sh_type != SHT_NOBITS)
-      reach(&end, section.sh_offset, section.sh_size);
+      extend_to(&end, section.sh_offset, section.sh_size);
   }
   return end;
 }
@@ -389,8 +389,8 @@ const struct trax_symbol *trax_image_symbol(const trax_image *image, const char 
   return found;
 }
 
-/* How well a symbol that starts at or below an address names it: the nearest start first, then a sized function or
-   object before a label, then a global before a local one. */
+/* Whether symbol a describes an address better than b, both of which start at or below it: the nearer start is better,
+   then a function or object with a size than a label, then a global symbol than a local one. */
 static bool names_better(const struct trax_symbol *a, const struct trax_symbol *b) {
   if (a->address != b->address)
     return a->address > b->address;
@@ -409,12 +409,12 @@ const struct trax_symbol *trax_image_symbol_at(const trax_image *image, uint32_t
   for (size_t i = 0; i < image->symbol_count; ++i) {
     const struct trax_symbol *symbol = &image->symbols[i];
     bool is_thread_local = symbol->type == TRAX_SYMBOL_THREAD_LOCAL;
-    if (is_thread_local && symbol->address < TRAX_LOCAL_BASE) /* an offset, as other linkers write it */
+    if (is_thread_local && symbol->address < TRAX_LOCAL_BASE) /* other linkers write an offset, not an address */
       continue;
     if (symbol->absolute || address < symbol->address || strncmp(symbol->name, ".L", 2) == 0 ||
         (symbol->bytes && address - symbol->address >= symbol->bytes))
       continue;
-    /* A label without a size names what follows it in its own segment. */
+    /* A label without a size covers the addresses after it in its segment. */
     if (!symbol->bytes && (is_thread_local || !segment || symbol->address < segment->address))
       continue;
     if (!best || names_better(symbol, best))

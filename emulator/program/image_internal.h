@@ -1,4 +1,4 @@
-/* What image.c (headers, symbols) and lines.c (debug information) share. */
+/* The structure that image.c (headers, symbols) and lines.c (debug information) share. */
 #ifndef TRAX_PROGRAM_IMAGE_INTERNAL_H
 #define TRAX_PROGRAM_IMAGE_INTERNAL_H
 
@@ -17,8 +17,8 @@ struct trax_image {
   size_t segment_count;
   struct trax_symbol *symbols;
   size_t symbol_count;
-  Dwarf *dwarf;     /* opened by the first look-up */
-  bool dwarf_tried; /* and it was tried */
+  Dwarf *dwarf;     /* opened by the first look-up; NULL: none */
+  bool dwarf_tried; /* the first look-up has been made */
 };
 
 void trax_image_forget_lines(trax_image *image);

@@ -1,9 +1,9 @@
-/* Source lines from DWARF. Debug information is only ever a help: whatever is wrong with it means "unknown". */
+/* Source lines from DWARF. Damaged debug information is never an error: the line is then unknown. */
 #include <dwarf.h>
 
 #include "program/image_internal.h"
 
-/* The unit that contains pc; aranges are optional in DWARF and compilers leave them out, so all units are asked. */
+/* Finds the unit that contains pc. .debug_aranges is optional and compilers omit it, so all units are searched. */
 static bool unit_at(Dwarf *dwarf, uint32_t pc, Dwarf_Die *unit) {
   Dwarf_CU *cu = NULL;
   while (dwarf_get_units(dwarf, cu, &cu, NULL, NULL, unit, NULL) == 0)
@@ -25,7 +25,7 @@ static int number_of(Dwarf_Die *die, unsigned attribute_name) {
   return (int)value;
 }
 
-/* The file a DW_AT_call_file number means. */
+/* Returns the file of a DW_AT_call_file number. */
 static const char *file_of(Dwarf_Die *unit, int number) {
   Dwarf_Files *files;
   size_t count;
@@ -34,17 +34,17 @@ static const char *file_of(Dwarf_Die *unit, int number) {
   return dwarf_filesrc(files, (size_t)number, NULL, NULL);
 }
 
-enum { MAX_DEPTH = 64 }; /* of scopes within each other */
+enum { MAX_DEPTH = 64 }; /* of nested scopes */
 
-/* The functions around a place, outermost first. */
+/* The functions that contain a pc, outermost first. */
 struct scopes {
   Dwarf_Die functions[MAX_DEPTH];
   size_t count;
 };
 
-/* Adds the functions, inlined ones among them, that contain pc and lie within parent. (dwarf_getscopes would continue
-   from an inlined function to where it was written, not to where it was called.) Damaged information must not lead in
-   circles: offsets only grow. */
+/* Adds the functions within parent that contain pc, inlined ones included. dwarf_getscopes is no use: from an inlined
+   function it continues to its definition, not to its call. Offsets must increase, so that damaged information cannot
+   form a cycle. */
 static bool add_scopes(Dwarf_Die *parent, uint32_t pc, int depth, struct scopes *scopes) {
   Dwarf_Die child;
   if (depth == MAX_DEPTH || dwarf_child(parent, &child) != 0)
@@ -67,7 +67,7 @@ static bool add_scopes(Dwarf_Die *parent, uint32_t pc, int depth, struct scopes 
       if (dwarf_haspc(&child, pc) == 1)
         return add_scopes(&child, pc, depth + 1, scopes);
       break;
-    case DW_TAG_namespace: /* has no addresses of its own */
+    case DW_TAG_namespace: /* these have no addresses */
     case DW_TAG_structure_type:
     case DW_TAG_class_type:
       if (add_scopes(&child, pc, depth + 1, scopes))

@@ -1,4 +1,4 @@
-/* Programs and buffers into a machine (docs/abi.md, "ELF" and "Buffers"). */
+/* Loads programs and buffers into a machine (docs/abi.md, "ELF" and "Buffers"). */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,8 @@ static void store_word(struct trax_machine *machine, uint32_t address, uint32_t 
     machine->space.bytes[address + i] = (uint8_t)(value >> 8 * i);
 }
 
-/* A word or more of a writable segment that the host may fill; NULL with *error set otherwise. */
+/* Finds an object of at least `bytes` bytes in the program's data, which the host may fill; NULL with *error set
+   otherwise. */
 static const struct trax_symbol *host_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
                                              trax_error *error) {
   const struct trax_host *host = trax_host_of(machine);
@@ -50,7 +51,7 @@ static const struct trax_symbol *host_object(const struct trax_machine *machine,
   return symbol;
 }
 
-/* What the program asked for with -mstack=global: the size of each thread's stack, 0 if it did not. */
+/* Reads the size of each thread's stack in global memory (-mstack=global); 0: stacks are in local memory. */
 static trax_status stack_size(const trax_image *image, uint32_t *bytes, trax_error *error) {
   const struct trax_symbol *size = trax_image_symbol(image, "__trax_stack_size");
   *bytes = size ? size->address : 0;
@@ -60,7 +61,7 @@ static trax_status stack_size(const trax_image *image, uint32_t *bytes, trax_err
   return TRAX_OK;
 }
 
-/* Stacks lie at the end of memory, that of thread 0 topmost, each above bytes that nobody may write to. */
+/* Stacks lie at the end of memory, thread 0's topmost, each above a guard that must not be written. */
 static void place_stacks(struct trax_machine *machine) {
   const struct trax_host *host = trax_host_of(machine);
   if (!host->stack_bytes)
@@ -70,7 +71,7 @@ static void place_stacks(struct trax_machine *machine) {
     trax_space_guard(&machine->space, (uint32_t)(below - stride), TRAX_STACK_GUARD);
 }
 
-/* What a program may want to know of its machine; each word is optional. */
+/* Fills in words by which a program learns about its machine; each word is optional. */
 static trax_status fill_words(struct trax_machine *machine, trax_error *error) {
   const struct trax_host *host = trax_host_of(machine);
   const struct {
@@ -124,7 +125,7 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   const struct trax_load_segment *segments = trax_image_segments(image, &count);
   const struct trax_load_segment *last = &segments[count - 1];
   uint64_t end = align_up((uint64_t)last->address + last->memory_bytes, TRAX_GRANULE);
-  /* Before anything is mapped: a program that does not fit changes nothing. */
+  /* This precedes all mapping, so that a program that does not fit leaves the machine unchanged. */
   uint32_t stack_bytes = 0;
   if (check_fit(machine, image, end, &stack_bytes, error) != TRAX_OK) {
     trax_image_close(image);
@@ -165,7 +166,7 @@ static struct trax_bound_buffer *find_buffer(const struct trax_host *host, const
   return NULL;
 }
 
-/* Everything that can go wrong before the bytes are known. On success the table has room for one more buffer. */
+/* Makes all checks that do not need the buffer's bytes, and room for one more buffer in the table. */
 static trax_status check_bind(struct trax_machine *machine, const char *symbol, trax_error *error) {
   struct trax_host *host = trax_host_of(machine);
   if (!host)
@@ -190,7 +191,7 @@ static trax_status too_large(const struct trax_machine *machine, const char *sym
                    (unsigned long long)machine->space.size);
 }
 
-/* The buffer's bytes are in place at free_address. */
+/* Binds the buffer whose bytes have been copied to free_address. */
 static trax_status finish_bind(struct trax_machine *machine, const char *symbol, uint32_t bytes, bool filled,
                                trax_error *error) {
   struct trax_host *host = trax_host_of(machine);

@@ -8,7 +8,7 @@
 
 enum { RA = 1, SP = 2, SAVED_STATES = 8 };
 
-/* Cut to 32 bits, which is all that an address or an offset has. */
+/* Reads a LEB128 number and truncates it to the 32 bits of an address or offset. */
 static uint32_t leb(trax_dwarf_reader *reader, bool is_signed) {
   return (uint32_t)trax_dwarf_leb(reader, is_signed);
 }
@@ -47,7 +47,7 @@ static bool section_named(const trax_image *image, const char *wanted, trax_dwar
   for (Elf_Scn *section = NULL; (section = elf_nextscn(image->elf, section));) {
     const Elf32_Shdr *header = elf32_getshdr(section);
     const char *name = header ? elf_strptr(image->elf, names, header->sh_name) : NULL;
-    if (name && strcmp(name, wanted) == 0 && header->sh_type != SHT_NOBITS) { /* which lies in the file (image.c) */
+    if (name && strcmp(name, wanted) == 0 && header->sh_type != SHT_NOBITS) { /* image.c has checked its range */
       const uint8_t *begin = image->bytes + header->sh_offset;
       *reader = (trax_dwarf_reader){begin, begin + header->sh_size, false};
       return true;
@@ -56,7 +56,7 @@ static bool section_named(const trax_image *image, const char *wanted, trax_dwar
   return false;
 }
 
-/* The entry at the reader, which goes behind it. */
+/* Returns a reader of the next entry and moves past the entry. */
 static trax_dwarf_reader take_entry(trax_dwarf_reader *reader) {
   const uint32_t length = trax_dwarf_fixed(reader, 4);
   const uint8_t *at = trax_dwarf_take(reader, length);
@@ -70,7 +70,7 @@ static bool read_common(trax_dwarf_reader section, uint32_t offset, struct frame
   if (cie.bad || trax_dwarf_fixed(&cie, 4) != DW_CIE_ID_32)
     return false;
   const uint32_t version = trax_dwarf_fixed(&cie, 1);
-  if (trax_dwarf_fixed(&cie, 1) != 0) /* an augmentation: of a kind that our compiler does not write */
+  if (trax_dwarf_fixed(&cie, 1) != 0) /* an augmentation, which our compiler does not write */
     return false;
   if (version >= 4)
     trax_dwarf_take(&cie, 2); /* sizes of addresses and segments */
@@ -108,7 +108,8 @@ struct interpreter {
   const struct frame_entry *entry;
   struct row row, initial, saved[SAVED_STATES];
   unsigned saved_count;
-  uint32_t pc, place; /* up to where it is wanted, where it is */
+  uint32_t pc;    /* the row for this pc is wanted */
+  uint32_t place; /* the first pc of the current row */
 };
 
 static void set_rule(struct interpreter *it, unsigned number, int kind, uint32_t value) {
@@ -197,13 +198,13 @@ static void interpret_long(struct interpreter *it, uint8_t opcode, trax_dwarf_re
   case DW_CFA_def_cfa_offset_sf:
     it->row.cfa_offset = leb(reader, true) * factor;
     break;
-  default: /* expressions: our compiler writes none */
+  default: /* an expression, which our compiler does not write */
     reader->bad = true;
     break;
   }
 }
 
-/* Up to the row that holds at it->pc. */
+/* Interprets instructions up to the row for it->pc. */
 static bool interpret(struct interpreter *it, trax_dwarf_reader reader) {
   while (reader.at < reader.end && !reader.bad) {
     const uint8_t opcode = (uint8_t)trax_dwarf_fixed(&reader, 1), low = opcode & 0x3F;
@@ -274,7 +275,7 @@ enum trax_unwound trax_image_unwind(const trax_image *image, struct trax_frame *
     if (!value_of(&it.row.rules[i], i, frame, cfa, read, context, &caller.registers[i]))
       return TRAX_NO_FRAME_INFO;
   caller.pc = caller.registers[entry.return_column];
-  /* A frame that is its own caller would be one for ever. */
+  /* A frame that is its own caller would never end the chain. */
   if (caller.pc == frame->pc && caller.registers[SP] == frame->registers[SP] && frame->is_caller)
     return TRAX_NO_FRAME_INFO;
   *frame = caller;
