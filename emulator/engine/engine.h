@@ -36,7 +36,7 @@ struct trax_engine {
   void (*destroy)(void *chip); /* chip may be NULL */
 
   /* Simulates some cycles from *t on, at most up to `until`, which is later than *t; *t receives the next cycle. It
-     returns after some milliseconds at most. An engine may roll back and simulate some cycles again with the same
+     returns often enough for polling. An engine may roll back and simulate some cycles again with the same
      results: *t is then an earlier cycle. */
   enum trax_advance (*advance)(void *chip, uint64_t *t, uint64_t until);
   /* A watch has seen the machine's state: the engine never rolls back beyond this cycle. NULL: it never rolls back. */

@@ -1,7 +1,7 @@
-/* What a program computes, without time. Threads take turns of TURN instructions or a few more (a turn ends with a
-   jump); within a turn every instruction takes effect at once. Caches, units, queues and the write-combining buffers do
-   not exist, and the run has no length: cycles are 0, and of the counts only those made from the instructions executed
-   are kept. `rdsr cycle` gives the number of instructions that the thread has executed. */
+/* The functional engine computes a program's results without simulating time. It runs one thread after the other for a
+   slice of SLICE instructions or a few more, since a slice ends with a jump. Every instruction takes effect at once.
+   There are no caches, units, queues and write-combining buffers. A run has 0 cycles, and only counts that follow from
+   the instructions executed are kept. `rdsr cycle` returns the number of instructions that the thread has executed. */
 #include "functional/functional.h"
 
 #include "engine/run.h"
@@ -11,34 +11,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TURN = 4096, INSTRUCTIONS = 1000000 /* of all threads, in one call of advance */ };
+enum {
+  TURN = 4096,           /* instructions of a slice */
+  INSTRUCTIONS = 1000000 /* of all threads, in one call of advance */
+};
 
 struct instruction {
-  const void *operation; /* where take_turn executes it */
+  const void *operation; /* the label in run_quickly that executes it */
   int32_t imm;
   uint8_t op, rd, ra, rb;
 };
 
 struct section {
   uint32_t begin, bytes;
-  struct instruction *inst; /* [bytes / 4 + 1]; the last is outside */
+  struct instruction *inst; /* [bytes / 4 + 1]; the last one is no text */
 };
 
 struct text {
-  struct section *sections; /* [count], in one array of instructions */
+  struct section *sections; /* [count]; their instructions are in one array */
   size_t count;
   struct instruction *inst;          /* [inst_count] */
-  const struct instruction *outside; /* the last */
+  const struct instruction *outside; /* the last one, for every pc that is no text */
   size_t inst_count;
 };
 
 struct thread {
-  uint32_t reg[TRAX_NUM_REGISTERS + 1]; /* [TRAX_NO_REGISTER] swallows results for r0 */
+  uint32_t reg[TRAX_NUM_REGISTERS + 1]; /* results for r0 go to [TRAX_NO_REGISTER] */
   uint32_t pc;
   uint32_t number, tm, tp;
   bool ended;
   uint64_t executed; /* instructions */
-  uint64_t beyond;   /* the end of its turn */
+  uint64_t beyond;   /* instructions executed past the end of its latest slice, which the next one is shorter by */
   uint8_t local[TRAX_LOCAL_SIZE];
 };
 
@@ -50,8 +53,8 @@ struct chip {
   struct thread *thread; /* [threads] */
   uint32_t threads, running, next;
   uint64_t limit; /* instructions of a thread */
-  /* [tms][inst_count + 1]: how often each instruction was executed since that was collected, as differences: the sum
-     of this up to it. */
+  /* [tms][inst_count + 1]: the number of executions of each instruction since the latest collect(), as differences:
+     that of instruction i is the sum of [0] to [i]. So a sequence of instructions costs two additions. */
   int64_t **changes;
 };
 
@@ -64,7 +67,7 @@ static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
 
 #include "functional/turn.h"
 
-/* --- what run_quickly leaves --- */
+/* --- instructions that run_quickly does not execute --- */
 
 static void end_thread(struct chip *chip, struct thread *thread, int32_t status) {
   thread->ended = true;
@@ -84,7 +87,7 @@ static void fault(struct chip *chip, struct thread *thread, const struct trax_de
   end_thread(chip, thread, 1);
 }
 
-/* What forbids the instruction; *address receives that of its access. */
+/* Returns the fault that the instruction causes before its execution; *address receives the address of its access. */
 static trax_fault_kind check(const struct chip *chip, const struct thread *thread, const struct trax_decoded *inst,
                              uint32_t *address) {
   *address = 0;
@@ -117,7 +120,7 @@ static uint32_t increment(const struct chip *chip, struct thread *thread, uint32
   return old;
 }
 
-/* One instruction of any kind, at thread->pc. False if it faulted. */
+/* Executes one instruction of any kind, at thread->pc. False: it faulted. */
 static bool execute(struct chip *chip, struct thread *thread) {
   const struct trax_decoded *inst = trax_text_at(chip->decoded, thread->pc);
   const size_t index = (size_t)(inst_at(&chip->text, thread->pc) - chip->text.inst);
@@ -160,7 +163,7 @@ static bool execute(struct chip *chip, struct thread *thread) {
   return true;
 }
 
-/* --- turns --- */
+/* --- slices --- */
 
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   struct chip *chip = context;
@@ -182,7 +185,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   return chip->running ? TRAX_GOES_ON : TRAX_HAS_ENDED;
 }
 
-/* --- for those who look at the machine --- */
+/* --- access --- */
 
 static void collect(void *context) {
   struct chip *chip = context;
@@ -208,7 +211,7 @@ static struct trax_thread thread(void *context, uint32_t number) {
   return (struct trax_thread){it->reg, it->local, it->pc, it->ended};
 }
 
-/* --- beginning and ending --- */
+/* --- creation and destruction --- */
 
 static bool is_slow(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic || decoded->ask == TRAX_ASK_ILLEGAL ||

@@ -1,4 +1,4 @@
-/* The functional engine: what a program computes, without time (functional.c). */
+/* The functional engine: a program's results, without time (functional.c). */
 #ifndef TRAX_FUNCTIONAL_FUNCTIONAL_H
 #define TRAX_FUNCTIONAL_FUNCTIONAL_H
 

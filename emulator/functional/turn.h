@@ -1,10 +1,11 @@
-/* A thread's instructions one after the other, for functional.c: each operation goes to the next one by itself, which
-   the host's branch predictor learns far better than one switch for all. */
+/* The interpreter loop, included by functional.c. Each operation jumps to the next one by itself, which the host's
+   branch predictor learns far better than one switch for all operations. */
 
 enum stop { STOP_TURN, STOP_SLOW };
 
-/* Executes instructions from thread->pc on until a jump behind which the thread has executed `end` or more, or the next
-   one is for execute() (STOP_SLOW). Without a thread: *operations receives the places of all operations. */
+/* Executes instructions from thread->pc on, until a jump after which the thread has executed `end` instructions or
+   more, or until execute() must execute the next one (STOP_SLOW). If thread is NULL, it only sets *operations to the
+   labels of all operations. */
 static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t end, const void *const **operations) {
   __extension__ static const void *const places[] = {
 #define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
@@ -32,7 +33,7 @@ static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t 
   changes[inst - base]++;
   __extension__({ goto * inst->operation; });
 
-/* The pc of an instruction of the section in which the thread is; pc is that of the last jump's target. */
+/* The pc of inst; pc is the target of the latest jump. */
 #define HERE (pc + (uint32_t)(inst - begin) * 4)
 #include "machine/semantics_begin.h"
 #define PC HERE

@@ -1,4 +1,4 @@
-/* docs/timing.md, "Accounting", and the arbiter of "Words". */
+/* docs/timing.md, "Accounting", and the arbiter of its section "Words". */
 #include "reference/reference.h"
 
 #include <assert.h>

@@ -8,8 +8,8 @@ static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
   return b ? greatest_common_divisor(b, a % b) : a;
 }
 
-/* A channel moves B = (MB/s) / MHz / channels bytes in a cycle: B in lowest terms is units per cycle by units per byte.
- */
+/* A channel moves B = (MB/s) / MHz / channels bytes per cycle. The numerator and the denominator of B in lowest terms
+   are the units per cycle and per byte. */
 void trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config) {
   const uint64_t numerator = (uint64_t)llround(config->memory.bandwidth_gbps * 1000);
   const uint64_t denominator = (uint64_t)config->chip.clock_mhz * config->memory.channels;
@@ -29,7 +29,7 @@ bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t) {
   return true;
 }
 
-/* Begins a transfer; gives the cycle ceil(f). */
+/* Begins a transfer and returns the cycle ceil(f). */
 static uint64_t transfer(struct trax_ref_chip *chip, uint32_t number, uint32_t bytes, uint64_t t) {
   struct trax_ref_channel *channel = &chip->controller.channel[number];
   const trax_ref_units cycle = chip->controller.units_per_cycle;
@@ -66,7 +66,7 @@ static void serve_miss(struct trax_ref_chip *chip, struct trax_ref_miss *miss, u
   trax_ref_l2_started(chip, miss, over + config->memory.latency_cycles);
 }
 
-/* False: nothing waits for the channel. */
+/* Serves the next request of a channel without a second-level cache. False: no request waits for the channel. */
 static bool serve_next(struct trax_ref_chip *chip, uint32_t channel, uint64_t t) {
   bool asks[MOST];
   for (uint32_t i = 0; i < chip->tms; i++)
@@ -77,7 +77,7 @@ static bool serve_next(struct trax_ref_chip *chip, uint32_t channel, uint64_t t)
   return winner >= 0;
 }
 
-/* The same behind a second-level cache: who came first. */
+/* The same with a second-level cache: the request that came to the channel first. */
 static bool serve_first(struct trax_ref_chip *chip, uint32_t channel, uint64_t t) {
   struct trax_ref_request *first_request = NULL;
   struct trax_ref_miss *first_miss = NULL;

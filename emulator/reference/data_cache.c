@@ -1,7 +1,7 @@
 /* docs/timing.md, "Data cache". */
 #include "reference/reference.h"
 
-/* Cached loads and stores of global memory. */
+/* Only cached loads and stores of global memory use a bank. */
 static bool asks_for_bank(const struct trax_ref_tp *tp) {
   return trax_ref_active(tp) && trax_ref_accesses_memory(tp) && !trax_ref_accesses_local(tp) &&
          !trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);

@@ -35,7 +35,7 @@ static uint32_t bank_of(const struct trax_ref_tm *tm, const struct trax_ref_tp *
   return tp->pc / 4 % tm->config->icache.banks;
 }
 
-/* The winners of a bank; `first` is the first of the cache's n TPs. */
+/* Grants a bank: marks the winners among the cache's n TPs, which begin with `first`, and charges the losers. */
 static void grant_bank(struct trax_ref_tm *tm, uint32_t bank, uint32_t first, uint32_t n, uint64_t t, bool *won) {
   trax_ref_turn *turn = &tm->icache[icache_of(tm, &tm->tp[first])].bank[bank];
   bool asking[MOST] = {false};

@@ -32,7 +32,8 @@ static trax_fault_kind trap(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint
   return TRAX_FAULT_NONE;
 }
 
-/* Registers, memory, pc and the outside world. Gives the fault of a trap, which then had no effect. */
+/* Performs the instruction's effects: registers, memory, pc, traps. Returns the fault of a trap, which then had no
+   effect. */
 static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const trax_inst *const inst = &tp->inst;
   uint32_t *const reg = tp->reg;
@@ -44,7 +45,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 #define PRECISION tm->config->special.precision_bits
 #define LOAD(ADDRESS, BYTES) load(tm, tp, ADDRESS, BYTES)
 #define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
-#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
+#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller increments, and the arrival sets the register */
 #define SPECIAL_REGISTER(NUMBER) trax_special_register(tm->config, tm->number * tm->tps + tp->number, NUMBER, t)
 #define TRAP(VALUE, CODE) fault = trap(tm, tp, VALUE, CODE)
 #define FENCE(KIND) ((void)(KIND), trax_ref_fence(tm, tp))
@@ -57,7 +58,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
 #include "machine/semantics_end.h"
-  case TRAX_OP_ILLEGAL: /* faulted before */
+  case TRAX_OP_ILLEGAL: /* has faulted in step 2 */
   case TRAX_OP_COUNT:
     break;
   }
@@ -68,7 +69,7 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
   return fault;
 }
 
-/* When the result can be used; the memory queue's step has seen to loads from elsewhere. */
+/* Sets the cycle from which the result is usable. Step 4 has done so for loads that are not from local memory. */
 static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   if (trax_ref_accesses_local(tp))
     trax_ref_result(tp, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);

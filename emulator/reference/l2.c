@@ -27,7 +27,7 @@ uint32_t trax_ref_l2_line_cost(const struct trax_config *config) {
 
 /* --- arrivals --- */
 
-/* The first of the lines that arrive in cycle t; NULL: none does, any more. */
+/* Returns the first of the remaining lines that arrive in cycle t; NULL: there is none. */
 static struct trax_ref_miss *first_arrival(struct trax_ref_l2 *l2, uint64_t t) {
   struct trax_ref_miss *first = NULL;
   for (uint32_t i = 0; i < l2->misses; i++) {
@@ -53,7 +53,7 @@ static struct trax_ref_miss *on_its_way(struct trax_ref_l2 *l2, uint32_t line) {
   return NULL;
 }
 
-/* The completion follows from the line's arrival. */
+/* The request completes after the line's arrival, or its completion is unknown until that is known. */
 static void wait_for_line(struct trax_ref_chip *chip, struct trax_ref_request *request,
                           const struct trax_ref_miss *miss) {
   request->stage = SERVED;
@@ -76,7 +76,7 @@ static void pass(struct trax_ref_chip *chip, struct trax_ref_request *request) {
   request->came = chip->controller.came++;
 }
 
-/* A line, or a lwnt. */
+/* Looks up a read: a line of another cache, or a lwnt. */
 static void look_up_read(struct trax_ref_chip *chip, struct trax_ref_request *request, uint32_t line, uint64_t t) {
   struct trax_ref_l2 *l2 = &chip->l2;
   struct trax_memory_stats *stats = chip->stats;

@@ -1,4 +1,4 @@
-/* Sets, lines and their replacement, alike in all caches (docs/timing.md, "Fetch"). */
+/* Sets, lines and replacement, which are the same in all caches (docs/timing.md, "Fetch"). */
 #include "reference/reference.h"
 
 #include <stdlib.h>
@@ -35,7 +35,7 @@ bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line) {
   return found != NULL;
 }
 
-/* The place of an arriving line. */
+/* Returns the way that an arriving line takes. */
 static uint32_t choose(struct trax_ref_lines *lines, uint32_t set) {
   const struct trax_ref_line *places = &lines->line[(size_t)set * lines->ways];
   if (!lines->lru) {

@@ -1,4 +1,4 @@
-/* What an observer of the run is told (machine/observer.h). */
+/* Notifies an observer of the run (machine/observer.h). */
 #include "reference/reference.h"
 
 void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
@@ -7,7 +7,7 @@ void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp
     observer->charge(observer->context, tm->number, tp->number, cause, t, 1);
 }
 
-/* The value that an instruction gave its register, or memory, or the host. */
+/* Returns the value that the instruction wrote to its register or to memory, or passed to a trap. */
 static uint32_t result_of(const struct trax_ref_tp *tp) {
   if (trax_ref_is(tp, TRAX_IS_STORE)) {
     const uint32_t bits = 8 * trax_ref_info(tp)->access_bytes, value = tp->reg[tp->inst.rb];

@@ -6,7 +6,7 @@ void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
     tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
 }
 
-/* Charges a TP for the first register that it has to wait for. */
+/* Charges a TP for the first register that is not usable, if there is one. */
 static void wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const struct {
     bool needed;
@@ -23,7 +23,7 @@ static void wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
   }
 }
 
-/* The same of a fence, which waits for all of them. */
+/* The same for a fence, which needs all registers. */
 static void wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS && !tp->charged; rd++)
     if (tp->scoreboard[rd].usable > t)

@@ -89,7 +89,7 @@ void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t) {
 
 /* --- step 4 --- */
 
-/* A load past the cache or an atomic increment. */
+/* Serves a load past the cache or an atomic increment. False: it needs a place and gets none. */
 static bool read_word(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
   const bool atomic = trax_ref_is(tp, TRAX_IS_ATOMIC);
   if (!trax_ref_request(tm, (struct trax_ref_request){.kind = atomic ? ATOMIC : LOAD_PAST_CACHE,
@@ -103,12 +103,12 @@ static bool read_word(struct trax_ref_tm *tm, struct trax_ref_tp *tp) {
   return true;
 }
 
-/* Looks at a TP in its turn. False: it needs a place and gets none. */
+/* Serves a TP in its turn. False: it needs a place and gets none. */
 static bool serve(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   if (trax_ref_ends_thread(tp) || trax_ref_fences(tp, TRAX_FENCE_W))
     return trax_ref_write_run(tm, tp);
   if (!trax_ref_accesses_memory(tp) || trax_ref_accesses_local(tp))
-    return true; /* it asks for nothing here */
+    return true; /* it needs nothing in this step */
   if (trax_ref_is(tp, TRAX_IS_STORE))
     return trax_ref_store(tm, tp);
   if (trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC))

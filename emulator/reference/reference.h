@@ -1,9 +1,10 @@
-/* The machine of docs/timing.md. Each chapter of that page is a file of this folder, and its nouns are the names here.
+/* The machine of docs/timing.md. Each chapter of that page is a file of this folder, and the names here are its nouns.
 
-   Every TP is looked at in every step of every cycle and charged in the step that refuses it; nobody sleeps, no cycle
-   is skipped, nothing is kept that could be looked up. TPs, TMs, banks and units are numbers from 0; cycles are
-   uint64_t and called t. Shared with the other engines are what the page does not speak of: the configuration, the
-   instructions' semantics, global memory and its permissions, the record of a fault, the names of the statistics. */
+   Every TP is visited in every step of every cycle and charged in the step that refuses it. No TP sleeps, no cycle is
+   skipped, and nothing is stored that can be looked up. TPs, TMs, banks and units are numbered from 0; cycles are
+   uint64_t and called t. The reference shares with the other engines only what the page does not describe: the
+   configuration, the instructions' semantics, global memory and its permissions, the record of a fault, the names of
+   the statistics. */
 #ifndef TRAX_REFERENCE_H
 #define TRAX_REFERENCE_H
 
@@ -11,16 +12,17 @@
 #include "machine/timing.h"
 #include "trax/isa.h"
 
-enum { MOST = 64 }; /* TMs, TPs of a TM, banks, units: the configuration allows no more */
+enum { MOST = 64 }; /* the configuration's limit of TMs, TPs of a TM, banks and units */
 
-#define UNKNOWN UINT64_MAX /* the cycle of an arrival */
+#define UNKNOWN UINT64_MAX /* an arrival or completion whose cycle is not known yet */
 
 /* --- Words --- */
 
 /* The pointer of an arbiter. */
 typedef uint32_t trax_ref_turn;
 
-/* Round robin over positions 0..n-1: the winner of those who ask, which goes to the back. -1: nobody asks. */
+/* Round robin over positions 0..n-1: returns the winner among those that ask and moves the pointer past it; -1: none
+   asks. */
 int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n);
 
 /* --- The machine --- */
@@ -32,10 +34,10 @@ struct trax_ref_lines {
   struct trax_ref_line {
     bool present;
     uint32_t number;
-    uint64_t used;   /* latest use: a number from `uses` */
+    uint64_t used;   /* the number of its latest use, from `uses` */
   } *line;           /* [sets][ways] */
-  uint32_t *pointer; /* [sets]: the place of the next line, unless lru */
-  uint64_t uses;     /* of any line so far */
+  uint32_t *pointer; /* [sets]: the way of the next arriving line, unless lru */
+  uint64_t uses;     /* number of uses of any line so far */
 };
 
 struct trax_ref_icache {
@@ -49,22 +51,22 @@ struct trax_ref_request {
   trax_ref_kind kind;
   uint32_t bytes;
   uint32_t address;
-  uint32_t icache, line;                      /* lines; icache of INSTRUCTION_LINE only */
-  uint32_t tp;                                /* LOAD_PAST_CACHE, WRITE, ATOMIC: whose */
+  uint32_t icache, line;                      /* lines; icache: INSTRUCTION_LINE only */
+  uint32_t tp;                                /* LOAD_PAST_CACHE, WRITE, ATOMIC: the TP that made it */
   uint32_t rd;                                /* LOAD_PAST_CACHE, ATOMIC: the register that waits */
   bool passing;                               /* DATA_LINE: it does not enter the cache */
   uint32_t old_value;                         /* ATOMIC */
-  enum { AT_BANK, AT_CHANNEL, SERVED } stage; /* it waits for its bank of the second-level cache, for its channel */
-  uint64_t came;       /* AT_CHANNEL, from the second-level cache: a number from trax_ref_controller.came */
-  uint32_t l2_line;    /* SERVED, with a line of the second-level cache that is on its way */
-  uint64_t completion; /* of one that is SERVED; UNKNOWN until that of l2_line is known */
+  enum { AT_BANK, AT_CHANNEL, SERVED } stage; /* AT_BANK: it waits for its second-level bank; AT_CHANNEL: its channel */
+  uint64_t came;       /* AT_CHANNEL, with a second-level cache: its number of trax_ref_controller.came */
+  uint32_t l2_line;    /* SERVED by a second-level line that is on its way: the line's number */
+  uint64_t completion; /* SERVED: the cycle, UNKNOWN until the arrival of l2_line is known */
 };
 
 /* A register in the scoreboard (Operands). */
 struct trax_ref_register {
-  uint64_t usable;  /* the cycle from which it is; UNKNOWN until the arrival */
-  trax_cause cause; /* of waiting for it */
-  bool awaits_line; /* of the data cache */
+  uint64_t usable;  /* the cycle from which it is usable; UNKNOWN until the arrival */
+  trax_cause cause; /* of a wait for it */
+  bool awaits_line; /* it waits for `line` of the data cache */
   uint32_t line;
 };
 
@@ -73,21 +75,21 @@ struct trax_ref_tp {
   uint32_t pc, reg[TRAX_NUM_REGISTERS];
   struct trax_ref_register scoreboard[TRAX_NUM_REGISTERS];
   uint8_t local[TRAX_LOCAL_SIZE];
-  uint32_t run_begin, run_end; /* of the write-combining buffer; equal: empty */
+  uint32_t run_begin, run_end; /* the run in the write-combining buffer; equal: empty */
 
-  bool holds; /* an instruction: */
+  bool holds; /* it holds an instruction, inst */
   trax_inst inst;
   uint32_t address; /* of its memory access, from step 2 on */
   uint8_t outcome;  /* of that access, for an observer: TRAX_OUTCOME_... */
 
   bool ended;
-  bool awaits_line;     /* of its instruction cache */
+  bool awaits_line;     /* it waits for a line of its instruction cache */
   uint64_t bubble_ends; /* the first cycle after the latest branch bubble */
 
   bool charged; /* for this cycle: it does nothing in the later steps */
 };
 
-/* Of TPs that share units of a kind (Units). */
+/* A group of TPs that share units of a kind (Units). */
 struct trax_ref_group {
   trax_ref_turn turn;
   uint64_t free_from[MOST]; /* by unit */
@@ -104,25 +106,25 @@ struct trax_ref_tm {
   struct trax_ref_lines dcache;
   trax_ref_turn dcache_bank[MOST];
   struct trax_ref_request *queue; /* [places], the oldest first */
-  uint32_t places;                /* taken */
+  uint32_t places;                /* number of places taken */
   trax_ref_turn queue_turn;
   struct trax_tm_stats *stats;
 };
 
-/* The second-level cache; without one, all is 0. */
+/* The second-level cache. All members are 0 without one. */
 struct trax_ref_l2 {
   struct trax_ref_lines lines;
   trax_ref_turn bank[MOST]; /* over the TMs */
   struct trax_ref_miss {
     uint32_t line, channel;
-    uint64_t came;    /* as of requests */
+    uint64_t came;    /* as trax_ref_request.came */
     uint64_t arrival; /* UNKNOWN while it waits for its channel */
-  } *miss;            /* [misses]: the miss registers that hold a line */
+  } * miss;           /* [misses]: the miss registers in use */
   uint32_t misses;
 };
 
-/* Bus time is counted in units: a cycle has units_per_cycle of them, a byte takes units_per_byte. A cycle may have 10^9
-   units, so 64 bits would end after some 10^10 cycles. */
+/* Bus time is counted in units: a cycle has units_per_cycle of them, and a byte takes units_per_byte. A cycle may have
+   10^9 units, so 64 bits would overflow after some 10^10 cycles. */
 __extension__ typedef unsigned __int128 trax_ref_units;
 
 struct trax_ref_controller {
@@ -131,7 +133,7 @@ struct trax_ref_controller {
     trax_ref_units free_from; /* f */
     trax_ref_turn turn;       /* over the TMs */
   } channel[MOST];
-  uint64_t came; /* requests that have come from the second-level cache so far, to any channel */
+  uint64_t came; /* number of requests that have come from the second-level cache so far, to any channel */
 };
 
 struct trax_ref_chip {
@@ -154,7 +156,7 @@ static inline bool trax_ref_is(const struct trax_ref_tp *tp, unsigned flag) {
   return (trax_ref_info(tp)->flags & flag) != 0;
 }
 
-/* Whether the TP still has something to do in this cycle with the instruction it holds. */
+/* Whether the TP holds an instruction that no step of this cycle has refused so far. */
 static inline bool trax_ref_active(const struct trax_ref_tp *tp) {
   return tp->holds && !tp->charged;
 }
@@ -163,7 +165,8 @@ static inline bool trax_ref_accesses_memory(const struct trax_ref_tp *tp) {
   return trax_ref_info(tp)->unit == TRAX_UNIT_MEMORY;
 }
 
-/* An access to local memory; its address is known. ainc has no business there. */
+/* Whether the instruction accesses local memory; its address must be known. An atomic increment of local memory faults.
+ */
 static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
   return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE && !trax_ref_is(tp, TRAX_IS_ATOMIC);
 }
@@ -186,26 +189,26 @@ bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_
 void trax_ref_lines_destroy(struct trax_ref_lines *lines);
 /* Whether the line is present. */
 bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line);
-/* The same, which uses the line. */
+/* The same, and counts as a use of the line. */
 bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line);
-/* The line arrives. */
+/* Enters an arriving line into the cache. */
 void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line);
-/* All places are empty from now on. Gives how many were not. */
+/* Drops all lines and returns their number. */
 uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
-/* The TP's instruction writes its register, which is usable from `cycle` on. */
+/* The destination register of the TP's instruction is usable from `cycle` on. */
 void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 
 /* --- Units: units.c --- */
 void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
-/* Of an instruction that does not access memory: what it asks for, and the cycles to its result. */
+/* The unit and the latency of the TP's instruction, which must not access memory. */
 struct trax_timing trax_ref_timing(const struct trax_ref_tp *tp, const struct trax_config *config);
 
 /* --- Data cache: data_cache.c --- */
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);
-/* A load's turn in step 4. False: it needs a place or a miss register and gets none. */
+/* Serves a load in step 4. False: it needs a place or a miss register and gets none. */
 bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request *request, uint64_t t);
 
@@ -219,19 +222,20 @@ void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t);
 void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t);
 /* Takes a place for the request. False: there is none. */
 bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request);
-/* How many lines of that kind are on their way, and the request for this one; NULL: there is none. */
+/* The number of lines of that kind that are on their way. */
 uint32_t trax_ref_lines_on_their_way(const struct trax_ref_tm *tm, trax_ref_kind kind);
+/* The request for a line that is on its way; NULL: there is none. */
 const struct trax_ref_request *trax_ref_on_its_way(const struct trax_ref_tm *tm, trax_ref_kind kind, uint32_t icache,
                                                    uint32_t line);
 
-/* The oldest request of the TM that waits for that bank or channel; NULL: none does. */
+/* The TM's oldest request that waits for that bank or channel; NULL: there is none. */
 struct trax_ref_request *trax_ref_oldest_at_bank(struct trax_ref_tm *tm, uint32_t bank);
 struct trax_ref_request *trax_ref_oldest_at_channel(struct trax_ref_tm *tm, uint32_t channel);
 
 /* --- Fences: fences.c --- */
-/* Whether the TP's fence has to wait for what the TP has requested. */
+/* Whether the TP's fence must wait for requests of the TP. */
 bool trax_ref_fence_waits(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
-/* A fence issues. */
+/* Performs the effect of a fence at its issue. */
 void trax_ref_fence(struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 
 /* --- Second-level cache: l2.c --- */
@@ -239,7 +243,7 @@ bool trax_ref_l2_create(struct trax_ref_l2 *l2, const struct trax_config *config
 void trax_ref_l2_destroy(struct trax_ref_l2 *l2);
 void trax_ref_l2_cycle(struct trax_ref_chip *chip, uint64_t t);
 uint32_t trax_ref_bank_of(const struct trax_config *config, uint32_t address);
-/* The bytes that the transfer of a line costs. */
+/* The cost of a line's transfer, in bytes. */
 uint32_t trax_ref_l2_line_cost(const struct trax_config *config);
 /* The transfer of a line has begun; the line arrives in the cycle `arrival`. */
 void trax_ref_l2_started(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint64_t arrival);
@@ -257,9 +261,9 @@ void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t);
 /* --- Faults: faults.c --- */
 /* Ends the thread in cycle t with a fault, which is recorded if it is the cycle's first in (TM, TP) order. */
 void trax_ref_fault(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_fault_kind kind, uint32_t address);
-/* What is wrong with the access of the TP's instruction to its address. */
+/* Checks the access of the TP's instruction to its address. */
 trax_fault_kind trax_ref_check_access(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
-/* The word at pc if it is text, else the fault of fetching it. */
+/* Reads the word at pc if it is text, else returns the fault of a fetch from there. */
 trax_fault_kind trax_ref_text(const struct trax_ref_tm *tm, uint32_t pc, uint32_t *word);
 
 /* --- For an observer (machine/observer.h): observe.c --- */
@@ -269,9 +273,9 @@ void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp 
 void trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
 
 /* --- Accounting: accounting.c --- */
-/* Charges the TP's cycle t, once. */
+/* Charges the TP for cycle t. At most one call per cycle. */
 void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
-/* Charges those who are idle for a reason that is known before the cycle begins. */
+/* Charges the TPs that are idle because they have ended or are in a branch bubble. */
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t);
 
 #endif

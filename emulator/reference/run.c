@@ -57,7 +57,7 @@ static void destroy(void *context) {
   free(chip);
 }
 
-/* Every thread has ended, no request waits, and the buses are idle. */
+/* Whether the run has ended: every thread has ended, no request waits, and the buses are idle. */
 static bool is_over(const struct trax_ref_chip *chip, uint64_t t) {
   for (uint32_t i = 0; i < chip->tms; i++) {
     for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
@@ -91,7 +91,7 @@ static void cycle(struct trax_ref_chip *chip, uint64_t t) {
 }
 
 static enum trax_advance advance(void *chip, uint64_t *t, uint64_t until) {
-  enum { CYCLES = 64 }; /* in a call */
+  enum { CYCLES = 64 }; /* of one call */
   const struct trax_ref_chip *it = chip;
   for (unsigned i = 0; i < CYCLES && *t < until; i++) {
     cycle(chip, (*t)++);
@@ -103,7 +103,7 @@ static enum trax_advance advance(void *chip, uint64_t *t, uint64_t until) {
   return TRAX_GOES_ON;
 }
 
-/* --- for those who look at the machine --- */
+/* --- access between cycles --- */
 
 static struct trax_ref_tp *tp_of(void *context, uint32_t number) {
   const struct trax_ref_chip *chip = context;

@@ -1,4 +1,4 @@
-/* docs/timing.md, "Units": step 3 but for the data cache's banks. */
+/* docs/timing.md, "Units": step 3, except for the data cache's banks. */
 #include "reference/reference.h"
 
 struct trax_timing trax_ref_timing(const struct trax_ref_tp *tp, const struct trax_config *config) {
@@ -11,7 +11,7 @@ static void charge_losers(struct trax_ref_tm *tm, const bool *asks, uint64_t t, 
       trax_ref_charge(tm, &tm->tp[i], t, cause);
 }
 
-/* The units of a group that are free accept one instruction each, in ascending order. Those who get one ask no more. */
+/* Each free unit of a group accepts one instruction, in ascending order of units. Clears `asks` of the winners. */
 static void grant_group(struct trax_ref_tm *tm, const struct trax_shared_kind *kind, struct trax_ref_group *group,
                         uint32_t first, bool *asks, uint64_t t) {
   const uint32_t n = first + kind->group_size < tm->tps ? kind->group_size : tm->tps - first;

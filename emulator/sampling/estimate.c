@@ -4,7 +4,7 @@
 
 uint32_t trax_estimate_unit(const double *sizes, uint32_t units, double place) {
   uint32_t low = 0, high = units - 1;
-  while (low < high) { /* the first whose end is behind it */
+  while (low < high) { /* the first unit that ends after `place` */
     const uint32_t middle = low + (high - low) / 2;
     if (sizes[middle + 1] > place)
       high = middle;
@@ -30,7 +30,7 @@ static double mean_of(const double *values, size_t count) {
   return count ? sum / (double)count : 0;
 }
 
-/* The standard deviation of one draw. */
+/* The standard deviation of a single draw. */
 static double spread_of(const double *values, size_t count, double mean) {
   double squares = 0;
   for (size_t i = 0; i < count; i++)
