@@ -12,12 +12,12 @@
 #include <string.h>
 
 enum {
-  TURN = 4096,           /* instructions of a slice */
+  SLICE = 4096,          /* instructions of a slice */
   INSTRUCTIONS = 1000000 /* of all threads, in one call of advance */
 };
 
 struct instruction {
-  const void *operation; /* the label in run_quickly that executes it */
+  const void *operation; /* the label in run_slice that executes it */
   int32_t imm;
   uint8_t op, rd, ra, rb;
 };
@@ -31,7 +31,7 @@ struct text {
   struct section *sections; /* [count]; their instructions are in one array */
   size_t count;
   struct instruction *inst;          /* [inst_count] */
-  const struct instruction *outside; /* the last one, for every pc that is no text */
+  const struct instruction *not_text; /* the last one, for every pc that is no text */
   size_t inst_count;
 };
 
@@ -41,7 +41,7 @@ struct thread {
   uint32_t number, tm, tp;
   bool ended;
   uint64_t executed; /* instructions */
-  uint64_t beyond;   /* instructions executed past the end of its latest slice, which the next one is shorter by */
+  uint64_t overrun;  /* instructions executed past the end of its latest slice, which the next one is shorter by */
   uint8_t local[TRAX_LOCAL_SIZE];
 };
 
@@ -55,19 +55,19 @@ struct chip {
   uint64_t limit; /* instructions of a thread */
   /* [tms][inst_count + 1]: the number of executions of each instruction since the latest collect(), as differences:
      that of instruction i is the sum of [0] to [i]. So a sequence of instructions costs two additions. */
-  int64_t **changes;
+  int64_t **deltas;
 };
 
 static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
   for (size_t i = 0; i < text->count && pc % 4 == 0; i++)
     if (pc - text->sections[i].begin < text->sections[i].bytes)
       return text->sections[i].inst + (pc - text->sections[i].begin) / 4;
-  return text->outside;
+  return text->not_text;
 }
 
-#include "functional/turn.h"
+#include "functional/interpreter.h"
 
-/* --- instructions that run_quickly does not execute --- */
+/* --- instructions that run_slice does not execute --- */
 
 static void end_thread(struct chip *chip, struct thread *thread, int32_t status) {
   thread->ended = true;
@@ -158,8 +158,8 @@ static bool execute(struct chip *chip, struct thread *thread) {
     ++*(inst->is_store ? &stats->nontemporal_stores : &stats->nontemporal_loads);
   thread->pc = next_pc;
   thread->executed++;
-  chip->changes[thread->tm][index]++;
-  chip->changes[thread->tm][index + 1]--;
+  chip->deltas[thread->tm][index]++;
+  chip->deltas[thread->tm][index + 1]--;
   return true;
 }
 
@@ -173,11 +173,11 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   while (chip->running && instructions < INSTRUCTIONS) {
     struct thread *thread = &chip->thread[chip->next];
     chip->next = chip->next + 1 < chip->threads ? chip->next + 1 : 0;
-    const uint64_t before = thread->executed, end = before + TURN - thread->beyond;
+    const uint64_t before = thread->executed, end = before + SLICE - thread->overrun;
     while (thread->executed < end && !thread->ended)
-      if (run_quickly(chip, thread, end, NULL) == STOP_SLOW && !execute(chip, thread))
+      if (run_slice(chip, thread, end, NULL) == STOP_SLOW && !execute(chip, thread))
         return TRAX_HAS_FAULTED;
-    thread->beyond = thread->executed - end;
+    thread->overrun = thread->executed - end;
     if (thread->executed >= chip->limit)
       return TRAX_AT_INSTRUCTION;
     instructions += thread->executed - before;
@@ -193,10 +193,10 @@ static void collect(void *context) {
     uint64_t *const instructions = chip->machine->tm_stats[i].instructions;
     int64_t count = 0;
     for (size_t index = 0; index < chip->text.inst_count; index++) {
-      count += chip->changes[i][index];
+      count += chip->deltas[i][index];
       instructions[chip->text.inst[index].op] += (uint64_t)count;
     }
-    memset(chip->changes[i], 0, chip->text.inst_count * sizeof *chip->changes[i]);
+    memset(chip->deltas[i], 0, chip->text.inst_count * sizeof *chip->deltas[i]);
   }
 }
 
@@ -221,7 +221,7 @@ static bool is_slow(const struct trax_decoded *decoded) {
 
 static trax_status predecode(struct text *text, const struct trax_text *from, trax_error *error) {
   const void *const *operations;
-  run_quickly(NULL, NULL, 0, &operations);
+  run_slice(NULL, NULL, 0, &operations);
   text->inst_count = 1;
   for (size_t i = 0; i < from->count; i++)
     text->inst_count += (from->sections[i].end - from->sections[i].begin) / 4 + 1;
@@ -245,7 +245,7 @@ static trax_status predecode(struct text *text, const struct trax_text *from, tr
     }
   }
   *inst = (struct instruction){.operation = operations[TRAX_OP_ILLEGAL]};
-  text->outside = inst;
+  text->not_text = inst;
   return TRAX_OK;
 }
 
@@ -263,10 +263,10 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   if (predecode(&chip->text, &run->text, error) != TRAX_OK)
     return TRAX_ERROR;
   chip->thread = calloc(chip->threads, sizeof *chip->thread);
-  chip->changes = calloc(tms, sizeof *chip->changes);
-  bool complete = chip->thread && chip->changes;
+  chip->deltas = calloc(tms, sizeof *chip->deltas);
+  bool complete = chip->thread && chip->deltas;
   for (uint32_t i = 0; complete && i < tms; i++)
-    complete = (chip->changes[i] = calloc(chip->text.inst_count + 1, sizeof **chip->changes)) != NULL;
+    complete = (chip->deltas[i] = calloc(chip->text.inst_count + 1, sizeof **chip->deltas)) != NULL;
   if (!complete)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->threads; i++) {
@@ -282,9 +282,9 @@ static void destroy(void *context) {
   struct chip *chip = context;
   if (!chip)
     return;
-  for (uint32_t i = 0; chip->changes && i < chip->machine->config.chip.tms; i++)
-    free(chip->changes[i]);
-  free(chip->changes);
+  for (uint32_t i = 0; chip->deltas && i < chip->machine->config.chip.tms; i++)
+    free(chip->deltas[i]);
+  free(chip->deltas);
   free(chip->thread);
   free(chip->text.sections);
   free(chip->text.inst);

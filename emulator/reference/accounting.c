@@ -3,11 +3,11 @@
 
 #include <assert.h>
 
-int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n) {
+int trax_ref_arbitrate(trax_ref_pointer *pointer, const bool *asks, uint32_t n) {
   for (uint32_t i = 0; i < n; i++) {
-    const uint32_t position = *turn + i < n ? *turn + i : *turn + i - n;
+    const uint32_t position = *pointer + i < n ? *pointer + i : *pointer + i - n;
     if (asks[position]) {
-      *turn = position + 1 < n ? position + 1 : 0;
+      *pointer = position + 1 < n ? position + 1 : 0;
       return (int)position;
     }
   }
@@ -18,7 +18,7 @@ void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t,
   assert(!tp->charged);
   tp->charged = true;
   tm->machine->tp_stats[tm->number * tm->tps + tp->number].cycles[cause]++;
-  trax_ref_tell_charge(tm, tp, t, cause);
+  trax_ref_notify_charge(tm, tp, t, cause);
 }
 
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t) {

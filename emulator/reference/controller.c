@@ -71,7 +71,7 @@ static bool serve_next(struct trax_ref_chip *chip, uint32_t channel, uint64_t t)
   bool asks[MOST];
   for (uint32_t i = 0; i < chip->tms; i++)
     asks[i] = trax_ref_oldest_at_channel(&chip->tm[i], channel) != NULL;
-  const int winner = trax_ref_pick(&chip->controller.channel[channel].turn, asks, chip->tms);
+  const int winner = trax_ref_arbitrate(&chip->controller.channel[channel].pointer, asks, chip->tms);
   if (winner >= 0)
     serve_request(chip, trax_ref_oldest_at_channel(&chip->tm[winner], channel), channel, t);
   return winner >= 0;

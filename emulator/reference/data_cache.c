@@ -13,7 +13,7 @@ void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t) {
     bool asks[MOST] = {false};
     for (uint32_t i = 0; i < tm->tps; i++)
       asks[i] = asks_for_bank(&tm->tp[i]) && tm->tp[i].address / 4 % banks == bank;
-    const int winner = trax_ref_pick(&tm->dcache_bank[bank], asks, tm->tps);
+    const int winner = trax_ref_arbitrate(&tm->dcache_bank[bank], asks, tm->tps);
     for (uint32_t i = 0; i < tm->tps; i++)
       if (asks[i] && (int)i != winner)
         trax_ref_charge(tm, &tm->tp[i], t, TRAX_CAUSE_DCACHE_BANK);
@@ -57,7 +57,7 @@ bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
 
 void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request *request, uint64_t t) {
   if (!request->passing)
-    trax_ref_lines_take(&tm->dcache, request->line);
+    trax_ref_lines_install(&tm->dcache, request->line);
   for (uint32_t i = 0; i < tm->tps; i++)
     for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++) {
       struct trax_ref_register *reg = &tm->tp[i].scoreboard[rd];

@@ -37,12 +37,12 @@ static uint32_t bank_of(const struct trax_ref_tm *tm, const struct trax_ref_tp *
 
 /* Grants a bank: marks the winners among the cache's n TPs, which begin with `first`, and charges the losers. */
 static void grant_bank(struct trax_ref_tm *tm, uint32_t bank, uint32_t first, uint32_t n, uint64_t t, bool *won) {
-  trax_ref_turn *turn = &tm->icache[icache_of(tm, &tm->tp[first])].bank[bank];
+  trax_ref_pointer *pointer = &tm->icache[icache_of(tm, &tm->tp[first])].bank[bank];
   bool asking[MOST] = {false};
   for (uint32_t i = 0; i < n; i++)
     asking[i] = asks(&tm->tp[first + i]) && bank_of(tm, &tm->tp[first + i]) == bank;
   for (uint32_t port = 0; port < tm->config->icache.ports_per_bank; port++) {
-    const int winner = trax_ref_pick(turn, asking, n);
+    const int winner = trax_ref_arbitrate(pointer, asking, n);
     if (winner < 0)
       break;
     asking[winner] = false;
@@ -89,7 +89,7 @@ void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t) {
 }
 
 void trax_ref_instruction_arrives(struct trax_ref_tm *tm, uint32_t icache, uint32_t line) {
-  trax_ref_lines_take(&tm->icache[icache].lines, line);
+  trax_ref_lines_install(&tm->icache[icache].lines, line);
   for (uint32_t i = 0; i < tm->tps; i++) {
     struct trax_ref_tp *tp = &tm->tp[i];
     if (tp->awaits_line && icache_of(tm, tp) == icache && line_of(tm, tp) == line) {

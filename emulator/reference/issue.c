@@ -100,7 +100,7 @@ static void issue(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
     tm->stats->taken_branches++;
     tp->bubble_ends = t + 1 + tm->config->tp.branch_bubble_cycles;
   }
-  trax_ref_tell_issue(tm, tp, pc, t);
+  trax_ref_notify_issue(tm, tp, pc, t);
   tp->outcome = 0;
 }
 

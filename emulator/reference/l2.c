@@ -41,7 +41,7 @@ static struct trax_ref_miss *first_arrival(struct trax_ref_l2 *l2, uint64_t t) {
 
 static void arrive(struct trax_ref_l2 *l2, uint64_t t) {
   for (struct trax_ref_miss *miss; (miss = first_arrival(l2, t)) != NULL; *miss = l2->miss[--l2->misses])
-    trax_ref_lines_take(&l2->lines, miss->line);
+    trax_ref_lines_install(&l2->lines, miss->line);
 }
 
 /* --- banks --- */
@@ -128,7 +128,7 @@ void trax_ref_l2_cycle(struct trax_ref_chip *chip, uint64_t t) {
     bool asks[MOST];
     for (uint32_t i = 0; i < chip->tms; i++)
       asks[i] = trax_ref_oldest_at_bank(&chip->tm[i], bank) != NULL;
-    const int winner = trax_ref_pick(&chip->l2.bank[bank], asks, chip->tms);
+    const int winner = trax_ref_arbitrate(&chip->l2.bank[bank], asks, chip->tms);
     if (winner >= 0)
       look_up(chip, trax_ref_oldest_at_bank(&chip->tm[winner], bank), t);
   }

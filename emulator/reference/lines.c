@@ -62,7 +62,7 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines) {
   return dropped;
 }
 
-void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line) {
+void trax_ref_lines_install(struct trax_ref_lines *lines, uint32_t line) {
   const uint32_t set = line % lines->sets, way = choose(lines, set);
   lines->line[(size_t)set * lines->ways + way] = (struct trax_ref_line){true, line, ++lines->uses};
 }

@@ -1,7 +1,7 @@
 /* Notifies an observer of the run (machine/observer.h). */
 #include "reference/reference.h"
 
-void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
   const struct trax_observer *observer = tm->machine->observer;
   if (observer && observer->charge && cause != TRAX_CAUSE_ISSUED)
     observer->charge(observer->context, tm->number, tp->number, cause, t, 1);
@@ -18,7 +18,7 @@ static uint32_t result_of(const struct trax_ref_tp *tp) {
   return trax_ref_is(tp, TRAX_WRITES_RD) ? tp->reg[tp->inst.rd] : 0;
 }
 
-void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t) {
+void trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t) {
   const struct trax_observer *observer = tm->machine->observer;
   if (!observer || !observer->issue)
     return;
@@ -34,7 +34,7 @@ void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp 
   observer->issue(observer->context, &issue);
 }
 
-void trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t) {
+void trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t) {
   const struct trax_observer *observer = tm->machine->observer;
   if (observer && observer->arrival)
     observer->arrival(observer->context,

@@ -65,7 +65,7 @@ static void arrive(struct trax_ref_tm *tm, const struct trax_ref_request *reques
   case ATOMIC:
     if (request->rd != 0) {
       tm->tp[request->tp].reg[request->rd] = request->old_value;
-      trax_ref_tell_arrival(tm, request, t);
+      trax_ref_notify_arrival(tm, request, t);
     }
     tm->tp[request->tp].scoreboard[request->rd].usable = t;
     break;
@@ -117,7 +117,7 @@ static bool serve(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
 }
 
 void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t) {
-  const trax_ref_turn first = tm->queue_turn;
+  const trax_ref_pointer first = tm->queue_pointer;
   for (uint32_t i = 0; i < tm->tps; i++) {
     const uint32_t position = (first + i) % tm->tps, taken = tm->places;
     struct trax_ref_tp *tp = &tm->tp[position];
@@ -126,6 +126,6 @@ void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t) {
     if (trax_ref_active(tp) && trax_ref_fence_waits(tm, tp))
       trax_ref_charge(tm, tp, t, TRAX_CAUSE_DATA_MISS);
     if (tm->places > taken)
-      tm->queue_turn = (position + 1) % tm->tps;
+      tm->queue_pointer = (position + 1) % tm->tps;
   }
 }

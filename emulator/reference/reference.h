@@ -19,11 +19,11 @@ enum { MOST = 64 }; /* the configuration's limit of TMs, TPs of a TM, banks and 
 /* --- Words --- */
 
 /* The pointer of an arbiter. */
-typedef uint32_t trax_ref_turn;
+typedef uint32_t trax_ref_pointer;
 
 /* Round robin over positions 0..n-1: returns the winner among those that ask and moves the pointer past it; -1: none
    asks. */
-int trax_ref_pick(trax_ref_turn *turn, const bool *asks, uint32_t n);
+int trax_ref_arbitrate(trax_ref_pointer *pointer, const bool *asks, uint32_t n);
 
 /* --- The machine --- */
 
@@ -42,7 +42,7 @@ struct trax_ref_lines {
 
 struct trax_ref_icache {
   struct trax_ref_lines lines;
-  trax_ref_turn bank[MOST]; /* over the cache's TPs */
+  trax_ref_pointer bank[MOST]; /* over the cache's TPs */
 };
 
 typedef enum trax_ref_kind { INSTRUCTION_LINE, DATA_LINE, LOAD_PAST_CACHE, WRITE, ATOMIC } trax_ref_kind;
@@ -91,7 +91,7 @@ struct trax_ref_tp {
 
 /* A group of TPs that share units of a kind (Units). */
 struct trax_ref_group {
-  trax_ref_turn turn;
+  trax_ref_pointer pointer;
   uint64_t free_from[MOST]; /* by unit */
 };
 
@@ -104,17 +104,17 @@ struct trax_ref_tm {
   struct trax_ref_icache icache[MOST];
   struct trax_ref_group group[TRAX_SHARED_COUNT][MOST];
   struct trax_ref_lines dcache;
-  trax_ref_turn dcache_bank[MOST];
+  trax_ref_pointer dcache_bank[MOST];
   struct trax_ref_request *queue; /* [places], the oldest first */
   uint32_t places;                /* number of places taken */
-  trax_ref_turn queue_turn;
+  trax_ref_pointer queue_pointer;
   struct trax_tm_stats *stats;
 };
 
 /* The second-level cache. All members are 0 without one. */
 struct trax_ref_l2 {
   struct trax_ref_lines lines;
-  trax_ref_turn bank[MOST]; /* over the TMs */
+  trax_ref_pointer bank[MOST]; /* over the TMs */
   struct trax_ref_miss {
     uint32_t line, channel;
     uint64_t came;    /* as trax_ref_request.came */
@@ -131,7 +131,7 @@ struct trax_ref_controller {
   uint64_t units_per_cycle, units_per_byte;
   struct trax_ref_channel {
     trax_ref_units free_from; /* f */
-    trax_ref_turn turn;       /* over the TMs */
+    trax_ref_pointer pointer; /* over the TMs */
   } channel[MOST];
   uint64_t came; /* number of requests that have come from the second-level cache so far, to any channel */
 };
@@ -192,7 +192,7 @@ bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line);
 /* The same, and counts as a use of the line. */
 bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line);
 /* Enters an arriving line into the cache. */
-void trax_ref_lines_take(struct trax_ref_lines *lines, uint32_t line);
+void trax_ref_lines_install(struct trax_ref_lines *lines, uint32_t line);
 /* Drops all lines and returns their number. */
 uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
@@ -267,10 +267,10 @@ trax_fault_kind trax_ref_check_access(const struct trax_ref_tm *tm, const struct
 trax_fault_kind trax_ref_text(const struct trax_ref_tm *tm, uint32_t pc, uint32_t *word);
 
 /* --- For an observer (machine/observer.h): observe.c --- */
-void trax_ref_tell_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
+void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
 /* The TP has issued the instruction at pc. */
-void trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
-void trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
+void trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
+void trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
 
 /* --- Accounting: accounting.c --- */
 /* Charges the TP for cycle t. At most one call per cycle. */

@@ -18,7 +18,7 @@ static void grant_group(struct trax_ref_tm *tm, const struct trax_shared_kind *k
   for (uint32_t unit = 0; unit < kind->per_group; unit++) {
     if (group->free_from[unit] > t)
       continue;
-    const int winner = trax_ref_pick(&group->turn, asks + first, n);
+    const int winner = trax_ref_arbitrate(&group->pointer, asks + first, n);
     if (winner < 0)
       break;
     const struct trax_ref_tp *tp = &tm->tp[first + (uint32_t)winner];

@@ -2,8 +2,8 @@
 
 MUTANTS = [
     # --- Words ---
-    ("reference/accounting.c", "*turn = position + 1 < n ? position + 1 : 0;", "*turn = position;"),
-    ("reference/accounting.c", "const uint32_t position = *turn + i < n ? *turn + i : *turn + i - n;", "const uint32_t position = i;"),
+    ("reference/accounting.c", "*pointer = position + 1 < n ? position + 1 : 0;", "*pointer = position;"),
+    ("reference/accounting.c", "const uint32_t position = *pointer + i < n ? *pointer + i : *pointer + i - n;", "const uint32_t position = i;"),
     ("reference/accounting.c", "else if (t < tp->bubble_ends)", "else if (t + 1 < tp->bubble_ends)"),
     # --- Fetch ---
     ("reference/fetch.c", "return tp->pc / 4 %", "return tp->pc / 8 %"),
@@ -50,7 +50,7 @@ MUTANTS = [
     ("reference/stores.c", "tp->run_end = greatest(tp->run_end, end);", "tp->run_end = greatest(tp->run_begin, end);"),
     ("reference/stores.c", "if (tp->run_begin != tp->run_end && !request_write", "if (!request_write"),
     # --- Memory queue ---
-    ("reference/queue.c", "tm->queue_turn = (position + 1) % tm->tps;", "tm->queue_turn = (tm->queue_turn + 1) % tm->tps;"),
+    ("reference/queue.c", "tm->queue_pointer = (position + 1) % tm->tps;", "tm->queue_pointer = (tm->queue_pointer + 1) % tm->tps;"),
     ("reference/queue.c", "if (tm->places > taken)", "if (tm->places >= taken)"),
     ("reference/queue.c", "if (request.bytes < tm->config->memory.min_transfer_bytes)", "if (0)"),
     ("reference/queue.c", "if (tm->places == tm->config->memory.queue_depth)", "if (tm->places > tm->config->memory.queue_depth - 2)"),

@@ -1,12 +1,12 @@
 /* The interpreter loop, included by functional.c. Each operation jumps to the next one by itself, which the host's
    branch predictor learns far better than one switch for all operations. */
 
-enum stop { STOP_TURN, STOP_SLOW };
+enum stop { STOP_SLICE, STOP_SLOW };
 
 /* Executes instructions from thread->pc on, until a jump after which the thread has executed `end` instructions or
    more, or until execute() must execute the next one (STOP_SLOW). If thread is NULL, it only sets *operations to the
    labels of all operations. */
-static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t end, const void *const **operations) {
+static enum stop run_slice(struct chip *chip, struct thread *thread, uint64_t end, const void *const **operations) {
   __extension__ static const void *const places[] = {
 #define TRAX_SEMANTICS(NAME, ...) [TRAX_OP_##NAME] = &&do_##NAME,
 #include "trax/semantics.inc"
@@ -14,7 +14,7 @@ static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t 
       [TRAX_OP_ILLEGAL] = &&slow};
   if (!thread) {
     *operations = places;
-    return STOP_TURN;
+    return STOP_SLICE;
   }
   const struct trax_space *const space = &chip->machine->space;
   const uint64_t accessible = space->size - TRAX_NULL_END;
@@ -22,15 +22,15 @@ static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t 
   uint32_t *const reg = thread->reg;
   uint8_t *const local = thread->local;
   const struct text *const text = &chip->text;
-  int64_t *const changes = chip->changes[thread->tm];
+  int64_t *const deltas = chip->deltas[thread->tm];
   const struct instruction *const base = text->inst;
   const struct section *const first = text->sections;
   const struct instruction *inst = inst_at(text, thread->pc), *begin = inst;
   uint64_t count = thread->executed;
   uint32_t address, word, pc = thread->pc;
-  if (inst == text->outside)
+  if (inst == text->not_text)
     return STOP_SLOW;
-  changes[inst - base]++;
+  deltas[inst - base]++;
   __extension__({ goto * inst->operation; });
 
 /* The pc of inst; pc is the target of the latest jump. */
@@ -83,14 +83,14 @@ static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t 
     uint64_t next_pc = NOWHERE;                                                                                        \
     __VA_ARGS__                                                                                                        \
     if (next_pc != NOWHERE) {                                                                                          \
-      changes[inst + 1 - base]--;                                                                                      \
+      deltas[inst + 1 - base]--;                                                                                       \
       count += (uint64_t)(inst + 1 - begin);                                                                           \
       pc = (uint32_t)next_pc;                                                                                          \
       begin = inst =                                                                                                   \
           pc % 4 == 0 && pc - first->begin < first->bytes ? first->inst + (pc - first->begin) / 4 : inst_at(text, pc); \
-      if (count >= end || inst == text->outside)                                                                       \
+      if (count >= end || inst == text->not_text)                                                                      \
         goto jumped;                                                                                                   \
-      changes[inst - base]++;                                                                                          \
+      deltas[inst - base]++;                                                                                           \
     } else {                                                                                                           \
       inst++;                                                                                                          \
     }                                                                                                                  \
@@ -102,7 +102,7 @@ static enum stop run_quickly(struct chip *chip, struct thread *thread, uint64_t 
 #undef NOWHERE
 
 slow:
-  changes[inst - base]--;
+  deltas[inst - base]--;
   pc = HERE;
 #undef HERE
   thread->executed = count + (uint64_t)(inst - begin);
@@ -112,5 +112,5 @@ slow:
 jumped:
   thread->executed = count;
   thread->pc = pc;
-  return inst == text->outside ? STOP_SLOW : STOP_TURN;
+  return inst == text->not_text ? STOP_SLOW : STOP_SLICE;
 }
