@@ -6,7 +6,7 @@
 
 #include "program/program.h"
 
-enum { INLINE_DEPTH = 16, DEPTH = 24 }; /* frames that are shown of a chain */
+enum { INLINE_DEPTH = 16, DEPTH = 24 }; /* the most inlined functions of a place, and the most callers of a chain */
 
 /* --- one thread --- */
 
@@ -55,11 +55,11 @@ struct place {
   char *text;
 };
 
-struct places { /* looked up once each: many threads are at few */
+struct places { /* each place is looked up once, since many threads are at few places */
   const struct trax_run *run;
   struct place *known;
   size_t count, capacity;
-  bool exhausted; /* no memory */
+  bool exhausted; /* out of memory */
 };
 
 static const char *place_text(struct places *places, uint32_t pc) {
@@ -129,7 +129,7 @@ struct group {
 
 struct groups {
   struct places places;
-  struct group *group; /* [threads]; count are there */
+  struct group *group; /* [count] of [threads] allocated */
   uint32_t *of;        /* [threads]: its group */
   uint32_t count, threads, ended;
 };

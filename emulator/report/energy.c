@@ -1,19 +1,20 @@
-/* The figures are those of SimTRaX, the public simulator of the paper's group: 65 nm and 1 GHz as far as it says. */
+/* The figures are those of SimTRaX, the public simulator of the paper's group, for 65 nm and 1 GHz as far as it states.
+ */
 #include "report/energy.h"
 
 #include "machine/timing.h"
 #include "trax/isa.h"
 
-/* nJ for an operation. */
-static const double integer_nj = 0.000572; /* of the TPs' own units; machine/units.h has the others */
-static const double register_nj = 0.00789613, local_nj = 0.00692867; /* for each access */
+/* nJ per operation. */
+static const double integer_nj = 0.000572; /* of the TPs' own units; machine/units.h has those of the others */
+static const double register_nj = 0.00789613, local_nj = 0.00692867; /* per access */
 
-/* Off-chip memory is not SimTRaX's: 1.3 to 2.6 nJ for 64 bits of DRAM (Horowitz, "Computing's energy problem", ISSCC
-   2014); here the middle. */
+/* Off-chip memory: the middle of 1.3 to 2.6 nJ for 64 bits of DRAM (Horowitz, "Computing's energy problem", ISSCC
+   2014). SimTRaX has no figure. */
 static const double off_chip_nj_per_byte = 1.95 / 8;
 
-/* nJ for an access to a data cache of 1 kB << row and 1 << column banks, lines of 64 bytes (32 where there are none
-   of 64); 0: the source has none. */
+/* nJ per access to a data cache of 1 kB << row and 1 << column banks, with lines of 64 bytes (32 where SimTRaX has none
+   of 64); 0: SimTRaX has no figure. */
 enum { SIZES = 14, BANKS = 7 };
 static const double cache_nj[SIZES][BANKS] = {
     {0.057617, 0.105809},
@@ -32,10 +33,10 @@ static const double cache_nj[SIZES][BANKS] = {
     {2.171381, 3.059984, 2.188559, 2.174519, 2.169675, 2.166975, 2.227535},
 };
 
-/* nJ for a word from an instruction cache of 4 kB and 1 << column banks. */
+/* nJ per word fetched from an instruction cache of 4 kB and 1 << column banks. */
 static const double icache_nj[BANKS] = {0.013130, 0.013451, 0.013606, 0.013110, 0.013490, 0.015138, 0.016584};
 
-/* In proportion between the powers of two, and the last one known beyond it. */
+/* Interpolates between the powers of two; above the last known one, that one counts. */
 static double at_banks(const double *row, uint32_t banks) {
   unsigned column = 0;
   while (column + 1 < BANKS && row[column + 1] > 0 && 2u << column <= banks)
@@ -53,7 +54,7 @@ double trax_energy_of_cache(uint32_t bytes, uint32_t banks) {
   return at_banks(cache_nj[row], banks);
 }
 
-/* The source has instruction caches of 4 kB; others differ as data caches of one bank do. */
+/* SimTRaX has only instruction caches of 4 kB. Other sizes scale as data caches of one bank. */
 static double of_icache(const struct trax_config *config) {
   return at_banks(icache_nj, config->icache.banks) * trax_energy_of_cache(config->icache.bytes, 1) /
          trax_energy_of_cache(4096, 1);
@@ -71,7 +72,7 @@ static void add_operations(struct trax_energy *energy, unsigned op, double count
     break;
     TRAX_CLASSES(ADD)
 #undef ADD
-  default: /* the TP's own; of memory instructions the address */
+  default: /* the TP's own units, which also compute the addresses of memory accesses */
     energy->integer += count * integer_nj;
     break;
   }
@@ -84,7 +85,7 @@ struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct t
     add_operations(&energy, op, (double)count->instructions[op]);
   energy.local_memory = (double)(count->local_loads + count->local_stores) * local_nj;
 
-  /* A line that arrives is written once: word by word into an instruction cache, at once into a data cache. */
+  /* An arriving line is written word by word into an instruction cache, and by one access into a data cache. */
   const double fetches = (double)(count->icache_hits + count->icache_misses + count->icache_merged);
   energy.icache = (fetches + (double)count->icache_misses * config->icache.line_bytes / 4) * of_icache(config);
   const uint32_t banks = (config->chip.tps_per_tm + config->dcache.tps_per_bank - 1) / config->dcache.tps_per_bank;

@@ -9,7 +9,7 @@ struct table {
   bool any;
 };
 
-/* `part` of `whole` took the slow way, because of `reason`. */
+/* Prints a row: `part` of `whole` left the fast path, for `reason`. Prints nothing if `part` is 0. */
 static void row(struct table *table, const char *name, uint64_t part, uint64_t whole, const char *of,
                 const char *reason) {
   if (!part)

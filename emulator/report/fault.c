@@ -1,4 +1,4 @@
-/* The report of a fault: what happened, where in the program and its source, in which thread, with which registers. */
+/* The report of a fault: its kind, its place in the program and the source, the thread, and the registers. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -73,7 +73,7 @@ static void print_access(const trax_machine *machine, const struct trax_fault *f
   fprintf(out, "\n");
 }
 
-/* The program's own words; what does not print is shown as its code. */
+/* Prints the message of an abort. Characters that cannot be printed are shown as codes. */
 static void print_message(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
   char text[1024];
   if (fault->kind != TRAX_FAULT_ABORT || fault->address == 0)
@@ -86,7 +86,7 @@ static void print_message(const trax_machine *machine, const struct trax_fault *
   for (const unsigned char *c = (const unsigned char *)text; *c; ++c)
     if (*c >= 0x20 && *c != 0x7F)
       fputc(*c, out);
-    else if (c[1]) /* a newline at the end is no part of the message */
+    else if (c[1]) /* a newline at the end is dropped */
       fprintf(out, "\\x%02x", *c);
   fprintf(out, "\n");
 }
@@ -105,8 +105,8 @@ static void print_instruction(const struct trax_fault *fault, FILE *out) {
   fprintf(out, "  %08x  %s\n", fault->word, text);
 }
 
-/* Without frame information: ra is where the caller goes on, and the call is the instruction before; stale once the
-   function has called another. After a jump to nowhere it is right, and what jumped may be known. */
+/* Prints the return address when there is no frame information. ra is stale once the function has called another one,
+   but right after a jump to an address that is no text. Returns 1, with the caller's frame in *frame, in that case. */
 static size_t print_return_address(const struct trax_host *host, const struct trax_fault *fault,
                                    struct trax_frame *frame, FILE *out) {
   const bool is_fresh = fault->kind == TRAX_FAULT_EXECUTE || fault->kind == TRAX_FAULT_MISALIGNED_PC;

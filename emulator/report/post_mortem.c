@@ -12,10 +12,10 @@ struct trax_post_mortem {
   char *text;
 };
 
-static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+static trax_status disable(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   (void)run;
   (void)t;
-  watch->next = TRAX_NEVER; /* only the end matters */
+  watch->next = TRAX_NEVER; /* only the end of the run matters */
   return TRAX_OK;
 }
 
@@ -44,7 +44,7 @@ struct trax_post_mortem *trax_post_mortem_create(trax_machine *machine, const vo
   post_mortem->interrupt = interrupt;
   post_mortem->always = always;
   post_mortem->machine = machine;
-  post_mortem->watch = (struct trax_watch){.look = look, .end = end, .context = post_mortem};
+  post_mortem->watch = (struct trax_watch){.look = disable, .end = end, .context = post_mortem};
   trax_machine_watch(machine, &post_mortem->watch);
   return post_mortem;
 }

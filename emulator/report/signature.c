@@ -1,11 +1,11 @@
-/* docs/isa.md, "Signatures". */
+/* Signatures (docs/isa.md, "Signatures"). */
 #include "program/program.h"
 
 #include <inttypes.h>
 
 #include "trax/output.h"
 
-/* The words' addresses: [*begin, *end). */
+/* Finds the range of the signature's words: [*begin, *end). */
 static trax_status find(const trax_machine *machine, uint32_t *begin, uint32_t *end, trax_error *error) {
   const struct trax_host *host = trax_host_of(machine);
   if (!host)

@@ -16,7 +16,7 @@ const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
 #undef NAME
 };
 
-/* Units of what is counted rather than measured or divided. */
+/* Whether values of the unit are counts, which are whole numbers. */
 static bool is_count(const char *unit) {
   return !strchr(unit, '/') && strcmp(unit, "s") != 0 && strcmp(unit, "J") != 0 && strcmp(unit, "W") != 0 &&
          strcmp(unit, "fraction") != 0 && strcmp(unit, "per cent") != 0 && strncmp(unit, "mm2", 3) != 0;
@@ -38,7 +38,7 @@ static void emit(const struct visitor *visitor, enum trax_figure_group group, co
   visitor->visit(visitor->context, &figure);
 }
 
-/* "fcvt.w.s" and "FP_ADD" as the last part of a name: fcvt_w_s, fp_add. */
+/* Makes the last part of a name: "fcvt.w.s" becomes fcvt_w_s, and "FP_ADD" fp_add. */
 static const char *as_key(const char *name, char *key, size_t size) {
   size_t i = 0;
   for (; name[i] && i + 1 < size; ++i)
@@ -54,7 +54,7 @@ static void visit_run(const struct visitor *visitor, const struct trax_stats *S,
 #undef FIGURE
 }
 
-/* Shares of what a TM has of its own, computed as if it were the chip. */
+/* The shares that concern one TM, computed as if the chip had only this TM. */
 static void visit_tm_shares(const struct visitor *visitor, const struct trax_stats *stats,
                             const struct trax_tm_stats *tm, const struct trax_config *config) {
   struct trax_stats only = {.cycles = stats->cycles,
@@ -79,7 +79,7 @@ static void visit_instructions(const struct visitor *visitor, const struct trax_
 #undef TRAX_UNIT
   };
   uint64_t by_unit[TRAX_UNIT_COUNT] = {0};
-  for (unsigned op = 1; op < TRAX_OP_COUNT; ++op) /* 0 is no instruction: it is never issued */
+  for (unsigned op = 1; op < TRAX_OP_COUNT; ++op) /* 0 is the illegal instruction, which is never issued */
     by_unit[trax_op_table[op].unit] += tm->instructions[op];
   char key[48];
   for (unsigned unit = 0; unit < TRAX_UNIT_COUNT; ++unit)
@@ -172,7 +172,7 @@ static void match(void *context, const struct trax_figure *figure) {
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value) {
   struct search search = {name, value, false};
   struct trax_stats stats = machine->stats;
-  if (machine->run) { /* between cycles: what has been counted so far */
+  if (machine->run) { /* between cycles: the counts so far */
     trax_run_settle(machine->run, stats.cycles);
     trax_stats_sum(machine, &stats);
   }
@@ -232,7 +232,7 @@ static void print_group(const trax_machine *machine, FILE *out, const char *titl
   trax_figures_visit(&machine->stats, NULL, &machine->config, print_figure, &listing);
 }
 
-/* Figures of the table of TMs, in per cent. */
+/* The columns of the table of TMs that are shares, in per cent. */
 static const char *const tm_shares[] = {"issue.utilisation",   "fp_add.utilisation", "fp_mul.utilisation",
                                         "special.utilisation", "icache.hit_rate",    "dcache.hit_rate"};
 enum { TM_SHARES = sizeof tm_shares / sizeof *tm_shares };
@@ -359,7 +359,7 @@ struct description {
   size_t column; /* of the list of operations; 0 before it */
 };
 
-/* Groups with the same members as another one take one row. */
+/* A group with the same members as another one takes one row. */
 static void describe(void *context, const struct trax_figure *figure) {
   struct description *description = context;
   FILE *out = description->out;

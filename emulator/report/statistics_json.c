@@ -34,18 +34,18 @@ void trax_stats_describe_members(FILE *out) {
 #undef MEMBER
 }
 
-/* The first failure to allocate makes the whole document invalid. */
+/* `failed`: an allocation has failed, and the document is not written. */
 struct document {
   json_t *root;
   bool failed;
 };
 
 static void put(struct document *document, json_t *object, const char *key, json_t *value) {
-  if (json_object_set_new(object, key, value) != 0) /* also for NULL values */
+  if (json_object_set_new(object, key, value) != 0) /* fails also for a NULL value */
     document->failed = true;
 }
 
-/* The object one level down, made if it is not there yet. */
+/* Returns the member object of that name, which is created if it does not exist. */
 static json_t *level(struct document *document, json_t *object, const char *key, size_t length) {
   char name[64];
   snprintf(name, sizeof name, "%.*s", (int)length, key);
@@ -66,7 +66,7 @@ static void put_figure(void *context, const struct trax_figure *figure) {
   put(document, object, name, figure->whole ? json_integer((json_int_t)figure->value) : json_real(figure->value));
 }
 
-/* Paths need not be UTF-8; what is not becomes "?". */
+/* Paths need not be UTF-8: bytes above 127 are replaced by "?" if the text is not valid. */
 static json_t *text_value(const char *text) {
   json_t *value = json_string(text);
   if (value)
@@ -159,7 +159,7 @@ static void put_identity(struct document *document, const trax_machine *machine)
   put(document, object, "holds", json_boolean(trax_stats_identity(&machine->stats)));
 }
 
-/* Nothing without time: the functional mode charges nobody. */
+/* The TPs' causes are 0 after a functional run, which charges no cycles. */
 static json_t *tps_of(struct document *document, const trax_machine *machine, uint32_t tm) {
   const uint32_t count = machine->config.chip.tps_per_tm;
   json_t *tps = json_array();
@@ -255,7 +255,7 @@ trax_status trax_stats_write_json(const trax_machine *machine, const char *path,
   trax_output output;
   if (trax_output_open(&output, path, error) != TRAX_OK)
     return TRAX_ERROR;
-  /* A failing write shows again, with its reason, when the file is closed. */
+  /* trax_output_commit reports a failed write with its reason. */
   trax_error reason;
   if (dump(machine, output.file, &reason) != TRAX_OK && !ferror(output.file)) {
     trax_output_discard(&output);

@@ -10,16 +10,17 @@
 struct trax_watchdog {
   struct trax_machine *machine;
   struct trax_watch watch;
-  uint64_t cycles; /* looks are before the multiples of it */
-  uint64_t looked; /* cycle of the last look, or, of a run that was ended, the one before that */
-  uint64_t ended;  /* cycle before which the run was */
-  uint64_t progress, issued;
-  struct trax_tp_stats *charges; /* [threads]: as of the last look; then what has been charged since */
-  uint32_t *pc;                  /* [threads]: when the run was ended */
-  bool barked, asleep;           /* asleep: no instruction was issued either */
+  uint64_t cycles;               /* checks are made before the multiples of it */
+  uint64_t last_okay;            /* cycle of the latest check that found progress */
+  uint64_t ended;                /* the cycle before which the watchdog ended the run */
+  uint64_t progress, issued;     /* counts of the latest check */
+  struct trax_tp_stats *charges; /* [threads]: of the latest check; after the end, the charges since then */
+  uint32_t *pc;                  /* [threads]: at the end of the run */
+  bool is_stuck;                 /* the watchdog has ended the run */
+  bool asleep;                   /* and no instruction was issued since last_okay */
 };
 
-/* Instructions that count as progress, and all. */
+/* Counts the instructions that are progress, and all instructions. */
 static void count(const struct trax_machine *machine, uint64_t *progress, uint64_t *issued) {
   *progress = *issued = 0;
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++)
@@ -30,24 +31,24 @@ static void count(const struct trax_machine *machine, uint64_t *progress, uint64
     }
 }
 
-static void note_places(struct trax_watchdog *watchdog, struct trax_run *run) {
+static void record_pcs(struct trax_watchdog *watchdog, struct trax_run *run) {
   trax_run_export(run);
   for (uint32_t thread = 0; thread < run->machine->stats.threads; thread++)
     watchdog->pc[thread] = trax_run_thread(run, thread).pc;
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+static trax_status check(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_watchdog *watchdog = watch->context;
   const struct trax_machine *machine = run->machine;
   const uint64_t cycles = watchdog->cycles, progress = watchdog->progress, issued = watchdog->issued;
   trax_run_settle(run, t);
   count(machine, &watchdog->progress, &watchdog->issued);
-  /* A resumed run has not counted what came before it, but the engine knows when that was. */
-  watchdog->barked =
+  /* A resumed run has not counted the progress before the checkpoint, but the engine knows its latest cycle. */
+  watchdog->is_stuck =
       watchdog->progress == progress && t > run->begin && t > cycles && trax_run_progressed(run) <= t - cycles;
-  if (!watchdog->barked) {
+  if (!watchdog->is_stuck) {
     memcpy(watchdog->charges, machine->tp_stats, machine->stats.threads * sizeof *watchdog->charges);
-    watchdog->looked = t;
+    watchdog->last_okay = t;
     watch->next = t - t % cycles + cycles;
     return TRAX_OK;
   }
@@ -56,7 +57,7 @@ static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t
   for (uint64_t i = 0; i < machine->stats.threads; i++)
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       watchdog->charges[i].cycles[cause] = machine->tp_stats[i].cycles[cause] - watchdog->charges[i].cycles[cause];
-  note_places(watchdog, run);
+  record_pcs(watchdog, run);
   return TRAX_STUCK;
 }
 
@@ -68,7 +69,7 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
   watchdog->cycles = cycles;
   watchdog->charges = calloc(machine->stats.threads, sizeof *watchdog->charges);
   watchdog->pc = calloc(machine->stats.threads, sizeof *watchdog->pc);
-  watchdog->watch = (struct trax_watch){.look = look, .context = watchdog};
+  watchdog->watch = (struct trax_watch){.look = check, .context = watchdog};
   trax_machine_watch(machine, &watchdog->watch);
   if (watchdog->charges && watchdog->pc)
     return watchdog;
@@ -76,9 +77,9 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
   return NULL;
 }
 
-/* --- the statement --- */
+/* --- the report --- */
 
-/* What a thread did for most of the time, other than to issue; ISSUED if that was all. */
+/* Returns the cause, other than ISSUED, to which a thread was charged most; ISSUED if it was charged to no other. */
 static trax_cause main_cause(const struct trax_watchdog *watchdog, uint64_t thread) {
   const uint64_t *cycles = watchdog->charges[thread].cycles;
   trax_cause most = TRAX_CAUSE_ISSUED;
@@ -129,12 +130,12 @@ static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, 
 }
 
 void trax_watchdog_print(const struct trax_watchdog *watchdog, FILE *out) {
-  if (!watchdog->barked)
+  if (!watchdog->is_stuck)
     return;
   fprintf(out,
           "no thread has ended, and no ray, item or output was seen, between the cycles %" PRIu64 " and %" PRIu64
           "%s\n",
-          watchdog->looked, watchdog->ended, watchdog->asleep ? "; no instruction was issued" : "");
+          watchdog->last_okay, watchdog->ended, watchdog->asleep ? "; no instruction was issued" : "");
   for (uint64_t i = 0; i < watchdog->machine->stats.threads; i++) {
     uint64_t before = 0;
     while (before < i && !alike(watchdog, before, i))
