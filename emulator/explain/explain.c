@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a thread was charged since its latest issue. */
+/* The charges of a thread since its latest issue. */
 struct trax_steps {
-  struct trax_stretch *stretches;
+  struct trax_charge *charges;
   size_t count, capacity;
   uint64_t begin;
   uint32_t pc, previous_pc;
@@ -16,21 +16,21 @@ struct trax_steps {
 static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
   struct trax_explain *explain = context;
   struct trax_steps *steps = &explain->steps[tm * explain->machine->config.chip.tps_per_tm + tp];
-  if (steps->count && steps->stretches[steps->count - 1].cause == cause) {
-    steps->stretches[steps->count - 1].cycles += cycles;
+  if (steps->count && steps->charges[steps->count - 1].cause == cause) {
+    steps->charges[steps->count - 1].cycles += cycles;
     return;
   }
-  if (!trax_grow((void **)&steps->stretches, steps->count, &steps->capacity, sizeof *steps->stretches)) {
+  if (!trax_grow((void **)&steps->charges, steps->count, &steps->capacity, sizeof *steps->charges)) {
     explain->out_of_memory = true;
     return;
   }
-  steps->stretches[steps->count++] = (struct trax_stretch){cause, since, cycles};
+  steps->charges[steps->count++] = (struct trax_charge){cause, since, cycles};
 }
 
-static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
+static void notify_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
   const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
   struct trax_steps *steps = &explain->steps[thread];
-  const uint32_t pc = issue ? issue->pc : steps->pc; /* a debugger may have sent the thread elsewhere */
+  const uint32_t pc = issue ? issue->pc : steps->pc; /* a debugger may have moved the thread since its latest issue */
   const uint32_t index = trax_places_index(explain->places, pc);
   const struct trax_step step = {.tm = tm,
                                  .tp = tp,
@@ -38,7 +38,7 @@ static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, co
                                  .pc = pc,
                                  .previous_pc = steps->previous_pc,
                                  .begin = steps->begin,
-                                 .stretches = steps->stretches,
+                                 .charges = steps->charges,
                                  .count = steps->count,
                                  .issue = issue,
                                  .index = index,
@@ -53,25 +53,25 @@ static void tell_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, co
   }
 }
 
-/* Those whose turn comes before the issues of a TM in a cycle. */
-static void tell_arrivals(struct trax_explain *explain, uint64_t cycle, uint32_t tm) {
-  size_t told = 0;
-  for (; told < explain->arrival_count; told++) {
-    const struct trax_arrival *arrival = &explain->arrivals[told];
+/* Notifies the readers of the arrivals that precede the issues of a TM in a cycle. */
+static void notify_arrivals(struct trax_explain *explain, uint64_t cycle, uint32_t tm) {
+  size_t notified = 0;
+  for (; notified < explain->arrival_count; notified++) {
+    const struct trax_arrival *arrival = &explain->arrivals[notified];
     if (arrival->cycle > cycle || (arrival->cycle == cycle && arrival->tm > tm))
       break;
     for (unsigned i = 0; i < explain->reader_count; i++)
       if (explain->readers[i].arrival)
         explain->readers[i].arrival(explain->readers[i].self, arrival);
   }
-  explain->arrival_count -= told;
-  if (told)
-    memmove(explain->arrivals, explain->arrivals + told, explain->arrival_count * sizeof *explain->arrivals);
+  explain->arrival_count -= notified;
+  if (notified)
+    memmove(explain->arrivals, explain->arrivals + notified, explain->arrival_count * sizeof *explain->arrivals);
 }
 
 static void add_issue(void *context, const struct trax_issue *issue) {
-  tell_arrivals(context, issue->cycle, issue->tm);
-  tell_step(context, issue->tm, issue->tp, issue);
+  notify_arrivals(context, issue->cycle, issue->tm);
+  notify_step(context, issue->tm, issue->tp, issue);
 }
 
 static void add_arrival(void *context, const struct trax_arrival *arrival) {
@@ -90,10 +90,10 @@ bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, ui
          (!options->window_tps || options->window_tps >> tp & 1);
 }
 
-/* --- beginning and ending --- */
+/* --- creation and end --- */
 
 static const struct {
-  size_t file, other_file, third_file; /* offsets in the options; any of them is a reason for it */
+  size_t file, other_file, third_file; /* offsets in the options; the reader is created if one of the files is given */
   trax_status (*create)(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 } kinds[] = {
 #define FILE_OF(MEMBER) offsetof(struct trax_explain_options, MEMBER)
@@ -128,7 +128,7 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   explain->steps = calloc(threads, sizeof *explain->steps);
   explain->places = trax_places_create(explain->machine);
   if (!explain->steps || !explain->places)
-    return trax_fail(error, "out of memory for what is to be told of %zu threads", threads);
+    return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
   for (size_t i = 0; i < threads; i++)
     explain->steps[i].pc = explain->steps[i].previous_pc = explain->machine->entry;
   for (unsigned i = 0; i < KINDS; i++)
@@ -187,12 +187,12 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   const trax_machine *machine = explain->machine;
   const uint32_t tps = machine->config.chip.tps_per_tm;
   trax_status status = TRAX_OK;
-  tell_arrivals(explain, UINT64_MAX, 0);
+  notify_arrivals(explain, UINT64_MAX, 0);
   for (uint32_t thread = 0; explain->reader_count && thread < machine->stats.threads; thread++)
-    tell_step(explain, thread / tps, thread % tps, NULL);
+    notify_step(explain, thread / tps, thread % tps, NULL);
   if (explain->out_of_memory)
-    status = trax_fail(error, "out of memory: what was to be explained is not complete and not written");
-  trax_error reason; /* what can be written is written, whatever fails; the first failure is reported */
+    status = trax_fail(error, "out of memory: the explanation of the run is incomplete and not written");
+  trax_error reason; /* after a failure the other files are still written; the first failure is reported */
   for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++)
     if (explain->readers[i].finish(explain->readers[i].self, &reason) != TRAX_OK && status == TRAX_OK)
       status = trax_fail(error, "%s", reason.message);
@@ -210,7 +210,7 @@ void trax_explain_discard(struct trax_explain *explain) {
     explain->readers[i].destroy(explain->readers[i].self);
   trax_series_destroy(explain);
   for (uint64_t i = 0; explain->steps && i < explain->machine->stats.threads; i++)
-    free(explain->steps[i].stretches);
+    free(explain->steps[i].charges);
   free(explain->steps);
   free(explain->arrivals);
   trax_places_destroy(explain->places);

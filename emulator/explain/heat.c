@@ -47,7 +47,7 @@ static void add_object(struct heat *heat, const char *name, uint64_t begin, uint
     heat->objects[heat->object_count++] = (struct object){.name = name, .begin = begin, .end = end};
 }
 
-/* Symbols, bound buffers, and what is behind them. Where objects overlap, the first keeps the place. */
+/* Lists symbols, bound buffers, heap and stacks. Of overlapping objects, the first keeps the bytes. */
 static bool list_objects(struct heat *heat) {
   const struct trax_machine *machine = heat->explain->machine;
   const struct trax_host *host = trax_host_of(machine);
@@ -74,13 +74,13 @@ static bool list_objects(struct heat *heat) {
     if (!kept || heat->objects[i].begin >= heat->objects[kept - 1].end)
       heat->objects[kept++] = heat->objects[i];
   heat->object_count = kept;
-  add_object(heat, "(other)", 0, 1); /* the last, for all other addresses */
+  add_object(heat, "(other)", 0, 1); /* the last object counts for all other addresses */
   return true;
 }
 
 static struct object *object_at(const struct heat *heat, uint32_t address) {
   size_t low = 0, high = heat->object_count - 1;
-  while (low < high) { /* the first that ends behind the address */
+  while (low < high) { /* the first object that ends after the address */
     const size_t middle = (low + high) / 2;
     if (heat->objects[middle].end <= address)
       low = middle + 1;
@@ -116,7 +116,7 @@ static void count(struct heat_counts *counts, unsigned flags, unsigned bytes, un
   }
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct heat *heat = self;
   const trax_op_info *op = &trax_op_table[step->inst.op];
   if (!step->issue || !op->access_bytes)
@@ -166,7 +166,7 @@ static trax_status write_lines(const struct heat *heat, trax_error *error) {
       if (!counts->loads && !counts->stores && !counts->atomics)
         continue;
       const uint32_t address = page << PAGE_SHIFT | i << LINE_SHIFT;
-      const struct object *object = object_at(heat, address); /* its first byte's */
+      const struct object *object = object_at(heat, address); /* the object of the line's first byte */
       fprintf(output.file, "0x%08x,\"%s\",%" PRIu64 ",", address, object->name,
               object == &heat->objects[heat->object_count - 1] ? address : address - object->begin);
       put_counts(output.file, counts);
@@ -202,6 +202,6 @@ trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *r
     destroy(heat);
     return trax_fail(error, "out of memory for the memory heat");
   }
-  *reader = (struct trax_reader){.self = heat, .step = take, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = heat, .step = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

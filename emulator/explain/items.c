@@ -1,4 +1,4 @@
-/* What each item cost, and where it stored its result. */
+/* The cost of each item, and the place of its result. */
 #include "explain/step.h"
 
 #include <inttypes.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 struct item_thread {
-  uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the item that is being made */
+  uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the current item */
   uint64_t begin, until;
   uint32_t place;
 };
@@ -46,12 +46,12 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
   *thread = (struct item_thread){.begin = end, .until = end, .place = TRAX_NO_PLACE};
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct items *items = self;
   struct item_thread *thread = &items->threads[step->thread];
   for (size_t i = 0; i < step->count; i++) {
-    thread->cycles[step->stretches[i].cause] += step->stretches[i].cycles;
-    thread->until += step->stretches[i].cycles;
+    thread->cycles[step->charges[i].cause] += step->charges[i].cycles;
+    thread->until += step->charges[i].cycles;
   }
   if (!step->issue) {
     end_item(items, step->thread, thread->until, true);
@@ -81,14 +81,14 @@ static void destroy(void *self) {
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context) {
   for (unsigned i = 0; i < explain->reader_count; i++)
-    if (explain->readers[i].step == take) {
+    if (explain->readers[i].step == add_step) {
       struct items *items = explain->readers[i].self;
       items->item = item;
       items->item_context = context;
     }
 }
 
-/* Where the buffer of the items' places is. */
+/* Finds the buffer to which the items store. */
 static trax_status find_buffer(struct items *items, trax_error *error) {
   const struct trax_explain_options *options = &items->explain->options;
   const struct trax_host *host = trax_host_of(items->explain->machine);
@@ -127,6 +127,6 @@ trax_status trax_items_create(struct trax_explain *explain, struct trax_reader *
       fprintf(items->output.file, ",%s", trax_cause_names[cause]);
     fputc('\n', items->output.file);
   }
-  *reader = (struct trax_reader){.self = items, .step = take, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = items, .step = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

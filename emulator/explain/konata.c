@@ -1,6 +1,6 @@
 /* The window as a pipeline in the format of the viewer Konata ("Kanata", version 0004): instructions with the cycles in
-   which they were fetched, waited, and issued. The format wants everything in the order of time, so what happens is
-   kept and sorted in the end. */
+   which they were fetched, waited, and were issued. The format is ordered by cycle, so the events are collected and
+   sorted at the end. */
 #include "explain/places.h"
 #include "explain/step.h"
 #include "explain/table.h"
@@ -21,7 +21,7 @@ struct event {
 };
 
 struct instruction {
-  uint32_t pc, word, result, address, thread, id; /* id: in the file, from when it appears */
+  uint32_t pc, word, result, address, thread, id; /* id: its number in the file, from its first event on */
 };
 
 struct konata {
@@ -64,7 +64,7 @@ static void add_event(struct konata *konata, uint64_t cycle, enum stage stage, b
   *first = false;
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct konata *konata = self;
   const struct trax_explain_options *options = &konata->explain->options;
   const struct trax_issue *issue = step->issue;
@@ -77,9 +77,9 @@ static void take(void *self, const struct trax_step *step) {
   }
   bool first = true;
   for (size_t i = 0; i < step->count; i++) {
-    const struct trax_stretch *stretch = &step->stretches[i];
-    if (stretch->cause != TRAX_CAUSE_BRANCH && stretch->since + stretch->cycles > options->window_begin)
-      add_event(konata, stretch->since, stage_of(stretch->cause), &first);
+    const struct trax_charge *charge = &step->charges[i];
+    if (charge->cause != TRAX_CAUSE_BRANCH && charge->since + charge->cycles > options->window_begin)
+      add_event(konata, charge->since, stage_of(charge->cause), &first);
   }
   add_event(konata, issue->cycle, EXECUTE, &first);
   add_event(konata, issue->cycle + 1, RETIRE, &first);
@@ -93,7 +93,7 @@ static int by_cycle(const void *a, const void *b) {
     return x->cycle < y->cycle ? -1 : 1;
   if (x->instruction != y->instruction)
     return x->instruction < y->instruction ? -1 : 1;
-  return x->stage - y->stage; /* those of one cycle: only the last may be RETIRE */
+  return x->stage - y->stage; /* RETIRE is the last stage of a cycle */
 }
 
 static void put_event(struct konata *konata, const struct event *event, uint32_t *ids, uint32_t *retired, FILE *out) {
@@ -156,6 +156,6 @@ trax_status trax_konata_create(struct trax_explain *explain, struct trax_reader 
   if (!konata)
     return trax_fail(error, "out of memory");
   konata->explain = explain;
-  *reader = (struct trax_reader){.self = konata, .step = take, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = konata, .step = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

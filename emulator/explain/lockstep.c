@@ -1,19 +1,19 @@
-/* What the run's items would take on a SIMD machine: the instructions that each item executed are run once more, in
+/* The issue slots that the run's items would take on a SIMD machine: the instructions of each item are replayed in
    warps of threads that share one program counter.
 
-   A warp of W has W items, consecutive in the order in which the program took them: by the value of the atomic
-   increment that its thread executed last before the item ended. The warp executes the lowest address at which any of
-   its threads stands, with those that stand there: threads meet again as soon as they can where code is laid out in its
-   order (Collange, "Stack-less SIMT reconvergence at low cost", ENS Lyon 2011). Memory and units take no time, so this
-   is the issue slots' use alone, and the best a lockstep machine can do with this program without re-packing its warps.
- */
+   A warp of width W has W items that are consecutive in the order in which the program took them. An item's number is
+   the value of the last atomic increment that its thread executed before the item ended. The warp executes the
+   instruction at the lowest address of its threads' pcs, for the threads that are at it. If code is laid out in the
+   order of its control flow, threads reconverge as early as possible (Collange, "Stack-less SIMT reconvergence at low
+   cost", ENS Lyon 2011). Memory and units take no time. So the result is the use of issue slots alone, an upper bound
+   for a lockstep machine that does not repack its warps. */
 #include "explain/step.h"
 #include "explain/table.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* Instructions that follow one another without a taken jump. */
+/* A sequence of instructions without a taken jump. */
 struct run {
   uint32_t pc, count;
 };
@@ -21,7 +21,7 @@ struct run {
 struct recording {
   struct run *runs;
   size_t count, capacity;
-  uint32_t number; /* that the program gave it */
+  uint32_t number; /* the item's number */
 };
 
 struct lockstep {
@@ -42,11 +42,11 @@ static void end_item(struct lockstep *lockstep, struct recording *thread) {
   *thread = (struct recording){.number = thread->number};
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct lockstep *lockstep = self;
   struct recording *thread = &lockstep->threads[step->thread];
   if (!step->issue)
-    return; /* what is behind a thread's last item belongs to none */
+    return; /* instructions after a thread's last item belong to no item */
   struct run *last = thread->count ? &thread->runs[thread->count - 1] : NULL;
   if (last && last->pc + 4 * last->count == step->pc) {
     last->count++;
@@ -71,14 +71,15 @@ enum { WIDEST = 64 };
 
 struct cursor {
   const struct run *at, *end;
-  uint32_t done; /* instructions of *at */
+  uint32_t done; /* instructions of *at that have been executed */
 };
 
 static uint32_t pc_of(const struct cursor *cursor) {
   return cursor->at == cursor->end ? UINT32_MAX : cursor->at->pc + 4 * cursor->done;
 }
 
-/* Issue slots that the warp takes; *executed counts its threads' instructions. */
+/* Returns the issue slots that the warp takes. Adds the instructions of its threads to *executed, and those of the
+   longest thread to *longest. */
 static uint64_t run_warp(const struct recording *items, size_t count, uint64_t *executed, uint64_t *longest) {
   struct cursor cursors[WIDEST];
   uint64_t slots = 0, most = 0;
@@ -92,7 +93,7 @@ static uint64_t run_warp(const struct recording *items, size_t count, uint64_t *
   }
   *longest += most;
   for (;;) {
-    /* The threads at the lowest address go on together to the first jump, or to where another one waits. */
+    /* The threads at the lowest address advance together up to the first jump or the next thread's pc. */
     uint32_t lowest = UINT32_MAX, next = UINT32_MAX, steps = UINT32_MAX;
     for (size_t i = 0; i < count; i++) {
       const uint32_t pc = pc_of(&cursors[i]);
@@ -167,6 +168,6 @@ trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reade
     return TRAX_ERROR;
   }
   *reader =
-      (struct trax_reader){.self = lockstep, .step = take, .arrival = arrive, .finish = finish, .destroy = destroy};
+      (struct trax_reader){.self = lockstep, .step = add_step, .arrival = arrive, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -1,8 +1,9 @@
 /* The first load that may return an old value (docs/emulator.md, "Checking the order").
 
-   The engines' memory is never stale, so that a program's results do not tell what it relies on. A cached load of what
-   another thread has stored is right if that thread has executed `fence w` since then and, unless it is of the same TM,
-   either the loading thread has executed `fence r` since that, or no thread of its TM had loaded the line before. */
+   The engines' memory is never stale, so a program's results do not show which order it relies on. A cached load of a
+   value that another thread has stored is right if that thread has executed `fence w` since the store and one of three
+   holds: both threads are in one TM; the loading thread has executed `fence r` since that fence; or no thread of its TM
+   had loaded the line before that fence. */
 #include "explain/step.h"
 #include "explain/table.h"
 #include "report/backtrace.h"
@@ -13,15 +14,15 @@
 
 enum { PAGE_SHIFT = 12, PAGE = 1 << PAGE_SHIFT, THREAD_BITS = 12, LABEL = 12 };
 
-_Static_assert(TRAX_MAX_TMS *TRAX_MAX_TPS_PER_TM <= 1 << THREAD_BITS, "threads of a moment");
+_Static_assert(TRAX_MAX_TMS *TRAX_MAX_TPS_PER_TM <= 1 << THREAD_BITS, "a moment holds any thread");
 
-/* When and by whom something was issued, in the order of issues: cycle << THREAD_BITS | thread. 0 is never. */
+/* The cycle and thread of an issue, ordered as issues are: cycle << THREAD_BITS | thread. 0 is never. */
 typedef uint64_t moment;
 #define NOT_YET UINT64_MAX
 
 struct thread {
   moment acquired;  /* its latest `fence r` */
-  moment *released; /* [count]: its `fence w`, the earliest first */
+  moment *released; /* [count]: each `fence w`, the earliest first */
   size_t count, capacity;
 };
 
@@ -40,10 +41,10 @@ struct order {
   moment **loaded;        /* [TM * pages + page]: the first load of each of its lines */
   bool out_of_memory;
 
-  bool found; /* a load, by which thread and of what */
+  bool found; /* a load that may return an old value: */
   struct trax_issue load;
   uint32_t bytes, address, store_pc;
-  moment store, release, held; /* `fence w` behind the store; the first load of the line by the TM */
+  moment store, release, held; /* the store, the `fence w` after it, the first load of the line by the TM */
 };
 
 static uint32_t thread_of(moment when) {
@@ -86,7 +87,7 @@ static void note_store(struct order *order, const struct trax_issue *issue, uint
   }
 }
 
-/* The first `fence w` of the thread that has stored, since then. */
+/* Returns the storing thread's first `fence w` after the store, or NOT_YET. */
 static moment release_of(const struct order *order, moment store) {
   const struct thread *thread = &order->threads[thread_of(store)];
   size_t low = 0, high = thread->count;
@@ -100,7 +101,7 @@ static moment release_of(const struct order *order, moment store) {
   return low < thread->count ? thread->released[low] : NOT_YET;
 }
 
-/* Whether a load may miss the store; `held`: the first load of the line by the TM, never if this is it. */
+/* Whether a load may not see the store. held: the first load of the line by the TM; 0 if this load is the first. */
 static bool may_miss(const struct order *order, const struct trax_issue *load, moment store, moment held) {
   const uint32_t reader = thread_of(moment_of(order, load)), writer = thread_of(store);
   if (!store || writer == reader)
@@ -132,7 +133,7 @@ static void check_load(struct order *order, const struct trax_issue *issue, uint
     *held = moment_of(order, issue);
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct order *order = self;
   const trax_op_info *op = &trax_op_table[step->inst.op];
   if (!step->issue || order->found || order->out_of_memory)
@@ -232,6 +233,6 @@ trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *
     destroy(order);
     return trax_fail(error, "out of memory for the order of accesses");
   }
-  *reader = (struct trax_reader){.self = order, .step = take, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = order, .step = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

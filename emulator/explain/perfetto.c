@@ -1,5 +1,5 @@
-/* The window as JSON trace events for Perfetto: TMs are processes; each TP has a thread that shows what its cycles went
-   to and one that shows the functions it was in. A cycle is shown as a microsecond. */
+/* The window as JSON trace events for Perfetto: TMs are processes. Each TP has two threads, one for the causes of its
+   cycles and one for its functions. A cycle is shown as a microsecond. */
 #include "explain/places.h"
 #include "explain/step.h"
 
@@ -11,14 +11,14 @@
 enum { MAX_FRAMES = 64, COUNTERS_IN_WINDOW = 1000 };
 
 struct thread {
-  trax_cause cause; /* of the slice that is open */
+  trax_cause cause; /* of the open slice */
   uint64_t since, until;
-  uint32_t frames[MAX_FRAMES]; /* names of the functions that are open, outermost first */
+  uint32_t frames[MAX_FRAMES]; /* names of the open functions, outermost first */
   uint32_t frame_count;
 };
 
 struct counters {
-  uint64_t issued, misses; /* in the present interval */
+  uint64_t issued, misses; /* in the current interval */
 };
 
 struct perfetto {
@@ -27,7 +27,7 @@ struct perfetto {
   struct thread *threads; /* [threads] */
   struct counters *tms;   /* [tms] */
   uint64_t interval, counted_from;
-  bool any; /* event was written */
+  bool any; /* an event has been written */
 };
 
 static uint64_t clip(const struct trax_explain_options *options, uint64_t cycle) {
@@ -36,7 +36,7 @@ static uint64_t clip(const struct trax_explain_options *options, uint64_t cycle)
   return cycle < options->window_end ? cycle : options->window_end;
 }
 
-/* The beginning of an event; the caller goes on behind its name. */
+/* Writes an event up to its name. The caller writes the rest. */
 static FILE *begin_event(struct perfetto *perfetto, const char *phase, uint32_t tm, uint32_t thread, uint64_t cycle,
                          const char *name) {
   FILE *out = perfetto->output.file;
@@ -58,8 +58,8 @@ static void close_slice(struct perfetto *perfetto, uint32_t tm, uint32_t tp, str
   thread->since = thread->until;
 }
 
-static void add_stretch(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, trax_cause cause,
-                        uint64_t since, uint64_t cycles) {
+static void add_charge(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, trax_cause cause,
+                       uint64_t since, uint64_t cycles) {
   const struct trax_explain_options *options = &perfetto->explain->options;
   const uint64_t begin = clip(options, since), end = clip(options, since + cycles);
   if (begin == end)
@@ -80,7 +80,7 @@ static void leave_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, st
   }
 }
 
-/* From `cycle` on the TP is at the instruction `index`. */
+/* Opens and closes functions, since the TP is at the instruction `index` from `cycle` on. */
 static void enter_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, uint32_t index,
                          uint64_t cycle) {
   struct trax_places *places = perfetto->explain->places;
@@ -121,7 +121,7 @@ static void count(struct perfetto *perfetto, const struct trax_issue *issue) {
   perfetto->tms[issue->tm].misses += (issue->outcome & TRAX_OUTCOME_MISS) != 0;
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct perfetto *perfetto = self;
   const struct trax_explain_options *options = &perfetto->explain->options;
   struct thread *thread = &perfetto->threads[step->thread];
@@ -130,18 +130,18 @@ static void take(void *self, const struct trax_step *step) {
   const uint64_t end = step->issue ? step->issue->cycle + 1 : perfetto->explain->machine->stats.cycles;
   if (!trax_window_has(options, step->tm, step->tp, step->begin, end))
     return;
-  const bool halts = step->count && step->stretches[step->count - 1].cause == TRAX_CAUSE_HALTED;
-  const bool bubble = step->count && step->stretches[0].cause == TRAX_CAUSE_BRANCH; /* it is the branch's */
-  const uint64_t entered = step->begin + (bubble ? step->stretches[0].cycles : 0);
+  const bool halts = step->count && step->charges[step->count - 1].cause == TRAX_CAUSE_HALTED;
+  const bool bubble = step->count && step->charges[0].cause == TRAX_CAUSE_BRANCH; /* belongs to the branch before */
+  const uint64_t entered = step->begin + (bubble ? step->charges[0].cycles : 0);
   if (entered < options->window_end && !(halts && step->count == 1))
     enter_frames(perfetto, step->tm, step->tp, thread, step->index, clip(options, entered));
   for (size_t i = 0; i < step->count; i++)
-    add_stretch(perfetto, step->tm, step->tp, thread, step->stretches[i].cause, step->stretches[i].since,
-                step->stretches[i].cycles);
+    add_charge(perfetto, step->tm, step->tp, thread, step->charges[i].cause, step->charges[i].since,
+               step->charges[i].cycles);
   if (step->issue)
-    add_stretch(perfetto, step->tm, step->tp, thread, TRAX_CAUSE_ISSUED, step->issue->cycle, 1);
+    add_charge(perfetto, step->tm, step->tp, thread, TRAX_CAUSE_ISSUED, step->issue->cycle, 1);
   if (halts)
-    leave_frames(perfetto, step->tm, step->tp, thread, 0, clip(options, step->stretches[step->count - 1].since));
+    leave_frames(perfetto, step->tm, step->tp, thread, 0, clip(options, step->charges[step->count - 1].since));
 }
 
 static void put_names(struct perfetto *perfetto) {
@@ -213,6 +213,6 @@ trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reade
           "\"traceEvents\":[",
           explain->machine->config.chip.clock_mhz);
   put_names(perfetto);
-  *reader = (struct trax_reader){.self = perfetto, .step = take, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = perfetto, .step = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -12,7 +12,7 @@ enum { MAX_FRAMES = 64 };
 
 struct range {
   uint32_t address, count; /* instructions */
-  uint32_t first;          /* its index */
+  uint32_t first;          /* the index of its first instruction */
 };
 
 struct trax_places {
@@ -20,12 +20,12 @@ struct trax_places {
   struct range *ranges;
   size_t range_count;
   uint32_t count;
-  struct trax_place *place; /* [count + 2]; frames are NULL until it is looked up */
+  struct trax_place *place; /* [count + 2]; `frames` is NULL until the first look-up */
   trax_inst *inst;          /* [count + 2] */
 
   char **names; /* [name] */
   size_t name_count, name_capacity;
-  struct trax_table by_hash; /* of names; equal hashes are told apart by adding 1 */
+  struct trax_table by_hash; /* of names; if two names have the same hash, the second one's key is the hash + 1 */
 };
 
 struct trax_places *trax_places_create(const trax_machine *machine) {
@@ -109,7 +109,7 @@ static uint64_t hash_of(const char *text) {
   return hash;
 }
 
-/* 0 if there is no memory for it. */
+/* Returns the number of a name; 0: out of memory. */
 static uint32_t intern(struct trax_places *places, const char *text) {
   for (uint64_t hash = hash_of(text);; hash++) {
     uint32_t name;
@@ -136,7 +136,7 @@ static uint32_t intern_line(struct trax_places *places, const struct trax_source
   return intern(places, text);
 }
 
-/* --- looking up --- */
+/* --- look-up --- */
 
 static uint32_t function_name(struct trax_places *places, uint32_t pc, const struct trax_symbol *symbol,
                               const struct trax_source_line *line) {
@@ -145,7 +145,7 @@ static uint32_t function_name(struct trax_places *places, uint32_t pc, const str
     return intern(places, line->function);
   if (symbol)
     return intern(places, symbol->name);
-  snprintf(text, sizeof text, "0x%08x", pc & ~0xFFFu); /* no function, but near others of the page */
+  snprintf(text, sizeof text, "0x%08x", pc & ~0xFFFu); /* unknown functions are grouped by their page */
   return intern(places, text);
 }
 

@@ -1,10 +1,10 @@
-/* Where in the source each instruction of a program is, looked up once. */
+/* The place of each instruction in the program's source, looked up once. */
 #ifndef TRAX_EXPLAIN_PLACES_H
 #define TRAX_EXPLAIN_PLACES_H
 
 #include "machine/machine.h"
 
-/* One function an instruction lies in: [0] is the innermost, inlined into [1], and so on. */
+/* A function that contains an instruction: [0] is the innermost, which is inlined into [1], and so on. */
 struct trax_frame_place {
   uint32_t function; /* of trax_places_name */
   uint32_t line;     /* of trax_places_name: "file:line", or 0: unknown */
@@ -22,9 +22,9 @@ struct trax_places;
 struct trax_places *trax_places_create(const trax_machine *machine); /* NULL: out of memory */
 void trax_places_destroy(struct trax_places *places);
 
-/* Instructions are numbered through all executable segments; behind them come two that are none: where a thread is that
-   has halted, and what lies outside. */
-uint32_t trax_places_count(const struct trax_places *places); /* without those two */
+/* Instructions are numbered through all executable segments. Two more indices follow: the place of a halted thread, and
+   every address that is no text. */
+uint32_t trax_places_count(const struct trax_places *places); /* without these two */
 uint32_t trax_places_index(const struct trax_places *places, uint32_t pc);
 uint32_t trax_places_pc(const struct trax_places *places, uint32_t index);
 const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t index);
@@ -34,7 +34,7 @@ static inline uint32_t trax_places_halted(const struct trax_places *places) {
 
 /* Valid until the places are destroyed. */
 const struct trax_place *trax_places_at(struct trax_places *places, uint32_t index);
-/* Names are numbered from 1 on; equal ones have one number. 0 is "". */
+/* Names are numbered from 1; equal names have the same number. 0 is "". */
 const char *trax_places_name(const struct trax_places *places, uint32_t name);
 uint32_t trax_places_names(const struct trax_places *places);
 /* "symbol+0x10", "symbol" or "0x00001234". */

@@ -1,7 +1,7 @@
-/* Counting for profiles. A call stack is kept for each thread: jal and jalr that write a register call, a jump through
-   a register to where a call returns to returns. A tail call needs nothing: the caller's frame stays, the code is
-   another function's. A longjmp ends the calls that were made with the stack pointer below the present one, and
-   that of the function it returns to. */
+/* Counts profiles. Each thread has a call stack: a jal or jalr that writes a register is a call, and a jump through a
+   register to the return address of the latest call is a return. After a tail call, the caller's frame stays, with the
+   code of another function. A longjmp ends the calls made with a stack pointer below the current one, and the call out
+   of the function that it returns to. */
 #include "explain/profile.h"
 
 #include <stdlib.h>
@@ -9,12 +9,12 @@
 enum { STACK_POINTER = 2, MAX_DEPTH = 512 };
 
 struct call {
-  uint32_t return_pc, stack_pointer, context; /* the callee's */
+  uint32_t return_pc, stack_pointer, context; /* context: of the callee */
 };
 
 struct trax_profile_thread {
   uint32_t context, stack_pointer;
-  uint32_t latest; /* record of the latest issue; UINT32_MAX: none */
+  uint32_t latest; /* the record of the latest issue; UINT32_MAX: none */
   struct call *calls;
   size_t depth, capacity;
 };
@@ -42,8 +42,8 @@ static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint3
 
 /* --- the call stack --- */
 
-static bool is_below(uint32_t stack_pointer,
-                     uint32_t other) { /* the local stack begins at 0 and goes down from there */
+/* The local stack begins at 0 and grows down, so 0 is above all other addresses. */
+static bool is_below(uint32_t stack_pointer, uint32_t other) {
   return stack_pointer - 1 < other - 1;
 }
 
@@ -65,7 +65,7 @@ static void call(struct trax_profile *profile, struct trax_profile_thread *threa
   thread->context = context;
 }
 
-/* Whether the jump goes back into the middle of the function that made the latest call, without its returning. */
+/* Whether the jump, which is no return, goes back into the middle of the function that made the latest call. */
 static bool leaves_call(const struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t pc) {
   struct trax_places *places = profile->explain->places;
   const struct call *latest = &thread->calls[thread->depth - 1];
@@ -80,7 +80,7 @@ static void jump_through_register(const struct trax_profile *profile, struct tra
                            leaves_call(profile, thread, pc)))
     thread->depth--;
   if (thread->depth && thread->calls[thread->depth - 1].return_pc == pc &&
-      thread->calls[thread->depth - 1].stack_pointer == thread->stack_pointer) /* not of a call too deep to be kept */
+      thread->calls[thread->depth - 1].stack_pointer == thread->stack_pointer) /* else of a call beyond MAX_DEPTH */
     thread->depth--;
   thread->context = thread->depth ? thread->calls[thread->depth - 1].context : 0;
 }
@@ -89,7 +89,7 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
                    uint32_t index) {
   const trax_inst inst = step->inst;
   if (inst.op == TRAX_OP_JAL || inst.op == TRAX_OP_JALR) {
-    if (inst.rd && step->issue->next_pc != step->pc + 4) /* else a call of nothing: a weak function that is not there */
+    if (inst.rd && step->issue->next_pc != step->pc + 4) /* else a call of a weak function that is not defined */
       call(profile, thread, index, step->pc + 4);
     else if (!inst.rd && inst.op == TRAX_OP_JALR)
       jump_through_register(profile, thread, step->issue->next_pc);
@@ -100,12 +100,12 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
 
 /* --- the reader --- */
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct trax_profile *profile = self;
   struct trax_profile_thread *thread = &profile->threads[step->thread];
   const struct trax_places *places = profile->explain->places;
   const uint32_t index = step->index, previous = thread->latest;
-  struct trax_profile_counts *counts = NULL; /* made only if it counts something */
+  struct trax_profile_counts *counts = NULL; /* created only if it counts something */
   if (step->issue) {
     counts = counts_of(profile, thread->context, index, &thread->latest);
     counts->cycles[TRAX_CAUSE_ISSUED]++;
@@ -115,16 +115,16 @@ static void take(void *self, const struct trax_step *step) {
     }
   }
   for (size_t i = 0; i < step->count; i++) {
-    const struct trax_stretch *stretch = &step->stretches[i];
+    const struct trax_charge *charge = &step->charges[i];
     uint32_t record;
-    if (stretch->cause == TRAX_CAUSE_BRANCH && previous != UINT32_MAX)
-      profile->records[previous].counts.cycles[TRAX_CAUSE_BRANCH] += stretch->cycles;
-    else if (stretch->cause == TRAX_CAUSE_HALTED)
-      counts_of(profile, 0, trax_places_halted(places), &record)->cycles[TRAX_CAUSE_HALTED] += stretch->cycles;
+    if (charge->cause == TRAX_CAUSE_BRANCH && previous != UINT32_MAX)
+      profile->records[previous].counts.cycles[TRAX_CAUSE_BRANCH] += charge->cycles;
+    else if (charge->cause == TRAX_CAUSE_HALTED)
+      counts_of(profile, 0, trax_places_halted(places), &record)->cycles[TRAX_CAUSE_HALTED] += charge->cycles;
     else if (counts)
-      counts->cycles[stretch->cause] += stretch->cycles;
+      counts->cycles[charge->cause] += charge->cycles;
     else
-      counts_of(profile, thread->context, index, &record)->cycles[stretch->cause] += stretch->cycles;
+      counts_of(profile, thread->context, index, &record)->cycles[charge->cause] += charge->cycles;
   }
   if (step->issue)
     follow(profile, thread, step, index);
@@ -193,6 +193,6 @@ trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader
   profile->contexts[profile->context_count++] = (struct trax_profile_context){0, 0};
   for (uint64_t i = 0; i < threads; i++)
     profile->threads[i].latest = UINT32_MAX;
-  *reader = (struct trax_reader){.self = profile, .step = take, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = profile, .step = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

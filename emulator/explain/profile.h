@@ -1,4 +1,4 @@
-/* What a profile counts, between profile.c (counting) and profile_text.c (writing). */
+/* The counts of a profile, which profile.c makes and profile_text.c writes. */
 #ifndef TRAX_EXPLAIN_PROFILE_H
 #define TRAX_EXPLAIN_PROFILE_H
 
@@ -6,7 +6,7 @@
 #include "explain/step.h"
 #include "explain/table.h"
 
-/* Of one instruction in one context, or sums of that. */
+/* The counts of one instruction in one context, or a sum of such counts. */
 struct trax_profile_counts {
   uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles; those issued are the instructions */
   uint64_t loads, hits;              /* through the data cache */
@@ -17,7 +17,7 @@ struct trax_profile_record {
   struct trax_profile_counts counts;
 };
 
-/* How a function was come to: by the call at `index` in the context `parent`. Context 0 is the beginning. */
+/* A call chain: the call at `index` in the context `parent`. Context 0 is the program's start. */
 struct trax_profile_context {
   uint32_t parent, index;
 };
@@ -33,7 +33,7 @@ struct trax_profile {
   struct trax_profile_record *records;
   size_t record_count, record_capacity;
   struct trax_table record_of; /* (context, index) */
-  uint32_t *latest_of;         /* [places]: record + 1 of the latest context that the instruction was met in */
+  uint32_t *latest_of;         /* [places]: the latest record of the instruction, + 1; a cache of record_of */
   bool out_of_memory;
 };
 

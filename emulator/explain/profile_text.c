@@ -11,14 +11,14 @@
 struct row {
   uint32_t name;
   struct trax_profile_counts own;  /* of the instructions themselves */
-  uint64_t own_cycles, all_cycles; /* all: of those inlined or called, too */
+  uint64_t own_cycles, all_cycles; /* all: with functions that are inlined or called */
 };
 
 struct tables {
   const struct trax_profile *profile;
   struct trax_profile_counts total;
   struct row *functions, *lines; /* [names + 1] */
-  uint32_t *seen;                /* [names + 1]: the last record + 1 that had the name, as a function or a line */
+  uint32_t *seen;                /* [names + 1]: the latest record with the name, as a function or a line, + 1 */
   size_t names;
 };
 
@@ -26,7 +26,7 @@ static double percent(uint64_t part, uint64_t whole) {
   return whole ? 100 * (double)part / (double)whole : 0;
 }
 
-/* The frames of a place count once for each record, however often the function is in the stack. */
+/* Adds the cycles to the frames of a place. A function counts once for each record, even if it is recursive. */
 static void add_frames(struct tables *tables, uint32_t index, uint32_t stamp, uint64_t cycles) {
   const struct trax_place *place = trax_places_at(tables->profile->explain->places, index);
   for (uint32_t i = 0; i < place->frame_count; i++) {
@@ -55,7 +55,7 @@ static void add_record(struct tables *tables, size_t number) {
     add_frames(tables, profile->contexts[context].index, (uint32_t)number + 1, cycles);
 }
 
-static int by_own(const void *a, const void *b) { /* then by name: they are numbered as they are met */
+static int by_own(const void *a, const void *b) { /* then by name, whose numbers are deterministic */
   const struct row *x = a, *y = b;
   if (x->own_cycles != y->own_cycles)
     return x->own_cycles < y->own_cycles ? 1 : -1;
@@ -113,7 +113,8 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
   fprintf(out, "  total\n");
 }
 
-static void look_up_all(const struct trax_profile *profile) { /* so that all names are there */
+/* Looks up all places, so that the number of names is final. */
+static void look_up_all(const struct trax_profile *profile) {
   for (size_t i = 0; i < profile->record_count; i++)
     trax_places_at(profile->explain->places, profile->records[i].index);
   for (size_t i = 1; i < profile->context_count; i++)
@@ -209,17 +210,17 @@ static int by_text(const void *a, const void *b) {
   return strcmp(((const struct stack *)a)->text, ((const struct stack *)b)->text);
 }
 
-/* A frame of the stack: what separates frames must not be in it. */
+/* Writes a frame of the stack, without the characters that separate frames and stacks. */
 static void put_frame(FILE *out, const char *name) {
   for (; *name; name++)
     fputc(*name == ';' || *name == '\n' ? ':' : *name, out);
   fputc(';', out);
 }
 
-/* From the outermost call inwards. */
+/* Writes the calls, the outermost first. */
 static void put_calls(const struct trax_profile *profile, uint32_t context, FILE *out) {
   struct trax_places *places = profile->explain->places;
-  uint32_t path[1024], depth = 0; /* deeper than the stacks that are kept */
+  uint32_t path[1024], depth = 0; /* more than profile.c's MAX_DEPTH */
   for (; context && depth < sizeof path / sizeof *path; context = profile->contexts[context].parent)
     path[depth++] = profile->contexts[context].index;
   while (depth) {
@@ -271,7 +272,7 @@ trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *
   }
   if (complete) {
     qsort(stacks, count, sizeof *stacks, by_text);
-    for (size_t i = 0; i < count;) { /* instructions of one line are one stack */
+    for (size_t i = 0; i < count;) { /* instructions of one line have the same text and are added up */
       uint64_t cycles = 0;
       size_t first = i;
       for (; i < count && strcmp(stacks[i].text, stacks[first].text) == 0; i++)

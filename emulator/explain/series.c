@@ -1,4 +1,4 @@
-/* Every so many cycles a row of what has been counted since the row before: for the chip and for each TM. */
+/* Series: for each interval of cycles, rows of the counters' increases, for the chip and for each TM. */
 #include "explain/step.h"
 
 #include <inttypes.h>
@@ -14,7 +14,7 @@ struct series {
   struct trax_memory_stats previous_memory;
 };
 
-/* memory: of the chip's row; NULL for a TM. */
+/* Writes a row. memory: the chip's; NULL for a TM. */
 static void put_row(struct series *series, const char *tm, uint64_t end, const struct trax_tm_stats *stats,
                     const struct trax_memory_stats *memory, uint32_t queue) {
   FILE *out = series->output.file;
@@ -47,7 +47,7 @@ static void put_head(FILE *out) {
   fprintf(out, ",memory.queue\n");
 }
 
-/* All counts of a TM so far, those that follow from others included. */
+/* Returns the counters of a TM so far, with the TPs' charges added up. */
 static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32_t tm) {
   struct trax_tm_stats stats = machine->tm_stats[tm];
   const uint32_t tps = machine->config.chip.tps_per_tm;
@@ -58,7 +58,7 @@ static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32
   return stats;
 }
 
-/* Of structs of counts. */
+/* Subtracts structures of 64-bit counters. */
 static void subtract(void *from, const void *stats, size_t bytes) {
   uint64_t *to = from;
   const uint64_t *terms = stats;
@@ -77,7 +77,7 @@ static void put_rows(struct series *series, const struct trax_run *run, uint64_t
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
     const struct trax_tm_stats now = counts_of(machine, tm);
     rows[tm] = now;
-    if (run) /* after the run they are there */
+    if (run) /* after the run, the derived counters are complete */
       trax_stats_derive(&rows[tm], &machine->config);
     const struct trax_tm_stats counted = rows[tm];
     subtract(&rows[tm], &series->previous[tm], sizeof rows[tm]);

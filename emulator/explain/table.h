@@ -9,7 +9,7 @@
 
 struct trax_table_entry {
   uint64_t key;
-  uint32_t value; /* + 1; 0: empty */
+  uint32_t value; /* the number + 1; 0: an empty entry */
 };
 
 struct trax_table {
@@ -40,7 +40,7 @@ static inline bool trax_table_grow(struct trax_table *table) {
   return true;
 }
 
-/* The key's number; `otherwise` becomes it if the key is new. False: out of memory. */
+/* Sets *value to the key's number. A new key gets the number `otherwise`. False: out of memory. */
 static inline bool trax_table_find(struct trax_table *table, uint64_t key, uint32_t otherwise, uint32_t *value) {
   if (2 * table->count >= table->capacity && !trax_table_grow(table))
     return false;
@@ -58,7 +58,7 @@ static inline void trax_table_free(struct trax_table *table) {
   *table = (struct trax_table){0};
 }
 
-/* Room for one more element behind `count` of an array; false: out of memory, and the array is as it was. */
+/* Makes room for one more element than `count`. False: out of memory, and the array is unchanged. */
 static inline bool trax_grow(void **array, size_t count, size_t *capacity, size_t size) {
   if (count < *capacity)
     return true;

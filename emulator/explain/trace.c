@@ -38,7 +38,7 @@ static void put_outcome(FILE *out, unsigned outcome) {
       fprintf(out, " %s", names[i]);
 }
 
-static void take(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_step *step) {
   struct trace *trace = self;
   const struct trax_issue *issue = step->issue;
   FILE *out = trace->output.file;
@@ -59,7 +59,7 @@ static void take(void *self, const struct trax_step *step) {
   fputc('\n', out);
 }
 
-static void take_arrival(void *self, const struct trax_arrival *arrival) {
+static void add_arrival(void *self, const struct trax_arrival *arrival) {
   struct trace *trace = self;
   if (!arrival->rd || arrival->rd >= TRAX_NUM_REGISTERS ||
       !trax_window_has(&trace->explain->options, arrival->tm, arrival->tp, arrival->cycle, arrival->cycle + 1))
@@ -97,7 +97,7 @@ trax_status trax_trace_create(struct trax_explain *explain, struct trax_reader *
   fprintf(trace->output.file,
           "#    cycle thread TM.TP pc     symbol                 word      instruction               result or value, "
           "address, cache, jump\n");
-  *reader =
-      (struct trax_reader){.self = trace, .step = take, .arrival = take_arrival, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){
+      .self = trace, .step = add_step, .arrival = add_arrival, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }
