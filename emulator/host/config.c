@@ -1,4 +1,4 @@
-/* Configurations by name and as text. The keys themselves are declared in machine/config_keys.h. */
+/* Presets, and configurations as text. machine/config_keys.h declares the keys. */
 #include "host/config.h"
 
 #include <errno.h>
@@ -94,7 +94,7 @@ trax_status trax_config_load(trax_config *config, const char *preset_or_path, tr
   trax_error reason;
   if (trax_config_preset(config, preset_or_path, &reason) == TRAX_OK)
     return TRAX_OK;
-  /* A name without a path in it that no file has was meant as a preset. */
+  /* A name that contains neither '/' nor '.' and is no file was meant as a preset. */
   if (!strpbrk(preset_or_path, "/.") && access(preset_or_path, F_OK) != 0)
     return trax_fail(error, "no file and %s", reason.message);
   return trax_config_read_file(config, preset_or_path, error);
@@ -112,7 +112,7 @@ const struct trax_config_key *trax_config_find(const char *name, trax_error *err
     if (strcmp(trax_config_keys[i].name, name) == 0)
       return &trax_config_keys[i];
   const char *nearest = trax_nearest_name(name, trax_config_key_count, key_name, NULL);
-  /* "latency_cycles" without its section: say where it lives. */
+  /* A key without its section, such as "latency_cycles", is completed in the message. */
   for (size_t i = 0; i < trax_config_key_count && !nearest; ++i)
     if (strcmp(trax_config_keys[i].key, name) == 0)
       nearest = trax_config_keys[i].name;
@@ -145,7 +145,7 @@ trax_status trax_config_store(struct trax_config *config, const struct trax_conf
 
 const char *trax_config_allowed(const struct trax_config_key *key, trax_error *message) {
   message->message[0] = 0;
-  trax_config_check_value(key, NAN, message); /* which no key may have */
+  trax_config_check_value(key, NAN, message); /* always fails */
   const char *allowed = strstr(message->message, "; ");
   return allowed ? allowed : message->message;
 }
@@ -170,7 +170,7 @@ trax_status trax_config_set(trax_config *config, const char *key_text, const cha
                                                                        : TRAX_ERROR;
   char *end;
   value = strtod(value_text, &end);
-  /* strtod skips blanks and knows names; a value is digits. */
+  /* strtod also accepts blanks and names such as "inf", which are no values. */
   if (end == value_text || *end != 0 || !strchr("+-.0123456789", *value_text) || !isfinite(value)) {
     trax_error allowed;
     return trax_fail(error, "%s is \"%s\", not a number%s", key->name, value_text, trax_config_allowed(key, &allowed));
@@ -180,7 +180,8 @@ trax_status trax_config_set(trax_config *config, const char *key_text, const cha
 
 /* --- output --- */
 
-/* The shortest decimal that reads back as the same value, with a point: libconfig tells reals from integers by it. */
+/* Formats the shortest decimal that reads back as the same value. A real has a point, by which libconfig distinguishes
+   reals from integers. */
 static void format_value(const struct trax_config_key *key, double value, char *text, size_t size) {
   if (key->kind == TRAX_KIND_FLAG) {
     snprintf(text, size, "%s", value != 0 ? "true" : "false");

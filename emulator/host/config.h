@@ -1,17 +1,18 @@
-/* Between config.c (values and text) and config_file.c (libconfig files). */
+/* The interface between config.c (values and text) and config_file.c (libconfig files). */
 #ifndef TRAX_HOST_CONFIG_H
 #define TRAX_HOST_CONFIG_H
 
 #include "machine/config.h"
 
-/* The key of that name, or NULL with a message that suggests the nearest one. */
+/* Finds a key by name. NULL: there is none; the message suggests the nearest one. */
 const struct trax_config_key *trax_config_find(const char *name, trax_error *error);
-/* Stores a value that was checked or is checked here. */
+/* Checks and stores a value. */
 trax_status trax_config_store(struct trax_config *config, const struct trax_config_key *key, double value,
                               trax_error *error);
-/* "; allowed are ...": what the key may have. Points into *message, which it overwrites. */
+/* Returns "; allowed are ...", the values that the key may have. The result points into *message, which is overwritten.
+ */
 const char *trax_config_allowed(const struct trax_config_key *key, trax_error *message);
-/* Reads a libconfig file over *config, which stays as it was on an error. The message names file and line. */
+/* Reads a libconfig file into *config, which is unchanged after an error. The message names file and line. */
 trax_status trax_config_read_file(struct trax_config *config, const char *path, trax_error *error);
 
 #endif

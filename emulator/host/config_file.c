@@ -1,4 +1,4 @@
-/* Configuration files (libconfig): sections of keys, and optionally the preset they start from.
+/* Configuration files (libconfig): sections of keys, and optionally the preset that they modify.
 
      preset = "4x32";
      memory: { bandwidth_gbps = 16.0; };
@@ -14,11 +14,11 @@
 #include "trax/input.h"
 #include "trax/names.h"
 
-/* What libconfig would get wrong silently or fatally: integers wrap around at 32 bits, and an included directory ends
-   the process. Also a text file has no NUL. */
+/* Rejects what libconfig does not: it wraps integers at 32 bits silently, and an included directory makes it end the
+   process. A NUL is rejected, too. */
 static trax_status check_text(const char *path, const char *text, size_t size, trax_error *error) {
   unsigned line = 1;
-  const char *end = text + size, *name = text; /* the latest */
+  const char *end = text + size, *name = text; /* name: the latest one, for messages */
   int name_length = 0;
   for (const char *p = text; p < end;) {
     if (*p == 0)
@@ -76,7 +76,7 @@ static bool number_value(const config_setting_t *setting, double *value) {
   }
 }
 
-/* A setting's value, as far as it has one, for messages. */
+/* A setting's value or type as text, for messages. */
 struct value_text {
   char text[80];
 };
@@ -183,7 +183,7 @@ static trax_status apply_all(struct trax_config *config, const char *path, const
     if (is_section(config_setting_name(setting)))
       trax_fail(&reason, "%s is %s; it must be a section: %s: { ... };", config_setting_name(setting),
                 describe(setting).text, config_setting_name(setting));
-    else /* no key lives outside a section: the message says where it belongs */
+    else /* no key is outside a section: this fails with a message that names the section */
       apply_setting(config, "", setting, &reason);
     return located(path, setting, &reason, error);
   }
@@ -203,8 +203,8 @@ trax_status trax_config_read_file(struct trax_config *config, const char *path, 
     struct trax_config result;
     if (config_read_string(&file, text) != CONFIG_TRUE) {
       const char *reason = config_error_text(&file);
-      if (reason && strcmp(reason, "memory exhausted") == 0) /* the parser's stack, which has a limit */
-        reason = "sections too deep within each other";
+      if (reason && strcmp(reason, "memory exhausted") == 0) /* the parser's stack is full */
+        reason = "sections are nested too deeply";
       status = trax_fail(error, "%s:%d: %s", path, config_error_line(&file), reason);
     } else
       status = apply_all(&result, path, &file, error);

@@ -1,4 +1,4 @@
-/* The engines by name, and a machine's run by one of them. */
+/* The table of engines, and the run of a machine by one of them. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "host/engines.h"
 #include "engine/run.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <time.h>
 
-/* The first is the default. Behind the first three, variants of the first. */
+/* The first engine is the default. After the first three come variants of the first one. */
 static const struct trax_engine *const engines[] = {
     &trax_fast_engine,        &trax_reference_engine, &trax_functional_engine, &trax_fast_any_engine,
 #ifdef TRAX_FAST_HAVE_V3
@@ -85,7 +85,7 @@ static trax_status report_outcome(const struct trax_machine *machine, const stru
   return machine->status;
 }
 
-/* A machine's run, and what belongs to it. */
+/* A machine's run with its options and its sampling. */
 struct run {
   struct trax_run run;
   trax_run_options options;
@@ -148,7 +148,7 @@ trax_status trax_machine_begin(trax_machine *machine, const trax_run_options *op
   return machine->status;
 }
 
-/* The run has ended with machine->status: its statistics are made complete. */
+/* Completes the statistics of a run that has ended with machine->status. */
 static trax_status complete(struct trax_machine *machine, trax_error *error) {
   struct run *run = (struct run *)machine->run;
   const struct trax_engine *engine = run->run.engine;
@@ -190,30 +190,30 @@ trax_status trax_machine_run(trax_machine *machine, const trax_run_options *opti
 
 /* --- between cycles --- */
 
-/* A trax_look, of the machine's list. */
-struct looker {
+/* A watch that calls a trax_look. */
+struct callback {
   struct trax_watch watch;
-  trax_look *look;
+  trax_look *function;
   void *context;
 };
 
-static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
-  struct looker *looker = watch->context;
+static trax_status call_back(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+  struct callback *callback = watch->context;
   uint64_t next = TRAX_NEVER;
   run->machine->stats.cycles = t;
-  const bool goes_on = looker->look(looker->context, run->machine, t, &next);
+  const bool goes_on = callback->function(callback->context, run->machine, t, &next);
   watch->next = next > t ? next : t + 1;
   return goes_on ? TRAX_OK : TRAX_INTERRUPTED;
 }
 
 trax_status trax_machine_look(trax_machine *machine, uint64_t cycle, trax_look *function, void *context,
                               trax_error *error) {
-  struct looker *looker = calloc(1, sizeof *looker);
-  if (!looker)
+  struct callback *callback = calloc(1, sizeof *callback);
+  if (!callback)
     return trax_fail(error, "out of memory");
-  *looker = (struct looker){.look = function, .context = context};
-  looker->watch = (struct trax_watch){.next = cycle, .look = look, .context = looker, .release = free};
-  trax_machine_watch(machine, &looker->watch);
+  *callback = (struct callback){.function = function, .context = context};
+  callback->watch = (struct trax_watch){.next = cycle, .look = call_back, .context = callback, .release = free};
+  trax_machine_watch(machine, &callback->watch);
   return TRAX_OK;
 }
 

@@ -14,22 +14,22 @@
 
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
 
-static volatile sig_atomic_t reader_gone; /* nobody reads standard output, or another pipe, any more */
+static volatile sig_atomic_t reader_gone; /* the reader of standard output or of another pipe has closed it */
 
 static void on_broken_pipe(int number) {
   trax_signal = number;
   reader_gone = 1;
 }
 
-/* The first signal ends the run with what it has so far, the second one the process. A pipe that nobody reads ends a
-   run whose program writes to it, but not what is still to be written to other files after a run. */
+/* The first signal ends the run, whose partial results are written; the second one ends the process. A broken pipe ends
+   a run whose program writes to it, but the other files are still written. */
 static void catch_signals(void) {
   trax_catch_signals();
-  trax_catch_signal(SIGQUIT); /* prints where every thread is */
+  trax_catch_signal(SIGQUIT); /* ends the run and prints where every thread is */
   struct sigaction broken_pipe = {.sa_handler = on_broken_pipe};
   sigemptyset(&broken_pipe.sa_mask);
   sigaction(SIGPIPE, &broken_pipe, NULL);
-  signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
+  signal(SIGXFSZ, SIG_IGN); /* a file beyond the size limit is reported as a failed write */
 }
 
 static int complain(const trax_error *error) {
@@ -70,7 +70,7 @@ static trax_status load(trax_machine *machine, const struct trax_options *option
   return status;
 }
 
-/* The same, with a debugger, which is waited for. */
+/* Waits for a debugger and runs the program under it. */
 static trax_status debug(trax_machine *machine, trax_run_options *options, unsigned number, trax_error *error) {
   struct trax_gdb_port port;
   trax_status status = trax_gdb_listen(&port, number, error);
@@ -83,7 +83,7 @@ static trax_status debug(trax_machine *machine, trax_run_options *options, unsig
   if (gdb) {
     status = trax_machine_run(machine, options, error);
     if (trax_gdb_killed(gdb))
-      trax_signal = SIGKILL; /* what the debugger's `kill` means */
+      trax_signal = SIGKILL; /* the debugger's command `kill` */
   } else if (status == TRAX_OK) {
     status = TRAX_ERROR;
   }
@@ -154,12 +154,12 @@ static trax_status write_dump(trax_machine *machine, const char *symbol, const c
   if (trax_machine_read_buffer(machine, symbol, &bytes, &size, error) != TRAX_OK ||
       trax_output_open(&output, path, error) != TRAX_OK)
     return TRAX_ERROR;
-  fwrite(bytes, 1, size, output.file); /* a failure shows again when the file is closed */
+  fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
   return trax_output_commit(&output, error);
 }
 
-/* All that can be written is written, whatever fails; the first failure is reported. Buffers of a run that did not
-   finish are not results; a signature is one of a run that ended, be it by a fault. */
+/* Writes all outputs; after a failure the others are still written, and the first failure is reported. Buffers are only
+   written if the program finished, and a signature also after a fault. */
 static trax_status write_outputs(trax_machine *machine, const struct trax_options *options, trax_status run,
                                  trax_error *error) {
   const bool finished = run == TRAX_OK;
@@ -183,7 +183,7 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   return result;
 }
 
-/* --gdb-symbols: from the program, once it has been checked. */
+/* Writes the file of --gdb-symbols. To be called after the program has been loaded, and so checked. */
 static trax_status write_symbols(const struct trax_options *options, trax_error *error) {
   return options->gdb_symbols ? trax_gdb_write_symbols(options->program, options->gdb_symbols, error) : TRAX_OK;
 }
@@ -210,7 +210,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_machine_destroy(machine);
     return complain(&error);
   }
-  /* NULL is found out when it is asked for. */
+  /* If this is NULL, write_post_mortem reports it. */
   struct trax_post_mortem *post_mortem =
       trax_post_mortem_create(machine, &trax_signal, options->post_mortem != NULL, &error);
   status = run(machine, options, &error);

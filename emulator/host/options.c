@@ -34,26 +34,26 @@ static trax_status add_assignment(struct trax_options *options, const trax_optio
   return TRAX_OK;
 }
 
-#define TAKE_ASSIGNMENT(function, what)                                                                                \
+#define ASSIGNMENT_PARSER(function, what)                                                                              \
   static trax_status function(void *target, const trax_option *option, const char *value, trax_error *error) {         \
     return add_assignment(target, option, (struct trax_assignment){.kind = what}, value, error);                       \
   }
-TAKE_ASSIGNMENT(take_set, TRAX_ASSIGN_SET)
-TAKE_ASSIGNMENT(take_bind, TRAX_ASSIGN_BIND)
-TAKE_ASSIGNMENT(take_alloc, TRAX_ASSIGN_ALLOC)
-TAKE_ASSIGNMENT(take_dump, TRAX_ASSIGN_DUMP)
+ASSIGNMENT_PARSER(parse_set, TRAX_ASSIGN_SET)
+ASSIGNMENT_PARSER(parse_bind, TRAX_ASSIGN_BIND)
+ASSIGNMENT_PARSER(parse_alloc, TRAX_ASSIGN_ALLOC)
+ASSIGNMENT_PARSER(parse_dump, TRAX_ASSIGN_DUMP)
 
-static trax_status take_scene(void *target, const trax_option *option, const char *value, trax_error *error) {
+static trax_status parse_scene(void *target, const trax_option *option, const char *value, trax_error *error) {
   char *text = malloc(strlen(value) + sizeof "scene=");
   if (!text)
     return trax_fail(error, "out of memory");
   strcat(strcpy(text, "scene="), value);
-  trax_status status = take_bind(target, option, text, error);
+  trax_status status = parse_bind(target, option, text, error);
   free(text);
   return status;
 }
 
-static trax_status take_engine(void *target, const trax_option *option, const char *value, trax_error *error) {
+static trax_status parse_engine(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_options *options = target;
   trax_error reason;
   if (trax_engine_find(value, &options->engine, &reason) != TRAX_OK)
@@ -62,7 +62,7 @@ static trax_status take_engine(void *target, const trax_option *option, const ch
   return TRAX_OK;
 }
 
-static trax_status take_window(void *target, const trax_option *option, const char *value, trax_error *error) {
+static trax_status parse_window(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_explain_options *explain = &((struct trax_options *)target)->explain;
   const char *colon = strchr(value, ':');
   char begin[32];
@@ -74,8 +74,8 @@ static trax_status take_window(void *target, const trax_option *option, const ch
   return trax_option_number(option, colon + 1, explain->window_begin + 1, UINT64_MAX / 2, &explain->window_end, error);
 }
 
-/* Numbers from 0 to 63 and ranges of them, 0,2-3, as bits. */
-static trax_status take_list(void *target, const trax_option *option, const char *value, trax_error *error) {
+/* Parses a list of numbers from 0 to 63 and ranges, such as 0,2-3, to a mask. */
+static trax_status parse_list(void *target, const trax_option *option, const char *value, trax_error *error) {
   uint64_t *mask = (uint64_t *)((char *)target + option->offset);
   *mask = 0;
   for (const char *text = value;; text++) {
@@ -93,7 +93,7 @@ static trax_status take_list(void *target, const trax_option *option, const char
   }
 }
 
-static trax_status take_gdb(void *target, const trax_option *option, const char *value, trax_error *error) {
+static trax_status parse_gdb(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_options *options = target;
   options->gdb = true;
   return trax_option_number(option, value, 0, UINT16_MAX, &options->gdb_port, error);
@@ -111,15 +111,15 @@ static trax_status take_gdb(void *target, const trax_option *option, const char 
 static const trax_option rows[] = {
     {"config", .argument = "PRESET|FILE", ONCE(config),
      .meaning = "machine: a chip of the paper (4x32) or a file; default one TP"},
-    {"set", .argument = "KEY=VALUE", .parse = take_set, .meaning = "change one value of the machine (--help-config)"},
-    {"bind", .argument = "SYMBOL=FILE", .parse = take_bind, .meaning = "fill the program's buffer SYMBOL with a file"},
-    {"scene", .argument = "FILE", .parse = take_scene, .meaning = "the same as --bind scene=FILE"},
-    {"alloc", .argument = "SYMBOL=BYTES", .parse = take_alloc,
+    {"set", .argument = "KEY=VALUE", .parse = parse_set, .meaning = "change one value of the machine (--help-config)"},
+    {"bind", .argument = "SYMBOL=FILE", .parse = parse_bind, .meaning = "fill the program's buffer SYMBOL with a file"},
+    {"scene", .argument = "FILE", .parse = parse_scene, .meaning = "the same as --bind scene=FILE"},
+    {"alloc", .argument = "SYMBOL=BYTES", .parse = parse_alloc,
      .meaning = "fill the program's buffer SYMBOL with zeros"},
-    {"dump", .argument = "SYMBOL=FILE", .parse = take_dump,
+    {"dump", .argument = "SYMBOL=FILE", .parse = parse_dump,
      .meaning = "write the buffer SYMBOL to a file after the run"},
     {"signature", .argument = "FILE", OUTPUT(signature),
-     .meaning = "the words from begin_signature to end_signature after the run, and its fault"},
+     .meaning = "write the words from begin_signature to end_signature, and the fault, after the run"},
     {"stats", .argument = "FILE", OUTPUT(stats), .meaning = "statistics as JSON; - is standard output"},
     {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
@@ -129,12 +129,12 @@ static const trax_option rows[] = {
     {"heat", .argument = "FILE", OUTPUT(explain.heat), .meaning = "accesses to memory by object, as CSV"},
     {"heat-lines", .argument = "FILE", OUTPUT(explain.heat_lines),
      .meaning = "accesses to global memory by 64 bytes, as CSV"},
-    {"items", .argument = "FILE", OUTPUT(explain.items), .meaning = "what each item (pixel) cost, as CSV"},
+    {"items", .argument = "FILE", OUTPUT(explain.items), .meaning = "cost of each item (pixel), as CSV"},
     {"item-buffer", .argument = "SYMBOL", ONCE(explain.item_buffer),
-     .meaning = "the buffer of words that items store to, for their places"},
+     .meaning = "the buffer to which the items store their results, for their places"},
     {"lockstep", .argument = "FILE", OUTPUT(explain.lockstep),
-     .meaning = "what the items would take on a SIMD machine, as CSV"},
-    {"series", .argument = "FILE", OUTPUT(explain.series), .meaning = "what was counted in every interval, as CSV"},
+     .meaning = "issue slots that the items would take on a SIMD machine, as CSV"},
+    {"series", .argument = "FILE", OUTPUT(explain.series), .meaning = "counts of each interval of cycles, as CSV"},
     {"series-interval", .argument = "N", NUMBER(explain.series_interval, 1, UINT64_MAX / 2),
      .meaning = "cycles of an interval; default 10000"},
     {"trace", .argument = "FILE", OUTPUT(explain.trace),
@@ -142,37 +142,37 @@ static const trax_option rows[] = {
     {"perfetto", .argument = "FILE", OUTPUT(explain.perfetto),
      .meaning = "the window as a time line, as JSON trace events"},
     {"konata", .argument = "FILE", OUTPUT(explain.konata), .meaning = "the window as a pipeline, for Konata"},
-    {"window", .argument = "BEGIN:END", .parse = take_window,
+    {"window", .argument = "BEGIN:END", .parse = parse_window,
      .meaning = "cycles of the window, BEGIN <= cycle < END; default all"},
-    {"window-tms", .argument = "LIST", PARSED(take_list, explain.window_tms),
+    {"window-tms", .argument = "LIST", PARSED(parse_list, explain.window_tms),
      .meaning = "its TMs, as in 0,2-3; default all"},
-    {"window-tps", .argument = "LIST", PARSED(take_list, explain.window_tps),
+    {"window-tps", .argument = "LIST", PARSED(parse_list, explain.window_tps),
      .meaning = "its TPs in each of these TMs; default all"},
     {"max-cycles", .argument = "N", NUMBER(max_cycles, 1, UINT64_MAX),
      .meaning = "stop after N simulated cycles, with exit status 124"},
     {"watchdog", .argument = "N", NUMBER(watchdog, 1, UINT64_MAX / 2),
-     .meaning = "the same when for N cycles no thread ends and no ray, item or output is seen"},
+     .meaning = "stop likewise after N cycles without the end of a thread, a ray, an item or output"},
     {"progress-total", .argument = "N", NUMBER(total_items, 1, UINT64_MAX),
-     .meaning = "items the program will finish, for the time left"},
-    {"engine", .argument = "NAME", .parse = take_engine,
+     .meaning = "number of items that the program will report, for the time left"},
+    {"engine", .argument = "NAME", .parse = parse_engine,
      .meaning = "fast (default), reference (the same, slower) or functional (no time)"},
     {"host-threads", .argument = "N", NUMBER(host_threads, 1, TRAX_MAX_TMS),
      .meaning = "threads of the host for the fast engine; default one for each processor it may use"},
     {"check-order", FIELD(explain.check_order),
-     .meaning = "report the first load that may return an old value on such a machine"},
+     .meaning = "report the first load that may return an old value where caches are not coherent"},
     {"post-mortem", .argument = "FILE", OUTPUT(post_mortem),
-     .meaning = "where every thread was when the run ended, as text"},
-    {"gdb", .argument = "PORT", .parse = take_gdb,
+     .meaning = "call chains of all threads at the end of the run, as text"},
+    {"gdb", .argument = "PORT", .parse = parse_gdb,
      .meaning = "wait for GDB on a port of the loopback interface; 0 is any free one"},
     {"gdb-symbols", .argument = "FILE", OUTPUT(gdb_symbols),
-     .meaning = "write PROGRAM as GDB reads it; end, unless there is --gdb"},
+     .meaning = "write a copy of PROGRAM that GDB can read, and end, unless --gdb is given"},
     {"checkpoint", .argument = "FILE", OUTPUT(checkpoint.write),
-     .meaning = "write the run's state when it is stopped, and when the next two say"},
-    {"checkpoint-at", .argument = "N", NUMBER(checkpoint.at, 1, UINT64_MAX), .meaning = "before cycle N"},
+     .meaning = "write the run's state when it is stopped, and as the next two options say"},
+    {"checkpoint-at", .argument = "N", NUMBER(checkpoint.at, 1, UINT64_MAX), .meaning = "write it before cycle N"},
     {"checkpoint-every", .argument = "N", NUMBER(checkpoint.every, 1, UINT64_MAX),
-     .meaning = "before each multiple of N cycles"},
+     .meaning = "write it before each multiple of N cycles"},
     {"resume", .argument = "FILE", ONCE(checkpoint.resume), .file = TRAX_OPTION_INPUT,
-     .meaning = "go on with the run of a checkpoint; the other options are to be as they were"},
+     .meaning = "continue the run of a checkpoint; the other options must be the same"},
     {"quiet", FIELD(quiet), .meaning = "no progress line"},
     {"print-config", FIELD(print_config), .meaning = "print the machine as a file for --config, and end"},
     {"help-config", .kind = TRAX_OPTION_SHOW, .show = trax_config_describe, .meaning = "describe every key of the configuration, and end"},
@@ -196,7 +196,7 @@ static const trax_command command = {
              "the program's output is printed; faults and errors go to standard error.",
     .column = 27};
 
-/* --- what goes together --- */
+/* --- rules about several options --- */
 
 static bool is_timed(const struct trax_engine *engine) {
   return engine->is_timed;
@@ -210,7 +210,7 @@ static bool has_checkpoints(const struct trax_engine *engine) {
   return engine->visit != NULL;
 }
 
-/* What needs an engine that can is wanted. */
+/* Checks that the engine can(); `what` begins the message, which lists the engines that can. */
 static trax_status need(const struct trax_options *options, bool (*can)(const struct trax_engine *engine),
                         const char *what, trax_error *error) {
   char names[128];
@@ -220,14 +220,14 @@ static trax_status need(const struct trax_options *options, bool (*can)(const st
   return trax_fail(error, "%s the engine %s, not %s", what, names, options->engine->name);
 }
 
-/* What explains a run, and what it needs. */
+/* Checks the options of explanations. */
 static trax_status check_explain(const struct trax_options *options, trax_error *error) {
   const struct trax_explain_options *explain = &options->explain;
   const bool windowed = explain->trace || explain->perfetto || explain->konata;
   if (trax_explain_wanted(explain) && need(options, observes, "a run is explained by", error) != TRAX_OK)
     return TRAX_ERROR;
   if (options->checkpoint.resume && trax_explain_wanted(explain))
-    return trax_fail(error, "--resume: what was before the checkpoint is not known, and the run cannot be explained");
+    return trax_fail(error, "--resume: a run cannot be explained without its cycles before the checkpoint");
   if ((explain->perfetto || explain->konata) && !explain->window_end)
     return trax_fail(error, "--%s needs --window", explain->perfetto ? "perfetto" : "konata");
   if (!windowed && (explain->window_end || explain->window_tms || explain->window_tps))
@@ -251,7 +251,7 @@ static trax_status check_engine(const struct trax_options *options, trax_error *
   return options->gdb ? need(options, observes, "--gdb needs", error) : TRAX_OK;
 }
 
-/* No output may be what the run reads, and none is written twice. */
+/* Checks that no output is an input and that no file is written twice. */
 static trax_status check_files(const struct trax_options *options, trax_error *error) {
   trax_files files = {0};
   trax_files_input(&files, NULL, options->program);

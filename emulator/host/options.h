@@ -14,7 +14,7 @@
 /* NAME=VALUE of --set, --bind, --alloc, --dump. */
 struct trax_assignment {
   char *name;
-  const char *value; /* into name's allocation, behind its NUL */
+  const char *value; /* in name's allocation, after its NUL */
   uint32_t bytes;    /* of --alloc */
   enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP } kind;
 };
@@ -35,7 +35,7 @@ struct trax_options {
 };
 
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
-/* Whether all that is to be written can be. */
+/* Checks that all outputs can be written. */
 trax_status trax_options_check_outputs(const struct trax_options *options, trax_error *error);
 void trax_options_free(struct trax_options *options);
 

@@ -1,4 +1,4 @@
-/* How far a run has come, on the progress line (trax/progress.h). */
+/* Shows a run's progress on the progress line (trax/progress.h). */
 #ifndef TRAX_HOST_PROGRESS_H
 #define TRAX_HOST_PROGRESS_H
 
@@ -9,7 +9,7 @@ struct trax_run_progress {
   trax_progress_line *line;
   const char *step;
   bool shown;
-  trax_progress last; /* the rate is that since the last line */
+  trax_progress last; /* as of the latest line, since which the rate is measured */
 };
 
 /* For trax_run_options.progress; context is a trax_run_progress. */

@@ -44,27 +44,27 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   if (path->text_lines > TRAX_KNOWN_LINES)
     snprintf(lines, sizeof lines, "the program has more than %d lines of instructions", TRAX_KNOWN_LINES);
   else
-    snprintf(lines, sizeof lines, "the line was not there yet, or lines had gone since");
+    snprintf(lines, sizeof lines, "a line of the burst was not resident when the burst began, or a line was evicted");
   char conflicts[160];
   snprintf(conflicts, sizeof conflicts,
            "conflicts of TMs in memory (%" PRIu64 "), checkpoints and other stops close together (%" PRIu64
            " cycles), and ends of runs",
            path->conflicts, path->short_epochs);
-  fprintf(out, "\nSlow ways of the fast engine, which take more of the host's time and change no result\n");
-  row(&table, "observed", path->observed ? cycles : 0, cycles, "cycles", "every instruction is told of");
+  fprintf(out, "\nSlow paths of the fast engine, which cost time on the host and change no result\n");
+  row(&table, "observed", path->observed ? cycles : 0, cycles, "cycles", "an observer follows every instruction");
   row(&table, "TMs cycle by cycle", path->single_cycles, cycles, "cycles",
-      path->observed     ? "every instruction is told of"
-      : path->no_epochs ? "memory answers too soon (memory.latency_cycles)"
-                         : conflicts);
+      path->observed    ? "an observer follows every instruction"
+      : path->no_epochs ? "the memory latency is too short for epochs (memory.latency_cycles)"
+                        : conflicts);
   row(&table, "fetches bank by bank", path->general_fetch ? cycles : 0, cycles, "cycles", fetch_reason(config));
   row(&table, "adders group by group", path->uneven_units ? cycles : 0, cycles, "cycles",
-      "adders and multipliers are not one to each group alike");
+      "the groups do not have one adder and one multiplier each, or differ in size");
   row(&table, "data banks by fours", path->many_data_banks ? cycles : 0, cycles, "cycles",
       "dcache.tps_per_bank makes more than 8 banks");
   row(&table, "lines looked up", path->looked_up, total->icache_hits, "fetches", lines);
   row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config, path->hits_in_turn));
   row(&table, "executed at issue", path->at_issue, instructions, "instructions",
-      "stores, increments, traps, loads past the cache or of what is written");
+      "stores, increments, traps, loads past the cache, loads of words written during the run");
   if (!table.any)
     fprintf(out, "  none\n");
 }

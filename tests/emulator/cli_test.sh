@@ -103,11 +103,11 @@ slow() {
   grep "^  $row" report.txt | grep -q "$reason" || fail "report.txt with $*: no '$row' because of '$reason': $(sed -n '/^Slow/,/^$/p' report.txt)"
   ! grep "^  $row" quick.txt | grep -q "$reason" || fail "quick.txt: '$row' because of '$reason'"
   run 0 --config 2x32 --engine reference --report reference.txt --stats reference.json "$@" mix.elf
-  ! grep -q '^Slow ways' reference.txt || fail "reference.txt"
+  ! grep -q '^Slow paths' reference.txt || fail "reference.txt"
   grep -v host_second fast.json >fast.txt
   grep -v host_second reference.json | cmp -s - fast.txt || fail "the engines differ with $*"
 }
-grep -q '^Slow ways' quick.txt || fail "quick.txt"
+grep -q '^Slow paths' quick.txt || fail "quick.txt"
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.tps_per_cache is not 16" --set icache.tps_per_cache=8
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.ports_per_bank is above 1" --set icache.ports_per_bank=2
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.banks is above 16" --set icache.banks=32

@@ -290,7 +290,7 @@ static void test_bad_files(void **state) {
   char deep[3 * 20000 + 1];
   for (size_t i = 0; i < sizeof deep - 1; i++)
     deep[i] = "a:{"[i % 3];
-  load_text(deep, sizeof deep - 1, ":1: sections too deep within each other");
+  load_text(deep, sizeof deep - 1, ":1: sections are nested too deeply");
   char *large = malloc(2 << 20);
   memset(large, ' ', 2 << 20);
   load_text(large, 2 << 20, "more than 1048576 bytes");

@@ -457,19 +457,19 @@ def main():
     objects = {row["object"]: int(row["stores"]) for row in rows(directory / "deep", "heat")}
     check(objects["(stacks)"] > 1500 * 2, "stores to the stacks", objects)
 
-    # The report says which slow ways the fast engine took, and why; those of loads and of long programs, which the tests of the command line lack.
+    # The report says which slow paths the fast engine took, and why; those of loads and of long programs, which the tests of the command line lack.
     def slow(row, reason, *options, program=None):
         """The share of it."""
         run(directory / "slow", "fast", *machine, *options, files=["report"], **({"program": program} if program else {}))
         report = read(directory / "slow", "report")
         found = re.search(f"^  {row} .* ([0-9.]+) % of the .*: .*{reason}", report, re.MULTILINE)
-        check(found, f"no '{row}' because of '{reason}' with {options}:", report[report.find("\nSlow ways"):])
+        check(found, f"no '{row}' because of '{reason}' with {options}:", report[report.find("\nSlow paths"):])
         return float(found[1]) if found else 0
 
-    slow("lines looked up", "the line was not there yet")
-    # Of up to 1023 lines the engine knows which are there, and hardly looks; of more it does not.
+    slow("lines looked up", "a line of the burst was not resident")
+    # Of up to 1023 lines the engine knows which are resident, and looks up few; of more it does not.
     longest, icache = str(directory / "programs" / "long.elf"), ("--set", "icache.bytes=8192", "--set")
-    share = slow("lines looked up", "the line was not there yet", *icache, "icache.line_bytes=8", program=longest)
+    share = slow("lines looked up", "a line of the burst was not resident", *icache, "icache.line_bytes=8", program=longest)
     check(share < 5, share, "% of the fetches look up one of 753 lines")
     share = slow("lines looked up", "the program has more than 1023 lines of instructions", *icache, "icache.line_bytes=4", program=longest)
     check(20 < share < 100, share, "% of the fetches look up one of 1505 lines")
@@ -495,7 +495,7 @@ def main():
     refuse("--series-interval without --series", "--series-interval", "5")
     refuse("--item-buffer without --items", "--item-buffer", "results")
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
-    refuse("--resume: what was before the checkpoint is not known", "--resume", "x", "--trace", "t")
+    refuse("--resume: a run cannot be explained without its cycles", "--resume", "x", "--trace", "t")
     refuse("a run is explained by the engine fast or reference, not functional", "--engine", "functional", "--profile", "x")
     for name in FILES:
         (directory / "full").mkdir(exist_ok=True)
