@@ -11,7 +11,7 @@ static struct trax_gdb_break *find_break(struct trax_gdb *gdb, uint32_t address)
   return NULL;
 }
 
-/* In text; and in local memory, where GDB lets a function return to that it calls itself. */
+/* Breakpoints are possible in text, and in local memory, to which GDB makes functions return that it calls itself. */
 static bool can_break(const struct trax_gdb *gdb, uint32_t address) {
   return address >= TRAX_LOCAL_BASE || trax_text_at(&gdb->run->text, address)->ask != TRAX_ASK_OUTSIDE;
 }
@@ -58,7 +58,7 @@ static bool remove_watch(struct trax_gdb *gdb, char type, uint32_t address, uint
       return true;
     }
   }
-  return true; /* removing twice does no harm, says the protocol */
+  return true; /* the protocol allows removing a watchpoint twice */
 }
 
 const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32_t thread, uint32_t address,
@@ -73,7 +73,8 @@ const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32
   return NULL;
 }
 
-static void note(struct trax_gdb *gdb, uint32_t thread, uint32_t address, uint32_t bytes, bool reads, bool writes) {
+static void add_event(struct trax_gdb *gdb, uint32_t thread, uint32_t address, uint32_t bytes, bool reads,
+                      bool writes) {
   const struct trax_gdb_watch *watch = trax_gdb_watched(gdb, thread, address, bytes, reads, writes);
   struct trax_gdb_thread *state = &gdb->thread[thread];
   if (!watch)
@@ -88,21 +89,21 @@ void trax_gdb_note_access(struct trax_gdb *gdb, uint32_t thread, const struct tr
   const trax_op_info *info = &trax_op_table[trax_decode(issue->word).op];
   if (!info->access_bytes)
     return;
-  if (info->flags & TRAX_IS_ATOMIC) { /* nothing has happened yet */
+  if (info->flags & TRAX_IS_ATOMIC) { /* the access happens later; see trax_gdb_note_arrival */
     if (gdb->atomic_count < gdb->threads * TRAX_NUM_REGISTERS &&
         trax_gdb_watched(gdb, thread, issue->address, 4, true, true))
       gdb->atomics[gdb->atomic_count++] = (struct trax_gdb_atomic){thread, trax_decode(issue->word).rd, issue->address};
     return;
   }
   const bool writes = (info->flags & TRAX_IS_STORE) != 0;
-  note(gdb, thread, issue->address, info->access_bytes, !writes, writes);
+  add_event(gdb, thread, issue->address, info->access_bytes, !writes, writes);
 }
 
 void trax_gdb_note_arrival(struct trax_gdb *gdb, uint32_t thread, uint32_t rd) {
   rd = rd == TRAX_NO_REGISTER ? 0 : rd;
   for (uint32_t i = 0; i < gdb->atomic_count; i++)
     if (gdb->atomics[i].thread == thread && gdb->atomics[i].rd == rd) {
-      note(gdb, thread, gdb->atomics[i].address, 4, true, true);
+      add_event(gdb, thread, gdb->atomics[i].address, 4, true, true);
       gdb->atomics[i] = gdb->atomics[--gdb->atomic_count];
       return;
     }

@@ -3,15 +3,15 @@
 #include "program/dwarf_reader.h"
 #include <dwarf.h>
 
-enum { REGISTERS = 32, ADDRESS = 4, OFFSET = 4, DEPTH = 4 }; /* of expressions within each other */
+enum { REGISTERS = 32, ADDRESS = 4, OFFSET = 4, DEPTH = 4 /* of nested expressions */ };
 
 struct cursor {
-  trax_dwarf_reader in; /* bad: also if it met what it does not know */
+  trax_dwarf_reader in; /* also `bad` after an unknown operation */
   trax_register_map map;
   unsigned depth;
 };
 
-/* The bytes are there to be changed (dwarf_registers.h). */
+/* The reader's bytes are const, but the caller has passed them to be changed (dwarf_registers.h). */
 static void put(const uint8_t *at, uint8_t byte) {
   *(uint8_t *)at = byte;
 }
@@ -24,11 +24,11 @@ static uint64_t fixed(struct cursor *cursor, unsigned bytes) {
   return trax_dwarf_fixed(&cursor->in, bytes);
 }
 
-static uint64_t leb(struct cursor *cursor) { /* of signed ones only the end matters */
+static uint64_t leb(struct cursor *cursor) { /* also skips signed numbers, whose value is not needed */
   return trax_dwarf_leb(&cursor->in, false);
 }
 
-/* A register as ULEB128. */
+/* Renumbers a register written as ULEB128. */
 static void renumber(struct cursor *cursor) {
   const uint8_t *at = cursor->in.at;
   const uint64_t number = leb(cursor);
@@ -99,7 +99,7 @@ static void operation(struct cursor *cursor) {
     leb(cursor);
     leb(cursor);
     break;
-  case DW_OP_form_tls_address: /* of an address in local memory, which is the place itself (docs/abi.md) */
+  case DW_OP_form_tls_address: /* thread-local objects have addresses of local memory, not offsets (docs/abi.md) */
   case DW_OP_GNU_push_tls_address:
     put(at, DW_OP_nop);
     break;
@@ -262,17 +262,17 @@ static void frame_instruction(struct cursor *cursor) {
   }
 }
 
-/* Behind the length and the identification of a CIE. */
+/* Renumbers a CIE; its length and identification have been read. */
 static void common_information(struct cursor *cursor) {
   const uint64_t version = fixed(cursor, 1);
   const uint8_t *augmentation = skip(cursor, 1);
-  if (!augmentation || *augmentation) /* what follows would be of a kind that our compiler does not write */
+  if (!augmentation || *augmentation) /* our compiler writes no augmentation */
     cursor->in.bad = true;
   if (version >= 4)
     skip(cursor, 2); /* sizes of addresses and segments */
   leb(cursor);
   leb(cursor);
-  renumber(cursor); /* the return address's; one byte in every version */
+  renumber(cursor); /* the return address's register; one byte in every version */
 }
 
 bool trax_dwarf_renumber_frames(uint8_t *bytes, size_t size, trax_register_map map) {
@@ -300,7 +300,7 @@ bool trax_dwarf_renumber_locations(uint8_t *bytes, size_t size, trax_register_ma
   struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
   while (cursor.in.at < cursor.in.end && !cursor.in.bad) {
     const uint64_t begin = fixed(&cursor, ADDRESS), end = fixed(&cursor, ADDRESS);
-    if ((begin || end) && begin != UINT32_MAX) /* the end of a list, a new base */
+    if ((begin || end) && begin != UINT32_MAX) /* else the end of a list or a new base */
       expression(&cursor, fixed(&cursor, 2));
   }
   return !cursor.in.bad;

@@ -1,9 +1,9 @@
-/* Debugging over GDB's remote serial protocol (GDB's manual, appendix "GDB Remote Serial Protocol"); docs/debugging.md
-   says what a user sees.
+/* Debugging over GDB's remote serial protocol (GDB's manual, appendix "GDB Remote Serial Protocol"). docs/debugging.md
+   describes it for users.
 
-   A debugged run observes every issue and looks at the machine between cycles (fast/chip.h), so a stop falls between
-   two cycles, of all threads alike. What the debugger does not change, it does not disturb: a run that is stopped and
-   continued takes the cycles of one that is not. */
+   The stub observes every issue and inspects the machine between cycles, so all threads stop between the same two
+   cycles. If the debugger changes nothing, a run that is stopped and continued takes the same cycles as one that is
+   not. */
 #ifndef TRAX_GDB_GDB_H
 #define TRAX_GDB_GDB_H
 
@@ -12,13 +12,14 @@
 
 struct trax_gdb;
 
-/* Attaches to a machine that has a program and has not run; it will stop before cycle 0. interrupt, which may be NULL,
-   is that of the run's options. What link refers to, and machine, must live as long as the result. */
+/* Attaches to a machine that has a program and has not run. The run will stop before cycle 0. interrupt, which may be
+   NULL, is that of the run's options. link's context and machine must stay valid until trax_gdb_destroy. NULL: out of
+   memory. */
 struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_link *link, const volatile int *interrupt,
                                  trax_error *error);
-/* After the run. */
+/* To be called after the run. gdb may be NULL. */
 void trax_gdb_destroy(struct trax_gdb *gdb);
-/* The debugger ended the run. */
+/* Whether the debugger has ended the run by its command `kill`. */
 bool trax_gdb_killed(const struct trax_gdb *gdb);
 
 /* --- listen.c: a TCP port of the loopback interface --- */
@@ -28,17 +29,17 @@ struct trax_gdb_port {
   unsigned number;
 };
 
-/* number 0 is any free port; port->number receives which. */
+/* Opens a port; 0 is any free one. port->number receives its number. */
 trax_status trax_gdb_listen(struct trax_gdb_port *port, unsigned number, trax_error *error);
-/* Waits for one debugger. TRAX_INTERRUPTED if *interrupt becomes true meanwhile. */
+/* Waits for one debugger. TRAX_INTERRUPTED: *interrupt became nonzero meanwhile. */
 trax_status trax_gdb_accept(struct trax_gdb_port *port, const volatile int *interrupt, trax_error *error);
 struct trax_gdb_link trax_gdb_port_link(struct trax_gdb_port *port);
 void trax_gdb_port_close(struct trax_gdb_port *port);
 
 /* --- symbols.c --- */
 
-/* Writes a copy of an executable that a debugger for RISC-V reads: its machine, and the registers in its debug
-   information, are what the debugger is shown (registers.h). */
+/* Writes a copy of an executable for a RISC-V debugger, with the machine type of RISC-V and the debugger's register
+   numbers in the debug information (registers.h). */
 trax_status trax_gdb_write_symbols(const char *executable, const char *path, trax_error *error);
 
 #endif

@@ -12,7 +12,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-enum { ATTENTION = 100 }; /* milliseconds until an interrupt is noticed */
+enum { POLL_MS = 100 }; /* interval of polling for an interrupt */
 
 static trax_status fail(struct trax_gdb_port *port, unsigned number, const char *what, trax_error *error) {
   const int code = errno;
@@ -45,7 +45,7 @@ trax_status trax_gdb_accept(struct trax_gdb_port *port, const volatile int *inte
       trax_fail(error, "interrupted before a debugger came");
       return TRAX_INTERRUPTED;
     }
-    if (poll(&wait, 1, ATTENTION) <= 0)
+    if (poll(&wait, 1, POLL_MS) <= 0)
       continue;
     port->connection = accept(port->listener, NULL, NULL);
     if (port->connection < 0 && errno != EINTR && errno != ECONNABORTED)

@@ -1,4 +1,4 @@
-/* What GDB has no words for: its command `monitor`. */
+/* The commands of GDB's `monitor`. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "gdb/stub.h"
 #include "report/backtrace.h"
@@ -38,7 +38,7 @@ static bool print_registers(struct trax_gdb *gdb, const char *arguments, FILE *o
   return !*arguments;
 }
 
-/* [ADDRESS [COUNT]]; from the selected thread's pc. */
+/* Arguments: [ADDRESS [COUNT]]; by default from the selected thread's pc. */
 static bool print_instructions(struct trax_gdb *gdb, const char *arguments, FILE *out) {
   char *end = (char *)arguments;
   const unsigned long address = *arguments ? strtoul(arguments, &end, 0) : trax_gdb_pc(gdb, gdb->selected);
@@ -74,15 +74,15 @@ static bool print_help(struct trax_gdb *gdb, const char *arguments, FILE *out);
 
 static const struct {
   const char *name, *meaning;
-  bool (*print)(struct trax_gdb *gdb, const char *arguments, FILE *out); /* false: the arguments are wrong */
+  bool (*print)(struct trax_gdb *gdb, const char *arguments, FILE *out); /* returns false for bad arguments */
 } commands[] = {
-    {"cycle", "the cycle that comes next", print_cycle},
-    {"stats", "statistics up to here", print_statistics},
-    {"registers", "the selected thread's, by our names", print_registers},
-    {"disassemble", "[ADDRESS [COUNT]]  instructions from there or the selected thread's pc on", print_instructions},
+    {"cycle", "the next cycle", print_cycle},
+    {"stats", "statistics up to the current cycle", print_statistics},
+    {"registers", "the selected thread's registers by their TRaX names", print_registers},
+    {"disassemble", "[ADDRESS [COUNT]]  instructions from ADDRESS or the selected thread's pc on", print_instructions},
     {"where", "the selected thread's callers", print_where},
-    {"threads", "how many threads are where, and which", print_threads},
-    {"help", "this", print_help},
+    {"threads", "call chains of all threads, and the threads of each", print_threads},
+    {"help", "this list", print_help},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
@@ -93,7 +93,7 @@ static bool print_help(struct trax_gdb *gdb, const char *arguments, FILE *out) {
   return !*arguments;
 }
 
-/* Text for the debugger's terminal goes in packets of its own. */
+/* Sends text for the debugger's terminal, in as many packets as it needs. */
 static void send_text(struct trax_gdb_wire *wire, const char *text, size_t size) {
   while (size) {
     const size_t part = size < TRAX_GDB_PACKET / 4 ? size : TRAX_GDB_PACKET / 4;

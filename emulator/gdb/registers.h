@@ -1,7 +1,7 @@
-/* The machine's registers as the debugger is shown them. Stock GDB does not know the TP; of what it knows, RISC-V with
-   32 bits is nearest: return address in x1, stack pointer in x2, arguments in registers, results in the first of them.
-   Each register stands in the place that its role has there (docs/abi.md, "Registers"), so that GDB finds frames,
-   results and arguments. Behind them all are there once more under our own numbers. */
+/* The machine's registers in the debugger's numbering. Stock GDB does not know the TP. The nearest machine that it
+   knows is 32-bit RISC-V: return address in x1, stack pointer in x2, arguments in registers, results in the first of
+   these. Each TRaX register has the RISC-V number of its role (docs/abi.md, "Registers"), so that GDB finds frames,
+   results and arguments. After pc, all registers follow once more by their TRaX numbers. */
 #ifndef TRAX_GDB_REGISTERS_H
 #define TRAX_GDB_REGISTERS_H
 
@@ -13,7 +13,7 @@ enum {
   TRAX_GDB_REGISTERS = TRAX_GDB_OWN + TRAX_NUM_REGISTERS
 };
 
-/* [i]: what stands in x_i, and its name there. */
+/* Row i: the TRaX register that is shown as x_i, and its RISC-V name. */
 #define TRAX_GDB_ROLES(X)                                                                                              \
   X(0, "zero")                                                                                                         \
   X(1, "ra")                                                                                                           \

@@ -1,4 +1,4 @@
-/* A debugged run: when it stops, what is said then, and how it goes on. */
+/* The stub: when the run stops, what it reports, and how it continues. */
 #include "gdb/stub.h"
 #include "trax/isa.h"
 
@@ -7,28 +7,28 @@
 #include <string.h>
 
 enum {
-  MOST_AHEAD = 8,     /* instructions that a thread is shown ahead of where it is */
-  ATTENTION = 100,    /* milliseconds until an interrupt of the program is noticed while the run is stopped */
-  LISTEN_CYCLES = 512 /* how often a running program's debugger is listened to */
+  MOST_PRETENDED = 8, /* limit of pretended steps (pretend_step) */
+  POLL_MS = 100,      /* interval of polling for an interrupt of trax-sim while the run is stopped */
+  LISTEN_CYCLES = 512 /* interval of polling the debugger while the run continues */
 };
 
-/* --- what happens while it runs --- */
+/* --- notifications while the run continues --- */
 
 static void on_issue(void *context, const struct trax_issue *issue) {
   struct trax_gdb *gdb = context;
   const uint32_t thread = issue->tm * gdb->tps + issue->tp;
   struct trax_gdb_thread *state = &gdb->thread[thread];
-  if (gdb->observed_before && gdb->observed_before->issue)
-    gdb->observed_before->issue(gdb->observed_before->context, issue);
+  if (gdb->next_observer && gdb->next_observer->issue)
+    gdb->next_observer->issue(gdb->next_observer->context, issue);
   if (gdb->phase != GDB_RUNNING)
     return;
-  state->told = state->passed != 0;
-  if (state->stepping && gdb->owed)
-    gdb->owed--;
+  state->reported = state->skip_breaks != 0;
+  if (state->stepping && gdb->catch_up)
+    gdb->catch_up--;
   else if (state->stepping && issue->next_pc - gdb->range_begin >= gdb->range_end - gdb->range_begin)
     state->events |= TRAX_GDB_STEPPED;
-  if (state->passed)
-    state->passed--;
+  if (state->skip_breaks)
+    state->skip_breaks--;
   else if (gdb->break_count && trax_gdb_breaks_at(gdb, issue->next_pc))
     state->events |= TRAX_GDB_AT_BREAK;
   if (gdb->watch_count)
@@ -37,22 +37,22 @@ static void on_issue(void *context, const struct trax_issue *issue) {
 }
 
 static void on_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
-  const struct trax_observer *before = ((const struct trax_gdb *)context)->observed_before;
+  const struct trax_observer *before = ((const struct trax_gdb *)context)->next_observer;
   if (before && before->charge)
     before->charge(before->context, tm, tp, cause, since, cycles);
 }
 
 static void on_arrival(void *context, const struct trax_arrival *arrival) {
   struct trax_gdb *gdb = context;
-  if (gdb->observed_before && gdb->observed_before->arrival)
-    gdb->observed_before->arrival(gdb->observed_before->context, arrival);
+  if (gdb->next_observer && gdb->next_observer->arrival)
+    gdb->next_observer->arrival(gdb->next_observer->context, arrival);
   if (gdb->atomic_count)
     trax_gdb_note_arrival(gdb, arrival->tm * gdb->tps + arrival->tp, arrival->rd);
 }
 
 /* --- stops --- */
 
-/* Puts the packet of a stop into gdb->reason: signal, thread, why, and the registers that are always asked for. */
+/* Writes the packet of a stop to gdb->reason: signal, thread, reason, and the registers that GDB always needs. */
 static void describe_stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_signal signal, unsigned event) {
   const struct trax_gdb_thread *state = &gdb->thread[thread];
   char why[32] = "";
@@ -74,21 +74,21 @@ static void describe_stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_s
 
 static void stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_signal signal, unsigned event) {
   gdb->phase = GDB_STOPPED;
-  gdb->ahead = gdb->owed = 0;
-  gdb->insisting = false;
+  gdb->pretended = gdb->catch_up = 0;
+  gdb->step_first = false;
   gdb->selected = gdb->continued = gdb->stopped = thread;
-  gdb->thread[thread].told = true;
+  gdb->thread[thread].reported = true;
   gdb->thread[thread].events &= (uint8_t)~event;
   describe_stop(gdb, thread, signal, event);
 }
 
-static void tell_stop(struct trax_gdb *gdb) {
+static void send_stop(struct trax_gdb *gdb) {
   trax_gdb_begin(&gdb->wire);
   trax_gdb_add(&gdb->wire, "%s", gdb->reason);
   trax_gdb_send(&gdb->wire);
 }
 
-/* The first thread with the event that has not ended with it. */
+/* Finds the first live thread with the event. */
 static bool find_event(struct trax_gdb *gdb, unsigned event, uint32_t *thread) {
   for (*thread = 0; *thread < gdb->threads; ++*thread)
     if ((gdb->thread[*thread].events & event) && trax_gdb_is_alive(gdb, *thread))
@@ -96,7 +96,7 @@ static bool find_event(struct trax_gdb *gdb, unsigned event, uint32_t *thread) {
   return false;
 }
 
-/* The first stepping thread. */
+/* Finds the first stepping thread. */
 static bool find_stepping(const struct trax_gdb *gdb, uint32_t *thread) {
   for (*thread = 0; *thread < gdb->threads; ++*thread)
     if (gdb->thread[*thread].stepping)
@@ -104,57 +104,58 @@ static bool find_stepping(const struct trax_gdb *gdb, uint32_t *thread) {
   return false;
 }
 
-static bool somebody_stops(struct trax_gdb *gdb) {
+static bool any_event(struct trax_gdb *gdb) {
   uint32_t thread;
   return gdb->over || find_event(gdb, ~0u, &thread);
 }
 
-/* GDB steps a thread over a breakpoint by naming that thread alone, and takes no other's stop meanwhile. If another one
-   has to stop first, the step is told as done, at the pc it will lead to, although the instruction has not been issued:
-   no cycle passes, and what stops the other is told when the run is resumed. The same again where the next instruction
-   has a breakpoint too, but not for ever: the run must go on. */
+/* GDB steps a thread over a breakpoint by resuming that thread alone, and accepts no stop of another thread meanwhile.
+   If another thread has an event first, the stub pretends that the step has been made: it reports a stop at the pc
+   after the step, although the instruction has not been issued. No cycle passes, and the other thread's event is
+   reported when the run is resumed. If the next instruction has a breakpoint, too, this is repeated, at most
+   MOST_PRETENDED times: after that the thread must really step first. */
 static bool pretend_step(struct trax_gdb *gdb) {
   uint32_t thread;
-  if (!gdb->named_only || gdb->insisting || !find_stepping(gdb, &thread) || !trax_gdb_is_alive(gdb, thread) ||
-      (gdb->thread[thread].events & TRAX_GDB_STEPPED) || !somebody_stops(gdb))
+  if (!gdb->named_only || gdb->step_first || !find_stepping(gdb, &thread) || !trax_gdb_is_alive(gdb, thread) ||
+      (gdb->thread[thread].events & TRAX_GDB_STEPPED) || !any_event(gdb))
     return false;
-  const unsigned ahead = gdb->owed + 1;
+  const unsigned pretended = gdb->catch_up + 1;
   stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
-  gdb->ahead = ahead;
-  gdb->ahead_pc = trax_gdb_pc_after(gdb, thread, ahead);
-  if (gdb->thread[thread].passed < ahead)
-    gdb->thread[thread].passed = (uint8_t)ahead;
+  gdb->pretended = pretended;
+  gdb->pretended_pc = trax_gdb_pc_after(gdb, thread, pretended);
+  if (gdb->thread[thread].skip_breaks < pretended)
+    gdb->thread[thread].skip_breaks = (uint8_t)pretended;
   describe_stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
-  tell_stop(gdb);
+  send_stop(gdb);
   return true;
 }
 
-/* Of what has happened in one cycle, one thing is told; the rest when the run is resumed. */
+/* Reports one of the events of a cycle. The others are reported when the run is resumed. */
 static void stop_for_event(struct trax_gdb *gdb) {
   static const unsigned order[] = {TRAX_GDB_STEPPED, TRAX_GDB_ACCESSED, TRAX_GDB_AT_BREAK};
   uint32_t thread;
   gdb->eventful = false;
-  if (pretend_step(gdb) || (gdb->insisting && !find_event(gdb, TRAX_GDB_STEPPED, &thread)))
+  if (pretend_step(gdb) || (gdb->step_first && !find_event(gdb, TRAX_GDB_STEPPED, &thread)))
     return;
   for (size_t i = 0; i < sizeof order / sizeof *order; i++)
     if (find_event(gdb, order[i], &thread)) {
       const bool at_break = gdb->thread[thread].events & TRAX_GDB_AT_BREAK;
-      const unsigned told = order[i] == TRAX_GDB_STEPPED && at_break ? TRAX_GDB_AT_BREAK : order[i];
-      stop(gdb, thread, TRAX_GDB_SIGTRAP, told);
+      const unsigned reported = order[i] == TRAX_GDB_STEPPED && at_break ? TRAX_GDB_AT_BREAK : order[i];
+      stop(gdb, thread, TRAX_GDB_SIGTRAP, reported);
       gdb->thread[thread].events = 0;
-      tell_stop(gdb);
+      send_stop(gdb);
       return;
     }
 }
 
-/* --- going on --- */
+/* --- resuming --- */
 
-/* What still holds of the events that have not been told. */
+/* Drops the unreported events of a thread that are no longer true. */
 static void review(struct trax_gdb *gdb, uint32_t thread) {
   struct trax_gdb_thread *state = &gdb->thread[thread];
   const bool accessed =
       (state->events & TRAX_GDB_ACCESSED) && trax_gdb_watched(gdb, thread, state->accessed, 1, true, true);
-  const bool waits = !state->told && !state->stepping && trax_gdb_is_alive(gdb, thread) &&
+  const bool waits = !state->reported && !state->stepping && trax_gdb_is_alive(gdb, thread) &&
                      trax_gdb_breaks_at(gdb, trax_gdb_pc(gdb, thread));
   state->events = (uint8_t)((accessed ? TRAX_GDB_ACCESSED : 0) | (waits ? TRAX_GDB_AT_BREAK : 0));
   gdb->eventful |= state->events != 0;
@@ -162,9 +163,9 @@ static void review(struct trax_gdb *gdb, uint32_t thread) {
 
 void trax_gdb_resume(struct trax_gdb *gdb, bool named_only) {
   gdb->named_only = named_only;
-  gdb->owed = named_only && gdb->thread[gdb->stopped].stepping ? gdb->ahead : 0;
-  gdb->insisting = gdb->owed >= MOST_AHEAD;
-  gdb->ahead = 0;
+  gdb->catch_up = named_only && gdb->thread[gdb->stopped].stepping ? gdb->pretended : 0;
+  gdb->step_first = gdb->catch_up >= MOST_PRETENDED;
+  gdb->pretended = 0;
   if (!named_only)
     trax_gdb_forget_breaks(gdb);
   gdb->phase = GDB_RUNNING;
@@ -180,13 +181,13 @@ static void detach(struct trax_gdb *gdb) {
   gdb->break_count = gdb->watch_count = 0;
 }
 
-/* Answers the debugger until the run is to go on. */
+/* Handles packets until the run is to continue. */
 static void serve(struct trax_gdb *gdb) {
   while (gdb->phase == GDB_STOPPED) {
     if (gdb->interrupt && *gdb->interrupt)
       gdb->phase = GDB_INTERRUPTED;
     else
-      switch (trax_gdb_receive(&gdb->wire, ATTENTION)) {
+      switch (trax_gdb_receive(&gdb->wire, POLL_MS)) {
       case TRAX_GDB_ARRIVED:
         trax_gdb_command(gdb);
         break;
@@ -194,13 +195,13 @@ static void serve(struct trax_gdb *gdb) {
         detach(gdb);
         break;
       case TRAX_GDB_NOTHING:
-      case TRAX_GDB_BREAK: /* it has stopped */
+      case TRAX_GDB_BREAK: /* the run has stopped already */
         break;
       }
   }
 }
 
-/* The machine, while it is stopped, is exported. */
+/* Handles packets while the run is stopped before cycle t. The machine's state must have been exported. */
 static void serve_at(struct trax_gdb *gdb, uint64_t t) {
   gdb->changed = false;
   serve(gdb);
@@ -208,7 +209,7 @@ static void serve_at(struct trax_gdb *gdb, uint64_t t) {
     trax_run_import(gdb->run, t);
 }
 
-/* The thread that an interrupt is told of. */
+/* Returns the thread for which an interrupt is reported: the stepping one, the selected one, or the first live one. */
 static uint32_t some_thread(const struct trax_gdb *gdb) {
   uint32_t stepping;
   if (find_stepping(gdb, &stepping) && trax_gdb_is_alive(gdb, stepping))
@@ -221,7 +222,7 @@ static uint32_t some_thread(const struct trax_gdb *gdb) {
   return 0;
 }
 
-/* The debugger of a running program may ask it to stop, and nothing else. */
+/* Whether the debugger interrupts the running program, which is all that it may do. */
 static bool wants_stop(struct trax_gdb *gdb) {
   const enum trax_gdb_event event = trax_gdb_receive(&gdb->wire, 0);
   if (event == TRAX_GDB_CLOSED)
@@ -229,7 +230,7 @@ static bool wants_stop(struct trax_gdb *gdb) {
   return event == TRAX_GDB_BREAK;
 }
 
-static bool is_attentive(const struct trax_gdb *gdb) {
+static bool needs_every_cycle(const struct trax_gdb *gdb) {
   if (gdb->break_count || gdb->watch_count || gdb->atomic_count)
     return true;
   for (uint32_t thread = 0; thread < gdb->threads; thread++)
@@ -253,26 +254,26 @@ static void stop_if_due(struct trax_gdb *gdb, uint64_t t) {
     stop_for_event(gdb);
   } else {
     stop(gdb, some_thread(gdb), TRAX_GDB_SIGINT, 0);
-    tell_stop(gdb);
+    send_stop(gdb);
   }
   serve_at(gdb, t);
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_gdb *gdb = watch->context;
   gdb->run = run;
   gdb->cycle = t;
   if (!gdb->begun) {
     gdb->begun = true;
     trax_run_export(run);
-    stop(gdb, 0, TRAX_GDB_SIGTRAP, 0); /* told when it is asked for */
+    stop(gdb, 0, TRAX_GDB_SIGTRAP, 0); /* GDB asks for the first stop by the packet `?` */
     serve_at(gdb, t);
   } else {
     stop_if_due(gdb, t);
   }
   if (gdb->phase == GDB_KILLED || gdb->phase == GDB_INTERRUPTED)
     return TRAX_INTERRUPTED;
-  watch->next = gdb->phase == GDB_DETACHED ? TRAX_NEVER : is_attentive(gdb) ? t + 1 : t + LISTEN_CYCLES;
+  watch->next = gdb->phase == GDB_DETACHED ? TRAX_NEVER : needs_every_cycle(gdb) ? t + 1 : t + LISTEN_CYCLES;
   return TRAX_OK;
 }
 
@@ -292,13 +293,13 @@ static enum trax_gdb_signal fault_signal(trax_fault_kind kind) {
   }
 }
 
-static void tell_end(struct trax_gdb *gdb, char how, unsigned number) {
+static void send_end(struct trax_gdb *gdb, char how, unsigned number) {
   trax_gdb_begin(&gdb->wire);
   trax_gdb_add(&gdb->wire, "%c%02x", how, number);
   trax_gdb_send(&gdb->wire);
 }
 
-/* A fault can be looked at before it ends the run. */
+/* Stops at a fault, so that the user can inspect the machine before the run ends. */
 static void end_by_fault(struct trax_gdb *gdb, struct trax_run *run, uint64_t t) {
   const struct trax_fault *fault = &gdb->machine->fault;
   const enum trax_gdb_signal signal = fault_signal(fault->kind);
@@ -308,10 +309,10 @@ static void end_by_fault(struct trax_gdb *gdb, struct trax_run *run, uint64_t t)
   if (gdb->phase != GDB_RUNNING)
     return;
   stop(gdb, fault->thread, signal, 0);
-  tell_stop(gdb);
+  send_stop(gdb);
   serve_at(gdb, t);
   if (gdb->phase == GDB_RUNNING)
-    tell_end(gdb, 'X', signal);
+    send_end(gdb, 'X', signal);
 }
 
 static void end(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t) {
@@ -322,22 +323,22 @@ static void end(struct trax_watch *watch, struct trax_run *run, trax_status stat
     return;
   switch (status) {
   case TRAX_OK:
-    tell_end(gdb, 'W', (unsigned)trax_machine_exit_status(gdb->machine) & 0xFF);
+    send_end(gdb, 'W', (unsigned)trax_machine_exit_status(gdb->machine) & 0xFF);
     break;
   case TRAX_FAULT:
     end_by_fault(gdb, run, t);
     break;
   case TRAX_STUCK:
-    tell_end(gdb, 'X', TRAX_GDB_SIGXCPU);
+    send_end(gdb, 'X', TRAX_GDB_SIGXCPU);
     break;
   case TRAX_INTERRUPTED:
   case TRAX_ERROR:
-    tell_end(gdb, 'X', TRAX_GDB_SIGINT);
+    send_end(gdb, 'X', TRAX_GDB_SIGINT);
     break;
   }
 }
 
-/* --- */
+/* --- creation and destruction --- */
 
 struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_link *link, const volatile int *interrupt,
                                  trax_error *error) {
@@ -357,25 +358,25 @@ struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_li
   gdb->interrupt = interrupt;
   gdb->threads = threads;
   gdb->tps = machine->config.chip.tps_per_tm;
-  gdb->observed_before = machine->observer;
+  gdb->next_observer = machine->observer;
   gdb->observer = (struct trax_observer){gdb, on_issue, on_charge, on_arrival};
   machine->observer = &gdb->observer;
-  gdb->watch = (struct trax_watch){.look = look, .end = end, .context = gdb};
+  gdb->watch = (struct trax_watch){.look = inspect, .end = end, .context = gdb};
   trax_machine_watch(machine, &gdb->watch);
   return gdb;
 }
 
-static void leave(struct trax_gdb *gdb) {
+static void unregister(struct trax_gdb *gdb) {
   trax_machine_unwatch(gdb->machine, &gdb->watch);
   if (gdb->machine->observer == &gdb->observer)
-    gdb->machine->observer = gdb->observed_before;
+    gdb->machine->observer = gdb->next_observer;
 }
 
 void trax_gdb_destroy(struct trax_gdb *gdb) {
   if (!gdb)
     return;
   if (gdb->machine)
-    leave(gdb);
+    unregister(gdb);
   free(gdb->thread);
   free(gdb->atomics);
   free(gdb);

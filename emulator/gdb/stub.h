@@ -1,14 +1,15 @@
-/* The parts of the stub: stub.c runs and stops, breaks.c knows where, commands.c answers packets, target.c gives
-   threads, registers and memory, imagine.c tells where a thread will go, monitor.c has what GDB has no words for. */
+/* The parts of the stub: stub.c stops and resumes the run, breaks.c has breakpoints and watchpoints, commands.c,
+   resume.c and queries.c handle packets, target.c accesses threads, registers and memory, predict.c predicts a thread's
+   pc, and monitor.c has the commands of `monitor`. */
 #ifndef TRAX_GDB_STUB_H
 #define TRAX_GDB_STUB_H
 
 #include "engine/run.h"
 #include "gdb/gdb.h"
 
-enum { TRAX_GDB_BREAKS = 4096, TRAX_GDB_WATCHES = 64 }; /* at most */
+enum { TRAX_GDB_BREAKS = 4096, TRAX_GDB_WATCHES = 64 }; /* limits */
 
-/* Signals by GDB's numbers. */
+/* Signals in GDB's numbering. */
 enum trax_gdb_signal {
   TRAX_GDB_SIGINT = 2,
   TRAX_GDB_SIGILL = 4,
@@ -19,119 +20,118 @@ enum trax_gdb_signal {
   TRAX_GDB_SIGXCPU = 24
 };
 
-/* What a thread may stop for. */
+/* The events for which a thread stops. */
 enum { TRAX_GDB_STEPPED = 1, TRAX_GDB_AT_BREAK = 2, TRAX_GDB_ACCESSED = 4 };
 
 struct trax_gdb_thread {
-  bool told;      /* the debugger knows of it at this pc: a breakpoint here is not hit again before it has issued */
-  bool stepping;  /* stops when it has issued an instruction, and is outside the range */
-  uint8_t events; /* of TRAX_GDB_STEPPED ... */
-  uint8_t
-      passed;  /* the debugger has seen it behind so many of its next instructions: it is told of no breakpoint there */
-  char access; /* of TRAX_GDB_ACCESSED: the watchpoint's type */
-  uint32_t accessed;
+  bool reported;       /* a stop at this pc has been reported: a breakpoint here is not hit again before an issue */
+  bool stepping;       /* it stops after an issue if its pc is outside the range */
+  uint8_t events;      /* a mask of TRAX_GDB_STEPPED ... */
+  uint8_t skip_breaks; /* number of next instructions whose breakpoints are not reported, after pretended steps */
+  char access;         /* TRAX_GDB_ACCESSED: the watchpoint's type, */
+  uint32_t accessed;   /* and the address */
 };
 
 struct trax_gdb_break {
   uint32_t address;
-  bool removed; /* since the run was last resumed */
+  bool removed; /* since the run was last resumed; see trax_gdb.named_only */
 };
 
 struct trax_gdb_watch {
   char type; /* 2 write, 3 read, 4 access, as in the packet */
   uint32_t address, bytes;
-  uint32_t thread; /* whose local memory */
+  uint32_t thread; /* the thread to whose local memory the address refers */
 };
 
-/* An atomic increment of a watched word, under way. */
+/* An issued atomic increment of a watched word that has not arrived. */
 struct trax_gdb_atomic {
   uint32_t thread, rd, address;
 };
 
 struct trax_gdb {
   trax_machine *machine;
-  struct trax_run *run; /* from the first look to the end */
+  struct trax_run *run; /* set by the first inspection */
   struct trax_gdb_wire wire;
   const volatile int *interrupt;
   struct trax_watch watch;
   struct trax_observer observer;
-  const struct trax_observer *observed_before; /* who is told too */
+  const struct trax_observer *next_observer; /* the observer set before, which is notified, too; may be NULL */
 
   enum { GDB_STOPPED, GDB_RUNNING, GDB_DETACHED, GDB_KILLED, GDB_INTERRUPTED } phase;
-  bool begun;         /* it has been asked once */
-  bool over;          /* the run has ended: going on means the end */
-  bool changed;       /* registers or memory since the stop */
-  bool knows_swbreak; /* as a reason for a stop */
+  bool begun;         /* the first stop has been made */
+  bool over;          /* the run has ended: a resume ends the session */
+  bool changed;       /* registers or memory have been changed since the stop */
+  bool knows_swbreak; /* GDB accepts swbreak as the reason for a stop */
   uint64_t cycle;     /* the next one */
-  uint64_t listen_at; /* the cycle in which the debugger is listened to again */
+  uint64_t listen_at; /* the next cycle in which the debugger is polled */
 
   uint32_t threads, tps;          /* of the chip, of a TM */
   struct trax_gdb_thread *thread; /* [threads] */
-  uint32_t selected;              /* for registers and memory (Hg) */
-  uint32_t continued;             /* for s (Hc) */
-  uint32_t stopped;               /* by whom the last stop is reported */
-  uint32_t listed;                /* the next of a list in parts */
-  char reason[160];               /* the last stop's packet */
+  uint32_t selected;              /* the thread for registers and memory (Hg) */
+  uint32_t continued;             /* the thread for s (Hc) */
+  uint32_t stopped;               /* the thread of the latest stop */
+  uint32_t listed;                /* the next thread of a list that is sent in parts */
+  char reason[160];               /* the packet of the latest stop */
 
   struct trax_gdb_break breaks[TRAX_GDB_BREAKS];
   uint32_t break_count;
   struct trax_gdb_watch watches[TRAX_GDB_WATCHES];
   uint32_t watch_count;
-  bool named_only; /* when the run was resumed only some threads were: breakpoints that are removed hold for others */
-  unsigned
-      ahead; /* the thread that stopped last is shown at ahead_pc, so many instructions from where it is (stub.c) */
-  uint32_t ahead_pc;
-  unsigned owed;  /* it steps on from there: these instructions first */
-  bool insisting; /* until it has stepped, no other's event counts */
-  bool eventful;  /* some thread has an event */
+  bool named_only;    /* the latest resume named single threads: removed breakpoints still stop the other threads */
+  unsigned pretended; /* pretended steps of the stopped thread, which is shown at pretended_pc (stub.c, pretend_step) */
+  uint32_t pretended_pc;
+  unsigned catch_up; /* instructions that the thread must really issue before its next step counts */
+  bool step_first;   /* no other thread's event counts before the thread has stepped */
+  bool eventful;     /* some thread has an event */
   uint32_t range_begin, range_end;
   struct trax_gdb_atomic *atomics; /* [threads * TRAX_NUM_REGISTERS] */
   uint32_t atomic_count;
 };
 
 /* --- stub.c --- */
-/* The threads marked as stepping step, the others go on; named_only: they were not named. */
+/* Resumes the run: threads marked as stepping step, the others continue. named_only: the packet named single threads.
+ */
 void trax_gdb_resume(struct trax_gdb *gdb, bool named_only);
 
 /* --- commands.c --- */
-/* Answers the packet in gdb->wire. */
+/* Handles the packet in gdb->wire and sends the reply. */
 void trax_gdb_command(struct trax_gdb *gdb);
 
 /* --- breaks.c --- */
-/* Packets Z and z. False: no such thing, or no room. */
+/* Packets Z and z. False: an unknown type, a bad address, or too many. */
 bool trax_gdb_insert(struct trax_gdb *gdb, char type, uint32_t address, uint32_t bytes);
 bool trax_gdb_remove(struct trax_gdb *gdb, char type, uint32_t address, uint32_t bytes);
 void trax_gdb_forget_breaks(struct trax_gdb *gdb);
-/* A breakpoint at pc that holds. */
+/* Whether there is a valid breakpoint at pc. */
 bool trax_gdb_breaks_at(const struct trax_gdb *gdb, uint32_t pc);
-/* The watchpoint that the access of a thread touches, or NULL. */
+/* Returns the watchpoint that a thread's access hits, or NULL. */
 const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32_t thread, uint32_t address,
                                               uint32_t bytes, bool reads, bool writes);
-/* What an instruction and an arrival mean for watchpoints. */
+/* Adds the events of watchpoints that an issue or the arrival of an atomic increment hits. */
 void trax_gdb_note_access(struct trax_gdb *gdb, uint32_t thread, const struct trax_issue *issue);
 void trax_gdb_note_arrival(struct trax_gdb *gdb, uint32_t thread, uint32_t rd);
 
-/* --- imagine.c --- */
-/* Where the thread's next so many instructions will lead it. */
+/* --- predict.c --- */
+/* Predicts the thread's pc after its next instructions, as far as it depends on the thread alone. */
 uint32_t trax_gdb_pc_after(const struct trax_gdb *gdb, uint32_t thread, unsigned instructions);
 
 /* --- target.c --- */
 uint32_t trax_gdb_pc(const struct trax_gdb *gdb, uint32_t thread);
 bool trax_gdb_is_alive(const struct trax_gdb *gdb, uint32_t thread);
-/* number is the debugger's (registers.h). */
+/* number: in the debugger's numbering (registers.h). */
 uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number);
 bool trax_gdb_set_register(struct trax_gdb *gdb, uint32_t thread, unsigned number, uint32_t value);
-/* How many of the bytes at address a thread can read; they begin at *bytes. */
+/* Returns how many of `size` bytes at an address a thread can read, and sets *bytes to them. */
 size_t trax_gdb_memory(const struct trax_gdb *gdb, uint32_t thread, uint32_t address, size_t size, uint8_t **bytes);
-/* All of them or none: not outside memory, and not into text, which has been decoded. */
+/* Writes all bytes or none. False: outside memory, or in text, which has been decoded before the run. */
 bool trax_gdb_write_memory(struct trax_gdb *gdb, uint32_t thread, uint32_t address, const void *bytes, size_t size);
 void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *name, size_t size);
-/* Documents of qXfer, to be freed; NULL if there is no memory. */
+/* Documents of qXfer, from malloc; NULL: out of memory. */
 char *trax_gdb_target_description(void);
 char *trax_gdb_thread_list(const struct trax_gdb *gdb);
 
 /* --- monitor.c --- */
-/* GDB's command `monitor`. False if it is unknown; what it prints has been sent. */
+/* Executes a command of `monitor` and sends its output. False: out of memory. */
 bool trax_gdb_monitor(struct trax_gdb *gdb, const char *command);
 
 #endif

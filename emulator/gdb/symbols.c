@@ -1,4 +1,4 @@
-/* A copy of an executable for a debugger that does not know the machine. */
+/* Writes a copy of an executable for a debugger that does not know the machine. */
 #include "gdb/dwarf_registers.h"
 #include "gdb/gdb.h"
 #include "gdb/registers.h"
@@ -37,9 +37,9 @@ static int renumber_attribute(Dwarf_Attribute *attribute, void *context) {
   return DWARF_CB_OK;
 }
 
-enum { MAX_DEPTH = 256 }; /* of entries within each other */
+enum { MAX_DEPTH = 256 }; /* of nested entries */
 
-/* An entry and those below it; in damaged information offsets may not grow. */
+/* Renumbers an entry and its children. In damaged information, offsets that do not increase could form a cycle. */
 static bool renumber_entry(Dwarf_Die *entry, struct copy *copy, unsigned depth) {
   Dwarf_Die child;
   if (depth == MAX_DEPTH || dwarf_getattrs(entry, renumber_attribute, copy, 0) != 1)
@@ -69,7 +69,7 @@ static bool renumber_units(Elf *elf, struct copy *copy) {
   return good && more == 1;
 }
 
-/* --- sections of their own --- */
+/* --- other sections --- */
 
 static trax_status renumber_sections(Elf *elf, struct copy *copy, trax_error *error) {
   static const struct {
@@ -102,7 +102,7 @@ static trax_status renumber(struct copy *copy, trax_error *error) {
   if (!elf)
     return trax_fail(error, "%s: %s", copy->path, elf_errmsg(-1));
   trax_status status = TRAX_OK;
-  if (!renumber_units(elf, copy)) /* before the lists change, which libdw may read */
+  if (!renumber_units(elf, copy)) /* precedes the change of location lists, which libdw may read */
     status = fail(copy, ".debug_info", error);
   if (status == TRAX_OK)
     status = renumber_sections(elf, copy, error);
@@ -112,7 +112,7 @@ static trax_status renumber(struct copy *copy, trax_error *error) {
 
 trax_status trax_gdb_write_symbols(const char *executable, const char *path, trax_error *error) {
   struct copy copy = {.path = executable};
-  trax_image *image = trax_image_open(executable, error); /* its headers are as they should be */
+  trax_image *image = trax_image_open(executable, error); /* checks the headers */
   if (!image)
     return TRAX_ERROR;
   trax_image_close(image);
@@ -125,7 +125,7 @@ trax_status trax_gdb_write_symbols(const char *executable, const char *path, tra
   if (status == TRAX_OK) {
     const uint16_t machine = EM_RISCV;
     memcpy(copy.bytes + offsetof(Elf32_Ehdr, e_machine), &machine, sizeof machine);
-    fwrite(copy.bytes, 1, copy.size, output.file); /* a failure shows again when the file is closed */
+    fwrite(copy.bytes, 1, copy.size, output.file); /* trax_output_commit reports a failure */
     status = trax_output_commit(&output, error);
   }
   free(copy.bytes);

@@ -1,4 +1,4 @@
-/* Threads, registers and memory as the debugger sees them. */
+/* The debugger's access to threads, registers and memory. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "gdb/registers.h"
 #include "gdb/stub.h"
@@ -32,22 +32,22 @@ void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *nam
 uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number) {
   const struct trax_thread state = trax_run_thread(gdb->run, thread);
   if (number == TRAX_GDB_PC)
-    return gdb->ahead && thread == gdb->stopped ? gdb->ahead_pc : state.pc;
+    return gdb->pretended && thread == gdb->stopped ? gdb->pretended_pc : state.pc;
   const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
   return own ? state.reg[own] : 0;
 }
 
-/* The thread goes on somewhere else: what it has fetched is of no use. */
+/* Moves the thread to another pc. False: pc is no text. */
 static bool set_pc(struct trax_gdb *gdb, uint32_t thread, uint32_t pc) {
   if (trax_text_at(&gdb->run->text, pc)->ask == TRAX_ASK_OUTSIDE)
     return false;
-  gdb->thread[thread].passed = 0;
+  gdb->thread[thread].skip_breaks = 0;
   if (thread == gdb->stopped)
-    gdb->ahead = 0;
+    gdb->pretended = 0;
   if (pc == trax_gdb_pc(gdb, thread))
     return true;
   gdb->run->engine->set_pc(gdb->run->chip, thread, pc);
-  gdb->thread[thread].told = true;
+  gdb->thread[thread].reported = true;
   return true;
 }
 

@@ -31,7 +31,7 @@ static void begin_packet(struct trax_gdb_wire *wire) {
 }
 
 static void take_data(struct trax_gdb_wire *wire, uint8_t byte) {
-  if (byte == '$') { /* the one before has lost its end */
+  if (byte == '$') { /* the end of the packet before was lost */
     begin_packet(wire);
     return;
   }

@@ -1,4 +1,4 @@
-/* Where a thread's next instructions will lead it, as far as that depends on the thread alone. */
+/* Predicts the pc after a thread's next instructions, by executing them on a copy of the thread. */
 #include "gdb/stub.h"
 #include "machine/text.h"
 #include "machine/traps.h"
@@ -6,14 +6,13 @@
 
 #include <string.h>
 
-/* A copy of the thread. */
-struct imagined {
+struct predicted { /* the copy */
   uint32_t reg[TRAX_NUM_REGISTERS + 1], pc;
   uint8_t local[TRAX_LOCAL_SIZE];
 };
 
-/* Whether the instruction acts on nothing but the thread. */
-static bool is_harmless(const struct trax_gdb *gdb, const struct imagined *it, const struct trax_decoded *inst) {
+/* Whether the instruction affects only its thread. Others are skipped. */
+static bool is_harmless(const struct trax_gdb *gdb, const struct predicted *it, const struct trax_decoded *inst) {
   switch ((trax_ask)inst->ask) {
   case TRAX_ASK_END:
   case TRAX_ASK_FENCE:
@@ -30,7 +29,7 @@ static bool is_harmless(const struct trax_gdb *gdb, const struct imagined *it, c
   }
 }
 
-static uint32_t load(const struct trax_gdb *gdb, const struct imagined *it, uint32_t address, unsigned bytes) {
+static uint32_t load(const struct trax_gdb *gdb, const struct predicted *it, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
   memcpy(&value,
          address >= TRAX_LOCAL_BASE ? it->local + (address - TRAX_LOCAL_BASE) : gdb->machine->space.bytes + address,
@@ -38,7 +37,7 @@ static uint32_t load(const struct trax_gdb *gdb, const struct imagined *it, uint
   return value;
 }
 
-static void step(const struct trax_gdb *gdb, uint32_t thread, struct imagined *it) {
+static void step(const struct trax_gdb *gdb, uint32_t thread, struct predicted *it) {
   const struct trax_decoded *inst = trax_text_at(&gdb->run->text, it->pc);
   uint32_t *const reg = it->reg;
   uint32_t next_pc = it->pc + 4, word;
@@ -60,7 +59,7 @@ static void step(const struct trax_gdb *gdb, uint32_t thread, struct imagined *i
 
 uint32_t trax_gdb_pc_after(const struct trax_gdb *gdb, uint32_t thread, unsigned instructions) {
   const struct trax_thread state = trax_run_thread(gdb->run, thread);
-  struct imagined it = {.pc = state.pc};
+  struct predicted it = {.pc = state.pc};
   memcpy(it.reg, state.reg, sizeof it.reg - sizeof *it.reg);
   memcpy(it.local, state.local, sizeof it.local);
   while (instructions--)
