@@ -1,11 +1,11 @@
-/* engine-bench: how fast the engines are.
+/* engine-bench measures the speed of the engines.
 
-   A row for each case: million simulated instructions per second of wall time, for the reference engine, the fast
-   engine on one, two and all threads of the host, and the functional mode; then how much faster the fast engine on one
-   thread is than the reference, what part it is of the functional mode, and what two threads gain. The engines take
-   turns, and the least time of several runs counts, since the host may be busy. With --max-cycles the timed engines run
-   the same first N cycles. With --no-reference the reference engine, which takes some forty times as long, is left out.
-   Ends with status 1 if the engines disagree on cycles or instructions. */
+   It prints a row for each case: million simulated instructions per second of wall time, for the reference engine, the
+   fast engine on one, two and all threads of the host, and the functional engine; then the ratios of the fast engine on
+   one thread to the reference and to the functional engine, and of two threads to one. Each repetition runs all
+   engines, and the shortest time of an engine counts, since the host may be busy. With --max-cycles the timed engines
+   run only the first N cycles. --no-reference omits the reference engine, which takes some forty times as long. The
+   exit status is 1 if the engines disagree on cycles or instructions. */
 #define _GNU_SOURCE /* clock_gettime, strchrnul */
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static const trax_option rows[] = {
 static const trax_command command = {
     .name = "engine-bench",
     .synopsis = "[OPTION...]\n[OPTION...] PROGRAM [SYMBOL=FILE | SYMBOL:BYTES]...",
-    .description = "How fast the engines are: on built-in programs, or on an executable with its buffers.",
+    .description = "Measures the speed of the engines on built-in programs, or on an executable with its buffers.",
     .rows = rows,
     .column = 22};
 
@@ -50,7 +50,7 @@ static uint32_t op(trax_op operation, unsigned rd, unsigned ra, unsigned rb, int
   return trax_encode((trax_inst){operation, (uint8_t)rd, (uint8_t)ra, (uint8_t)rb, imm});
 }
 
-/* --- built-in programs: every thread 2000 turns of a loop, with its own data --- */
+/* --- built-in programs: every thread executes a loop 2000 times, with its own data --- */
 
 static size_t open_loop(uint32_t *words) {
   size_t n = 0;
@@ -91,7 +91,7 @@ static size_t floats(uint32_t *words) {
   return close_loop(words, n, loop);
 }
 
-/* Walks through a table with branches that depend on it, like a traversal. */
+/* Walks through a table, with branches that depend on its words, as a traversal does. */
 static size_t walk(uint32_t *words) {
   const size_t loop = open_loop(words);
   size_t n = loop;

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Where the fast engine's host instructions go: a row for each function, by callgrind.
+"""Counts the fast engine's host instructions by function, with callgrind.
 
     emulator/bench/instructions.py SCENES_DIRECTORY [--scene conference] [--chip 4x32] [--size 320x180]
                                    [--cycles 60000:160000] [--bin build/bin]
 
-SCENES_DIRECTORY holds the scenes as for speed.py. Counts what the host executes in user mode while trax-sim simulates the
-cycles of the picture from the first number of --cycles on to the second, on one thread of the host: the difference of two
-runs, so loading and ends are not in it. Inlined functions count where they are inlined. Debian's valgrind knows no
-AVX-512, so it is the variant for AVX2 that is counted; another run gives the same figures.
+SCENES_DIRECTORY holds the scenes as for speed.py. The figures are instructions of the host in user mode while trax-sim
+simulates the cycles of the picture between the two numbers of --cycles, on one thread of the host. They are the difference
+of two runs, so loading and the end of the run cancel out. Inlined functions count where they are inlined. Debian's valgrind
+does not support AVX-512, so the variant for AVX2 is measured. The figures are reproducible.
 """
 
 import json
@@ -29,11 +29,11 @@ def count(programs, words, cycles, scratch):
     run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", programs / "trax-sim", *words, "--host-threads",
                           "1", "--max-cycles", str(cycles), "--stats", stats], cwd=scratch, capture_output=True, text=True)
     if run.returncode != 124 or not stats.exists():
-        sys.exit(f"instructions.py: error: {cycles} cycles are not what the run was to stop at:\n{run.stderr}")
+        sys.exit(f"instructions.py: error: the run has not stopped at cycle {cycles}:\n{run.stderr}")
     listing = subprocess.run(["callgrind_annotate", "--threshold=100", "--auto=no", out], check=True, capture_output=True, text=True).stdout
     functions = {}
     for number, name in re.findall(r"^ *([\d,]+) \([ \d.]+%\)  \S*?:([^\[\n]+?) *(?:\[[^\]\n]*\])?$", listing, re.M):
-        name = re.sub(r"(_v3)?('\d+)?$", "", name)  # of the variant, of a call within itself
+        name = re.sub(r"(_v3)?('\d+)?$", "", name)  # suffixes of the variant and of recursive calls
         functions[name] = functions.get(name, 0) + int(number.replace(",", ""))
     return functions, json.loads(stats.read_text())
 
@@ -46,7 +46,7 @@ def main():
     options = parser.parse_args()
     first, last = map(int, options.cycles.split(":"))
     if not shutil.which("valgrind"):
-        sys.exit("instructions.py: error: there is no valgrind (Debian's package valgrind)")
+        sys.exit("instructions.py: error: valgrind is not installed (Debian's package valgrind)")
 
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)

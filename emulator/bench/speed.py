@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How fast the engines are on the ray tracer: a row for each scene and chip.
+"""Measures the speed of the engines on the ray tracer: a row for each scene and chip.
 
     emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
                             [--whole | --max-cycles 400000] [--repeats 3] [--bin build/bin]
 
-SCENES_DIRECTORY holds the scenes as for raytracer/bench/lean.py. Prints what engine-bench prints (emulator/bench/engines.c):
-million simulated instructions per second of wall time for each engine, and ratios, all of one run. The timed engines run
-the same first cycles of the picture, the functional mode the whole picture; with --whole all but the reference engine, which is left out, run all of it.
+SCENES_DIRECTORY holds the scenes as for raytracer/bench/lean.py. The rows are those of engine-bench (emulator/bench/engines.c):
+million simulated instructions per second of wall time for each engine, and ratios. The timed engines run the first cycles of
+the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without the reference.
 """
 
 import pathlib
@@ -20,16 +20,16 @@ from scenes import arguments, files_of  # noqa: E402
 
 
 def render(options, scene, more, scratch):
-    """Renders the scene and keeps in scratch what its trax-sim was given; gives the arguments of that command line."""
+    """Renders the scene, keeps the inputs of its trax-sim in scratch, and returns the arguments of that trax-sim."""
     subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene, "--size", options.size, *more, "--quiet", "--keep", scratch,
                     "-o", pathlib.Path(scratch) / "picture.png"], check=True)
     lines = (pathlib.Path(scratch) / "run.sh").read_text().replace("\\\n", " ").splitlines()
     words = shlex.split(next(line for line in lines if "--bind" in line))[1:]
-    return [word for word in words if not word.startswith("$")]  # the shell's: which trax-sim, and further options
+    return [word for word in words if not word.startswith("$")]  # without the script's variables
 
 
 def engine_arguments(words):
-    """The executable and its buffers, as engine-bench takes them, of the arguments of trax-sim."""
+    """Returns engine-bench's arguments for the executable and buffers of trax-sim's arguments."""
     program, buffers, words = None, [], list(words)
     while words:
         word = words.pop(0)

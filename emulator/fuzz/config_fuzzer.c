@@ -1,5 +1,5 @@
-/* Configurations under libFuzzer: the words of a case's first line are assignments as --set takes them, its first file
-   is a configuration file. What is accepted prints, and reads back as it was. */
+/* Fuzzes configurations: the words of a case's first line are assignments as for --set, and its first file is a
+   configuration file. An accepted configuration is printed and must read back as the same one. */
 #include "fuzz_case.h"
 #include "host/config.h"
 #include "machine/config.h"
@@ -10,7 +10,7 @@
 
 trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error);
 
-/* Of libconfig's own: the text of a string that never ends. */
+/* libconfig leaks the text of an unterminated string. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) {
   return "leak:libconfig";
@@ -36,7 +36,7 @@ static trax_status read_text(struct trax_config *config, const uint8_t *bytes, s
   current_size = size;
   const trax_status status = trax_config_read_file(config, "machine.cfg", error);
   if (status != TRAX_OK && strncmp(error->message, "machine.cfg:", 12) != 0) {
-    fprintf(stderr, "a message without its place: %s\n", error->message);
+    fprintf(stderr, "a message without file and line: %s\n", error->message);
     abort();
   }
   return status;
@@ -57,12 +57,12 @@ static void read_back(const struct trax_config *config) {
   trax_config *again = trax_config_create();
   print(config, &first, &first_size);
   if (!again || read_text(again, (const uint8_t *)first, first_size, &error) != TRAX_OK) {
-    fprintf(stderr, "what was printed is refused: %s\n%s", error.message, first);
+    fprintf(stderr, "a printed configuration is refused: %s\n%s", error.message, first);
     abort();
   }
   print(again, &second, &second_size);
   if (first_size != second_size || memcmp(first, second, first_size) != 0) {
-    fprintf(stderr, "read back as another machine:\n%s%s", first, second);
+    fprintf(stderr, "a printed configuration reads back as another one:\n%s%s", first, second);
     abort();
   }
   trax_config_destroy(again);
@@ -91,7 +91,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   if (!accepted && !error.message[0])
     abort(); /* refused without a reason */
   if (trax_config_check(config, &error) == TRAX_OK)
-    read_back(config); /* a refusal leaves what was before */
+    read_back(config); /* refused values have left the configuration unchanged */
   trax_config_destroy(config);
   fuzz_case_free(&fuzz_case);
   return 0;

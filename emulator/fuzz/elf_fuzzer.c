@@ -1,6 +1,6 @@
-/* The loader under libFuzzer: the first file of a case is the executable. It is opened, asked about its symbols and
-   source lines, copied for a debugger, loaded and run for a while; at its end
-   every thread is unwound. The word `functional` in the line of options is for that engine. */
+/* Fuzzes the loader: the first file of a case is the executable. It is opened, its symbols and source lines are looked
+   up, it is copied for a debugger, loaded and run for some cycles, and at the end every thread is unwound. The word
+   `functional` in the line of options selects that engine. */
 #include "fuzz_case.h"
 #include "gdb/gdb.h"
 #include "report/backtrace.h"
@@ -27,12 +27,12 @@ trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **byte
   return TRAX_OK;
 }
 
-/* Every string is there to its end. */
+/* Reads a string to its end, so that the sanitizer checks it. */
 static size_t touch(const char *text) {
   return text ? strlen(text) : 0;
 }
 
-static size_t ask(trax_image *image) {
+static size_t look_up_symbols(trax_image *image) {
   struct trax_source_line lines[8];
   size_t count, sum = 0;
   const struct trax_symbol *symbols = trax_image_symbols(image, &count);
@@ -78,7 +78,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     abort();
   trax_machine *machine = trax_machine_create(config, &error);
   if (machine && current && trax_machine_load_elf(machine, "program.elf", &error) == TRAX_OK) {
-    sum += ask(trax_host_of(machine)->image);
+    sum += look_up_symbols(trax_host_of(machine)->image);
     if (trax_gdb_write_symbols("program.elf", "/dev/null", &error) == TRAX_ERROR && !error.message[0])
       abort();
     run(machine, fuzz_case.options, nowhere);

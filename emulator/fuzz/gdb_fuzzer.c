@@ -1,6 +1,5 @@
-/* The debugger's stub under libFuzzer: each line of a case is a packet, framed here, of which a line of ^C alone is an
-   interrupt; a case that begins with a NUL is taken byte by byte as the debugger's. The program that is debugged runs
-   on four threads. */
+/* Fuzzes the debugger's stub: each line of a case is the text of a packet, and a line with only ^C is an interrupt. A
+   case that begins with a NUL is the debugger's stream of bytes instead. The debugged program runs on four threads. */
 #include "fuzz_case.h"
 #include "gdb/gdb.h"
 #include "machine/machine.h"
@@ -47,7 +46,7 @@ static void frame(struct stream *stream, const uint8_t *bytes, size_t size) {
   }
 }
 
-/* While the program runs, only an interrupt is there to be received: a debugger waits for the answer. */
+/* While the program runs, only an interrupt can be received, since a debugger waits for the stop. */
 static int receive(void *context, uint8_t *bytes, size_t capacity, int milliseconds) {
   struct stream *stream = context;
   if (stream->at == stream->size)
@@ -56,7 +55,7 @@ static int receive(void *context, uint8_t *bytes, size_t capacity, int milliseco
     return 0;
   const size_t left = stream->size - stream->at, size = milliseconds == 0 ? 1 : left < capacity ? left : capacity;
   size_t got = 0;
-  do /* up to an interrupt, so that it comes while the program runs */
+  do /* stops before an interrupt, so that it arrives while the program runs */
     bytes[got++] = stream->bytes[stream->at++];
   while (got < size && stream->bytes[stream->at] != 3);
   return (int)got;
@@ -116,7 +115,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   const struct trax_gdb_link link = {&stream, receive, transmit};
   struct trax_gdb *gdb = trax_gdb_create(machine, &link, NULL, &error);
   if (!gdb || trax_machine_run(machine, &(trax_run_options){.max_cycles = 20000}, &error) == TRAX_ERROR) {
-    fprintf(stderr, "%s\n", error.message); /* the accounts among them */
+    fprintf(stderr, "%s\n", error.message); /* such as a violation of the rule of accounting */
     abort();
   }
   trax_gdb_destroy(gdb);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes cases to begin with: usage seeds.py BUILD DIRECTORY
+"""Writes the seeds of the fuzzers: usage seeds.py BUILD DIRECTORY
 
-BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, one file a case, in the form that fuzz_case.h describes.
+BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, with a file for each case, in the form of fuzz_case.h.
 """
 
 import glob
