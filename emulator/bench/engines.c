@@ -193,10 +193,10 @@ static struct result run(const char *preset, const struct bench_case *bench, con
   else
     load_program(machine, arguments);
   const bool timed = strcmp(engine->engine, "functional") != 0;
-  const trax_run_options options = {
+  const trax_run_options run_options = {
       .engine = engine->engine, .host_threads = engine->host_threads, .max_cycles = timed ? options.max_cycles : 0};
   const double begun = now();
-  const trax_status status = trax_machine_run(machine, &options, &error);
+  const trax_status status = trax_machine_run(machine, &run_options, &error);
   const double seconds = now() - begun;
   if (!(timed && options.max_cycles && status == TRAX_STUCK))
     check(status, &error);
