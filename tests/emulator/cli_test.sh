@@ -95,7 +95,7 @@ grep -q 'threads x cycles, as it must be' report.txt || fail "report.txt"
 grep -q 'tps_per_tm = 32;' report.txt || fail "report.txt: configuration"
 run 0 --report quick.txt --config 2x32 --quiet mix.elf
 # slow ROW REASON OPTIONS...: the report has the row with the reason, and that of the plain machine does not; the
-# reference engine, which has no such ways, has the same statistics.
+# reference engine, which has no such paths, has the same statistics.
 slow() {
   row=$1 reason=$2
   shift 2
@@ -111,9 +111,9 @@ grep -q '^Slow paths' quick.txt || fail "quick.txt"
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.tps_per_cache is not 16" --set icache.tps_per_cache=8
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.ports_per_bank is above 1" --set icache.ports_per_bank=2
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.banks is above 16" --set icache.banks=32
-slow "adders group by group .* 100.00 % of the cycles" "not one to each group alike" --set fpu.adders_per_cluster=2
+slow "adders group by group .* 100.00 % of the cycles" "do not have one adder and one multiplier each" --set fpu.adders_per_cluster=2
 slow "data banks by fours .* 100.00 % of the cycles" "more than 8 banks" --set dcache.tps_per_bank=2
-slow "TMs cycle by cycle .* of the cycles" "memory answers too soon" --set memory.latency_cycles=1
+slow "TMs cycle by cycle .* of the cycles" "the memory latency is too short" --set memory.latency_cycles=1
 grep '^  TMs cycle by cycle' quick.txt | grep -q 'stops close together (0 cycles)' || fail "quick.txt: stops"
 run 0 --config 2x32 --report report.txt --checkpoint often.bin --checkpoint-every 10 mix.elf
 grep '^  TMs cycle by cycle' report.txt | grep -q ' 9[0-9.]* % of the cycles: .* stops close together ([1-9][0-9]* cycles)' ||
