@@ -13,10 +13,10 @@ struct trax_hits {
    unless run->holes. */
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
-/* By Embree 3 in robust mode; reference.c. */
+/* By Embree 3 in robust mode; embree.c. */
 trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                              trax_error *error);
-/* Without error (exact.h); reference.c. */
+/* Without error (exact.h); embree.c. */
 trax_status trax_hits_exact(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                             trax_error *error);
 void trax_hits_release(struct trax_hits *hits);

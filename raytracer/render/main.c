@@ -40,7 +40,7 @@ static trax_status run_on_host(struct trax_picture *picture, bool reference, uns
   struct step step = {progress, reference ? "reference" : "native twin"};
   struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
   double begun = trax_seconds();
-  trax_status status = reference ? trax_render_reference(picture, frame, &run, error)
+  trax_status status = reference ? trax_render_embree(picture, frame, &run, error)
                                  : trax_render_twin(picture, frame, threads, &run, error);
   trax_progress_line_clear(progress);
   if (status == TRAX_OK && !quiet)

@@ -187,8 +187,8 @@ struct trax_render_run {
 trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
 
-/* reference.c: Embree 3 in robust mode finds the same hits among the same triangles; shading in binary64. */
-trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
+/* embree.c: Embree 3 in robust mode finds the same hits among the same triangles; shading in binary64. */
+trax_status trax_render_embree(struct trax_picture *picture, const struct trax_frame *frame,
                                   struct trax_render_run *run, trax_error *error);
 
 /* What a sample's rays met. */
@@ -205,7 +205,7 @@ struct trax_exact {
   struct trax_exact_sample *seen; /* of each sample of each pixel; NULL: not wanted */
 };
 
-/* reference.c too: the hits are found in binary64 as well (exact.c), among the triangles as the scene has them. The
+/* embree.c too: the hits are found in binary64 as well (exact.c), among the triangles as the scene has them. The
    directions of the rays from the eye are the device's, rounded to binary32 as there: of the same rays. */
 trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame *frame, bool seen,
                               struct trax_render_run *run, trax_error *error);

@@ -18,7 +18,7 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "timing"), str(HERE.parents[1] / "raytracer/bench")]
+sys.path[:0] = [str(HERE.parent / "timing"), str(HERE.parents[1] / "raytracer/evaluation/bench")]
 import engines  # noqa: E402
 from scenes import SCENES, find  # noqa: E402
 

@@ -128,7 +128,7 @@ static void test_against_embree(void **state) {
   struct trax_picture picture;
   struct trax_render_run run = {0};
   trax_error error;
-  assert_int_equal(trax_render_reference(&picture, &frame, &run, &error), TRAX_OK);
+  assert_int_equal(trax_render_embree(&picture, &frame, &run, &error), TRAX_OK);
   unsigned different = 0;
   for (size_t i = 0; i < 160 * 90; i++)
     for (int channel = 0; channel < 3; channel++)

@@ -159,7 +159,7 @@ struct trax_picture take(const struct trax_scene *scene, const struct trax_view 
   trax_error error;
   trax_status status = trax_frame_init(&frame, scene, view, &options, &error);
   if (status == TRAX_OK)
-    status = reference ? trax_render_reference(&picture, &frame, &run, &error)
+    status = reference ? trax_render_embree(&picture, &frame, &run, &error)
                        : trax_render_twin(&picture, &frame, threads, &run, &error);
   if (status != TRAX_OK) {
     fprintf(stderr, "take: %s\n", error.message);

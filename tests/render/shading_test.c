@@ -24,7 +24,7 @@ static struct trax_picture shoot(const struct trax_scene *scene, const struct tr
   trax_error error;
   trax_status status = trax_frame_init(&frame, scene, view, options, &error);
   if (status == TRAX_OK)
-    status = reference ? trax_render_reference(&picture, &frame, &run, &error)
+    status = reference ? trax_render_embree(&picture, &frame, &run, &error)
                        : trax_render_twin(&picture, &frame, threads, &run, &error);
   if (status != TRAX_OK) {
     fprintf(stderr, "shoot: %s\n", error.message);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every variant of raytracer/bench/variants.py still applies to the device program, compiles, fits and renders the picture that it should.
+"""Every variant of raytracer/evaluation/bench/variants.py still applies to the device program, compiles, fits and renders the picture that it should.
 
     tests/render/variants_test.py BIN
 
@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-VARIANTS = pathlib.Path(__file__).resolve().parents[2] / "raytracer/bench/variants.py"
+VARIANTS = pathlib.Path(__file__).resolve().parents[2] / "raytracer/evaluation/bench/variants.py"
 SIDE, ROOFS = 24, 5
 WIDTH, HEIGHT = 64, 36
 

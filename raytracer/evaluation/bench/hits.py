@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which triangles the device program hits, against exact arithmetic and Embree: a table with a row for each scene.
 
-    raytracer/bench/hits.py SCENES_DIRECTORY [--size 1280x720] [--bin build/bin]
+    raytracer/evaluation/bench/hits.py SCENES_DIRECTORY [--size 1280x720] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. Pixels count as tied where the error bound of the watertight test explains both answers
 (raytracer/render/hits.h). Exit status 1 if there is a pixel that it does not explain.

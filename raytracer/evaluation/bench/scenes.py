@@ -4,7 +4,7 @@ import argparse
 import pathlib
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "raytracer/evaluation"))
 from trax_eval.scenes import CATALOGUE, find_mesh  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402

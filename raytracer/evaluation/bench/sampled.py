@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What sampled simulation of a picture costs and how far off it is, beside exact runs and the simpler ways to be quick.
 
-    raytracer/bench/sampled.py SCENES_DIRECTORY [--chips 4x32,8x64] [--scenes conference,dragon] [--size 1280x720] [--seeds 1]
+    raytracer/evaluation/bench/sampled.py SCENES_DIRECTORY [--chips 4x32,8x64] [--scenes conference,dragon] [--size 1280x720] [--seeds 1]
                                [--exact DIRECTORY] [--bin build/bin] [--fractions 0.05]
 
 SCENES_DIRECTORY is lean.py's, or holds NAME.trax. For each scene and chip a row for the exact run, for

@@ -2,7 +2,7 @@
 """Error against run time (trax-render --bench-accuracy) of the conference and of the generated forest, and their tables and diagrams
 in docs/accuracy.md.
 
-    raytracer/bench/accuracy.py SCENES_DIRECTORY --output DIR [--size 320x180] [--page docs/accuracy.md] [--bin build/bin]
+    raytracer/evaluation/bench/accuracy.py SCENES_DIRECTORY --output DIR [--size 320x180] [--page docs/accuracy.md] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. What was measured stays in DIR, so that a run that was stopped goes on. With --page
 the tables stand between the page's marks, and the diagrams beside it.

@@ -1,14 +1,14 @@
 /* The reference's pictures of several lights, mirrors, glass, rough layers, textures, holes, and paths. What is
    computed is what device/path.h describes; how, is in binary64 and written apart from it. Both take the same points
    from the sampler (device/sampler.h), so that their pictures can be compared pixel by pixel. */
-#include "reference.h"
+#include "embree.h"
 
 #define PI 3.14159265358979323846
 #define MOST_HOLES 1024
 #define SURE_DEPTH 3
 
 struct sample {
-  const struct reference *reference;
+  const struct embree *embree;
   const struct trax_render_params *params;
   const struct trax_path_params *path;
   uint32_t number, key, depth;
@@ -94,26 +94,26 @@ struct surface {
   struct exact_hit hit;
   struct double3 point, behind; /* where rays start */
   struct texel texel;
-  struct reference_surface at;
+  struct embree_surface at;
   bool turned;
 };
 
 /* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */
 static struct double3 winding_normal(const struct trax_triangle *triangle) {
   const struct double3 a = from(triangle->v0);
-  return reference_unit(cross(minus(from(triangle->v1), a), minus(from(triangle->v2), a)));
+  return embree_unit(cross(minus(from(triangle->v1), a), minus(from(triangle->v2), a)));
 }
 
 static struct double3 smooth_normal(const struct trax_triangle_normals *normals, const struct exact_hit *hit,
                                     struct double3 flat) {
   const struct double3 a = from(normals->corner[0]), b = from(normals->corner[1]), c = from(normals->corner[2]);
   const struct double3 n = plus_scaled(plus_scaled(scaled(1 - hit->u - hit->v, a), hit->u, b), hit->v, c);
-  return reference_unit(dot(n, flat) < 0 ? scaled(-1, n) : n);
+  return embree_unit(dot(n, flat) < 0 ? scaled(-1, n) : n);
 }
 
 static void describe(struct surface *surface, const struct sample *sample, const struct exact_hit *hit,
                      struct double3 origin, struct double3 direction) {
-  const struct trax_scene *scene = sample->reference->frame->scene;
+  const struct trax_scene *scene = sample->embree->frame->scene;
   const struct trax_triangle *triangle = &scene->triangles[hit->triangle];
   const struct trax_material *material = &scene->materials[triangle->material];
   const struct double3 a = from(triangle->v0), e = minus(from(triangle->v1), a), f = minus(from(triangle->v2), a);
@@ -131,16 +131,16 @@ static void describe(struct surface *surface, const struct sample *sample, const
   surface->point = plus_scaled(plus_scaled(on, offset, normal), -back, sight);
   surface->behind = plus_scaled(on, -offset, normal);
 
-  struct reference_surface *at = &surface->at;
+  struct embree_surface *at = &surface->at;
   const bool scatters = material->kind == TRAX_MATERIAL_LAMBERT || material->kind == TRAX_MATERIAL_GGX;
-  *at = (struct reference_surface){.view = reference_unit(scaled(-1, direction)),
-                                   .flat = normal,
-                                   .normal = normal,
-                                   .diffuse = from(material->diffuse),
-                                   .specular = from(material->specular),
-                                   .roughness = fmax((double)material->roughness, (double)TRAX_LEAST_ROUGHNESS),
-                                   .layered = material->kind == TRAX_MATERIAL_GGX};
-  if (reference_needs(sample->reference, TRAX_FEATURE_SMOOTH)) {
+  *at = (struct embree_surface){.view = embree_unit(scaled(-1, direction)),
+                                .flat = normal,
+                                .normal = normal,
+                                .diffuse = from(material->diffuse),
+                                .specular = from(material->specular),
+                                .roughness = fmax((double)material->roughness, (double)TRAX_LEAST_ROUGHNESS),
+                                .layered = material->kind == TRAX_MATERIAL_GGX};
+  if (embree_needs(sample->embree, TRAX_FEATURE_SMOOTH)) {
     const struct double3 smooth = smooth_normal(&scene->normals[hit->triangle], hit, normal);
     if (scatters || dot(smooth, at->view) > 0)
       at->normal = smooth;
@@ -152,7 +152,7 @@ static void describe(struct surface *surface, const struct sample *sample, const
 }
 
 static bool vanishes_behind(const struct sample *sample, const struct trax_material *material) {
-  return reference_needs(sample->reference, TRAX_FEATURE_ONE_SIDED) && material->kind != TRAX_MATERIAL_GLASS;
+  return embree_needs(sample->embree, TRAX_FEATURE_ONE_SIDED) && material->kind != TRAX_MATERIAL_GLASS;
 }
 
 static bool is_hole(const struct sample *sample, const struct surface *surface) {
@@ -169,7 +169,7 @@ static bool find_surface(struct surface *surface, const struct sample *sample, s
   *distance = 0;
   for (int holes = 0;; holes++) {
     ++*sample->rays;
-    if (!reference_hit(sample->reference, origin, direction, &hit))
+    if (!embree_hit(sample->embree, origin, direction, &hit))
       return false;
     describe(surface, sample, &hit, origin, direction);
     if (holes == MOST_HOLES || !is_hole(sample, surface)) {
@@ -181,10 +181,9 @@ static bool find_surface(struct surface *surface, const struct sample *sample, s
   }
 }
 
-bool reference_seen(const struct reference *reference, struct double3 eye, struct double3 direction,
-                    struct exact_hit *hit) {
+bool embree_seen(const struct embree *embree, struct double3 eye, struct double3 direction, struct exact_hit *hit) {
   uint64_t rays = 0;
-  const struct sample sample = {.reference = reference, .params = reference->frame->params, .rays = &rays};
+  const struct sample sample = {.embree = embree, .params = embree->frame->params, .rays = &rays};
   struct surface surface;
   double distance;
   const bool seen = find_surface(&surface, &sample, eye, direction, &distance);
@@ -194,17 +193,17 @@ bool reference_seen(const struct reference *reference, struct double3 eye, struc
 
 static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
                           double distance) {
-  if (!reference_needs(sample->reference, TRAX_FEATURE_SHADOWS))
+  if (!embree_needs(sample->embree, TRAX_FEATURE_SHADOWS))
     return true;
   const struct double3 target = plus_scaled(origin, isfinite(distance) ? distance : 0, direction);
-  const bool passes = reference_needs(sample->reference, TRAX_FEATURE_ALPHA) ||
-                      reference_needs(sample->reference, TRAX_FEATURE_ONE_SIDED);
+  const bool passes =
+      embree_needs(sample->embree, TRAX_FEATURE_ALPHA) || embree_needs(sample->embree, TRAX_FEATURE_ONE_SIDED);
   for (int holes = 0; passes; holes++) {
     struct surface surface;
     struct exact_hit hit;
     const double left = isfinite(distance) ? dot(minus(target, origin), direction) : INFINITY;
     ++*sample->rays;
-    if (!reference_hit(sample->reference, origin, direction, &hit) || hit.distance > left * (1 - 0x1p-18))
+    if (!embree_hit(sample->embree, origin, direction, &hit) || hit.distance > left * (1 - 0x1p-18))
       return true;
     describe(&surface, sample, &hit, origin, direction);
     if (holes == MOST_HOLES || !is_hole(sample, &surface))
@@ -212,7 +211,7 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
     origin = surface.behind;
   }
   ++*sample->rays;
-  return !reference_blocked(sample->reference, origin, direction, distance);
+  return !embree_blocked(sample->embree, origin, direction, distance);
 }
 
 /* --- lights --- */
@@ -268,8 +267,7 @@ static const struct trax_triangle *pick_emitter(const struct sample *sample, uin
   uint32_t chosen = sample->path->emitter_count - 1;
   while (chosen > 0 && emitters[chosen].cumulative > pick)
     chosen--;
-  return (const struct trax_triangle *)((const char *)sample->reference->frame->scene->bytes +
-                                        emitters[chosen].triangle);
+  return (const struct trax_triangle *)((const char *)sample->embree->frame->scene->bytes + emitters[chosen].triangle);
 }
 
 /* What one light of the view sends to the eye by way of the surface. */
@@ -280,7 +278,7 @@ static struct double3 lit_by(const struct sample *sample, const struct surface *
   double distance, density;
   if (!light_at(light, surface->point, place, &direction, &distance, &irradiance))
     return nothing;
-  const struct double3 part = reference_evaluate(&surface->at, direction, &density);
+  const struct double3 part = embree_evaluate(&surface->at, direction, &density);
   if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance))
     return nothing;
   return times(part, irradiance);
@@ -298,10 +296,10 @@ static struct double3 lit_by_emitter(const struct sample *sample, const struct s
   double density;
   const double distance = towards(surface->point, target, &direction);
   const double facing = -dot(winding_normal(triangle), direction);
-  const struct trax_material *material = &sample->reference->frame->scene->materials[triangle->material];
+  const struct trax_material *material = &sample->embree->frame->scene->materials[triangle->material];
   if (!(distance > 0) || !(fabs(facing) >= 0x1p-20) || (facing < 0 && vanishes_behind(sample, material)))
     return nothing;
-  const struct double3 part = reference_evaluate(&surface->at, direction, &density);
+  const struct double3 part = embree_evaluate(&surface->at, direction, &density);
   if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance * (1 - 0x1p-18)))
     return nothing;
   const double chosen = emitter_density(sample, triangle, distance, direction);
@@ -341,7 +339,7 @@ static struct double3 mirrored(struct double3 view, struct double3 normal) {
 
 /* A mirror's or a glass's next direction, about the smooth normal unless that leads to the wrong side. */
 static struct double3 deflect(const struct sample *sample, const struct surface *surface, bool *through) {
-  const struct reference_surface *at = &surface->at;
+  const struct embree_surface *at = &surface->at;
   struct double3 way = {0, 0, 0}, normal = at->normal;
   *through = false;
   if (surface->material->kind == TRAX_MATERIAL_MIRROR) {
@@ -353,24 +351,24 @@ static struct double3 deflect(const struct sample *sample, const struct surface 
   for (int attempt = 0; attempt < 2; attempt++, normal = at->flat) {
     double cosine2;
     const double cosine1 = dot(at->view, normal);
-    *through = point_for(sample, DIMENSION_CHOICE).x >= reference_fresnel(n1, n2, cosine1, &cosine2);
+    *through = point_for(sample, DIMENSION_CHOICE).x >= embree_fresnel(n1, n2, cosine1, &cosine2);
     way = *through ? plus_scaled(scaled(-n1 / n2, at->view), n1 / n2 * cosine1 - cosine2, normal)
                    : mirrored(at->view, normal);
     const double side = dot(at->flat, way);
     if (*through ? side < 0 : side > 0)
       break;
   }
-  return reference_unit(way);
+  return embree_unit(way);
 }
 
-struct double3 reference_path(const struct reference *reference, struct pixel pixel, uint32_t number,
-                              struct trax_exact_sample *seen, uint64_t *rays) {
-  const struct trax_render_params *params = reference->frame->params;
-  struct sample sample = {.reference = reference,
+struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number,
+                           struct trax_exact_sample *seen, uint64_t *rays) {
+  const struct trax_render_params *params = embree->frame->params;
+  struct sample sample = {.embree = embree,
                           .params = params,
                           .path = (const struct trax_path_params *)(params + 1),
                           .number = number,
-                          .random = reference_needs(reference, TRAX_FEATURE_PATHS),
+                          .random = embree_needs(embree, TRAX_FEATURE_PATHS),
                           .rays = rays};
   sample.key = hash_word(pixel.packed ^ hash_word(sample.path->seed));
   const struct place place = sample.random ? random_point(number, DIMENSION_PIXEL, sample.key) : sample_place(number);
@@ -389,7 +387,7 @@ struct double3 reference_path(const struct reference *reference, struct pixel pi
       seen->triangle = surface.hit.triangle, seen->distance = distance;
 
     const struct trax_material *material = surface.material;
-    const struct trax_triangle *triangle = &reference->frame->scene->triangles[surface.hit.triangle];
+    const struct trax_triangle *triangle = &embree->frame->scene->triangles[surface.hit.triangle];
     if (largest_of(from(material->emission)) > 0) {
       const double chosen = density > 0 ? emitter_density(&sample, triangle, surface.hit.distance, direction) : 0;
       const double share = density > 0 ? density / (density + chosen) : 1;
@@ -412,9 +410,9 @@ struct double3 reference_path(const struct reference *reference, struct pixel pi
 
     light = plus_scaled(light, 1, times(weight, lit_at_random(&sample, &surface)));
     const struct two choice = point_for(&sample, DIMENSION_CHOICE), scatter = point_for(&sample, DIMENSION_SCATTER);
-    if (!reference_sample(&surface.at, scatter.x, scatter.y, choice.x, &direction))
+    if (!embree_sample(&surface.at, scatter.x, scatter.y, choice.x, &direction))
       return light;
-    const struct double3 part = reference_evaluate(&surface.at, direction, &density);
+    const struct double3 part = embree_evaluate(&surface.at, direction, &density);
     weight = times(weight, scaled(1 / density, part));
     if (!(largest_of(weight) > 0))
       return light;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How scenes are stored against how fast they are traversed: a table with a row for each way and scene.
 
-    raytracer/bench/traversal.py SCENES_DIRECTORY [--size 320x180] [--configs 4x32,8x64] [--only WAY;...] [--scene NAME]
+    raytracer/evaluation/bench/traversal.py SCENES_DIRECTORY [--size 320x180] [--configs 4x32,8x64] [--only WAY;...] [--scene NAME]
                                  [--choices | --stacks 2,4,8,12,16,62] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's. Every way renders the same picture, which is checked. For each chip: million rays a second, bytes

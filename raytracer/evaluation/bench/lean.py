@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What it brings to compile the device program for one picture: a table of both programs, a row for each scene.
 
-    raytracer/bench/lean.py SCENES_DIRECTORY [--size 320x180] [--config 4x32] [--bin build/bin]
+    raytracer/evaluation/bench/lean.py SCENES_DIRECTORY [--size 320x180] [--config 4x32] [--bin build/bin]
 
 SCENES_DIRECTORY holds conference.ply.xz, crytek-sponza.ply.xz, dragon.ply.xz with dragon_box.obj, and sibenik.ply.xz (also
 without .xz). Every cell has the general program's figure and the specialised one's. Exit status 1 if a picture is not the same bit for bit.

@@ -1,7 +1,7 @@
 /* The reference pictures: Embree finds the hits, in binary32, or they are found without error (exact.c); binary64
    shades them. They share the camera's arithmetic with the device program and nothing else of it: neither BVH, nor
    intersection, nor shading. */
-#include "reference.h"
+#include "embree.h"
 
 #include "machine/machine.h"
 
@@ -42,44 +42,42 @@ static struct RTCRay make_ray(struct double3 origin, struct double3 direction, f
                          .mask = 0xFFFFFFFFu};
 }
 
-bool reference_hit(const struct reference *reference, struct double3 origin, struct double3 direction,
-                   struct exact_hit *hit) {
-  if (reference->exactly)
-    return exact_nearest(reference->scene, origin, direction, hit);
+bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit) {
+  if (embree->exactly)
+    return exact_nearest(embree->scene, origin, direction, hit);
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   struct RTCRayHit ray = {.ray = make_ray(origin, direction, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtcIntersect1(reference->scene, &context, &ray);
+  rtcIntersect1(embree->scene, &context, &ray);
   *hit = (struct exact_hit){ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};
   return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-bool reference_blocked(const struct reference *reference, struct double3 origin, struct double3 direction,
-                       double distance) {
-  if (reference->exactly)
-    return exact_any(reference->scene, origin, direction, distance);
+bool embree_blocked(const struct embree *embree, struct double3 origin, struct double3 direction, double distance) {
+  if (embree->exactly)
+    return exact_any(embree->scene, origin, direction, distance);
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   struct RTCRay ray = make_ray(origin, direction, (float)distance);
-  rtcOccluded1(reference->scene, &context, &ray);
+  rtcOccluded1(embree->scene, &context, &ray);
   return ray.tfar < 0;
 }
 
 /* The light through a place of a pixel. What the rays meet goes to *seen. */
-static struct double3 trace_sample(const struct reference *reference, struct pixel pixel, struct place place,
+static struct double3 trace_sample(const struct embree *embree, struct pixel pixel, struct place place,
                                    struct trax_exact_sample *seen, uint64_t *rays) {
-  const struct trax_render_params *params = reference->frame->params;
+  const struct trax_render_params *params = embree->frame->params;
   struct vector camera = camera_direction(params, pixel, place);
   struct double3 direction = {camera.x, camera.y, camera.z};
   struct exact_hit hit;
   *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
   ++*rays;
-  if (!reference_hit(reference, from(params->eye), direction, &hit))
+  if (!embree_hit(embree, from(params->eye), direction, &hit))
     return squares(params->background);
   seen->triangle = hit.triangle;
   seen->distance = hit.distance;
 
-  const struct trax_triangle *triangle = &reference->frame->scene->triangles[hit.triangle];
+  const struct trax_triangle *triangle = &embree->frame->scene->triangles[hit.triangle];
   struct double3 v0 = from(triangle->v0), e = minus(from(triangle->v1), v0), f = minus(from(triangle->v2), v0);
   struct double3 normal = cross(e, f);
   double length = sqrt(dot(normal, normal));
@@ -93,8 +91,8 @@ static struct double3 trace_sample(const struct reference *reference, struct pix
   point = plus_scaled(plus_scaled(point, offset, normal), -back, sight);
 
   struct double3 flat = normal;
-  if (reference_needs(reference, TRAX_FEATURE_SMOOTH)) {
-    const struct trax_triangle_normals *normals = &reference->frame->scene->normals[hit.triangle];
+  if (embree_needs(embree, TRAX_FEATURE_SMOOTH)) {
+    const struct trax_triangle_normals *normals = &embree->frame->scene->normals[hit.triangle];
     struct double3 n0 = from(normals->corner[0]), n1 = from(normals->corner[1]), n2 = from(normals->corner[2]);
     normal = plus_scaled(plus_scaled(n0, hit.u, minus(n1, n0)), hit.v, minus(n2, n0));
     double size = sqrt(dot(normal, normal)) * (dot(normal, flat) < 0 ? -1 : 1);
@@ -105,82 +103,82 @@ static struct double3 trace_sample(const struct reference *reference, struct pix
   double distance = sqrt(dot(way, way));
   double cosine = distance > 0 ? fmin(dot(normal, way) / distance, 1) : 0;
   if (!(cosine > 0) || !(dot(flat, way) > 0))
-    return shade(reference->frame, triangle->material, normal, 0);
-  if (!reference_needs(reference, TRAX_FEATURE_SHADOWS))
-    return shade(reference->frame, triangle->material, normal, cosine);
+    return shade(embree->frame, triangle->material, normal, 0);
+  if (!embree_needs(embree, TRAX_FEATURE_SHADOWS))
+    return shade(embree->frame, triangle->material, normal, cosine);
   struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
-  const bool blocked = reference_blocked(reference, point, towards, distance);
+  const bool blocked = embree_blocked(embree, point, towards, distance);
   ++*rays;
   seen->shadow = blocked ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT;
-  return shade(reference->frame, triangle->material, normal, blocked ? 0 : cosine);
+  return shade(embree->frame, triangle->material, normal, blocked ? 0 : cosine);
 }
 
-static void reference_pixel(struct reference *reference, uint32_t x, uint32_t y, uint64_t *rays) {
-  const struct trax_render_params *params = reference->frame->params;
+static void embree_pixel(struct embree *embree, uint32_t x, uint32_t y, uint64_t *rays) {
+  const struct trax_render_params *params = embree->frame->params;
   const size_t index = (size_t)y * params->width + x;
   const bool path = params->features & TRAX_PATH_FEATURES;
   struct trax_exact_sample seen;
   struct double3 sum = {0, 0, 0};
-  if (reference->hits) {
+  if (embree->hits) {
     const struct vector camera = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
     struct exact_hit hit;
     const struct double3 eye = from(params->eye), direction = {camera.x, camera.y, camera.z};
-    const bool found = reference->run->holes ? reference_seen(reference, eye, direction, &hit)
-                                             : reference_hit(reference, eye, direction, &hit);
-    reference->hits->triangles[index] = found ? hit.triangle : TRAX_NO_TRIANGLE;
+    const bool found =
+        embree->run->holes ? embree_seen(embree, eye, direction, &hit) : embree_hit(embree, eye, direction, &hit);
+    embree->hits->triangles[index] = found ? hit.triangle : TRAX_NO_TRIANGLE;
     ++*rays;
     return;
   }
   for (uint32_t sample = 0; sample < params->samples; sample++) {
-    const struct double3 light = path ? reference_path(reference, pixel_at(x, y), sample, &seen, rays)
-                                      : trace_sample(reference, pixel_at(x, y), sample_place(sample), &seen, rays);
+    const struct double3 light = path ? embree_path(embree, pixel_at(x, y), sample, &seen, rays)
+                                      : trace_sample(embree, pixel_at(x, y), sample_place(sample), &seen, rays);
     sum = plus_scaled(sum, 1.0 / params->samples, light);
-    if (reference->exact && reference->exact->seen)
-      reference->exact->seen[index * params->samples + sample] = seen;
+    if (embree->exact && embree->exact->seen)
+      embree->exact->seen[index * params->samples + sample] = seen;
   }
-  if (reference->picture && reference->picture->radiance)
+  if (embree->picture && embree->picture->radiance)
     for (int channel = 0; channel < 3; channel++)
-      reference->picture->radiance[3 * index + channel] = (float)(&sum.x)[channel];
+      embree->picture->radiance[3 * index + channel] = (float)(&sum.x)[channel];
   if (path) /* bounded by 1, in squared pixel values */
     sum = (struct double3){65025 * fmin(sum.x, 1), 65025 * fmin(sum.y, 1), 65025 * fmin(sum.z, 1)};
   const struct double3 channels = root(sum);
-  if (reference->exact)
-    memcpy(&reference->exact->channels[3 * index], &channels, sizeof channels);
+  if (embree->exact)
+    memcpy(&embree->exact->channels[3 * index], &channels, sizeof channels);
   else
-    reference->picture->pixels[index] = pixel_of(channels);
+    embree->picture->pixels[index] = pixel_of(channels);
 }
 
 static void *render_rows(void *argument) {
-  struct reference *reference = argument;
-  const struct trax_render_params *params = reference->frame->params;
+  struct embree *embree = argument;
+  const struct trax_render_params *params = embree->frame->params;
   uint64_t rays = 0;
   for (;;) {
-    pthread_mutex_lock(&reference->lock);
-    bool stop = reference->run->interrupt && *reference->run->interrupt;
-    uint32_t row = stop ? params->height : reference->next_row++;
-    pthread_mutex_unlock(&reference->lock);
+    pthread_mutex_lock(&embree->lock);
+    bool stop = embree->run->interrupt && *embree->run->interrupt;
+    uint32_t row = stop ? params->height : embree->next_row++;
+    pthread_mutex_unlock(&embree->lock);
     if (row >= params->height)
       break;
     for (uint32_t x = 0; x < params->width; x++)
-      reference_pixel(reference, x, row, &rays);
-    pthread_mutex_lock(&reference->lock);
-    reference->finished_rows++;
-    if (reference->run->progress)
-      reference->run->progress(reference->run->progress_context, reference->finished_rows, params->height);
-    pthread_mutex_unlock(&reference->lock);
+      embree_pixel(embree, x, row, &rays);
+    pthread_mutex_lock(&embree->lock);
+    embree->finished_rows++;
+    if (embree->run->progress)
+      embree->run->progress(embree->run->progress_context, embree->finished_rows, params->height);
+    pthread_mutex_unlock(&embree->lock);
   }
-  pthread_mutex_lock(&reference->lock);
-  reference->rays += rays;
-  pthread_mutex_unlock(&reference->lock);
+  pthread_mutex_lock(&embree->lock);
+  embree->rays += rays;
+  pthread_mutex_unlock(&embree->lock);
   return NULL;
 }
 
 /* The scene's triangles with their own vertices each, so that primID is the triangle's number. */
-static trax_status build_scene(RTCDevice device, struct reference *reference, trax_error *error) {
-  const struct trax_scene *source = reference->frame->scene;
-  RTCScene scene = reference->scene;
+static trax_status build_scene(RTCDevice device, struct embree *embree, trax_error *error) {
+  const struct trax_scene *source = embree->frame->scene;
+  RTCScene scene = embree->scene;
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  if (source->triangle_count > 0 && reference->exactly) {
+  if (source->triangle_count > 0 && embree->exactly) {
     if (!exact_attach(device, scene, source))
       return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
   } else if (source->triangle_count > 0) {
@@ -207,35 +205,35 @@ static trax_status build_scene(RTCDevice device, struct reference *reference, tr
   return failure ? trax_fail(error, "Embree could not build the reference scene (error %d)", (int)failure) : TRAX_OK;
 }
 
-static trax_status render(struct reference *reference, trax_error *error) {
+static trax_status render(struct embree *embree, trax_error *error) {
   const unsigned processors = trax_host_processors(), count = processors > 64 ? 64 : processors;
   unsigned started = 0;
   pthread_t threads[64];
-  while (started < count && pthread_create(&threads[started], NULL, render_rows, reference) == 0)
+  while (started < count && pthread_create(&threads[started], NULL, render_rows, embree) == 0)
     started++;
   for (unsigned i = 0; i < started; i++)
     pthread_join(threads[i], NULL);
   if (started == 0)
     return trax_fail(error, "cannot start a thread for the reference");
-  return reference->finished_rows < reference->frame->params->height ? TRAX_INTERRUPTED : TRAX_OK;
+  return embree->finished_rows < embree->frame->params->height ? TRAX_INTERRUPTED : TRAX_OK;
 }
 
-static trax_status run_reference(struct reference *reference, trax_error *error) {
+static trax_status run_embree(struct embree *embree, trax_error *error) {
   RTCDevice device = rtcNewDevice(NULL);
   if (!device)
     return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
-  reference->scene = rtcNewScene(device);
-  trax_status status = build_scene(device, reference, error);
+  embree->scene = rtcNewScene(device);
+  trax_status status = build_scene(device, embree, error);
   if (status == TRAX_OK)
-    status = render(reference, error);
-  reference->run->rays = reference->rays;
-  rtcReleaseScene(reference->scene);
+    status = render(embree, error);
+  embree->run->rays = embree->rays;
+  rtcReleaseScene(embree->scene);
   rtcReleaseDevice(device);
   return status;
 }
 
-trax_status trax_render_reference(struct trax_picture *picture, const struct trax_frame *frame,
-                                  struct trax_render_run *run, trax_error *error) {
+trax_status trax_render_embree(struct trax_picture *picture, const struct trax_frame *frame,
+                               struct trax_render_run *run, trax_error *error) {
   trax_status status = trax_picture_init(picture, frame->params->width, frame->params->height, error);
   if (status)
     return status;
@@ -244,8 +242,8 @@ trax_status trax_render_reference(struct trax_picture *picture, const struct tra
     trax_picture_release(picture);
     return trax_fail(error, "out of memory for a picture of %u x %u", frame->params->width, frame->params->height);
   }
-  struct reference reference = {.frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
-  status = run_reference(&reference, error);
+  struct embree embree = {.frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  status = run_embree(&embree, error);
   if (status != TRAX_OK)
     trax_picture_release(picture);
   return status;
@@ -256,10 +254,10 @@ static trax_status find_hits(struct trax_hits *hits, const struct trax_frame *fr
   const struct trax_render_params *params = frame->params;
   *hits = (struct trax_hits){.width = params->width, .height = params->height};
   hits->triangles = malloc((size_t)params->width * params->height * sizeof *hits->triangles);
-  struct reference reference = {
+  struct embree embree = {
       .frame = frame, .hits = hits, .exactly = exactly, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
   const trax_status status =
-      hits->triangles ? run_reference(&reference, error)
+      hits->triangles ? run_embree(&embree, error)
                       : trax_fail(error, "out of memory for what %u x %u pixels hit", params->width, params->height);
   if (status != TRAX_OK)
     trax_hits_release(hits);
@@ -283,12 +281,12 @@ trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame 
   *exact = (struct trax_exact){.width = params->width, .height = params->height, .samples = params->samples};
   exact->channels = malloc(3 * pixels * sizeof *exact->channels);
   exact->seen = seen ? malloc(pixels * params->samples * sizeof *exact->seen) : NULL;
-  struct reference reference = {
+  struct embree embree = {
       .frame = frame, .exact = exact, .exactly = true, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
   const trax_status status = !exact->channels || (seen && !exact->seen)
                                  ? trax_fail(error, "out of memory for a reference of %u x %u pixels and %u samples",
                                              params->width, params->height, params->samples)
-                                 : run_reference(&reference, error);
+                                 : run_embree(&embree, error);
   if (status != TRAX_OK)
     trax_exact_release(exact);
   return status;

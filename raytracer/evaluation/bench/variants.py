@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the paper's workload would take, were the device program's traversal or its triangles otherwise.
 
-    raytracer/bench/variants.py SCENES_DIRECTORY|MESH order|triangles [--size 320x180] [--configs 4x32,8x64] [--only VARIANT;...] [--scene NAME]
+    raytracer/evaluation/bench/variants.py SCENES_DIRECTORY|MESH order|triangles [--size 320x180] [--configs 4x32,8x64] [--only VARIANT;...] [--scene NAME]
                                 [--jobs N] [--bin build/bin]
 
 SCENES_DIRECTORY is lean.py's; a mesh is framed as a whole. order: which child of a node is visited first (order_variants.py). triangles: what a triangle is

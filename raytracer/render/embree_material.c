@@ -1,9 +1,9 @@
 /* Materials in binary64, for the reference pictures: written from the publications, apart from raytracer/device. */
-#include "reference.h"
+#include "embree.h"
 
 #define PI 3.14159265358979323846
 
-struct double3 reference_unit(struct double3 v) {
+struct double3 embree_unit(struct double3 v) {
   const double length = sqrt(dot(v, v));
   return (struct double3){v.x / length, v.y / length, v.z / length};
 }
@@ -35,7 +35,7 @@ static void disk(double x, double y, double *a, double *b) {
   *b = radius * sin(angle);
 }
 
-double reference_fresnel(double n1, double n2, double cosine1, double *cosine2) {
+double embree_fresnel(double n1, double n2, double cosine1, double *cosine2) {
   const double sine2 = n1 / n2 * sqrt(fmax(0, 1 - cosine1 * cosine1));
   *cosine2 = 0;
   if (sine2 >= 1)
@@ -71,13 +71,13 @@ static double clamp_cosine(double cosine) {
   return fmin(fmax(cosine, 0x1p-10), 1);
 }
 
-static double layer_probability(const struct reference_surface *surface) {
+static double layer_probability(const struct embree_surface *surface) {
   const double layer = largest_of(schlick(surface->specular, clamp_cosine(dot(surface->normal, surface->view))));
   const double below = largest_of(surface->diffuse);
   return below > 0 ? fmin(fmax(layer / (layer + below), 0.125), 0.875) : 1;
 }
 
-struct double3 reference_evaluate(const struct reference_surface *surface, struct double3 way, double *density) {
+struct double3 embree_evaluate(const struct embree_surface *surface, struct double3 way, double *density) {
   const struct double3 zero = {0, 0, 0};
   const double cosine = dot(surface->normal, way);
   *density = 0;
@@ -88,7 +88,7 @@ struct double3 reference_evaluate(const struct reference_surface *surface, struc
     return combine(cosine / PI, surface->diffuse, 0, zero, 0, zero);
   }
   const double view = clamp_cosine(dot(surface->normal, surface->view)), alpha = surface->roughness;
-  const struct double3 half = reference_unit(plus_scaled(surface->view, 1, way));
+  const struct double3 half = embree_unit(plus_scaled(surface->view, 1, way));
   const double d = distribution(alpha, fmin(dot(surface->normal, half), 1));
   const double g1 = 1 / (1 + lambda(alpha, view));
   const double g2 = 1 / (1 + lambda(alpha, view) + lambda(alpha, cosine));
@@ -103,12 +103,12 @@ struct double3 reference_evaluate(const struct reference_surface *surface, struc
 }
 
 /* Heitz 2018, listing 1. */
-static struct double3 visible_normal(const struct reference_surface *surface, double x, double y) {
+static struct double3 visible_normal(const struct embree_surface *surface, double x, double y) {
   struct double3 s, t;
   basis(surface->normal, &s, &t);
   const double alpha = surface->roughness;
-  const struct double3 v = reference_unit((struct double3){alpha * dot(surface->view, s), alpha * dot(surface->view, t),
-                                                           clamp_cosine(dot(surface->view, surface->normal))});
+  const struct double3 v = embree_unit((struct double3){alpha * dot(surface->view, s), alpha * dot(surface->view, t),
+                                                        clamp_cosine(dot(surface->view, surface->normal))});
   const double square = v.x * v.x + v.y * v.y;
   struct double3 first = {1, 0, 0};
   if (square >= 0x1p-40)
@@ -119,14 +119,14 @@ static struct double3 visible_normal(const struct reference_surface *surface, do
   const double part = (1 + v.z) / 2;
   b = (1 - part) * sqrt(fmax(0, 1 - a * a)) + part * b;
   const struct double3 n = combine(a, first, b, second, sqrt(fmax(0, 1 - a * a - b * b)), v);
-  const struct double3 m = reference_unit((struct double3){alpha * n.x, alpha * n.y, fmax(n.z, 0x1p-20)});
+  const struct double3 m = embree_unit((struct double3){alpha * n.x, alpha * n.y, fmax(n.z, 0x1p-20)});
   return combine(m.x, s, m.y, t, m.z, surface->normal);
 }
 
-bool reference_sample(const struct reference_surface *surface, double x, double y, double choice, struct double3 *way) {
+bool embree_sample(const struct embree_surface *surface, double x, double y, double choice, struct double3 *way) {
   if (surface->layered && choice < layer_probability(surface)) {
     const struct double3 m = visible_normal(surface, x, y);
-    *way = reference_unit(combine(2 * dot(m, surface->view), m, -1, surface->view, 0, m));
+    *way = embree_unit(combine(2 * dot(m, surface->view), m, -1, surface->view, 0, m));
   } else {
     struct double3 s, t;
     double a, b;

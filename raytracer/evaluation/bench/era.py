@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """What the era program would scale like, had it been written otherwise where the paper's text leaves it open.
 
-    raytracer/bench/era.py SCENES_DIRECTORY [--size 640x360] [--configs 1x32,8x64] [--only CHOICE;...] [--scene NAME] [--jobs N] [--bin build/bin]
+    raytracer/evaluation/bench/era.py SCENES_DIRECTORY [--size 640x360] [--configs 1x32,8x64] [--only CHOICE;...] [--scene NAME] [--jobs N] [--bin build/bin]
 
-SCENES_DIRECTORY is lean.py's. Each choice changes a line or two of raytracer/era/main.c, the arrays that it reads, the tree or the data cache. A row for each
+SCENES_DIRECTORY is lean.py's. Each choice changes a line or two of raytracer/examples/1-plain.c, the arrays that it reads, the tree or the data cache. A row for each
 scene and choice: million rays a second on the first chip, its speed-up to the last one, adds and multiplications and bytes a ray there. A
 choice whose picture is another one than the era program's is marked; those by which a ray may meet another one of two surfaces at one place are."""
 
@@ -113,7 +113,7 @@ def compiled(source, changes, output, compiler):
     for old, new in changes:
         count = len(old.findall(source)) if isinstance(old, re.Pattern) else source.count(old)
         if not count:
-            sys.exit(f"era.py: error: raytracer/era/main.c has no longer: {getattr(old, 'pattern', old)}")
+            sys.exit(f"era.py: error: raytracer/examples/1-plain.c has no longer: {getattr(old, 'pattern', old)}")
         source = old.sub(lambda _: new, source) if isinstance(old, re.Pattern) else source.replace(old, new)
     beside = output.with_suffix(".c")
     beside.write_text(source)
@@ -140,7 +140,7 @@ def measure(options, scratch, scene, choice, stored):
     for file in folder.glob("*.bin"):
         file.chmod(0o644)
     if choice.source:
-        compiled((ROOT / "raytracer/era/main.c").read_text(), choice.source, folder / "program.elf", options.bin / "clang")
+        compiled((ROOT / "raytracer/examples/1-plain.c").read_text(), choice.source, folder / "program.elf", options.bin / "clang")
     if choice.arrays:
         choice.arrays(folder)
     found = [simulate(options, folder, config, choice) for config in options.configs]
