@@ -200,10 +200,10 @@ void __real_trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
 void __wrap_trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
 void __real_trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 void __wrap_trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
-void __real_trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
-void __wrap_trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
-void __real_trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
-void __wrap_trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
+void __real_trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
+void __wrap_trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
+void __real_trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
+void __wrap_trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
 
 static bool is_read_only(const struct trax_ref_tm *tm, uint32_t address) {
   const struct trax_space *space = &tm->machine->space;
@@ -370,7 +370,7 @@ void __wrap_trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause c
     add_to_word(tp->address, ~0xFFFFu);
 }
 
-void __wrap_trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t) {
+void __wrap_trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t) {
   static unsigned arrivals;
   uint32_t *const rd = (uint32_t *)&tm->tp[atomic->tp].reg[atomic->rd];
   if (is(NEW_VALUE))
@@ -380,7 +380,7 @@ void __wrap_trax_ref_tell_arrival(const struct trax_ref_tm *tm, const struct tra
   else if (is(OLD_VALUE_LOST))
     *rd = 0;
   trax_order_arrival(tm, atomic);
-  __real_trax_ref_tell_arrival(tm, atomic, t);
+  __real_trax_ref_notify_arrival(tm, atomic, t);
 }
 
 /* --- r0, for statements.py --- */
@@ -395,11 +395,11 @@ void trax_keep_r0(const uint32_t *registers, uint32_t value) {
   kept = value;
 }
 
-void __wrap_trax_ref_tell_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t) {
+void __wrap_trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t) {
   if (kept_in == tp->reg) {
     ((struct trax_ref_tp *)tp)->reg[0] = kept;
     kept_in = NULL;
   }
   trax_order_behind(tm, (struct trax_ref_tp *)tp, t);
-  __real_trax_ref_tell_issue(tm, tp, pc, t);
+  __real_trax_ref_notify_issue(tm, tp, pc, t);
 }
