@@ -1,8 +1,8 @@
 /* Round robin over at most 64 positions (docs/timing.md, "Words"): the winner goes to the back.
 
-   Positions are bit numbers, and the pointer is the winner's number plus 1 modulo 64, also where fewer may ask or a
-   group starts above bit 0: whenever no asking bit lies at or above the pointer, the search wraps to the lowest bit, as
-   it would if the pointer had wrapped to the group's first position. */
+   Positions are bit numbers. The pointer is the winner's number + 1 modulo 64, also if there are fewer positions or a
+   group begins above bit 0. If no requesting bit is at or above the pointer, the search wraps to the lowest one, as it
+   would if the pointer had wrapped to the group's first position. */
 #ifndef TRAX_FAST_ARBITER_H
 #define TRAX_FAST_ARBITER_H
 
@@ -15,7 +15,7 @@ static inline unsigned trax_first(uint64_t mask) {
   return (unsigned)__builtin_ctzll(mask);
 }
 
-/* The first of the askers (not 0) from the pointer on; the pointer stays. */
+/* Returns the first requester (not 0) from the pointer on, and leaves the pointer. */
 static inline unsigned trax_arbiter_look(trax_arbiter pointer, uint64_t askers) {
   const uint64_t from_pointer = askers & (~(uint64_t)0 << pointer);
   return trax_first(from_pointer ? from_pointer : askers);
@@ -25,7 +25,7 @@ static inline void trax_arbiter_to_back(trax_arbiter *pointer, unsigned winner) 
   *pointer = (uint8_t)((winner + 1) & 63);
 }
 
-/* Serves up to `count` of the askers; returns the winners. */
+/* Grants up to `count` requests and returns the winners. */
 static inline uint64_t trax_arbiter_grant(trax_arbiter *pointer, uint64_t askers, unsigned count) {
   uint64_t winners = 0;
   for (; askers && count; count--) {
@@ -37,7 +37,7 @@ static inline uint64_t trax_arbiter_grant(trax_arbiter *pointer, uint64_t askers
   return winners;
 }
 
-/* The bits of group `number` of `size` neighbours. */
+/* The mask of group `number`, with groups of `size` neighbours. */
 static inline uint64_t trax_group_mask(unsigned number, unsigned size) {
   const unsigned first = number * size;
   const uint64_t bits = size >= 64 ? ~(uint64_t)0 : ((uint64_t)1 << size) - 1;

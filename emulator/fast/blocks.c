@@ -1,9 +1,10 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
-/* Values that ran ahead are right as long as nobody writes where they came from. So before a block that anyone has
-   loaded ahead is written for the first time, every TP goes back to what it has issued and is deferred: its head will
-   execute at issue, and from then on loads from the block end bursts. A block costs this once at most; what is only
-   written, like a picture, never. Blocks are small because what is written often lies beside what is only read. Input,
-   like a scene, is hardly ever written: nothing is noted of it until it is. */
+/* The read set and the write set of the run, by blocks of global memory. A value loaded by a burst is right as long as
+   no TP writes the block that it came from. So before a block of the read set is written for the first time, every TP
+   rolls back to what it has issued, and its head executes at issue; after that, loads from the block end bursts. A
+   block costs one roll back at most, and a block that is only written, such as one of the picture, costs none. Blocks
+   are small because data that is written is often next to data that is only read. The input buffer is hardly ever
+   written: all of it counts as read until a first write, so loads from it need not be recorded. */
 #include "fast/head.h"
 
 #include <assert.h>
@@ -27,8 +28,8 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
     munmap(blocks->state, blocks->bytes);
 }
 
-/* The TP has issued the first steps of its burst; the head and what follows are undone. Going through the issued ones
-   again gives the same, since no block they loaded from has been written yet. */
+/* Rolls a TP back to what it has issued: undoes its burst, and executes the issued steps again. They give the same
+   results, since no block that they loaded from has been written yet. */
 static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
@@ -42,8 +43,8 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
   const unsigned issued = ftm->heads.at[number];
   const uint32_t head = trax_fast_head(ftm, number);
-  const uint16_t asks = ftp->asks[issued];                       /* what it asks for stays */
-  trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, 0); /* as if nothing had happened */
+  const uint16_t asks = ftp->asks[issued];                       /* the head needs the same resources as before */
+  trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, 0); /* takes the whole burst off the counts */
   ftp->resume = ftp->begin;
   ftp->resume_pc = fast->program.note[ftp->begin - fast->program.inst].pc;
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);

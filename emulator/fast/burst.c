@@ -1,21 +1,22 @@
-/* Function, ahead of time. A burst ends before an instruction whose effect others can see or whose value depends on
-   time: atomic increments, stores to global memory, loads from blocks that are written during the run, loads and stores
-   past the cache, reads of the cycle counter, traps, ends of threads, and everything that faults. */
+/* Bursts: instructions that are executed before their issue. A burst ends before an instruction whose effect is visible
+   to other TPs or whose result depends on time: atomic increments, stores to global memory, loads from blocks that are
+   written during the run, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of threads,
+   and all instructions that fault. */
 #include "fast/fast.h"
 #include "trax/semantics.h"
 
 #include <string.h>
 
-#define NOWHERE UINT64_MAX /* no pc */
+#define NOWHERE UINT64_MAX /* next_pc of an instruction that does not jump */
 
 #define LIKELY(CONDITION) __builtin_expect(CONDITION, true)
 
-/* `mask`: banks - 1 if that is one, else 0. */
+/* `mask`: banks - 1 if banks is a power of two, else 0. */
 static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address) {
   return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
-/* Notes `count` instructions from index on as steps `at`..., a segment of the burst. */
+/* Records `count` instructions from index on as the steps from `at` on, a segment of the burst. */
 static inline void note_segment(struct trax_fast_tp *ftp, unsigned segment, unsigned at, const uint16_t *asks, uint32_t index,
                              const unsigned count) {
   memcpy(ftp->asks + at, asks, count * sizeof *asks);

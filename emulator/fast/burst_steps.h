@@ -1,5 +1,5 @@
-/* A burst of one TP, for burst.c, which includes this twice: as BURST that ends before a chunk that might not fit,
-   and, EXACTLY, as one that executes as many instructions as it may. */
+/* The interpreter of bursts, included by burst.c twice: with EXACTLY 0, a burst ends before a chunk that may not fit;
+   with EXACTLY 1, it executes exactly `limit` instructions unless one of them ends it. */
 static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number, unsigned limit,
                       const void *const **operations) {
   __extension__ static const void *const places[] = {
@@ -26,11 +26,11 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const uint32_t input = fast->blocks.input, input_bytes = fast->blocks.input_bytes;
   uint32_t address, word, jumps = 0;
   unsigned loads = 0, segment = 0;
-  uint64_t resume_pc = ftp->resume_pc; /* of the outside */
+  uint64_t resume_pc = ftp->resume_pc; /* the latest jump's target, needed if it is no text */
   int64_t *const changes = ftm->changes;
   uint64_t lines = 0;
   ftp->undo_count = 0;
-  /* inst minus this is where the step is noted: it changes with each jump. */
+  /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
   unsigned at;
   changes[inst - program->inst]++;
@@ -93,8 +93,8 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 #define FENCE(KIND) goto stop
 #define HALT() goto stop
 
-/* Each operation goes on to the next one by itself, which the host's branch predictor learns far better than one switch
-   for all. */
+/* Each operation jumps to the next one by itself, which the host's branch predictor learns far better than one switch
+   for all operations. */
 #if EXACTLY
 #define GO_ON() goto chunk
 #else
@@ -104,7 +104,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   do_##NAME : {                                                                                                        \
     uint64_t next_pc = NOWHERE;                                                                                        \
     __VA_ARGS__                                                                                                        \
-    /* Its target is then imm / 4 behind it, and not the next one: all others stop bursts (jumps_oddly). */            \
+    /* A relative jump's target is imm / 4 away and not the next one: all others end bursts (jumps_oddly). */          \
     const bool is_relative = (TRAX_FLAGS_##NAME & TRAX_IS_RELATIVE) != 0;                                              \
     if (next_pc != NOWHERE && (is_relative || (uint32_t)next_pc != PC + 4)) {                                          \
       jumps++;                                                                                                         \
@@ -119,7 +119,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
       }                                                                                                                \
       changes[inst - program->inst]++;                                                                                 \
       begin = (uintptr_t)inst - (at + 1) * sizeof *inst;                                                               \
-      goto chunk;                                                                                                    \
+      goto chunk;                                                                                                      \
     } else {                                                                                                           \
       inst++;                                                                                                          \
     }                                                                                                                  \
@@ -140,7 +140,7 @@ chunk:
 #else
   if (at + TRAX_CHUNK - index % TRAX_CHUNK > limit)
     goto stop;
-  note_segment(ftp, segment++, at, program->asks + index, index, TRAX_CHUNK); /* or what is left of it */
+  note_segment(ftp, segment++, at, program->asks + index, index, TRAX_CHUNK); /* also steps that are not reached */
 #endif
   __extension__({ goto *places[inst->op]; });
 

@@ -34,7 +34,7 @@ static const struct trax_fast_variant *variant_of(const struct trax_engine *engi
   return &trax_fast_variant;
 }
 
-/* --- beginning and ending --- */
+/* --- creation and destruction --- */
 
 static trax_status create(struct trax_run *run, trax_error *error) {
   struct trax_machine *machine = run->machine;
@@ -74,7 +74,7 @@ static void destroy(void *context) {
 
 /* --- cycles --- */
 
-/* Cycle *t of all TMs and of the memory; *t receives the next one in which anything can happen. */
+/* Simulates cycle *t of all TMs and of the memory; *t receives the next cycle in which anything can happen. */
 static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   bool faulted = false;
   for (uint32_t i = 0; i < chip->tms; i++)
@@ -96,12 +96,12 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
     chip->end = idle_from > *t + 1 ? idle_from : *t + 1;
     next = chip->end;
   }
-  *t = next; /* never TRAX_NEVER: whoever has not ended is awake, in a wheel, or waits for a request */
+  *t = next; /* never TRAX_NEVER: a TP that has not ended is awake, in a wheel, or waits for a request */
   return TRAX_GOES_ON;
 }
 
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
-  enum { CYCLES = 1024 }; /* run one by one in a call */
+  enum { CYCLES = 1024 }; /* the most cycles outside epochs in one call */
   struct trax_chip *chip = context;
   for (unsigned cycles = 0; cycles < CYCLES && *t < until && !chip->end; cycles++) {
     if (chip->epochs && trax_epochs_advance(chip->epochs, t, until))
@@ -116,7 +116,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   }
   if (!chip->end)
     return TRAX_GOES_ON;
-  /* Nothing happens any more but the last transfers. */
+  /* Only the last transfers are under way. */
   *t = chip->end < until ? chip->end : until;
   return *t == chip->end ? TRAX_HAS_ENDED : TRAX_GOES_ON;
 }
@@ -184,7 +184,7 @@ static uint64_t progressed(void *context) {
 static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
   const struct trax_chip *chip = context;
   const struct trax_queue *queue = &chip->tm[tm].queue;
-  uint32_t arrived = 0; /* at a TM that looks no more: the run waits for the last transfers only */
+  uint32_t arrived = 0; /* completed requests in the queue of a TM whose threads have all ended */
   for (uint32_t i = 0; i < queue->started; i++) {
     const uint32_t place = queue->heap ? queue->heap[i] : (queue->oldest + i) % queue->depth;
     arrived += queue->requests[place].completion < t;

@@ -1,4 +1,4 @@
-/* The five steps of a TM's cycle on masks of its TPs (docs/timing.md, "A cycle"). */
+/* The five steps of a TM's cycle (docs/timing.md, "A cycle"), as operations on masks of its TPs. */
 #include "fast/store_buffer.h"
 #include "fast/head.h"
 
@@ -8,13 +8,13 @@ static inline unsigned count_bits(uint64_t mask) {
   return (unsigned)__builtin_popcountll(mask);
 }
 
-/* --- arrivals and alarms --- */
+/* --- arrivals and wake-ups --- */
 
 static ALWAYS_INLINE bool has_arrival(const struct trax_tm *tm, uint64_t t) {
   return tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t;
 }
 
-/* Arrivals; lines of instructions are noted. */
+/* Handles the arrivals of cycle t. */
 static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   while (has_arrival(tm, t)) {
@@ -26,7 +26,8 @@ static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
   }
 }
 
-/* Returns those who wake with their instruction. */
+/* Wakes TPs. Returns those whose operands must be checked: they wake holding an instruction, or held one at an import.
+ */
 static ALWAYS_INLINE uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const uint64_t awake = tm->awake;
@@ -50,7 +51,7 @@ static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
   }
 }
 
-/* Grants the banks of one instruction cache after another; returns the losers. */
+/* Grants the banks of one instruction cache after the other, for any configuration; returns the losers. */
 static uint64_t refuse_fetches_of_any_shape(struct trax_fast_tm *ftm, uint64_t askers, const uint64_t *bit) {
   const struct trax_tm *tm = ftm->tm;
   const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
@@ -94,14 +95,14 @@ static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_fast_tm *ftm, const boo
   return refuse_fetches_of_any_shape(ftm, askers, bit);
 }
 
-/* A bank has let the TP look up the line of its head. True if it is there. */
+/* The TP has won its bank and looks up the line of its head. True: a hit. */
 static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
   if (!ftm->resident[ftm->icache_of[number]][ftm->fast->program.line[trax_fast_head(ftm, number)]]) {
     trax_fast_show(ftm, number);
     if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
-      trax_icache_look_up(icache, tm, number, t); /* who is refused by the memory queue asks again */
+      trax_icache_look_up(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
       return false;
     }
   }
@@ -111,7 +112,7 @@ static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 
 /* --- step 2 --- */
 
-/* Notes what a deferred head asks for, now that its operands are known. False if it faults. */
+/* Completes the step of a head that executes at issue, now that its operands are known. False: it faults. */
 static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_tp *tp = &tm->tp[number];
@@ -168,7 +169,7 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, bool fetc
   return true;
 }
 
-/* Steps 1 and 2; woken: those whose operands may be usable now. */
+/* Steps 1 and 2; woken: TPs that hold an instruction whose operands must be checked. */
 static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool wide, uint64_t woken,
                                           struct trax_fast_refused *lost, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
@@ -199,7 +200,7 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool w
 
 /* --- steps 3 and 4 --- */
 
-/* Grants four banks, of which `asking` has the askers; adds the winners, and those of them whose lines are there. */
+/* Grants four banks; adds the winners, and those of them whose lines are in way 0 of their sets. */
 static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_fast_lanes *behind,
                                            const trax_fast_lanes *asking, uint64_t *winners, uint64_t *there) {
   const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
@@ -207,7 +208,7 @@ static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_
   TRAX_FAST_ARBITRATE(trax_fast_lanes, behind, *asking, &winner);
   *winners |= trax_fast_any(&winner);
 #pragma GCC unroll 4
-  for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches: who asks is hard to predict */
+  for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches, since requests are hard to predict */
     const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
     const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.load[number]]);
     const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
@@ -215,12 +216,13 @@ static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_
   }
 }
 
-/* Those who win a bank of the data cache; `hits` receives those of them whose lines are there and who need no more. */
+/* Grants the banks of the data cache and returns the winners. `hits` receives the loads among them that are granted
+   without a further look-up. */
 static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool wide, uint64_t askers, uint64_t *bit,
                                           uint64_t *hits) {
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
-  /* Of the banks that are handled together, by the lowest two bits of their numbers. */
+  /* Lane i: the TPs whose bank number has i in its lowest two bits. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
   uint64_t winners = 0, there = 0;
   if (__builtin_expect(ftm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
@@ -278,14 +280,14 @@ static bool serve(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t t) {
   const unsigned turn = ftm->tm->queue_turn;
   uint64_t granted = 0;
-  for (uint64_t rest = askers >> turn | askers << (-turn & 63); rest; rest &= rest - 1) { /* bit 0 is the turn's */
+  for (uint64_t rest = askers >> turn | askers << (-turn & 63); rest; rest &= rest - 1) { /* bit 0: the pointer's TP */
     const unsigned number = (trax_first(rest) + turn) & 63;
     granted |= (uint64_t)serve(ftm, number, t) << number;
   }
   return granted;
 }
 
-/* Grants units of any kind, group by group. */
+/* Grants units of a kind, group by group. */
 static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *unit, uint64_t askers, uint64_t t) {
   const struct trax_shared_kind *const kind = &unit->kind;
   uint64_t winners = 0;
@@ -308,7 +310,7 @@ static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *uni
 
 _Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
 
-/* Grants the units without a place of their own; `bit`: of their numbers. Returns the winners. */
+/* Grants the kinds of units that steps encode by a number; bit: the planes of that number. Returns the winners. */
 static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct trax_fast_refused *lost, uint64_t askers,
                                             const uint64_t *bit, uint64_t t) {
   uint64_t granted = 0;
@@ -324,8 +326,8 @@ static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct tra
   return granted;
 }
 
-/* Steps 3 and 4: those who are granted all they ask for; `slow` receives those whose issue has more to do, and `banks`
-   those who ask for a data bank. */
+/* Steps 3 and 4: returns the TPs that were granted all that they need. `slow` receives the TPs with slow heads, and
+   `banks` those that request a data bank. */
 static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_refused *lost,
                                     uint64_t *slow, uint64_t *banks, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
@@ -334,7 +336,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
   const uint64_t ready = ftm->ready, ready_low = ready & ~bit[3];
   const uint64_t further = (unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER ? ready & bit[1] & bit[2] & bit[3] : 0;
   const uint64_t ready_high = ready & bit[3] & ~further;
-  /* By kind: see TRAX_ASKS_FP_ADD and those that follow it. */
+  /* Bits 1 to 3 are the kind: see TRAX_ASKS_FP_ADD and the following enumerators. */
   uint64_t granted = ready_low & ~(bit[1] | bit[2]);
   uint64_t askers, won;
   const trax_fast_pair fp_askers = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
@@ -359,7 +361,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
     won = grant_banks(ftm, wide, askers, bit + TRAX_ASKS_BANK_SHIFT, &hits);
     lost->bank = askers & ~won;
     if (ftm->hits_in_turn)
-      hits = 0; /* serve sees to that */
+      hits = 0; /* serve() handles them */
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
     queue_askers |= won & ~hits;
@@ -371,7 +373,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
   return granted;
 }
 
-/* Adds two bits of each counter to the one in *sum; returns what is carried to the next one. */
+/* Adds two terms to a bit of each counter, a full adder; returns the carries to the next bit. */
 #define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
   (__extension__({                                                                                                     \
     const trax_fast_refusals one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                    \
@@ -392,7 +394,7 @@ void trax_fast_count_log(struct trax_fast_refusal_counts *tally) {
   trax_fast_refusals carry = none;
   for (; tally->logged < TRAX_FAST_LOG; tally->logged++)
     tally->log[tally->logged] = none;
-  unsigned count = TRAX_FAST_LOG; /* of terms of the bit, from the log's beginning on */
+  unsigned count = TRAX_FAST_LOG; /* number of terms of the current bit, at the beginning of the log */
   for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
     trax_fast_refusals sum = tally->log[0];
     count /= 2;
@@ -405,7 +407,7 @@ void trax_fast_count_log(struct trax_fast_refusal_counts *tally) {
   tally->logged = 0;
 }
 
-/* A TM's cycle under way. */
+/* A cycle of a TM. */
 struct turn {
   struct trax_fast_tm *ftm;
   uint64_t t, woken, granted, slow, banks;
@@ -434,8 +436,8 @@ static ALWAYS_INLINE void end(const struct turn *turn) {
   ftm->tm->next_cycle = ftm->tm->awake ? turn->t + 1 : trax_tm_next_cycle(ftm->tm, turn->t);
 }
 
-/* A cycle of each of one or two TMs, which have nothing to do with each other: step by step, so that the host has
-   something else to do while it waits for one TM's results. */
+/* Simulates a cycle of one TM, or of two independent TMs, whose steps are interleaved: while the host waits for results
+   of one TM, it executes instructions of the other. */
 static ALWAYS_INLINE void take_turns(struct turn one, struct turn other, const bool two, const bool wide) {
   begin(&one);
   if (two)
@@ -454,7 +456,7 @@ static ALWAYS_INLINE void take_turns(struct turn one, struct turn other, const b
     end(&other);
 }
 
-_Static_assert(TRAX_FAST_ABREAST == 2, "what take_turns can do");
+_Static_assert(TRAX_FAST_ABREAST == 2, "take_turns simulates at most two TMs");
 
 static void take_turn(struct trax_fast_tm *ftm, uint64_t t) {
   const struct turn turn = {.ftm = ftm, .t = t};

@@ -73,7 +73,7 @@ uint32_t trax_dcache_drop(struct trax_dcache *dcache) {
 
 void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t) {
   uint32_t i = 0;
-  while (dcache->mshr[i].line != line) /* it is there: the request came from it */
+  while (dcache->mshr[i].line != line) /* found, since each requested line has a miss register */
     i++;
   if (!dcache->mshr[i].passing)
     trax_cache_tags_install(&dcache->tags, line);

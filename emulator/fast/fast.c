@@ -54,7 +54,7 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   create_units(&ftm->int_mul, &tm->unit[TRAX_SHARED_INT_MUL], &tm->unit[TRAX_SHARED_INT_MUL]);
   ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
   ftm->heads.steps = ftm->tp->asks;
-  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* those that do not exist are looked at in place of nobody */
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* TPs that do not exist have TP 0's steps: vectors read them */
     trax_fast_begin_heads(&ftm->heads, i, i < tm->tps ? i * (uint32_t)(sizeof *ftm->tp / sizeof(uint16_t)) : 0);
     ftm->address_of[i] = ftm->tp[i < tm->tps ? i : 0].address;
   }
@@ -73,7 +73,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
     return trax_fail(error, "out of memory");
   fast->chip = chip;
   fast->burst = machine->observer ? 1 : TRAX_BURST;
-  const size_t bytes = chip->tms * sizeof *fast->tm; /* of a multiple of their alignment */
+  const size_t bytes = chip->tms * sizeof *fast->tm; /* a multiple of the alignment, as aligned_alloc requires */
   fast->tm = aligned_alloc(_Alignof(struct trax_fast_tm), bytes);
   if (!fast->tm)
     return trax_fail(error, "out of memory");
@@ -116,7 +116,7 @@ static void collect(struct trax_fast *fast) {
   }
 }
 
-/* Loads and stores that went neither past nor through the data cache. */
+/* Counts the accesses to local memory: all loads and stores that were neither past nor through the data cache. */
 static void count_local(struct trax_tm_stats *stats) {
   uint64_t loads = 0, stores = 0;
   for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
@@ -129,7 +129,7 @@ static void count_local(struct trax_tm_stats *stats) {
   stats->local_stores = stores - stats->store_hits - stats->store_misses - stats->nontemporal_stores;
 }
 
-/* In the order of trax_fast_refused and its tally. */
+/* The causes of refusals, in the order of struct trax_fast_refused and of the counters. */
 static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
 #define CAUSE(MEMBER, CAUSE) TRAX_CAUSE_##CAUSE,
     TRAX_FAST_REFUSED(CAUSE)
@@ -156,12 +156,12 @@ void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_refus
       trax_tm_tell(ftm->tm, trax_first(rest), refusal_causes[i], ftm->tm->now, 1);
 }
 
-/* Of the current burst: how much was issued. */
+/* Returns how many steps of the current burst have been issued. */
 static unsigned issued_of_burst(const struct trax_fast_tm *ftm, unsigned tp) {
   return (ftm->deferred | ftm->tm->ended) >> tp & 1 ? 0 : ftm->heads.at[tp];
 }
 
-/* Adds the issued part of a burst, and takes it off what its end will add. */
+/* Counts the issued part of a burst, and takes it off what the burst's end will count. */
 static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
   struct trax_fast_tp *ftp = &ftm->tp[tp];
   const unsigned issued = issued_of_burst(ftm, tp);
@@ -174,7 +174,7 @@ static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
   ftp->jumps = -jumps;
 }
 
-/* Counts what has run ahead of its issue `sign` times more. */
+/* Adds (sign 1) or removes (sign -1) the executed instructions that have not been issued. */
 static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
     if (!((ftm->deferred | ftm->tm->ended) >> tp & 1))
@@ -185,10 +185,10 @@ static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
       }
 }
 
-/* For the report. */
+/* Reports how often the run left the fast path. */
 static void tell_slow_ways(const struct trax_fast *fast) {
   struct trax_fast_path *path = &fast->chip->machine->fast_path;
-  const struct trax_fast_tm *first = &fast->tm[0]; /* all are alike */
+  const struct trax_fast_tm *first = &fast->tm[0]; /* all TMs are configured alike */
   path->known = true;
   path->text_lines = fast->program.lines;
   path->observed = fast->burst == 1;

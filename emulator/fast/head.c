@@ -2,15 +2,15 @@
 
 #include <string.h>
 
-/* Forgets the increments whose old values have arrived. */
+/* Removes the atomic increments that have arrived. */
 static void drop_arrived(struct trax_fast_tp *ftp, const struct trax_tp *tp) {
   for (uint64_t rest = ftp->atomics; rest; rest &= rest - 1)
     if (tp->usable[trax_first(rest)] != TRAX_NEVER)
       ftp->atomics &= ~(rest & -rest);
 }
 
-/* Whether all lines of the burst are certainly there. What was noted of them may contain lines that are never executed,
-   and so never come; of programs of more than 64 lines it tells nothing. */
+/* Whether all lines of the burst are resident. burst_lines may contain lines that the burst does not execute, and is
+   ambiguous for programs of more than 64 lines: if it does not decide, the steps are checked. */
 static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsigned count) {
   const struct trax_fast_tp *ftp = &ftm->tp[number];
   const unsigned icache = ftm->icache_of[number];
@@ -53,7 +53,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
   struct trax_tp *tp = &ftm->tm->tp[number];
   drop_arrived(ftp, tp);
   unsigned count = 0;
-  if (!ftp->atomics) { /* else it might read or overtake what the increment will write */
+  if (!ftp->atomics) { /* else it might read or overwrite a register that an increment will write */
     ftp->begin = ftp->resume;
     memcpy(ftp->reg, tp->reg, sizeof ftp->reg);
     count = trax_fast_burst(ftm->fast, ftm, number, ftm->fast->burst);
@@ -90,7 +90,7 @@ void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
   const uint32_t index = trax_fast_head(ftm, number);
   struct trax_tp *tp = &ftm->tm->tp[number];
   if (ftm->deferred >> number & 1)
-    return; /* set when it became the head, and its address since */
+    return; /* set when it became the head; classify has set the address */
   tp->inst = ftm->fast->program.note[index].decoded;
   tp->pc = ftm->fast->program.note[index].pc;
   tp->address = tp->inst->bytes ? ftm->tp[number].address[ftm->heads.load[number]] : 0;
@@ -100,7 +100,7 @@ void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned execute
   struct trax_fast_tp *ftp = &ftm->tp[number];
   ftp->issued += issued;
   ftp->jumps += ftp->burst_jumps;
-  for (unsigned i = issued; i < executed; i++) { /* takes back what did not happen */
+  for (unsigned i = issued; i < executed; i++) { /* takes the steps that are not issued off the counts */
     const uint32_t index = trax_fast_index(ftp, i);
     const uint32_t next =
         i + 1 < executed ? trax_fast_index(ftp, i + 1) : (uint32_t)(ftp->resume - ftm->fast->program.inst);

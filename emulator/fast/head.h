@@ -1,5 +1,5 @@
-/* The head of a TP is the instruction that it fetches or holds. Everything that will be asked of it is noted when it
-   becomes the head. */
+/* The head of a TP is the instruction that it fetches or holds. All that its timing needs is recorded when it becomes
+   the head. */
 #ifndef TRAX_FAST_HEAD_H
 #define TRAX_FAST_HEAD_H
 
@@ -11,17 +11,17 @@ static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned ica
     ftm->resident_lines[icache] = (ftm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_there << line;
 }
 
-/* The TP's next instruction becomes its head, executed already if it may be; returns its pc. */
+/* Makes the TP's next instruction its head, after a new burst if necessary; returns its pc. */
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp);
 
-/* The next steps of those that issue and do nothing else: they become the heads. */
+/* Issues quick heads: the next steps of their TPs become the heads. */
 static inline __attribute__((always_inline)) void trax_fast_issue_quickly(struct trax_fast_tm *ftm, const bool wide,
                                                                           uint64_t quick) {
   trax_fast_move_on(&ftm->heads, wide, quick);
   ftm->tm->holding &= ~quick;
 }
 
-/* Makes a step the only one, executed at issue. */
+/* Makes an instruction the TP's head, which executes at issue; its step is the only one. */
 static inline void trax_fast_execute_at_issue(struct trax_fast_tm *ftm, unsigned number, uint16_t asks, uint32_t index,
                                    uint32_t address) {
   struct trax_fast_tp *ftp = &ftm->tp[number];

@@ -1,5 +1,5 @@
-/* The heads of a TM's TPs and what they ask for, for all TPs at once. Written for AVX-512, for AVX2 and for any host.
- */
+/* The heads of a TM's TPs, as arrays that are processed for all TPs at once. There are versions for AVX-512, for AVX2
+   and for any host. */
 #ifndef TRAX_FAST_HEADS_H
 #define TRAX_FAST_HEADS_H
 
@@ -10,37 +10,37 @@
 #include <immintrin.h>
 #endif
 
-/* What a step asks for. */
+/* The 16 bits of a step: the resources that it needs. */
 enum {
-  TRAX_ASKS_SLOWLY = 1,      /* its issue has more to do: the last of a burst, a longer latency, a bubble behind it */
-  TRAX_ASKS_FP_ADD = 1 << 1, /* after its operands; 0: the TP's own units */
+  TRAX_ASKS_SLOWLY = 1,      /* a slow head: the last step of a burst, a latency above 1, or a bubble after it */
+  TRAX_ASKS_FP_ADD = 1 << 1, /* the resource after its operands are usable; 0: the TP's own units */
   TRAX_ASKS_FP_MUL = 2 << 1,
   TRAX_ASKS_INT_MUL = 3 << 1,
   TRAX_ASKS_BANK = 4 << 1, /* of the data cache */
   TRAX_ASKS_SPECIAL = 5 << 1,
   TRAX_ASKS_QUEUE = 6 << 1,   /* the memory queue without a bank */
-  TRAX_ASKS_FURTHER = 7 << 1, /* a shared unit without a place of its own: which, where else the bank is */
+  TRAX_ASKS_FURTHER = 7 << 1, /* a shared unit of another kind, whose number replaces the bank's */
   TRAX_ASKS_KIND = 7 << 1,
-  TRAX_ASKS_BANK_SHIFT = 4,   /* which bank */
-  TRAX_ASKS_FETCH_SHIFT = 10, /* and of the instruction cache, in the rest of the bits */
+  TRAX_ASKS_BANK_SHIFT = 4,   /* the bank of the data cache */
+  TRAX_ASKS_FETCH_SHIFT = 10, /* the bank of the instruction cache, in the remaining bits */
   TRAX_ASKS_FETCH = 63 << TRAX_ASKS_FETCH_SHIFT
 };
 
-/* With AVX-512, what a TP's next steps ask for waits in a lane of 64 bits, the head's in the lowest ones, and goes down
-   when the head is issued, for all TPs at once. Of each 32 TPs, four rows of eight lanes: TP 4 * lane + row. */
+/* With AVX-512, a lane of 64 bits holds a TP's next four steps, the head's in the lowest bits. When heads are issued,
+   the lanes of all TPs are shifted at once. Each 32 TPs have four rows of eight lanes: TP 4 * lane + row. */
 enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
 
 struct trax_fast_heads {
-  _Alignas(64) uint8_t at[64]; /* the head's number in its burst */
-  uint8_t load[64];            /* how many loads of global memory its burst has before it */
-  uint8_t low[64], high[64];   /* what the heads ask for: the bytes of it */
-  uint8_t look[64];            /* the first number of its burst at which trax_fast_plan wants the head looked at */
-  uint8_t last[64];            /* the last number of its burst */
-  uint32_t begin[64];          /* of the TP's steps in `steps`; of TPs that do not exist, TP 0's */
+  _Alignas(64) uint8_t at[64]; /* the number of the head's step in its burst */
+  uint8_t load[64];            /* the number of loads of global memory before it in its burst */
+  uint8_t low[64], high[64];   /* the low and the high byte of the head's step */
+  uint8_t look[64];            /* the first step of the burst at which the head must be checked (trax_fast_plan) */
+  uint8_t last[64];            /* the last step of the burst */
+  uint32_t begin[64];          /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
-  uint32_t row_begin[TRAX_FAST_ROWS][8]; /* as begin */
-  uint32_t moves;                        /* of all TPs; `next` is filled in every fourth */
-  const uint16_t *steps; /* of all TPs, what each step asks for; of a deferred head, once its operands are usable */
+  uint32_t row_begin[TRAX_FAST_ROWS][8]; /* begin, in the order of the lanes */
+  uint32_t moves;                        /* number of calls of trax_fast_move_on; every fourth one fills `next` */
+  const uint16_t *steps; /* of all TPs; the step of a head that executes at issue is complete after classify */
 };
 
 static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned tp, uint32_t begin) {
@@ -48,7 +48,7 @@ static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned
   heads->row_begin[tp / 32 * 4 + tp % 4][tp % 32 / 4] = begin;
 }
 
-/* The TP's step `at` becomes its head. */
+/* Makes the TP's step `at` its head. */
 static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
   const uint16_t *const step = heads->steps + heads->begin[tp] + at;
   heads->at[tp] = (uint8_t)at;
@@ -60,17 +60,17 @@ static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp
 }
 
 #ifdef __AVX512BW__
-/* From the rows of 32 TPs, what their heads ask for: the lowest 16 bits of each lane. */
+/* Returns the steps of the heads of 32 TPs: the lowest 16 bits of each lane of the rows. */
 static inline __m512i trax_fast_join_rows(const __m512i *row) {
   __m512i asks = row[0];
 #pragma GCC unroll 3
-  for (unsigned i = 1; i < 4; i++) /* what is below stays */
+  for (unsigned i = 1; i < 4; i++) /* merges above the lower bits */
     asks = _mm512_ternarylogic_epi64(asks, _mm512_slli_epi64(row[i], 16 * i),
                                      _mm512_set1_epi64(((long long)1 << 16 * i) - 1), 0xE4);
   return asks;
 }
 
-/* Notes what the heads ask for; of each 32 TPs, asks[...]. Stored as it is going to be loaded. */
+/* Stores the heads' steps; asks[i]: those of 32 TPs. They are stored with the width with which they will be loaded. */
 static inline void trax_fast_set_asks(struct trax_fast_heads *heads, const bool wide, const __m512i *asks) {
 #pragma GCC unroll 2
   for (unsigned i = 0; i < 2; i++) {
@@ -84,7 +84,7 @@ static inline void trax_fast_set_asks(struct trax_fast_heads *heads, const bool 
   }
 }
 
-/* Fills the lanes of all TPs from their heads on. */
+/* Loads the lanes of all TPs with the steps from the heads on. */
 static inline __attribute__((always_inline)) void trax_fast_fill_rows(struct trax_fast_heads *heads, const bool wide) {
   __m512i asks[2];
   for (unsigned half = 0; half < 1u + wide; half++) {
@@ -101,7 +101,7 @@ static inline __attribute__((always_inline)) void trax_fast_fill_rows(struct tra
 }
 #endif
 
-/* Each TP of `who` goes on to its next step. `wide`: there may be more than 32. */
+/* Makes the next step of each TP of `who` its head. `wide`: the TM has more than 32 TPs. */
 static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_fast_heads *heads, const bool wide,
                                                                     uint64_t who) {
 #ifdef __AVX512BW__
@@ -140,13 +140,14 @@ static inline uint64_t trax_fast_eight_bytes(const uint8_t *bytes) {
   return word;
 }
 
-/* A bit of each of eight bytes, the first byte's the lowest: the product moves the one of byte i from 8 i to 56 + i. */
+/* Returns a bit of each of eight bytes, the first byte's in bit 0: the product moves byte i's bit from 8 i to 56 + i.
+ */
 static inline uint64_t trax_fast_bit_of_eight(uint64_t bytes, unsigned bit) {
   return ((bytes >> bit) & 0x0101010101010101) * 0x0102040810204080 >> 56;
 }
 #endif
 
-/* The TPs whose heads must be looked at, if there is anything to look for. */
+/* Returns the TPs at whose heads a check is due. This only matters for TPs that are busy or uncertain. */
 static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct trax_fast_heads *heads,
                                                                     const bool wide) {
 #ifdef __AVX512BW__
@@ -165,14 +166,14 @@ static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct
   uint64_t due = 0;
   for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
     const uint64_t at = trax_fast_eight_bytes(heads->at + i), look = trax_fast_eight_bytes(heads->look + i);
-    const uint64_t low_bits = (at | top) - (look & ~top); /* the top bit: those below are at least those of `look` */
+    const uint64_t low_bits = (at | top) - (look & ~top); /* top bit: the low 7 bits of `at` are not less */
     due |= trax_fast_bit_of_eight((at & ~look) | (~(at ^ look) & low_bits), 7) << i;
   }
   return due;
 #endif
 }
 
-/* The heads of `who`, loads of global memory, are issued. */
+/* Counts the heads of `who`, which are loads of global memory, as issued. */
 static inline __attribute__((always_inline)) void trax_fast_pass_loads(struct trax_fast_heads *heads, uint64_t who) {
 #ifdef __AVX512BW__
   const __m512i load = _mm512_load_si512(heads->load);
@@ -183,8 +184,8 @@ static inline __attribute__((always_inline)) void trax_fast_pass_loads(struct tr
 #endif
 }
 
-/* Into plane[k], bit `first` + k of what the heads ask for, for all k < `count`: constants, and all bits in the same
-   byte. */
+/* Sets plane[k] to bit `first` + k of the heads' steps, for all k < `count`. first and count must be constants, and all
+   bits in the same byte. */
 static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads,
                                                                       const bool wide, const unsigned first,
                                                                       const unsigned count, uint64_t *plane) {

@@ -17,7 +17,6 @@ void trax_icache_destroy(struct trax_icache *icache) {
   free(icache->pending);
 }
 
-/* The TP's bank has let it look up its line. */
 void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << tp;
   const uint32_t line = trax_line_of(&icache->tags, tm->tp[tp].pc);

@@ -1,8 +1,8 @@
-/* Step 5: those who were granted all they asked for issue, in order. */
+/* Step 5: the TPs that were granted all that they need issue, in order. */
 #include "fast/store_buffer.h"
 #include "fast/head.h"
 
-/* A head that has not run ahead: tp.c executes it. False if it faulted. */
+/* Executes a head that executes at issue. False: it faulted. */
 static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
@@ -32,7 +32,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   return true;
 }
 
-/* When the result can be used, if that is not in the next cycle and memory does not decide. */
+/* Updates the scoreboard if the result is not usable in the next cycle and does not come from memory. */
 static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const struct trax_decoded *inst = trax_fast_head_note(ftm, number)->decoded;
   uint32_t latency = inst->latency;
@@ -49,7 +49,8 @@ static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   }
 }
 
-/* A deferred head, the last of a burst, or one with a longer latency or a bubble behind it. */
+/* Issues a slow head: one that executes at issue, the last one of a burst, or one with a latency above 1 or a bubble.
+ */
 static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tm *tm = ftm->tm;
@@ -84,8 +85,8 @@ static void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
 }
 
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t) {
-  /* What others see or change happens in the TPs' order: those before such an effect have issued, and those behind it
-     have not, so that they may come back and be deferred (blocks.c). */
+  /* Heads that execute at issue may affect other TPs, so the order of TPs matters: TPs before such a head issue first.
+     TPs after it may roll back, and their heads then execute at issue (blocks.c). */
   uint64_t effects;
   while (__builtin_expect((effects = slow & ftm->deferred) != 0, false)) {
     const uint64_t up_to = effects ^ (effects - 1);

@@ -41,7 +41,7 @@ void trax_l2_destroy(struct trax_l2 *l2) {
 
 /* --- lines on their way --- */
 
-/* The line's index in l2->line, or used_count if it is not on its way. */
+/* Returns the line's index in l2->line; used_count: it is not on its way. */
 static uint32_t find(const struct trax_l2 *l2, uint32_t line) {
   uint32_t i = 0;
   while (i < l2->used_count && l2->line[i] != line)
@@ -53,7 +53,7 @@ static struct trax_l2_mshr *mshr_of(const struct trax_l2 *l2, trax_request_id id
   return &l2->mshr[id - TRAX_LINE_REQUEST];
 }
 
-/* The channel of the line that arrives first, the lowest if several do; next_arrival is set to when. */
+/* Returns the channel of the line that arrives next, the lowest one of several, and sets next_arrival to its cycle. */
 static unsigned next_to_come(struct trax_l2 *l2) {
   unsigned soonest = 0;
   l2->next_arrival = TRAX_NEVER;
@@ -65,7 +65,7 @@ static unsigned next_to_come(struct trax_l2 *l2) {
   return soonest;
 }
 
-/* The lines that have arrived. Nobody has looked since they did, so it makes no difference that it is noticed late. */
+/* Enters the lines that have arrived into the cache. That may be after their cycle, but before the next look-up. */
 static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
   struct trax_l2 *l2 = memory->l2;
   while (l2->next_arrival <= t) {

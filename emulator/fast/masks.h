@@ -1,4 +1,4 @@
-/* Arithmetic on masks of a TM's TPs: arbiters, counters, planes of bytes. */
+/* Arithmetic on masks of a TM's TPs: arbiters and bit-sliced counters. */
 #ifndef TRAX_FAST_MASKS_H
 #define TRAX_FAST_MASKS_H
 
@@ -11,17 +11,18 @@
 #include <immintrin.h>
 #endif
 
-/* Masks that are handled together. */
+/* Four masks, which are processed together. */
 enum { TRAX_FAST_LANES = 4, TRAX_FAST_BANK_BITS = 6 /* of at most 64 banks */ };
 typedef uint64_t trax_fast_lanes __attribute__((vector_size(8 * TRAX_FAST_LANES), may_alias));
 
-/* Vectors are passed by address: how they are passed by value depends on what they are compiled for. */
+/* Vectors are passed by address, since the ABI of passing them by value differs between the variants. */
 static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
   return (*lanes)[0] | (*lanes)[1] | (*lanes)[2] | (*lanes)[3];
 }
 
-/* Arbiters, one in each lane. `behind` has the bits behind the latest winner, which says what the reference's pointer
-   says. The first of the askers among them, or else the first of all, wins; 0 of 0. */
+/* Round-robin arbiters, one in each lane. A round-robin mask has the bits after the latest winner, which is equivalent
+   to a pointer to the first of them. The first requester in the mask wins, or else the first requester of all. Winners
+   are 0 if there are no requesters. */
 #define TRAX_FAST_ARBITRATE(LANES, BEHIND, ASKERS, WINNERS)                                                            \
   do {                                                                                                                 \
     const LANES preferred_ = (ASKERS) & *(BEHIND);                                                                     \
@@ -30,9 +31,10 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
     *(BEHIND) = ~(*(WINNERS) | (*(WINNERS) - 1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                             \
   } while (0)
 
-/* The arbiters of 16 banks of two caches, 16 TPs to a cache: of each pair of caches, 32 bits for each bank. */
+/* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache. A pair of caches takes 32 bits for
+   each bank. */
 #if defined(__AVX512BW__)
-enum { TRAX_FAST_PAIRS = 16 }; /* to a vector */
+enum { TRAX_FAST_PAIRS = 16 }; /* elements of 32 bits in a vector */
 #elif defined(__AVX2__)
 enum { TRAX_FAST_PAIRS = 8 };
 #else
@@ -42,7 +44,7 @@ typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(4 * TRAX_FAST_PAIR
 typedef uint32_t trax_fast_pairs __attribute__((vector_size(4 * TRAX_FAST_PAIRS), may_alias));
 
 struct trax_fast_banks16 {
-  /* [pair][bank][cache of the pair], or [bank][cache]: those behind the latest winner */
+  /* Round-robin masks: [pair][bank][cache of the pair], or [bank][cache] where trax_fast_refuse_four is used. */
   union {
     _Alignas(64) uint16_t turn[2][16][2];
     uint16_t of_four[16][4];
@@ -66,12 +68,11 @@ static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
 #endif
 }
 
-/* Grants the banks of a pair of caches; `askers` of both, `plane`: the bits of the numbers of the banks they ask.
-   Returns the losers. */
+/* Grants the banks of a pair of caches. plane: the bits of the numbers of the TPs' banks. Returns the losers. */
 static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t askers,
                                            const uint64_t *plane) {
   static const _Alignas(64) uint32_t match[4][16] = {
-#define BANKS(K) /* all bits in those whose bit K is 0 */                                                              \
+#define BANKS(K) /* all ones for the banks whose bit K is 0 */                                                         \
   {BANK(0, K), BANK(1, K), BANK(2, K),  BANK(3, K),  BANK(4, K),  BANK(5, K),  BANK(6, K),  BANK(7, K),                \
    BANK(8, K), BANK(9, K), BANK(10, K), BANK(11, K), BANK(12, K), BANK(13, K), BANK(14, K), BANK(15, K)}
 #define BANK(B, K) ((B) >> (K) & 1 ? 0 : 0xFFFFFFFF)
@@ -95,7 +96,7 @@ static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, un
 }
 
 #ifdef __AVX512BW__
-/* The same for four caches, whose turns are in banks->of_four. */
+/* The same for four caches, whose round-robin masks are in banks->of_four. */
 static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, uint64_t askers, const uint64_t *plane) {
   typedef uint16_t turns __attribute__((vector_size(64), may_alias));
   __m512i asking = _mm512_set1_epi64((long long)askers);
@@ -122,7 +123,7 @@ static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, ui
 }
 #endif
 
-/* Where the turn of a cache's bank is, of TPs of which there may be more than 32. */
+/* Returns the round-robin mask of a cache's bank. `wide`: the TM has more than 32 TPs. */
 static inline uint16_t *trax_fast_fetch_turn(struct trax_fast_banks16 *banks, const bool wide, unsigned icache,
                                              unsigned bank) {
 #ifdef __AVX512BW__
@@ -133,7 +134,7 @@ static inline uint16_t *trax_fast_fetch_turn(struct trax_fast_banks16 *banks, co
   return &banks->turn[icache / 2][bank][icache % 2];
 }
 
-/* The TPs that were refused something in a cycle, by what it was: X(member, cause). */
+/* The TPs that were refused a bank or unit in a cycle, by its kind: X(member, cause). */
 #define TRAX_FAST_REFUSED(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_LOST_UNIT, X) X(bank, DCACHE_BANK)
 #define TRAX_FAST_LOST_UNIT(X, ID, ...) X(unit[TRAX_SHARED_##ID], ID)
 enum { TRAX_FAST_REFUSALS = TRAX_SHARED_COUNT + 2 };
@@ -142,8 +143,8 @@ struct trax_fast_refused {
   uint64_t fetch, unit[TRAX_SHARED_COUNT], bank;
 };
 
-/* Counters of each TP for each of them, bit-sliced: planes[k] holds bit k of all TPs' counters, so that a cycle is
-   charged to all TPs at once; several cycles together, since carries cost most. */
+/* Bit-sliced counters of refusals for each TP and kind: planes[k] has bit k of the counters of all TPs, so that a cycle
+   is counted for all TPs at once. A log of several cycles is added together, since the carries cost most. */
 enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */ };
 #define TRAX_FAST_COUNTERS (TRAX_FAST_REFUSALS <= 8 ? 8 : TRAX_FAST_REFUSALS <= 16 ? 16 : 32) /* a power of two */
 typedef uint64_t trax_fast_refusals
@@ -159,7 +160,7 @@ struct trax_fast_refusal_counts {
 void trax_fast_count_log(struct trax_fast_refusal_counts *tally);
 
 static inline void trax_fast_count(struct trax_fast_refusal_counts *tally, const struct trax_fast_refused *lost) {
-  /* One by one: nobody looks at them soon, and a vector would have to be put together. */
+  /* Words are stored singly: they are not read soon, and to assemble a vector would cost more. */
   typedef uint64_t word __attribute__((may_alias));
   word *log = (word *)&tally->log[tally->logged];
 #define LOG(MEMBER, CAUSE) *log++ = lost->MEMBER;
@@ -169,15 +170,15 @@ static inline void trax_fast_count(struct trax_fast_refusal_counts *tally, const
     trax_fast_count_log(tally);
 }
 
-/* Shared units of two kinds, for groups of neighbours. `even`: one of each kind to a group, grouped alike and so that
-   the groups are 64 bits; then all groups are served at once. */
+/* Shared units of two kinds. `even`: both kinds have the same groups, one unit for each, and the groups' size
+   divides 64. Then all groups are arbitrated at once. */
 typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 
 struct trax_fast_units {
   uint32_t group_size;
   bool even;
-  uint64_t top, below_top; /* of each group, if they are: the last bit, the others */
-  trax_fast_pair behind;   /* those who come before the others: the bits behind the latest winners */
+  uint64_t top, below_top; /* if `even`: the last bit of each group, and the other bits */
+  trax_fast_pair behind;   /* the round-robin masks of all groups */
   struct {
     uint32_t groups, per_group;
     uint64_t group[64];
@@ -200,12 +201,12 @@ static inline uint64_t trax_fast_grant_unevenly(struct trax_fast_units *units, u
   return winners;
 }
 
-/* The last bits of the groups in which x has a bit. */
+/* Returns the last bits of the groups in which x has a bit. */
 static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *units, trax_fast_pair x) {
   return (((x & units->below_top) + units->below_top) | x) & units->top;
 }
 
-/* The winner of each group, in the manner of trax_fast_first_after for all groups at once. */
+/* Returns the winner of each group. If `even`, this is TRAX_FAST_ARBITRATE for all groups at once. */
 static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units,
                                                                                   trax_fast_pair askers) {
   if (!units->even)
@@ -224,7 +225,7 @@ static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_unit
   const trax_fast_pair have = trax_fast_groups_of(units, preferred);
   const trax_fast_pair among = preferred | (askers & ~((have - (have >> to_first)) | have));
   const trax_fast_pair asked = trax_fast_groups_of(units, askers), first = asked >> to_first;
-  /* In groups with an asker, among - first borrows from no neighbour. */
+  /* In groups with a requester, the subtraction of `first` does not borrow from the next group. */
   const trax_fast_pair winners = among & ~(among - first);
   const trax_fast_pair asked_groups = (asked - first) | asked;
   units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners | (winners - first)));

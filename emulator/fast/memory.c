@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_LATENCY 1000000u /* of a transfer, as far as anybody wants to know */
+#define MOST_LATENCY 1000000u /* cycles; longer transfers count as this in trax_memory_least_latency */
 
 static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
   return b ? greatest_common_divisor(b, a % b) : a;
@@ -152,7 +152,7 @@ static void increment(const struct trax_memory *memory, struct trax_request *req
   memcpy(space->bytes + request->address, &incremented, sizeof incremented);
 }
 
-/* Transfers the request's bytes. Returns ceil(f) + memory.latency_cycles. */
+/* Begins the transfer of the request's bytes. Returns ceil(f) + memory.latency_cycles. */
 static uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request,
                          struct trax_space *space, uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
@@ -178,12 +178,12 @@ void trax_memory_complete(struct trax_tm *tms, trax_request_id id, uint64_t comp
     tm->next_cycle = completion;
 }
 
-/* Whether it is before cycle t ends. */
+/* Whether the bus is free before the end of cycle t. */
 static bool is_free(const struct trax_channel *channel, uint64_t t) {
   return channel->free_from.cycle <= t;
 }
 
-/* The single channel takes the oldest waiting request of a TM, straight from its queue. */
+/* The single channel serves the oldest waiting request in a TM's ring. */
 static void serve_ring(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t) {
   trax_arbiter_to_back(&memory->turn, tm->number);
   struct trax_request *request = trax_queue_first_waiting(&tm->queue);
@@ -199,7 +199,7 @@ static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, struct 
     serve_ring(memory, &tms[trax_arbiter_look(memory->turn, memory->tms)], space, t);
 }
 
-/* Whether a TM that has no request waiting, and whose turn is before the next one's who has, may have made one by
+/* Whether a TM without a waiting request, which the arbiter would prefer to the next TM with one, may make a request by
    cycle t. */
 static bool may_be_overtaken(const struct trax_memory *memory, const struct trax_tm *tms, unsigned count, uint64_t t) {
   const unsigned next = trax_arbiter_look(memory->turn, memory->tms);

@@ -9,13 +9,13 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* A round lasts some 10 microseconds: who waits, be it for work or for the others, looks again for about as long before
-   it lets others have the processor, and sleeps if nothing comes for long. Before it has waited for a while it does not
-   look for the work of those who are late: what it looks at is taken from their caches. */
-enum { PATIENCE = 200, LOOKS = 2000, YIELDS = 200 };
+/* A round takes some 10 microseconds. A thread that waits, for a round or for its end, spins for about as long, then
+   yields the processor, and sleeps in the end. It takes items of late threads only after some time, since it takes
+   their data from their threads' caches. */
+enum { STEAL_AFTER = 200 /* polls */, SPINS = 2000, YIELDS = 200 };
 
 struct item {
-  _Alignas(64) atomic_uint taken; /* the round that took it */
+  _Alignas(64) atomic_uint taken; /* the latest round in which a thread took it */
 };
 
 struct worker {
@@ -28,16 +28,16 @@ struct trax_pool {
   void (*work)(void *context, uint32_t item);
   void *context;
   uint32_t items;
-  unsigned threads;      /* with the owner */
-  unsigned running;      /* workers that were started */
+  unsigned threads;      /* the owner included */
+  unsigned running;      /* number of workers that were started */
   unsigned target;       /* of `done` in the current round */
   struct worker *worker; /* [threads - 1] */
 
-  _Alignas(64) atomic_uint round; /* even numbers; odd: the end */
-  _Alignas(64) atomic_uint done;  /* items of all rounds */
+  _Alignas(64) atomic_uint round; /* the current round, an even number; odd: the workers end */
+  _Alignas(64) atomic_uint done;  /* items finished in all rounds */
   struct item *item;              /* [items] */
 
-  _Alignas(64) atomic_uint sleepers; /* workers */
+  _Alignas(64) atomic_uint sleepers; /* number of sleeping workers */
   atomic_bool owner_sleeps;
   pthread_mutex_t mutex;
   pthread_cond_t wakened, finished;
@@ -75,12 +75,12 @@ static void take_part(struct trax_pool *pool, unsigned number, unsigned round) {
 
 static unsigned wait_for_round(struct trax_pool *pool, unsigned last) {
   unsigned round;
-  for (unsigned i = 0; i < LOOKS + YIELDS; i++) {
+  for (unsigned i = 0; i < SPINS + YIELDS; i++) {
     if ((round = atomic_load(&pool->round)) != last)
       return round;
-    if (i == PATIENCE)
+    if (i == STEAL_AFTER)
       take_items(pool, 0, pool->items, last);
-    if (i < LOOKS)
+    if (i < SPINS)
       pause_briefly();
     else
       sched_yield();
@@ -116,12 +116,12 @@ void trax_pool_run(struct trax_pool *pool) {
   pool->target += pool->items;
   begin_round(pool, round);
   take_part(pool, 0, round);
-  for (unsigned i = 0; i < LOOKS + YIELDS; i++) {
+  for (unsigned i = 0; i < SPINS + YIELDS; i++) {
     if (atomic_load(&pool->done) == pool->target)
       return;
-    if (i == PATIENCE)
+    if (i == STEAL_AFTER)
       take_items(pool, 0, pool->items, round);
-    if (i < LOOKS)
+    if (i < SPINS)
       pause_briefly();
     else
       sched_yield();

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-/* Whatever its address: of memory accesses, nothing. */
+/* The resource that an instruction needs, as far as it does not depend on its address; 0 for memory accesses. */
 static uint16_t asks_of(const struct trax_decoded *decoded) {
   static const uint16_t own[] = {[TRAX_SHARED_FP_ADD] = TRAX_ASKS_FP_ADD,
                                  [TRAX_SHARED_FP_MUL] = TRAX_ASKS_FP_MUL,
@@ -15,7 +15,7 @@ static uint16_t asks_of(const struct trax_decoded *decoded) {
   return (uint16_t)(TRAX_ASKS_FURTHER | (decoded->unit - TRAX_FAST_FURTHER) << TRAX_ASKS_BANK_SHIFT);
 }
 
-/* What depends on time, or acts on anything outside the TP, whatever its operands. */
+/* Whether an instruction always ends a burst: its result depends on time, or its effect is visible to other TPs. */
 static bool stops_burst(const struct trax_decoded *decoded) {
   switch (decoded->op) {
   case TRAX_OP_RDSR:
@@ -28,14 +28,15 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
-/* Whether an instruction of a section of `words` jumps out of it, into the middle of a word or nowhere. */
+/* Whether the relative jump at `word` of a section of `words` leaves the section, or goes to the next instruction or
+   into the middle of one. burst_steps.h assumes that others do not. */
 static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint32_t words) {
   const int64_t target = word + (int64_t)decoded->imm / 4;
   return (trax_op_table[decoded->op].flags & TRAX_IS_RELATIVE) &&
          (decoded->imm % 4 || decoded->imm == 4 || target < 0 || target >= words);
 }
 
-/* All registers, of a fence. */
+/* Returns the mask of registers that must be usable before issue. A fence needs all of them. */
 static uint32_t waits_for(const struct trax_decoded *decoded) {
   if (decoded->ask == TRAX_ASK_FENCE)
     return ~1u;
@@ -95,9 +96,9 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   }
   program->lines = lines;
   program->outside = &program->inst[index];
-  predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* none is at an odd address */
+  predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* an odd address is never text */
   for (size_t i = total; i-- > 0;) {
-    const bool goes_on = (i + 1) % TRAX_CHUNK && program->inst[i].op != TRAX_OP_JAL; /* jalr may, too */
+    const bool goes_on = (i + 1) % TRAX_CHUNK && program->inst[i].op != TRAX_OP_JAL; /* jalr may have no effect */
     program->lines_ahead[i] = (uint64_t)1 << program->line[i] % 64 | (goes_on ? program->lines_ahead[i + 1] : 0);
   }
   return TRAX_OK;

@@ -35,7 +35,7 @@ void trax_queue_push_fresh(struct trax_queue *queue, struct trax_request request
   queue->last_fresh = index;
 }
 
-/* Whether request a arrives before b: in the order in which they were made within a cycle. */
+/* Whether request a arrives before b; requests of one cycle arrive in the order in which they were made. */
 static bool is_before(const struct trax_queue *queue, uint32_t a, uint32_t b) {
   const struct trax_request *x = &queue->requests[a], *y = &queue->requests[b];
   return x->completion != y->completion ? x->completion < y->completion : x->number < y->number;

@@ -18,7 +18,7 @@ void trax_store_buffer_begin(struct trax_store_buffer *buffer) {
   buffer->stop = false;
 }
 
-/* Makes room for one more. False if there is none: the epoch must be simulated otherwise. */
+/* Makes room for one more element. False: out of memory; the epoch is then given up. */
 static bool grow(struct trax_store_buffer *buffer, void **array, size_t count, size_t *capacity, size_t size) {
   if (count < *capacity)
     return true;
@@ -41,7 +41,7 @@ static struct trax_store_buffer_word *find(const struct trax_store_buffer *buffe
   return &buffer->words[i];
 }
 
-/* At least half of the table stays empty. */
+/* Grows the table before it is more than half full. */
 static bool grow_words(struct trax_store_buffer *buffer) {
   if (2 * buffer->word_count < buffer->word_capacity)
     return true;

@@ -59,7 +59,8 @@ void trax_tm_destroy(struct trax_tm *tm) {
 
 /* --- sleeping, ending, faulting --- */
 
-/* The wheel reaches 64 cycles ahead of the current one, t; who sleeps longer is put in again when its slot comes. */
+/* The wheel spans the 64 cycles after the current one, t. A TP that sleeps longer is put into it again when its slot is
+   reached. */
 static void set_alarm(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t until) {
   const uint64_t alarm = until - t <= TRAX_WHEEL ? until : t + TRAX_WHEEL;
   tm->tp[tp].asleep_until = until;
@@ -193,7 +194,7 @@ static bool request_write(struct trax_tm *tm, unsigned number, uint32_t begin, u
   return request_in_turn(tm, number, request);
 }
 
-/* Empties the TP's write-combining buffer; false if that needs a place and there is none. */
+/* Writes the run in the TP's write-combining buffer, if there is one. False: it needs a place and gets none. */
 static bool write_run(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
   if (tp->run_begin != tp->run_end && !request_write(tm, number, tp->run_begin, tp->run_end))
@@ -202,7 +203,8 @@ static bool write_run(struct trax_tm *tm, unsigned number) {
   return true;
 }
 
-/* A store joins the run of its TP's write-combining buffer, or writes that run and begins a new one. */
+/* Combines a store with the run in its TP's write-combining buffer, or writes that run and begins a new one. False: the
+   run needs a place and gets none. */
 static bool store_past_cache(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
   const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
@@ -222,7 +224,7 @@ static bool store_past_cache(struct trax_tm *tm, unsigned number) {
   return true;
 }
 
-/* An atomic increment or a load past the cache. */
+/* Requests the word of an atomic increment or a load past the cache. False: there is no place. */
 static bool read_past_cache(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
   const bool atomic = tp->inst->is_atomic;
@@ -258,7 +260,7 @@ static trax_cause serve_fence(struct trax_tm *tm, unsigned number) {
   return tp->increments || (of_writes && tp->writes) ? TRAX_CAUSE_DATA_MISS : TRAX_CAUSE_ISSUED;
 }
 
-/* False if it needs a place and gets none. */
+/* Serves instructions other than fences in step 4. False: it needs a place and gets none. */
 static bool serve_others(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   if (tp->inst->ask == TRAX_ASK_END)

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copied as the host's");
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copied as host words");
 
 #define COMBINING_BLOCK 64u
 
@@ -54,7 +54,7 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
   return trax_special_register(tm->config, tm->number * tm->tps + tp, number, t);
 }
 
-/* False if it faulted. */
+/* Performs a trap. False: it faulted. */
 static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t code, uint64_t t) {
   tm->progressed = t + 1;
   if (code == TRAX_TRAP_EXIT) {
@@ -62,7 +62,7 @@ static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t co
     return true;
   }
   if (tm->buffer && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS)) {
-    tm->buffer->stop = true; /* output is in the order of all threads */
+    tm->buffer->stop = true; /* the order of output among all threads is only known cycle by cycle */
     return true;
   }
   const trax_fault_kind fault =
@@ -90,7 +90,7 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
 #define PRECISION tm->config->special.precision_bits
 #define LOAD(ADDRESS, BYTES) load(tm, tp, ADDRESS, BYTES)
 #define STORE(ADDRESS, VALUE, BYTES) store(tm, tp, ADDRESS, VALUE, BYTES)
-#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller's work; until then the register is not usable */
+#define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), RD) /* the controller increments, and the arrival sets the register */
 #define SPECIAL_REGISTER(NUMBER) trax_tp_special_register(tm, number, NUMBER, t)
 #define TRAP(VALUE, CODE) (alive = trap(tm, number, VALUE, (int32_t)(CODE), t))
 #define FENCE(KIND) fence(tm, KIND)

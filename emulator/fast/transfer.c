@@ -1,11 +1,11 @@
-/* Between cycles, the machine in the structures of tm.h, tp.h and memory.h: for those who look at all of it, keep it or change it. The
-   engine has a form of its own for what can run ahead (bursts), for arbiters, and for what can be told from the rest.
- */
+/* Export and import of the engine's state (docs/fast-engine.md). Between cycles, watches and checkpoints find the state
+   in the structures of tm.h, tp.h and memory.h. While it simulates, the engine has its own form of bursts, of arbiters,
+   and of data that follow from the rest. */
 #include "fast/head.h"
 
 #include <string.h>
 
-/* --- arbiters: the pointer, and the bits from it on, which are those behind the latest winner (masks.h) --- */
+/* --- arbiters: a pointer, and the round-robin mask of the bits from the pointer on (masks.h) --- */
 
 static trax_arbiter pointer_of(uint64_t behind) {
   return (trax_arbiter)(behind ? trax_first(behind) : 0);
@@ -71,7 +71,7 @@ void trax_fast_export(struct trax_fast *fast) {
     export_arbiters(&fast->tm[i]);
 }
 
-/* --- taking up --- */
+/* --- import --- */
 
 static void find_resident_lines(struct trax_fast_tm *ftm) {
   const struct trax_fast_program *program = &ftm->fast->program;
@@ -88,7 +88,8 @@ static void find_resident_lines(struct trax_fast_tm *ftm) {
   }
 }
 
-/* Registers that wait for increments; and nobody may load ahead what those have not incremented yet. */
+/* Finds the registers that wait for atomic increments. The increments' words count as written, so that no burst loads
+   them before they are incremented. */
 static void find_atomics(struct trax_fast_tm *ftm) {
   const struct trax_queue *queue = &ftm->tm->queue;
   for (uint32_t i = 0; i < queue->depth; i++) {
@@ -128,7 +129,7 @@ void trax_fast_import(struct trax_fast *fast, uint64_t t) {
     import_arbiters(ftm);
     find_resident_lines(ftm);
     ftm->ready = ftm->outside = 0;
-    ftm->deferred = tm->ended; /* nothing of theirs runs ahead */
+    ftm->deferred = tm->ended; /* ended threads have no bursts */
     ftm->resumed_holding = tm->awake & tm->holding;
     for (unsigned tp = 0; tp < tm->tps; tp++)
       if (!(tm->ended >> tp & 1))

@@ -1,5 +1,5 @@
-/* The parts of the fast engine that work on masks and vectors of TPs. They are compiled several times, for what hosts
-   may have beyond the least of their family. */
+/* The parts of the fast engine that work on masks and vectors of TPs. They are compiled several times, for different
+   instruction sets of the host. */
 #ifndef TRAX_FAST_VARIANT_H
 #define TRAX_FAST_VARIANT_H
 
@@ -10,26 +10,26 @@
 struct trax_chip;
 struct trax_fast;
 
-enum { TRAX_FAST_ABREAST = 2 };
+enum { TRAX_FAST_ABREAST = 2 }; /* the most TMs that run_ahead interleaves */
 
 struct trax_fast_variant {
-  /* Into chip->fast. */
+  /* Creates chip->fast. */
   trax_status (*create)(struct trax_chip *chip, trax_error *error);
-  void (*destroy)(struct trax_fast *fast); /* which may be NULL */
-  /* Arrivals and the five steps of a TM; sets its next_cycle. */
+  void (*destroy)(struct trax_fast *fast); /* fast may be NULL */
+  /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
   void (*cycle)(struct trax_fast *fast, uint32_t tm, uint64_t t);
-  /* All cycles before `end` of the `count` TMs from `first` on, at most TRAX_FAST_ABREAST, which run ahead (epochs.h);
-     less of one that stops or faults. */
+  /* Simulates an epoch (epochs.h): all cycles before `end` of the `count` TMs from `first` on, at most
+     TRAX_FAST_ABREAST. A TM that stops or faults is left at that cycle. */
   void (*run_ahead)(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
-  /* Adds the instructions executed since the last call to the TMs' statistics; before the run's end, also those that
-     ran ahead. */
+  /* Adds the instructions executed since the latest call to the TMs' statistics, with those that have not been issued.
+   */
   void (*collect)(struct trax_fast *fast);
   /* Completes statistics and charges for the cycles that are over. */
   void (*settle)(struct trax_fast *fast);
-  /* Between cycles: brings every TP back to what it has issued, so that tm.h's and tp.h's structures hold all that the
-     run depends on. The run can go on. */
+  /* Between cycles: rolls every TP back to what it has issued, so that the structures of tm.h and tp.h hold all that
+     the run depends on. The run can be continued. */
   void (*export_state)(struct trax_fast *fast);
-  /* Takes up the run before cycle t with what those structures hold. */
+  /* Continues the run before cycle t with the state in those structures. */
   void (*import_state)(struct trax_fast *fast, uint64_t t);
 };
 

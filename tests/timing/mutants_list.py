@@ -105,7 +105,7 @@ MUTANTS = [
     # --- steps 3 and 4 ---
     ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
     ("fast/cycle.c", "*hits = there & ~ftm->deferred;", "*hits = there;"),
-    ("fast/cycle.c", "    hits = 0; /* serve sees to that */", "    hits += 0; /* serve sees to that */"),
+    ("fast/cycle.c", "    hits = 0; /* serve() handles them */", "    hits += 0; /* serve sees to that */"),
     # --- step 5 and the heads ---
     ("fast/issue.c", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/issue.c", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
