@@ -1,0 +1,198 @@
+/* Step 2: floats are compared as integers. Comparisons, minima and maxima of floats are the adder's work, and eight TPs
+   share an adder; every TP has an integer unit of its own, and one register file holds both kinds of numbers. So the
+   comparisons of 1-plain.c become integer ones. Their results are the same. */
+#include "trax/plain_scene.h"
+#include "trax/render_params.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <trax.h>
+
+struct trax_buffer plain_nodes, plain_triangles, params, image;
+unsigned next_pixel;                                    /* shared by all threads */
+__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
+                                                           guess */
+
+#define SIGN_BIT (-0x7FFFFFFF - 1)
+#define EPSILON 1e-4f /* of the distance: how far a shadow ray's origin is off the surface */
+
+/* The bits of a float. Floats that are not negative are ordered as their bits are; a negative one is less than each of
+   them, and only two negative ones stand in the wrong order. */
+static inline int bits(float value) {
+  int result;
+  __builtin_memcpy(&result, &value, sizeof result);
+  return result;
+}
+static inline int smaller(int a, int b) {
+  return a < b ? a : b;
+}
+static inline int larger(int a, int b) {
+  return a > b ? a : b;
+}
+
+struct vector {
+  float x, y, z;
+};
+
+static inline struct vector load(const float *v) {
+  return (struct vector){v[0], v[1], v[2]};
+}
+static inline struct vector add(struct vector a, struct vector b) {
+  return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline struct vector subtract(struct vector a, struct vector b) {
+  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline struct vector scale(struct vector v, float factor) {
+  return (struct vector){v.x * factor, v.y * factor, v.z * factor};
+}
+static inline float dot(struct vector a, struct vector b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline struct vector cross(struct vector a, struct vector b) {
+  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline struct vector normalise(struct vector v) {
+  return scale(v, trax_rsqrt(dot(v, v)));
+}
+
+struct ray {
+  struct vector origin, direction, inverse; /* of unit length; 1 / direction */
+};
+
+struct hit {
+  float distance;
+  const struct trax_plain_triangle *triangle; /* NULL: nothing was hit */
+};
+
+/* Whether the ray hits the box before `nearest`, and where it enters it: the slabs of Kay and Kajiya (SIGGRAPH 1986).
+   All distances are bits. Two negative ones of one slab may change places: the ray leaves the box behind its origin
+   then in either case, and misses it. */
+static inline bool hit_box(const struct ray *ray, const struct trax_plain_node *node, int nearest, int *enter) {
+  int x0 = bits((node->min[0] - ray->origin.x) * ray->inverse.x);
+  int x1 = bits((node->max[0] - ray->origin.x) * ray->inverse.x);
+  int y0 = bits((node->min[1] - ray->origin.y) * ray->inverse.y);
+  int y1 = bits((node->max[1] - ray->origin.y) * ray->inverse.y);
+  int z0 = bits((node->min[2] - ray->origin.z) * ray->inverse.z);
+  int z1 = bits((node->max[2] - ray->origin.z) * ray->inverse.z);
+  *enter = larger(larger(smaller(x0, x1), smaller(y0, y1)), smaller(z0, z1));
+  int leave = smaller(smaller(larger(x0, x1), larger(y0, y1)), larger(z0, z1));
+  return *enter <= leave && leave >= 0 && *enter < nearest;
+}
+
+/* "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1), 1997), for both sides; the
+   division waits for a hit. */
+static inline void hit_triangle(const struct ray *ray, const struct trax_plain_triangle *triangle, struct hit *hit) {
+  struct vector corner = load(triangle->v0);
+  struct vector edge1 = subtract(load(triangle->v1), corner), edge2 = subtract(load(triangle->v2), corner);
+  struct vector p = cross(ray->direction, edge2);
+  float determinant = dot(edge1, p);
+  int sign = bits(determinant) & SIGN_BIT, size = bits(determinant) ^ sign; /* what is below is times the sign */
+  struct vector t = subtract(ray->origin, corner);
+  float u = dot(t, p);
+  int u_bits = bits(u) ^ sign;
+  struct vector q = cross(t, edge1);
+  float v = dot(ray->direction, q);
+  int v_bits = bits(v) ^ sign, sum_bits = bits(u + v) ^ sign;
+  if (size == 0 || (unsigned)u_bits > (unsigned)SIGN_BIT || u_bits > size || (unsigned)v_bits > (unsigned)SIGN_BIT ||
+      sum_bits > size) /* a zero of either sign is inside */
+    return;
+  float distance = dot(edge2, q) / determinant;
+  if (bits(distance) > 0 && bits(distance) < bits(hit->distance)) {
+    hit->distance = distance;
+    hit->triangle = triangle;
+  }
+}
+
+/* The nearest hit before hit->distance. */
+static __attribute__((noinline)) void trace(const struct ray *ray, struct hit *hit) {
+  const struct trax_plain_node *nodes = plain_nodes.data;
+  const struct trax_plain_triangle *triangles = plain_triangles.data;
+  unsigned stack[TRAX_PLAIN_MAX_DEPTH], top = 0, number = 0;
+  for (;;) {
+    const struct trax_plain_node *node = &nodes[number];
+    if (node->count < 0) {
+      int enter0, enter1, nearest = bits(hit->distance);
+      unsigned first = node->first;
+      bool hit0 = hit_box(ray, &nodes[first], nearest, &enter0);
+      bool hit1 = hit_box(ray, &nodes[first + 1], nearest, &enter1);
+      if (hit0 && hit1) {
+        bool second = enter1 < enter0;
+        stack[top++] = second ? first : first + 1;
+        number = second ? first + 1 : first;
+        continue;
+      }
+      if (hit0 || hit1) {
+        number = hit0 ? first : first + 1;
+        continue;
+      }
+    } else {
+      for (int i = 0; i < node->count; i++)
+        hit_triangle(ray, &triangles[node->first + i], hit);
+    }
+    if (top == 0)
+      return;
+    number = stack[--top];
+  }
+}
+
+static inline struct ray make_ray(struct vector origin, struct vector direction) {
+  struct vector inverse = {1 / direction.x, 1 / direction.y, 1 / direction.z};
+  return (struct ray){origin, direction, inverse};
+}
+
+static inline unsigned channel(float value) {
+  return value < 255 ? (unsigned)(int)(value + 0.5f) : 255;
+}
+
+static inline unsigned render(const struct trax_render_params *frame, unsigned x, unsigned y) {
+  float column = (float)(int)x + 0.5f, row = (float)(int)y + 0.5f;
+  struct vector eye = load(frame->eye);
+  struct vector way =
+      add(add(load(frame->corner), scale(load(frame->step_x), column)), scale(load(frame->step_y), row));
+  struct ray ray = make_ray(eye, normalise(way));
+  struct hit hit = {INFINITY, NULL};
+  trace(&ray, &hit);
+  trax_count_rays(1);
+  if (!hit.triangle)
+    return frame->background;
+
+  const struct trax_plain_triangle *triangle = hit.triangle;
+  struct vector corner = load(triangle->v0);
+  struct vector normal = normalise(cross(subtract(load(triangle->v1), corner), subtract(load(triangle->v2), corner)));
+  if (dot(normal, ray.direction) > 0)
+    normal = scale(normal, -1);
+  struct vector point = add(eye, scale(ray.direction, hit.distance));
+  point = add(point, scale(normal, EPSILON * hit.distance));
+  float light = frame->ambient + dot(normal, load(frame->fill));
+  struct vector to_light = subtract(load(frame->light), point);
+  float square = dot(to_light, to_light), inverse = trax_rsqrt(square);
+  to_light = scale(to_light, inverse);
+  float cosine = dot(normal, to_light);
+  if (cosine > 0) {
+    ray = make_ray(point, to_light);
+    hit = (struct hit){square * inverse, NULL};
+    trace(&ray, &hit);
+    trax_count_rays(1);
+    if (!hit.triangle)
+      light += frame->light_strength * cosine;
+  }
+  const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame + 1);
+  const float *colour = palette[triangle->material].colour; /* its square root, and the light's: gamma 2 */
+  float root = light > 0 ? light * trax_rsqrt(light) : 0;
+  return channel(colour[0] * root) | channel(colour[1] * root) << 8 | channel(colour[2] * root) << 16 | 0xFF000000u;
+}
+
+#define WORKLOAD (TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS))
+
+int main(void) {
+  const struct trax_render_params *frame = params.data;
+  if ((frame->features & ~WORKLOAD) || !(frame->features & TRAX_FEATURE_BIT(SHADOWS)))
+    trax_abort("this program renders the paper's workload only: one point light, its shadows, Lambert's law");
+  unsigned pixels = frame->width * frame->height;
+  for (unsigned pixel = trax_atomic_inc(&next_pixel); pixel < pixels; pixel = trax_atomic_inc(&next_pixel)) {
+    trax_store_nt((unsigned *)image.data + pixel, render(frame, pixel % frame->width, pixel / frame->width));
+    trax_count_items(1);
+  }
+  return 0;
+}

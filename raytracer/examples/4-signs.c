@@ -1,0 +1,233 @@
+/* Step 4: planes by sign. The sign of a direction's component says which of a box's two planes the ray meets first
+   along that axis, so where the near planes are is found once for a ray, and no pair of distances is compared. An axis
+   after which nothing is left of the ray's way through the box ends the test: the other planes are not even loaded. */
+#include "trax/plain_scene.h"
+#include "trax/render_params.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <trax.h>
+
+struct trax_buffer plain_nodes, plain_triangles, params, image;
+unsigned next_pixel;                                    /* shared by all threads */
+__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
+                                                           guess */
+
+#define SIGN_BIT (-0x7FFFFFFF - 1)
+#define UNITS_OF_DOUBT 2 /* by which the product may be rounded otherwise than the quotient, in its last place */
+#define EPSILON 1e-4f    /* of the distance: how far a shadow ray's origin is off the surface */
+
+/* The bits of a float. Floats that are not negative are ordered as their bits are; a negative one is less than each of
+   them, and only two negative ones stand in the wrong order. */
+static inline int bits(float number) {
+  int result;
+  __builtin_memcpy(&result, &number, sizeof result);
+  return result;
+}
+static inline float value(int bits) {
+  float result;
+  __builtin_memcpy(&result, &bits, sizeof result);
+  return result;
+}
+static inline int larger(int a, int b) {
+  return a > b ? a : b;
+}
+
+struct vector {
+  float x, y, z;
+};
+
+static inline struct vector load(const float *v) {
+  return (struct vector){v[0], v[1], v[2]};
+}
+static inline struct vector add(struct vector a, struct vector b) {
+  return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline struct vector subtract(struct vector a, struct vector b) {
+  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline struct vector scale(struct vector v, float factor) {
+  return (struct vector){v.x * factor, v.y * factor, v.z * factor};
+}
+static inline float dot(struct vector a, struct vector b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline struct vector cross(struct vector a, struct vector b) {
+  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline struct vector normalise(struct vector v) {
+  return scale(v, trax_rsqrt(dot(v, v)));
+}
+
+struct ray {
+  struct vector origin, direction, inverse; /* of unit length; 1 / direction */
+  int near_x, near_y,
+      near_z; /* bytes from a box's minima to its nearer planes: 0, or 12 if the direction is negative */
+};
+
+struct hit {
+  float distance;
+  const struct trax_plain_triangle *triangle; /* NULL: nothing was hit */
+};
+
+/* Clips the way of a ray through a box to the slab between two planes. False: nothing of it is left. */
+static inline bool clip(const char *near, const char *far, float origin, float inverse, int *enter, int *leave) {
+  int near_bits = bits((*(const float *)near - origin) * inverse);
+  int far_bits = bits((*(const float *)far - origin) * inverse);
+  if (near_bits > *enter)
+    *enter = near_bits;
+  if (far_bits < *leave)
+    *leave = far_bits;
+  return *enter <= *leave;
+}
+
+/* Whether the ray hits the box before `nearest`, and where it enters it: the slabs of Kay and Kajiya (SIGGRAPH 1986).
+   All distances are bits. The way begins at 0, so of two that are compared one is never negative. */
+static inline bool hit_box(const struct ray *ray, const struct trax_plain_node *node, int nearest, int *enter) {
+  const char *min = (const char *)node->min, *max = (const char *)node->max;
+  int leave = nearest;
+  *enter = 0;
+  return clip(min + ray->near_x, max - ray->near_x, ray->origin.x, ray->inverse.x, enter, &leave) &&
+         clip(min + 4 + ray->near_y, max + 4 - ray->near_y, ray->origin.y, ray->inverse.y, enter, &leave) &&
+         clip(min + 8 + ray->near_z, max + 8 - ray->near_z, ray->origin.z, ray->inverse.z, enter, &leave);
+}
+
+/* "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1), 1997), for both sides. What
+   is compared is the distance times the determinant; only a nearer hit is divided, and none if any hit will do. */
+static inline bool hit_triangle(const struct ray *ray, const struct trax_plain_triangle *triangle, bool any,
+                                struct hit *hit) {
+  struct vector corner = load(triangle->v0);
+  struct vector edge1 = subtract(load(triangle->v1), corner), edge2 = subtract(load(triangle->v2), corner);
+  struct vector p = cross(ray->direction, edge2);
+  float determinant = dot(edge1, p);
+  int sign = bits(determinant) & SIGN_BIT, size = bits(determinant) ^ sign; /* what is below is times the sign */
+  struct vector t = subtract(ray->origin, corner);
+  float u = dot(t, p);
+  int u_bits = bits(u) ^ sign;
+  struct vector q = cross(t, edge1);
+  float v = dot(ray->direction, q);
+  int v_bits = bits(v) ^ sign, sum_bits = bits(u + v) ^ sign;
+  if (size == 0 || (unsigned)u_bits > (unsigned)SIGN_BIT || u_bits > size || (unsigned)v_bits > (unsigned)SIGN_BIT ||
+      sum_bits > size) /* a zero of either sign is inside */
+    return false;
+  float scaled = dot(edge2, q);
+  int scaled_bits = bits(scaled) ^ sign;
+  if (scaled_bits <= 0 || scaled_bits > bits(hit->distance * value(size)) + UNITS_OF_DOUBT)
+    return false;
+  if (!any) {
+    float distance = scaled / determinant;
+    if (bits(distance) >= bits(hit->distance))
+      return false;
+    hit->distance = distance;
+    hit->triangle = triangle;
+  }
+  return true;
+}
+
+/* The nearest hit before hit->distance; or, if any hit will do, whether there is one. */
+static __attribute__((noinline)) bool trace(const struct ray *ray, bool any, struct hit *hit) {
+  const struct trax_plain_node *nodes = plain_nodes.data;
+  const struct trax_plain_triangle *triangles = plain_triangles.data;
+  unsigned stack[TRAX_PLAIN_MAX_DEPTH], top = 0, number = 0;
+  for (;;) {
+    const struct trax_plain_node *node = &nodes[number];
+    if (node->count < 0) {
+      int enter0, enter1, nearest = bits(hit->distance);
+      unsigned first = node->first;
+      bool hit0 = hit_box(ray, &nodes[first], nearest, &enter0);
+      bool hit1 = hit_box(ray, &nodes[first + 1], nearest, &enter1);
+      if (hit0 && hit1) {
+        bool second = enter1 < enter0;
+        stack[top++] = second ? first : first + 1;
+        number = second ? first + 1 : first;
+        continue;
+      }
+      if (hit0 || hit1) {
+        number = hit0 ? first : first + 1;
+        continue;
+      }
+    } else {
+      for (int i = 0; i < node->count; i++)
+        if (hit_triangle(ray, &triangles[node->first + i], any, hit) && any)
+          return true;
+    }
+    if (top == 0)
+      return hit->triangle != NULL;
+    number = stack[--top];
+  }
+}
+
+/* A direction that is turned by 2^-30 enters the same boxes. */
+static inline float away_from_zero(float component) {
+  int sign = bits(component) & SIGN_BIT;
+  return value(larger(bits(component) ^ sign, bits(0x1p-30f)) | sign);
+}
+
+static inline int far_first(float component) {
+  return component < 0 ? 12 : 0;
+}
+
+static inline struct ray make_ray(struct vector origin, struct vector direction) {
+  float x = direction.x, y = direction.y, z = direction.z, product = x * y * z;
+  if ((bits(product) & ~SIGN_BIT) < bits(0x1p-30f)) { /* along an axis or a plane of two, or nearly so: rarely */
+    x = away_from_zero(x), y = away_from_zero(y), z = away_from_zero(z);
+    product = x * y * z;
+  }
+  float reciprocal = 1 / product;
+  struct vector inverse = {y * z * reciprocal, x * z * reciprocal, x * y * reciprocal};
+  return (struct ray){origin, direction, inverse, far_first(x), far_first(y), far_first(z)};
+}
+
+static inline unsigned channel(float value) {
+  return value < 255 ? (unsigned)(int)(value + 0.5f) : 255;
+}
+
+static inline unsigned render(const struct trax_render_params *frame, unsigned x, unsigned y) {
+  float column = (float)(int)x + 0.5f, row = (float)(int)y + 0.5f;
+  struct vector eye = load(frame->eye);
+  struct vector way =
+      add(add(load(frame->corner), scale(load(frame->step_x), column)), scale(load(frame->step_y), row));
+  struct ray ray = make_ray(eye, normalise(way));
+  struct hit hit = {INFINITY, NULL};
+  trax_count_rays(1);
+  if (!trace(&ray, false, &hit))
+    return frame->background;
+
+  const struct trax_plain_triangle *triangle = hit.triangle;
+  struct vector corner = load(triangle->v0);
+  struct vector normal = normalise(cross(subtract(load(triangle->v1), corner), subtract(load(triangle->v2), corner)));
+  if (dot(normal, ray.direction) > 0)
+    normal = scale(normal, -1);
+  struct vector point = add(eye, scale(ray.direction, hit.distance));
+  point = add(point, scale(normal, EPSILON * hit.distance));
+  float light = frame->ambient + dot(normal, load(frame->fill));
+  struct vector to_light = subtract(load(frame->light), point);
+  float square = dot(to_light, to_light), inverse = trax_rsqrt(square);
+  to_light = scale(to_light, inverse);
+  float cosine = dot(normal, to_light);
+  if (cosine > 0) {
+    ray = make_ray(point, to_light);
+    hit = (struct hit){square * inverse, NULL};
+    trax_count_rays(1);
+    if (!trace(&ray, true, &hit))
+      light += frame->light_strength * cosine;
+  }
+  const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame + 1);
+  const float *colour = palette[triangle->material].colour; /* its square root, and the light's: gamma 2 */
+  float root = light > 0 ? light * trax_rsqrt(light) : 0;
+  return channel(colour[0] * root) | channel(colour[1] * root) << 8 | channel(colour[2] * root) << 16 | 0xFF000000u;
+}
+
+#define WORKLOAD (TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS))
+
+int main(void) {
+  const struct trax_render_params *frame = params.data;
+  if ((frame->features & ~WORKLOAD) || !(frame->features & TRAX_FEATURE_BIT(SHADOWS)))
+    trax_abort("this program renders the paper's workload only: one point light, its shadows, Lambert's law");
+  unsigned pixels = frame->width * frame->height;
+  for (unsigned pixel = trax_atomic_inc(&next_pixel); pixel < pixels; pixel = trax_atomic_inc(&next_pixel)) {
+    trax_store_nt((unsigned *)image.data + pixel, render(frame, pixel % frame->width, pixel / frame->width));
+    trax_count_items(1);
+  }
+  return 0;
+}

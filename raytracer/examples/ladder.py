@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""The steps from the plain program to the tuned one: a table of what each takes, on the same scene and with the same picture.
+
+    raytracer/examples/ladder.py MESH... [--view VIEW] [--size 320x180] [--config 4x32] [--set KEY=VALUE] [--bin build/bin]
+
+The steps are the C files in this folder, in the order of their numbers. The last two rows are the device program, which trax-render compiles for one picture: with
+the same tree, and with the tree that trax-scene makes unless told otherwise. Exit status 1 if the first step's picture is not Embree's in 99 % of the pixels, if
+a step's is not that of the step before in every bit, or if a step takes more cycles than the step before."""
+
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+TREE = ["--splits=1", "--passes", "0"]  # the tree as the builder leaves it, as for the plain program
+
+
+def run(*command):
+    done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"ladder.py: error: {pathlib.Path(command[0]).name} ended with status {done.returncode}")
+    return done.stdout
+
+
+class Ladder:
+    def __init__(self, options, folder):
+        self.options, self.folder = options, folder
+        self.bin = options.bin.resolve()
+        self.view = [] if options.view is None else ["--view", options.view]
+
+    def scene(self, name, *options):
+        path = self.folder / f"{name}.trax"
+        run(self.bin / "trax-scene", "--quiet", *options, *self.options.meshes, "-o", path)
+        return path
+
+    def compile(self, source):
+        """With a queue for each TM: a chip's name begins with their number."""
+        tms = re.match(r"(\d+)x", self.options.config)
+        program = self.folder / f"{source.stem}.elf"
+        run(self.bin / "clang", "--target=trax", "-std=c17", "-O3", "-Wall", "-Wextra", "-Werror", f"-DQUEUES={tms[1] if tms else 1}",
+            "-I", HERE.parent / "include", source, "-o", program)
+        return program
+
+    def render(self, name, scene, *options):
+        """The picture and what trax-sim counts."""
+        picture, statistics = self.folder / f"{name}.png", self.folder / f"{name}.json"
+        settings = [part for setting in self.options.set for part in ("--set", setting)]
+        run(self.bin / "trax-render", "--quiet", scene, *self.view, "--size", self.options.size, "--config", self.options.config, *settings, *options,
+            "--stats", statistics, "-o", picture)
+        return picture, json.loads(statistics.read_text())
+
+    def embree(self, scene):
+        picture = self.folder / "embree.png"
+        run(self.bin / "trax-render", "--quiet", scene, *self.view, "--size", self.options.size, "--engine", "embree", "-o", picture)
+        return picture
+
+    def differing(self, one, other, within):
+        """How many pixels differ by more than `within`, and the share of those that do not, in percent."""
+        output = subprocess.run([self.bin / "trax-compare", one, other, "--within", str(within), "--at-least", "0"], stdout=subprocess.PIPE, text=True,
+                                check=True).stdout
+        share, _, differ = re.match(r"([\d.]+) % of (\d+) pixels within \d+/255, (\d+) differ", output).groups()
+        return int(differ), float(share)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("meshes", metavar="MESH", nargs="+")
+    parser.add_argument("--view")
+    parser.add_argument("--size", default="320x180")
+    parser.add_argument("--config", default="4x32")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a setting of the machine")
+    parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[1] / "build/bin")
+    options = parser.parse_args()
+    wrong, before, picture_before = [], None, None
+    with tempfile.TemporaryDirectory() as name:
+        ladder = Ladder(options, pathlib.Path(name))
+        binary, quantised = (ladder.scene(nodes, "--nodes", nodes, *TREE) for nodes in ("binary", "quantised"))
+        steps = sorted(HERE.glob("[0-9]*.c"), key=lambda path: int(path.name.split("-")[0]))
+        rows = [(source.stem, "plain_scene.h" in source.read_text(), source) for source in steps]
+        rows += [("device, the same tree", False, None), ("device, its own tree", False, None)]
+        print("| step | cycles | change | instructions/ray | bytes from and to memory | bytes/ray | MRPS | pixels that differ |\n| --- |" + " --- |" * 7, flush=True)
+        for step, plain, source in rows:
+            if source:
+                picture, found = ladder.render(step, binary if plain else quantised, "--program", ladder.compile(source))
+            else:
+                scene = quantised if "same" in step else ladder.scene("own", "--nodes", "auto")
+                picture, found = ladder.render(step, scene, "--cache", ladder.folder / "cache")
+            change, differ = "", ""
+            if before:
+                change = f"{100 * (found['cycles'] / before['cycles'] - 1):+.1f} %"
+                differ, _ = ladder.differing(picture, picture_before, 0)
+                if source and differ:
+                    wrong.append(f"{step}: {differ} pixels are not those of the step before")
+                if source and found["cycles"] > before["cycles"]:
+                    wrong.append(f"{step}: {found['cycles']:,} cycles instead of {before['cycles']:,}")
+            else:
+                _, share = ladder.differing(picture, ladder.embree(binary), 2)
+                if share < 99:
+                    wrong.append(f"{step}: only {share} % of the pixels are Embree's")
+            print(f"| {step} | {found['cycles']:,} | {change} | {found['instructions'] / found['rays']:,.0f} | {found['memory']['bytes']:,} | "
+                  f"{found['memory']['bytes'] / found['rays']:.0f} | {found['mrps']:.2f} | {differ} |", flush=True)
+            before, picture_before = found, picture
+    for line in wrong:
+        print(f"ladder.py: {line}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
