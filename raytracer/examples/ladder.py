@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The steps from the plain program to the tuned one: a table of what each takes, on the same scene and with the same picture.
 
-    raytracer/examples/ladder.py MESH... [--view VIEW] [--size 320x180] [--config 4x32] [--set KEY=VALUE] [--bin build/bin]
+    raytracer/examples/ladder.py MESH... [--view VIEW] [--size 320x180] [--config 4x32] [--set KEY=VALUE] [--figure FILE.svg] [--bin build/bin]
 
 The steps are the C files in this folder, in the order of their numbers. The last two rows are the device program, which trax-render compiles for one picture: with
 the same tree, and with the tree that trax-scene makes unless told otherwise. Exit status 1 if the first step's picture is not Embree's in 99 % of the pixels, if
@@ -17,6 +17,17 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = ["--splits=1", "--passes", "0"]  # the tree as the builder leaves it, as for the plain program
+
+# The figure's parts of a run: a colour, a name, and causes of docs/emulator.md, together where the same hardware is behind them.
+PARTS = [
+    ("#4e79a7", "instructions", ["issued"]),
+    ("#f28e2b", "adders and multipliers busy", ["fp_add_conflict", "fp_mul_conflict", "int_mul_conflict"]),
+    ("#e15759", "off-chip memory", ["wait_memory", "memory_queue_full"]),
+    ("#76b7b2", "data-cache banks and hits", ["dcache_bank_conflict", "wait_dcache_hit", "wait_local"]),
+    ("#edc948", "instruction fetch", ["icache_bank_conflict", "icache_miss"]),
+    ("#bab0ac", "everything else", None),
+]
+LEFT, BAR, GAP, WIDTH = 150, 22, 10, 560  # of the figure, in pixels
 
 
 def run(*command):
@@ -66,6 +77,29 @@ class Ladder:
         return int(differ), float(share)
 
 
+def figure(config, size, found):
+    """Cycles as bars, one below the other, each divided by what the threads did in them: SVG."""
+    longest = max(statistics["cycles"] for _, statistics in found)
+    height = 60 + len(found) * (BAR + GAP)
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{LEFT + WIDTH + 90}" height="{height}" font-family="sans-serif" font-size="12">',
+             '<rect width="100%" height="100%" fill="#ffffff"/>']
+    for place, (colour, name, _) in enumerate(PARTS):
+        x, y = 10 + place % 3 * 260, 8 + place // 3 * 18
+        lines.append(f'<rect x="{x}" y="{y}" width="12" height="12" fill="{colour}"/><text x="{x + 18}" y="{y + 10}">{name}</text>')
+    for row, (step, statistics) in enumerate(found):
+        x, y, rest = LEFT, 52 + row * (BAR + GAP), statistics["thread_cycles"]
+        lines.append(f'<text x="{LEFT - 8}" y="{y + 15}" text-anchor="end">{step}</text>')
+        for colour, name, causes in PARTS:
+            amount = sum(statistics["causes"][cause] for cause in causes) if causes else rest
+            rest -= amount
+            width = WIDTH * amount / statistics["threads"] / longest
+            lines.append(f'<rect x="{x:.1f}" y="{y}" width="{width:.1f}" height="{BAR}" fill="{colour}"><title>{step}, {name}: '
+                         f'{100 * amount / statistics["thread_cycles"]:.1f} %</title></rect>')
+            x += width
+        lines.append(f'<text x="{x + 6:.1f}" y="{y + 15}">{statistics["cycles"] / 1e6:.2f} M cycles</text>')
+    return "\n".join([*lines, f"<!-- {config}, {size} -->", "</svg>", ""])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="MESH", nargs="+")
@@ -73,9 +107,10 @@ def main():
     parser.add_argument("--size", default="320x180")
     parser.add_argument("--config", default="4x32")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a setting of the machine")
+    parser.add_argument("--figure", type=pathlib.Path, help="cycles by cause, as SVG")
     parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[1] / "build/bin")
     options = parser.parse_args()
-    wrong, before, picture_before = [], None, None
+    wrong, all_found, before, picture_before = [], [], None, None
     with tempfile.TemporaryDirectory() as name:
         ladder = Ladder(options, pathlib.Path(name))
         binary, quantised = (ladder.scene(nodes, "--nodes", nodes, *TREE) for nodes in ("binary", "quantised"))
@@ -104,6 +139,9 @@ def main():
             print(f"| {step} | {found['cycles']:,} | {change} | {found['instructions'] / found['rays']:,.0f} | {found['memory']['bytes']:,} | "
                   f"{found['memory']['bytes'] / found['rays']:.0f} | {found['mrps']:.2f} | {differ} |", flush=True)
             before, picture_before = found, picture
+            all_found.append((step, found))
+    if options.figure:
+        options.figure.write_text(figure(options.config, options.size, all_found))
     for line in wrong:
         print(f"ladder.py: {line}", file=sys.stderr)
     return 1 if wrong else 0
