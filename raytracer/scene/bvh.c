@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Defaults; docs/raytracer.md tells how they were measured. */
+/* Defaults; docs/results/raytracer.md has what was measured. */
 enum { default_max_leaf = 4, default_max_depth = TRAX_SCENE_DEFAULT_DEPTH };
 static const float default_traversal_cost = 1, default_intersection_cost = 1;
 

@@ -6,7 +6,7 @@
      hence in different sets; then, for each group below them, the next treelet.
    - The hottest groups of all have sets of their own: they stand first, and what shares their sets, in every further
      stretch of the size of the cache, are the smallest of the tree.
-   docs/raytracer.md has the measurements. */
+   docs/results/raytracer.md has the measurements. */
 #include "internal.h"
 
 #include <stdlib.h>

@@ -87,7 +87,7 @@ struct trax_material_override {
 trax_status trax_override_diffuse(struct trax_material_override *override, char *text, trax_error *error);
 trax_status trax_override_material(struct trax_material_override *override, char *text, trax_error *error);
 
-/* Bytes that a packed file, or one without a size (a pipe), may have if nothing else is said: docs/raytracer.md,
+/* Bytes that a packed file, or one without a size (a pipe), may have if nothing else is said: docs/scene-file.md,
    "Limits". */
 #define TRAX_DEFAULT_UNPACK_LIMIT ((size_t)1 << 30)
 
@@ -136,7 +136,7 @@ extern const struct trax_material trax_default_material;
 bool trax_mesh_is_generated(const char *path);
 
 /* Reads and merges the files: anything assimp knows (PLY, OBJ with MTL, glTF and GLB among them), plain or compressed
-   as .xz or .gz; or "generate:forest", see docs/raytracer.md. Node transforms are applied and polygons cut into
+   as .xz or .gz; or "generate:forest", see docs/scene-file.md. Node transforms are applied and polygons cut into
    triangles, in the order of the files. The importer runs in a child process, so that a file on which it crashes is an
    error like any other. report may be NULL. Errors: what cannot be read or is no mesh, indices out of range, vertices
    that are not finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
@@ -233,7 +233,7 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 
 #define TRAX_DEFAULT_SPLITS 1.5f
 #define TRAX_SCENE_MAX_SPLITS 8.0f
-#define TRAX_DEFAULT_PASSES 2u /* of trax-scene and trax-render (docs/raytracer.md has what they gain) */
+#define TRAX_DEFAULT_PASSES 2u /* of trax-scene and trax-render (docs/results/raytracer.md has what they gain) */
 #define TRAX_SCENE_MAX_PASSES 16u
 #define TRAX_DEFAULT_CREASE 60 /* degrees */
 
