@@ -1,9 +1,17 @@
 /* The fast engine goes back: every byte that it has allocated for the state of a run is then as it was, be it in a list
-   of sections or forgotten there (emulator/fast/state.c). */
+   of sections or forgotten there (emulator/fast/state.c).
+
+   TRAX_ADDED_FIELDS=NAMES, of structures that have got a field `added`: the test writes to them and sees that they are
+   restored, too, also from a checkpoint (tests/structure/state_test.py). With --layout it only prints the layout. */
 #include "compare.h"
+#include "temporary.h"
 
+#include "engine/layout.h"
 #include "fast/fast.h"
+#include "fast/state.h"
+#include "host/checkpoint.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,9 +78,9 @@ static void leave_out(const void *bytes) {
 static void find_state(const struct trax_chip *chip, struct trax_machine *machine, size_t before_epochs) {
   const struct trax_fast_program *program = &chip->fast->program;
   block_count = before_epochs;
-  const void *const others[] = {chip,          chip->fast,    chip->fast->blocks.state, program->sections,
-                                program->inst, program->asks, program->note,            program->line,
-                                program->lines_ahead};
+  const void *const others[] = {
+      chip,          chip->fast,    chip->fast->blocks.state, program->sections, program->inst, program->asks,
+      program->note, program->line, program->lines_ahead};
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
     leave_out(others[i]);
   blocks[block_count++] = (struct block){(uint8_t *)&machine->stats.memory, sizeof machine->stats.memory};
@@ -94,7 +102,8 @@ static void keep(const struct trax_chip *chip, struct moment *moment, uint64_t t
 static void compare(const struct trax_chip *chip, const struct moment *moment) {
   const uint8_t *from = moment->bytes;
   struct trax_memory memory = chip->memory;
-  memory.context = ((const struct trax_memory *)(const void *)from)->context; /* that of before_increment, which is NULL */
+  memory.context =
+      ((const struct trax_memory *)(const void *)from)->context; /* that of before_increment, which is NULL */
   if (memcmp(from, &memory, sizeof memory) != 0)
     fail_msg("cycle %llu: the memory controller differs", (unsigned long long)moment->t);
   from += sizeof chip->memory;
@@ -104,6 +113,52 @@ static void compare(const struct trax_chip *chip, const struct moment *moment) {
         fail_msg("cycle %llu: byte %zu of %zu bytes that were allocated as number %zu is %u and was %u",
                  (unsigned long long)moment->t, j, blocks[i].size, i, blocks[i].bytes[j], from[j]);
   compared++;
+}
+
+/* --- added fields --- */
+
+enum { MOST_ADDED = 32 };
+
+static char added[MOST_ADDED][64]; /* [added_count]: of which structures */
+static size_t touched[MOST_ADDED]; /* how many fields in all */
+static size_t added_count;
+
+static void read_names(void) {
+  const char *names = getenv("TRAX_ADDED_FIELDS");
+  for (int used = 0; names && sscanf(names, "%63s%n", added[added_count], &used) == 1; names += used)
+    assert_true(++added_count < MOST_ADDED);
+}
+
+/* Calls visit for the bytes of each added field. */
+struct added_visitor {
+  void (*visit)(uint8_t *bytes, size_t size);
+};
+
+static void visit_added(void *context, const struct trax_section *section) {
+  const struct added_visitor *visitor = context;
+  for (size_t i = 0; i < added_count; i++)
+    for (size_t j = 0; j < section->field_count && strcmp(added[i], section->name) == 0; j++)
+      for (size_t k = 0; k < section->count && strcmp(section->fields[j].name, "added") == 0; k++, touched[i]++)
+        visitor->visit((uint8_t *)section->bytes + k * section->size + section->fields[j].offset,
+                       section->fields[j].size);
+}
+
+static uint64_t pattern;
+
+static void next_pattern(uint8_t *bytes, size_t size) {
+  for (size_t i = 0; i < size; i++)
+    bytes[i] = (uint8_t)((pattern += 0x9E3779B97F4A7C15u) >> 56);
+}
+
+static void expect_pattern(uint8_t *bytes, size_t size) {
+  uint8_t expected[64];
+  assert_true(size <= sizeof expected);
+  next_pattern(expected, size);
+  assert_memory_equal(bytes, expected, size);
+}
+
+static void touch(void *chip) {
+  trax_state_visit(chip, visit_added, &(struct added_visitor){next_pattern});
 }
 
 /* --- runs --- */
@@ -129,6 +184,7 @@ static void go_back(const struct trax_config *config, const uint32_t *program, s
   enum trax_advance advance = TRAX_GOES_ON;
   memset(moments, 0, sizeof moments);
   while (advance == TRAX_GOES_ON && t < LENGTH) {
+    touch(run.chip);
     keep(chip, &moments[next++ % MOST_MOMENTS], t);
     const uint64_t before = t;
     advance = engine->advance(run.chip, &t, t - t % 512 + 512); /* so that pauses are of few cycles */
@@ -158,7 +214,81 @@ static void to_what_it_was(void **state) {
   assert_true(compared >= 20);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(to_what_it_was)};
+/* --- checkpoints --- */
+
+enum { TOUCHED_AT = 300, SAVED_AT = 400 };
+
+static trax_status touch_added(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+  (void)t;
+  watch->next = TRAX_NEVER;
+  pattern = 1;
+  touch(run->chip);
+  return TRAX_OK;
+}
+
+static trax_status expect_added(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+  assert_int_equal(t, SAVED_AT);
+  watch->next = TRAX_NEVER;
+  pattern = 1;
+  trax_state_visit(run->chip, visit_added, &(struct added_visitor){expect_pattern});
+  return TRAX_INTERRUPTED;
+}
+
+static void run_with_checkpoint(const struct trax_config *config, const uint32_t *program, size_t count,
+                                const struct trax_checkpoint_options *options, struct trax_watch watch,
+                                trax_status expected) {
+  struct bench bench = bench_begin(config, program, count);
+  struct trax_checkpoint *checkpoint;
+  const trax_run_options run = {.host_threads = 1, .max_cycles = SAVED_AT};
+  if (trax_checkpoint_begin(&checkpoint, bench.machine, options, &bench.error) != TRAX_OK)
+    fail_msg("%s", bench.error.message);
+  trax_machine_watch(bench.machine, &watch);
+  assert_int_equal(trax_machine_run(bench.machine, &run, &bench.error), expected);
+  trax_machine_unwatch(bench.machine, &watch);
+  assert_int_equal(trax_checkpoint_end(checkpoint, &bench.error), TRAX_OK);
+  bench_end(&bench);
+}
+
+static void from_a_checkpoint(void **state) {
+  (void)state;
+  uint32_t program[BODY + 64];
+  random_state = 5;
+  const size_t count = any_program(program);
+  struct trax_config config = bench_far(2, 4);
+  config.memory.channels = 2; /* so that every structure is there, with or without the second-level cache */
+  const char *path = test_path("added");
+  for (unsigned with_l2 = 0; with_l2 < 2; with_l2++) {
+    config.l2.bytes = with_l2 ? 1024 : 0;
+    run_with_checkpoint(&config, program, count, &(struct trax_checkpoint_options){.write = path},
+                        (struct trax_watch){.next = TOUCHED_AT, .look = touch_added}, TRAX_STUCK);
+    run_with_checkpoint(&config, program, count, &(struct trax_checkpoint_options){.resume = path},
+                        (struct trax_watch){.next = 0, .look = expect_added}, TRAX_INTERRUPTED);
+  }
+  for (size_t i = 0; i < added_count; i++)
+    if (!touched[i])
+      fail_msg("%s has no field that was added", added[i]);
+}
+
+static void print_layout(void) {
+  const trax_run_options options = {.host_threads = 1};
+  const struct trax_config config = bench_far(1, 1);
+  struct bench bench = bench_begin(&config, &(uint32_t){HALT}, 1);
+  struct trax_layout layouts[TRAX_MOST_LAYOUTS];
+  struct trax_run run;
+  assert_int_equal(trax_run_create(&run, bench.machine, &trax_fast_engine, &options, &bench.error), TRAX_OK);
+  const size_t count = trax_layout_of(run.engine, run.chip, layouts);
+  for (size_t i = 0; i < count; i++)
+    printf("%s %016" PRIx64 "\n", layouts[i].name, layouts[i].hash);
+  trax_run_destroy(&run);
+  bench_end(&bench);
+}
+
+int main(int argc, char **argv) {
+  if (argc == 2 && strcmp(argv[1], "--layout") == 0) {
+    print_layout();
+    return 0;
+  }
+  read_names();
+  const struct CMUnitTest tests[] = {cmocka_unit_test(to_what_it_was), cmocka_unit_test(from_a_checkpoint)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
