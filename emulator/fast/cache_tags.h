@@ -1,9 +1,10 @@
-/* Which lines a cache holds: sets of ways, first in, first out (docs/timing.md, "Fetch") or least recently used out
-   ("Data cache"). Lines are known by their number, address / line_bytes. Used by all caches. */
+/* Which lines a cache holds: sets of ways, and which of them the next line replaces (machine/replacement.h). Lines are
+   known by their number, address / line_bytes. Used by all caches. */
 #ifndef TRAX_FAST_CACHE_TAGS_H
 #define TRAX_FAST_CACHE_TAGS_H
 
-#include <stdbool.h>
+#include "machine/replacement.h"
+
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,17 +12,19 @@
 struct trax_cache_tags {
   uint32_t ways, set_mask;
   unsigned line_shift;
-  uint64_t *lines; /* [sets][ways]: line number + 1; 0 is an empty place. If `lru` the latest used first */
-  uint32_t *next;  /* [sets]: the way the next arriving line takes, unless `lru` */
-  bool lru;
+  enum trax_replacement policy;
+  bool by_use;     /* it matters which lines are used */
+  uint64_t *lines; /* [sets][ways]: line number + 1; 0 is an empty place. LRU: the latest used first */
+  uint64_t *next;  /* [sets]: what the policy knows of the next place. FIFO: its way */
 };
 
 static inline bool trax_cache_tags_create(struct trax_cache_tags *tags, uint32_t bytes, uint32_t line_bytes,
-                                          uint32_t ways, bool lru) {
+                                          uint32_t ways, enum trax_replacement policy) {
   const uint32_t sets = bytes / line_bytes / ways;
   tags->ways = ways;
   tags->set_mask = sets - 1;
-  tags->lru = lru && ways > 1;
+  tags->policy = policy;
+  tags->by_use = trax_replacements[policy].by_use && ways > 1;
   tags->line_shift = (unsigned)__builtin_ctz(line_bytes);
   tags->lines = calloc((size_t)sets * ways, sizeof *tags->lines);
   tags->next = calloc(sets, sizeof *tags->next);
@@ -45,21 +48,42 @@ static inline bool trax_cache_tags_have(const struct trax_cache_tags *tags, uint
   return false;
 }
 
-/* Makes the line in `way` of a set the latest used; those used since it was go one way back. */
-static inline void trax_cache_tags_to_front(uint64_t *set, uint32_t way, uint64_t line) {
-  for (; way > 0; way--)
-    set[way] = set[way - 1];
-  set[0] = line;
+/* Returns the way that the next arriving line takes. */
+static inline uint32_t trax_cache_tags_next(const struct trax_cache_tags *tags, size_t set) {
+  switch (tags->policy) {
+  case TRAX_REPLACE_FIFO:
+    break;
+  case TRAX_REPLACE_LRU:
+    return tags->ways - 1;
+  }
+  return (uint32_t)tags->next[set];
+}
+
+/* Notes that the line in `way` is used, or has arrived there. */
+static inline void trax_cache_tags_note(struct trax_cache_tags *tags, size_t set, uint32_t way, bool arrived) {
+  uint64_t *lines = tags->lines + set * tags->ways;
+  const uint64_t line = lines[way];
+  switch (tags->policy) {
+  case TRAX_REPLACE_FIFO:
+    if (arrived)
+      tags->next[set] = (way + 1) & (tags->ways - 1);
+    break;
+  case TRAX_REPLACE_LRU: /* those used since it was go one way back */
+    for (; way > 0; way--)
+      lines[way] = lines[way - 1];
+    lines[0] = line;
+    break;
+  }
 }
 
 /* Whether the cache has the line, which is used if so. */
 static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t line) {
-  if (!tags->lru)
+  if (!tags->by_use)
     return trax_cache_tags_have(tags, line);
-  uint64_t *set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
+  const size_t set = line & tags->set_mask;
   for (uint32_t way = 0; way < tags->ways; way++)
-    if (set[way] == (uint64_t)line + 1) {
-      trax_cache_tags_to_front(set, way, set[way]);
+    if (tags->lines[set * tags->ways + way] == (uint64_t)line + 1) {
+      trax_cache_tags_note(tags, set, way, false);
       return true;
     }
   return false;
@@ -77,16 +101,12 @@ static inline uint32_t trax_cache_tags_drop(struct trax_cache_tags *tags) {
 
 /* Returns the number of the line whose place it takes, plus 1; 0 if the place was empty. */
 static inline uint64_t trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
-  const uint32_t set = line & tags->set_mask;
-  uint64_t *lines = tags->lines + (size_t)set * tags->ways;
-  const uint32_t way = tags->lru ? tags->ways - 1 : tags->next[set];
-  const uint64_t gone = lines[way];
-  if (tags->lru) {
-    trax_cache_tags_to_front(lines, way, (uint64_t)line + 1);
-  } else {
-    lines[way] = (uint64_t)line + 1;
-    tags->next[set] = (way + 1) & (tags->ways - 1);
-  }
+  const size_t set = line & tags->set_mask;
+  const uint32_t way = trax_cache_tags_next(tags, set);
+  uint64_t *place = tags->lines + set * tags->ways + way;
+  const uint64_t gone = *place;
+  *place = (uint64_t)line + 1;
+  trax_cache_tags_note(tags, set, way, true);
   return gone;
 }
 

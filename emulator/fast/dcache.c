@@ -13,7 +13,7 @@ bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm) {
   dcache->mshr = calloc(dcache->mshr_limit, sizeof *dcache->mshr);
   dcache->next_waiter = calloc((size_t)tm->tps * TRAX_NUM_REGISTERS, sizeof *dcache->next_waiter);
   return trax_cache_tags_create(&dcache->tags, config->dcache.bytes, config->dcache.line_bytes, config->dcache.ways,
-                                config->dcache.lru) &&
+                                config->dcache.replacement) &&
          dcache->mshr && dcache->next_waiter;
 }
 

@@ -52,7 +52,7 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
     ftm->data_bank_bits++;
   create_units(&ftm->fp, &tm->unit[TRAX_SHARED_FP_ADD], &tm->unit[TRAX_SHARED_FP_MUL]);
   create_units(&ftm->int_mul, &tm->unit[TRAX_SHARED_INT_MUL], &tm->unit[TRAX_SHARED_INT_MUL]);
-  ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.lru;
+  ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
   ftm->heads.steps = ftm->tp->asks;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* TPs that do not exist have TP 0's steps: vectors read them */
     trax_fast_begin_heads(&ftm->heads, i, i < tm->tps ? i * (uint32_t)(sizeof *ftm->tp / sizeof(uint16_t)) : 0);

@@ -8,7 +8,7 @@ bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struc
   icache->number = number;
   icache->pending = calloc(tm->tps, sizeof *icache->pending);
   return trax_cache_tags_create(&icache->tags, tm->config->icache.bytes, tm->config->icache.line_bytes,
-                                tm->config->icache.ways, false) &&
+                                tm->config->icache.ways, TRAX_REPLACE_FIFO) &&
          icache->pending;
 }
 

@@ -17,7 +17,8 @@ trax_status trax_l2_create(struct trax_l2 **result, const struct trax_config *co
   l2->mshr = calloc(l2->mshr_limit, sizeof *l2->mshr);
   l2->line = calloc(l2->mshr_limit, sizeof *l2->line);
   l2->used = calloc(l2->mshr_limit, sizeof *l2->used);
-  if (!trax_cache_tags_create(&l2->tags, config->l2.bytes, config->l2.line_bytes, config->l2.ways, config->l2.lru) ||
+  if (!trax_cache_tags_create(&l2->tags, config->l2.bytes, config->l2.line_bytes, config->l2.ways,
+                              config->l2.replacement) ||
       !l2->bank || !l2->mshr || !l2->line || !l2->used)
     return trax_fail(error, "out of memory for the second-level cache");
   for (uint32_t i = 0; i < l2->mshr_limit; i++)

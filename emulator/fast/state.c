@@ -71,7 +71,7 @@ _Static_assert(sizeof(struct trax_memory_stats) == (2 * TRAX_MAX_CHANNELS TRAX_M
 static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *tags) {
   const size_t sets = (size_t)tags->set_mask + 1;
   VISIT_NUMBERS(uint64_t, tags->lines, sets * tags->ways);
-  VISIT_NUMBERS(uint32_t, tags->next, sets);
+  VISIT_NUMBERS(uint64_t, tags->next, sets);
 }
 
 static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {

@@ -43,7 +43,8 @@ static bool is_soon(const struct checker *checker, uint64_t cycle) {
 
 static void check_tags(struct checker *checker, const struct trax_cache_tags *tags, const char *which) {
   for (size_t set = 0; set <= tags->set_mask; set++)
-    expect(checker, tags->next[set] < tags->ways, "%s: set %zu goes on in way %u", which, set, tags->next[set]);
+    expect(checker, trax_cache_tags_next(tags, set) < tags->ways, "%s: set %zu goes on in way %u", which, set,
+           trax_cache_tags_next(tags, set));
 }
 
 static void check_turns(struct checker *checker, const trax_arbiter *turn, size_t count, const char *which) {

@@ -123,6 +123,18 @@ const struct trax_config_key *trax_config_find(const char *name, trax_error *err
   return NULL;
 }
 
+bool trax_config_renamed(const char **name) {
+  static const struct {
+    const char *before, *today;
+  } renamed[] = {{"dcache.lru", "dcache.replacement"}, {"l2.lru", "l2.replacement"}};
+  for (size_t i = 0; i < sizeof renamed / sizeof *renamed; ++i)
+    if (strcmp(*name, renamed[i].before) == 0) {
+      *name = renamed[i].today;
+      return true;
+    }
+  return false;
+}
+
 trax_status trax_config_store(struct trax_config *config, const struct trax_config_key *key, double value,
                               trax_error *error) {
   if (trax_config_check_value(key, value, error) != TRAX_OK)
@@ -137,6 +149,7 @@ trax_status trax_config_store(struct trax_config *config, const struct trax_conf
     break;
   case TRAX_KIND_COUNT:
   case TRAX_KIND_POWER:
+  case TRAX_KIND_POLICY:
     *(uint32_t *)member = (uint32_t)value;
     break;
   }
@@ -160,31 +173,53 @@ static trax_status parse_flag(const char *name, const char *text, double *value,
   return trax_fail(error, "%s is \"%s\"; allowed are true and false", name, text);
 }
 
+trax_status trax_config_parse_policy(const struct trax_config_key *key, const char *word, double *value,
+                                     trax_error *error) {
+  for (size_t i = 0; i < TRAX_REPLACEMENT_COUNT; ++i)
+    if (strcmp(word, trax_replacements[i].word) == 0) {
+      *value = (double)i;
+      return TRAX_OK;
+    }
+  trax_error allowed;
+  return trax_fail(error, "%s is \"%s\"%s", key->name, word, trax_config_allowed(key, &allowed));
+}
+
+static trax_status parse_number(const struct trax_config_key *key, const char *text, double *value, trax_error *error) {
+  char *end;
+  *value = strtod(text, &end);
+  /* strtod also accepts blanks and names such as "inf", which are no values. */
+  if (end != text && *end == 0 && strchr("+-.0123456789", *text) && isfinite(*value))
+    return TRAX_OK;
+  trax_error allowed;
+  return trax_fail(error, "%s is \"%s\", not a number%s", key->name, text, trax_config_allowed(key, &allowed));
+}
+
 trax_status trax_config_set(trax_config *config, const char *key_text, const char *value_text, trax_error *error) {
-  const struct trax_config_key *key = trax_config_find(key_text, error);
+  const char *name = key_text;
+  const bool renamed = trax_config_renamed(&name);
+  const struct trax_config_key *key = trax_config_find(name, error);
   if (!key)
     return TRAX_ERROR;
   double value = 0;
-  if (key->kind == TRAX_KIND_FLAG)
-    return parse_flag(key->name, value_text, &value, error) == TRAX_OK ? trax_config_store(config, key, value, error)
-                                                                       : TRAX_ERROR;
-  char *end;
-  value = strtod(value_text, &end);
-  /* strtod also accepts blanks and names such as "inf", which are no values. */
-  if (end == value_text || *end != 0 || !strchr("+-.0123456789", *value_text) || !isfinite(value)) {
-    trax_error allowed;
-    return trax_fail(error, "%s is \"%s\", not a number%s", key->name, value_text, trax_config_allowed(key, &allowed));
-  }
-  return trax_config_store(config, key, value, error);
+  const trax_status status = renamed || key->kind == TRAX_KIND_FLAG ? parse_flag(key_text, value_text, &value, error)
+                             : key->kind == TRAX_KIND_POLICY ? trax_config_parse_policy(key, value_text, &value, error)
+                                                             : parse_number(key, value_text, &value, error);
+  if (renamed)
+    value = value ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
+  return status == TRAX_OK ? trax_config_store(config, key, value, error) : TRAX_ERROR;
 }
 
 /* --- output --- */
 
-/* Formats the shortest decimal that reads back as the same value. A real has a point, by which libconfig distinguishes
-   reals from integers. */
+/* Formats a value as libconfig reads it: of a number the shortest decimal that reads back as the same value. A real has a
+   point, by which libconfig distinguishes reals from integers. */
 static void format_value(const struct trax_config_key *key, double value, char *text, size_t size) {
   if (key->kind == TRAX_KIND_FLAG) {
     snprintf(text, size, "%s", value != 0 ? "true" : "false");
+    return;
+  }
+  if (key->kind == TRAX_KIND_POLICY) {
+    snprintf(text, size, "\"%s\"", trax_replacements[(size_t)value].word);
     return;
   }
   for (int digits = 1; digits <= 17; ++digits) {
@@ -223,6 +258,9 @@ void trax_config_describe(FILE *out) {
     case TRAX_KIND_FLAG:
       snprintf(range, sizeof range, "true or false");
       break;
+    case TRAX_KIND_POLICY:
+      snprintf(range, sizeof range, "a policy");
+      break;
     case TRAX_KIND_POWER:
       snprintf(range, sizeof range, "%spower of two, %.12g to %.12g", key->least == 0 ? "0 or " : "",
                fmax(key->least, 1), key->most);
@@ -237,6 +275,9 @@ void trax_config_describe(FILE *out) {
     fprintf(out, "%-28s %s; %s%s%s; default %s%s\n", key->name, key->meaning, range, *key->unit ? " " : "", key->unit,
             initial, key->paper ? " (paper)" : "");
   }
+  fprintf(out, "\nPolicies, by the place that an arriving line takes in its set:\n");
+  for (size_t i = 0; i < TRAX_REPLACEMENT_COUNT; ++i)
+    fprintf(out, "  %-6s %s\n", trax_replacements[i].word, trax_replacements[i].place);
   fprintf(out, "\nPresets, TMs x TPs of a TM (the paper's Table 2):");
   for (size_t i = 0; i < PRESETS; ++i)
     fprintf(out, " %s", presets[i].name);

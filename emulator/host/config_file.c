@@ -108,17 +108,25 @@ static trax_status apply_setting(struct trax_config *config, const char *section
                                  trax_error *error) {
   char name[256];
   snprintf(name, sizeof name, "%s%s%s", section, *section ? "." : "", config_setting_name(setting));
-  const struct trax_config_key *key = trax_config_find(name, error);
+  const char *today = name;
+  const bool renamed = trax_config_renamed(&today);
+  const struct trax_config_key *key = trax_config_find(today, error);
   if (!key)
     return TRAX_ERROR;
   double value = 0;
   const bool flag = config_setting_type(setting) == CONFIG_TYPE_BOOL;
-  if (key->kind == TRAX_KIND_FLAG ? !flag : !number_value(setting, &value)) {
+  const char *word = config_setting_get_string(setting);
+  if (renamed && flag) {
+    value = config_setting_get_bool(setting) ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
+  } else if (key->kind == TRAX_KIND_POLICY && word) {
+    if (trax_config_parse_policy(key, word, &value, error))
+      return TRAX_ERROR;
+  } else if (key->kind == TRAX_KIND_FLAG ? !flag : key->kind == TRAX_KIND_POLICY || !number_value(setting, &value)) {
     trax_error allowed;
     return trax_fail(error, "%s is %s%s", name, describe(setting).text, trax_config_allowed(key, &allowed));
-  }
-  if (flag)
+  } else if (flag) {
     value = config_setting_get_bool(setting);
+  }
   return trax_config_store(config, key, value, error);
 }
 

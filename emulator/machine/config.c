@@ -3,6 +3,7 @@
 #include "machine/machine.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define TRAX_SECTION(SECTION)
 #define TRAX_ROW(KIND, SECTION, KEY, DEFAULT, LEAST, MOST, UNIT, ORIGIN, MEANING)                                      \
@@ -12,11 +13,18 @@
 #define TRAX_ROW_POWER(...) TRAX_ROW(TRAX_KIND_POWER, __VA_ARGS__)
 #define TRAX_ROW_FLAG(...) TRAX_ROW(TRAX_KIND_FLAG, __VA_ARGS__)
 #define TRAX_ROW_REAL(...) TRAX_ROW(TRAX_KIND_REAL, __VA_ARGS__)
+#define TRAX_ROW_POLICY(...) TRAX_ROW(TRAX_KIND_POLICY, __VA_ARGS__)
 enum { OURS = false, PAPER = true };
 
-const struct trax_config_key trax_config_keys[] = {
-    TRAX_CONFIG_KEYS(TRAX_SECTION, TRAX_ROW_COUNT, TRAX_ROW_POWER, TRAX_ROW_FLAG, TRAX_ROW_REAL, TRAX_SECTION)};
+const struct trax_config_key trax_config_keys[] = {TRAX_CONFIG_KEYS(
+    TRAX_SECTION, TRAX_ROW_COUNT, TRAX_ROW_POWER, TRAX_ROW_FLAG, TRAX_ROW_REAL, TRAX_ROW_POLICY, TRAX_SECTION)};
 const size_t trax_config_key_count = sizeof trax_config_keys / sizeof *trax_config_keys;
+
+const struct trax_replacement_policy trax_replacements[] = {
+#define TRAX_REPLACEMENT(ID, WORD, BY_USE, PLACE) {WORD, BY_USE, PLACE},
+    TRAX_REPLACEMENTS(TRAX_REPLACEMENT)
+#undef TRAX_REPLACEMENT
+};
 
 double trax_config_value(const struct trax_config *config, const struct trax_config_key *key) {
   const void *member = (const char *)config + key->offset;
@@ -27,6 +35,7 @@ double trax_config_value(const struct trax_config *config, const struct trax_con
     return *(const double *)member;
   case TRAX_KIND_COUNT:
   case TRAX_KIND_POWER:
+  case TRAX_KIND_POLICY:
     break;
   }
   return *(const uint32_t *)member;
@@ -35,6 +44,13 @@ double trax_config_value(const struct trax_config *config, const struct trax_con
 static bool is_power_of_two(double value) {
   int exponent;
   return frexp(value, &exponent) == 0.5;
+}
+
+static trax_status fail_policy(trax_error *error, const char *key, double value) {
+  char words[200] = "";
+  for (size_t i = 0, length = 0; i < TRAX_REPLACEMENT_COUNT && length < sizeof words; i++)
+    length += (size_t)snprintf(words + length, sizeof words - length, "%s%s", i ? ", " : "", trax_replacements[i].word);
+  return trax_fail(error, "%s is %.12g; allowed are %s", key, value, words);
 }
 
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error) {
@@ -62,6 +78,8 @@ trax_status trax_config_check_value(const struct trax_config_key *key, double va
       return trax_fail(error, "%s is %.12g; allowed are the multiples of 0.001 from %.12g to %.12g %s", key->name,
                        value, key->least, key->most, key->unit);
     return TRAX_OK;
+  case TRAX_KIND_POLICY:
+    return in_range && value == floor(value) ? TRAX_OK : fail_policy(error, key->name, value);
   }
   return TRAX_OK;
 }

@@ -18,7 +18,8 @@ struct trax_config {
 #define TRAX_KEY_COUNT(SECTION, KEY, ...) uint32_t KEY;
 #define TRAX_KEY_FLAG(SECTION, KEY, ...) bool KEY;
 #define TRAX_KEY_REAL(SECTION, KEY, ...) double KEY;
-  TRAX_CONFIG_KEYS(TRAX_SECTION_BEGIN, TRAX_KEY_COUNT, TRAX_KEY_COUNT, TRAX_KEY_FLAG, TRAX_KEY_REAL, TRAX_SECTION_END)
+  TRAX_CONFIG_KEYS(TRAX_SECTION_BEGIN, TRAX_KEY_COUNT, TRAX_KEY_COUNT, TRAX_KEY_FLAG, TRAX_KEY_REAL, TRAX_KEY_COUNT,
+                   TRAX_SECTION_END)
 #undef TRAX_SECTION_BEGIN
 #undef TRAX_SECTION_END
 #undef TRAX_KEY_COUNT
@@ -32,14 +33,14 @@ struct trax_config {
 #define TRAX_CONFIG_DEFAULT                                                                                            \
   {                                                                                                                    \
     TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
-                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)                                                         \
+                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)                                    \
   }
 
 /* One row of the table, for code that visits all keys. */
 struct trax_config_key {
   const char *name; /* "memory.bandwidth_gbps" */
   const char *section, *key;
-  enum { TRAX_KIND_COUNT, TRAX_KIND_POWER, TRAX_KIND_FLAG, TRAX_KIND_REAL } kind;
+  enum { TRAX_KIND_COUNT, TRAX_KIND_POWER, TRAX_KIND_FLAG, TRAX_KIND_REAL, TRAX_KIND_POLICY } kind;
   size_t offset;               /* in struct trax_config */
   double initial, least, most; /* a double holds every value exactly */
   const char *unit, *meaning;  /* unit is "" for flags */
@@ -49,7 +50,7 @@ struct trax_config_key {
 extern const struct trax_config_key trax_config_keys[];
 extern const size_t trax_config_key_count;
 
-/* The value of a key in a configuration; counts and flags as numbers. */
+/* The value of a key in a configuration; counts, flags and policies as numbers. */
 double trax_config_value(const struct trax_config *config, const struct trax_config_key *key);
 /* Checks that the key may have the value. The message names the key, the value and what is allowed. */
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);

@@ -6,17 +6,20 @@
      POWER   uint32_t, a power of two, or 0 if the least value is 0
      FLAG    bool (the range is 0 to 1)
      REAL    double, in steps of 0.001
+     POLICY  uint32_t, an enum trax_replacement
    with section, key, default, least, greatest, unit, origin of the default (PAPER, or OURS where the paper is silent)
    and meaning. */
 #ifndef TRAX_MACHINE_CONFIG_KEYS_H
 #define TRAX_MACHINE_CONFIG_KEYS_H
+
+#include "machine/replacement.h"
 
 #define TRAX_MAX_TMS 64
 #define TRAX_MAX_TPS_PER_TM 64 /* the TPs of a TM are the bits of one uint64_t */
 #define TRAX_MAX_CHANNELS 16
 
 /* clang-format off */
-#define TRAX_CONFIG_KEYS(BEGIN, COUNT, POWER, FLAG, REAL, END)                                                                             \
+#define TRAX_CONFIG_KEYS(BEGIN, COUNT, POWER, FLAG, REAL, POLICY, END)                                                                     \
   BEGIN(chip)                                                                                                                              \
   COUNT(chip, tms, 1, 1, TRAX_MAX_TMS, "TMs", OURS,  "thread multiprocessors of the chip (paper: 1, 2, 4, 6, 8)")                          \
   COUNT(chip, tps_per_tm, 1, 1, TRAX_MAX_TPS_PER_TM, "TPs", OURS,  "thread processors of a TM (paper: 32, 48, 64)")                        \
@@ -62,7 +65,7 @@
   POWER(dcache, bytes, 16384, 64, 1u << 24, "bytes", PAPER, "size of a TM's data cache")                                                   \
   POWER(dcache, line_bytes, 64, 4, 4096, "bytes", OURS, "line of the data cache")                                                          \
   POWER(dcache, ways, 1, 1, 64, "ways", OURS, "associativity; 1 is direct mapped")                                                         \
-  FLAG(dcache, lru, false, 0, 1, "", OURS, "the least recently used line is replaced; false: the one that came first")                     \
+  POLICY(dcache, replacement, TRAX_REPLACE_FIFO, 0, TRAX_REPLACEMENT_COUNT - 1, "", OURS, "which place of its set an arriving line takes") \
   COUNT(dcache, tps_per_bank, 8, 1, 64, "TPs", PAPER, "the cache has ceil(chip.tps_per_tm / this) banks")                                  \
   COUNT(dcache, hit_latency_cycles, 1, 1, 1000, "cycles", OURS, "latency of a load that hits")                                             \
   COUNT(dcache, mshrs, 64, 1, 1024, "lines", OURS, "lines on their way to the cache at once")                                              \
@@ -71,7 +74,7 @@
   POWER(l2, bytes, 0, 0, 1u << 28, "bytes", OURS, "size of the second-level cache that the TMs share; 0: there is none")                   \
   POWER(l2, line_bytes, 64, 4, 4096, "bytes", OURS, "its line, at least as long as those of the other caches")                             \
   POWER(l2, ways, 8, 1, 64, "ways", OURS, "associativity; 1 is direct mapped")                                                             \
-  FLAG(l2, lru, true, 0, 1, "", OURS, "the least recently used line is replaced; false: the one that came first")                          \
+  POLICY(l2, replacement, TRAX_REPLACE_LRU, 0, TRAX_REPLACEMENT_COUNT - 1, "", OURS, "which place of its set an arriving line takes")      \
   COUNT(l2, banks, 8, 1, 64, "banks", OURS, "banks, each of which takes one request per cycle")                                            \
   COUNT(l2, latency_cycles, 20, 1, 1000, "cycles", OURS, "latency of a hit; added to what comes from memory")                              \
   COUNT(l2, mshrs, 256, 1, 4096, "lines", OURS, "lines on their way to the cache at once")                                                 \

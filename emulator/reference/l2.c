@@ -7,7 +7,8 @@ bool trax_ref_l2_create(struct trax_ref_l2 *l2, const struct trax_config *config
   if (!config->l2.bytes)
     return true;
   l2->miss = calloc(config->l2.mshrs, sizeof *l2->miss);
-  return trax_ref_lines_create(&l2->lines, config->l2.bytes, config->l2.line_bytes, config->l2.ways, config->l2.lru) &&
+  return trax_ref_lines_create(&l2->lines, config->l2.bytes, config->l2.line_bytes, config->l2.ways,
+                               config->l2.replacement) &&
          l2->miss;
 }
 

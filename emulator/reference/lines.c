@@ -3,9 +3,10 @@
 
 #include <stdlib.h>
 
-bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways, bool lru) {
-  *lines =
-      (struct trax_ref_lines){.line_bytes = line_bytes, .ways = ways, .sets = bytes / (line_bytes * ways), .lru = lru};
+bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways,
+                           enum trax_replacement policy) {
+  *lines = (struct trax_ref_lines){
+      .line_bytes = line_bytes, .ways = ways, .sets = bytes / (line_bytes * ways), .policy = policy};
   lines->line = calloc((size_t)lines->sets * ways, sizeof *lines->line);
   lines->pointer = calloc(lines->sets, sizeof *lines->pointer);
   return lines->line && lines->pointer;
@@ -35,14 +36,14 @@ bool trax_ref_lines_use(struct trax_ref_lines *lines, uint32_t line) {
   return found != NULL;
 }
 
-/* Returns the way that an arriving line takes. */
-static uint32_t choose(struct trax_ref_lines *lines, uint32_t set) {
+static uint32_t first_in(struct trax_ref_lines *lines, uint32_t set) {
+  const uint32_t way = lines->pointer[set];
+  lines->pointer[set] = (way + 1) % lines->ways;
+  return way;
+}
+
+static uint32_t least_recently_used(const struct trax_ref_lines *lines, uint32_t set) {
   const struct trax_ref_line *places = &lines->line[(size_t)set * lines->ways];
-  if (!lines->lru) {
-    const uint32_t first_in = lines->pointer[set];
-    lines->pointer[set] = (first_in + 1) % lines->ways;
-    return first_in;
-  }
   uint32_t least = 0;
   for (uint32_t way = 0; way < lines->ways; way++) {
     if (!places[way].present)
@@ -51,6 +52,17 @@ static uint32_t choose(struct trax_ref_lines *lines, uint32_t set) {
       least = way;
   }
   return least;
+}
+
+/* Returns the way that an arriving line takes. */
+static uint32_t choose(struct trax_ref_lines *lines, uint32_t set) {
+  switch (lines->policy) {
+  case TRAX_REPLACE_FIFO:
+    return first_in(lines, set);
+  case TRAX_REPLACE_LRU:
+    return least_recently_used(lines, set);
+  }
+  return 0;
 }
 
 uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines) {

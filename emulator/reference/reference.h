@@ -30,13 +30,13 @@ int trax_ref_arbitrate(trax_ref_pointer *pointer, const bool *asks, uint32_t n);
 /* The lines a cache holds (Fetch, Data cache). */
 struct trax_ref_lines {
   uint32_t line_bytes, ways, sets;
-  bool lru;
+  enum trax_replacement policy;
   struct trax_ref_line {
     bool present;
     uint32_t number;
     uint64_t used;   /* the number of its latest use, from `uses` */
   } *line;           /* [sets][ways] */
-  uint32_t *pointer; /* [sets]: the way of the next arriving line, unless lru */
+  uint32_t *pointer; /* [sets]: the way of the next arriving line, if first in, first out */
   uint64_t uses;     /* number of uses of any line so far */
 };
 
@@ -185,7 +185,8 @@ static inline bool trax_ref_fences(const struct trax_ref_tp *tp, unsigned kinds)
 void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
 void trax_ref_instruction_arrives(struct trax_ref_tm *tm, uint32_t icache, uint32_t line);
 
-bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways, bool lru);
+bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways,
+                           enum trax_replacement policy);
 void trax_ref_lines_destroy(struct trax_ref_lines *lines);
 /* Whether the line is present. */
 bool trax_ref_lines_have(const struct trax_ref_lines *lines, uint32_t line);

@@ -16,10 +16,10 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   tm->stats = &machine->tm_stats[number];
   tm->queue = calloc(config->memory.queue_depth, sizeof *tm->queue);
   bool complete = tm->queue && trax_ref_lines_create(&tm->dcache, config->dcache.bytes, config->dcache.line_bytes,
-                                                     config->dcache.ways, config->dcache.lru);
+                                                     config->dcache.ways, config->dcache.replacement);
   for (uint32_t i = 0; complete && i * config->icache.tps_per_cache < tm->tps; i++)
     complete = trax_ref_lines_create(&tm->icache[i].lines, config->icache.bytes, config->icache.line_bytes,
-                                     config->icache.ways, false);
+                                     config->icache.ways, TRAX_REPLACE_FIFO);
   for (uint32_t i = 0; i < tm->tps; i++) {
     tm->tp[i].number = i;
     tm->tp[i].pc = machine->entry;

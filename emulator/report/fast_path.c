@@ -29,7 +29,7 @@ static const char *fetch_reason(const struct trax_config *config) {
 static const char *hit_reason(const struct trax_config *config, bool in_turn) {
   return !in_turn                                ? "the line was in another way than the first (dcache.ways)"
          : config->dcache.hit_latency_cycles > 1 ? "dcache.hit_latency_cycles is above 1"
-                                                 : "dcache.lru";
+                                                 : "dcache.replacement";
 }
 
 void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {

@@ -214,9 +214,10 @@ static void put_configuration(struct document *document, const struct trax_confi
     double value = trax_config_value(config, key);
     json_t *section = level(document, configuration, key->section, strlen(key->section));
     put(document, section, key->key,
-        key->kind == TRAX_KIND_FLAG   ? json_boolean(value != 0)
-        : key->kind == TRAX_KIND_REAL ? json_real(value)
-                                      : json_integer((json_int_t)value));
+        key->kind == TRAX_KIND_FLAG     ? json_boolean(value != 0)
+        : key->kind == TRAX_KIND_REAL   ? json_real(value)
+        : key->kind == TRAX_KIND_POLICY ? json_string(trax_replacements[(size_t)value].word)
+                                        : json_integer((json_int_t)value));
   }
 }
 

@@ -85,7 +85,7 @@ static double load(struct model *model, struct tm *tm, uint32_t address, double 
     way++;
   const bool hit = way < ways;
   const double time = hit ? ready[way] : transfer(model, now, model->config->dcache.line_bytes);
-  if (hit && !model->config->dcache.lru)
+  if (hit && !trax_replacements[model->config->dcache.replacement].by_use)
     return time;
   for (way = hit ? way : ways - 1; way > 0; way--) {
     lines[way] = lines[way - 1];
@@ -389,7 +389,7 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
 /* What the model knows of: cores, lines, the bus and its latency. */
 static bool is_modelled(const char *key) {
   static const char *const modelled[] = {"chip.",           "dcache.bytes",         "dcache.line_bytes",
-                                         "dcache.ways",     "dcache.lru",           "memory.bandwidth_gbps",
+                                         "dcache.ways",     "dcache.replacement",   "memory.bandwidth_gbps",
                                          "memory.size_mib", "memory.latency_cycles"};
   for (size_t i = 0; i < sizeof modelled / sizeof *modelled; i++)
     if (strncmp(key, modelled[i], strlen(modelled[i])) == 0)

@@ -54,6 +54,8 @@ static void set_number(trax_config *config, const struct trax_config_key *key, d
   trax_error error;
   if (key->kind == TRAX_KIND_FLAG)
     snprintf(text, sizeof text, "%s", value != 0 ? "true" : "false");
+  else if (key->kind == TRAX_KIND_POLICY)
+    snprintf(text, sizeof text, "%s", trax_replacements[(size_t)value].word);
   else
     snprintf(text, sizeof text, "%.17g", value);
   if (trax_config_set(config, key->name, text, &error) != TRAX_OK)
@@ -101,6 +103,12 @@ static void test_every_key_beyond_its_limits(void **state) {
     if (key->kind == TRAX_KIND_FLAG) {
       refuse(key->name, "2", "allowed are true and false");
       refuse(key->name, "maybe", "allowed are true and false");
+      continue;
+    }
+    if (key->kind == TRAX_KIND_POLICY) {
+      refuse(key->name, "mru", "allowed are fifo, lru");
+      refuse(key->name, "0", "allowed are fifo, lru");
+      refuse(key->name, "true", "allowed are fifo, lru");
       continue;
     }
     const double step = key->kind == TRAX_KIND_REAL ? 0.001 : 1;
@@ -299,6 +307,26 @@ static void test_bad_files(void **state) {
   free(large);
 }
 
+/* Flags until they had more than two values. */
+static void test_policies_by_their_old_names(void **state) {
+  (void)state;
+  trax_config *config = trax_config_create();
+  assert_int_equal(config->dcache.replacement, TRAX_REPLACE_FIFO);
+  assert_int_equal(config->l2.replacement, TRAX_REPLACE_LRU);
+  assert_int_equal(trax_config_set(config, "dcache.lru", "true", NULL), TRAX_OK);
+  assert_int_equal(trax_config_set(config, "l2.lru", "no", NULL), TRAX_OK);
+  assert_int_equal(config->dcache.replacement, TRAX_REPLACE_LRU);
+  assert_int_equal(config->l2.replacement, TRAX_REPLACE_FIFO);
+  refuse("dcache.lru", "fifo", "allowed are true and false");
+  static const char file[] = "dcache: { lru = false; };\nl2: { lru = true; };\n";
+  write_file(file, sizeof file - 1);
+  assert_int_equal(trax_config_load(config, file_name, NULL), TRAX_OK);
+  assert_int_equal(config->dcache.replacement, TRAX_REPLACE_FIFO);
+  assert_int_equal(config->l2.replacement, TRAX_REPLACE_LRU);
+  load_text("\ndcache: { lru = 1; };", 21, ":2: dcache.lru is 1");
+  trax_config_destroy(config);
+}
+
 /* Of every key in a file: a value of another type, out of range, not a power of two, a fraction, and a name that is not
    quite its own. */
 static void test_every_key_wrong_in_a_file(void **state) {
@@ -306,6 +334,7 @@ static void test_every_key_wrong_in_a_file(void **state) {
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
     const bool flag = key->kind == TRAX_KIND_FLAG, real = key->kind == TRAX_KIND_REAL;
+    const bool word = key->kind == TRAX_KIND_POLICY;
     const char *const values[] = {"\"x\"",
                                   "[1]",
                                   "(1)",
@@ -325,7 +354,10 @@ static void test_every_key_wrong_in_a_file(void **state) {
                : strchr("[({", *values[j]) ? "a"
                                            : values[j]);
       load_text(text, (size_t)length, place);
-      load_text(text, (size_t)length, flag ? "; allowed are true and false" : "; allowed are ");
+      load_text(text, (size_t)length,
+                flag   ? "; allowed are true and false"
+                : word ? "; allowed are fifo, lru"
+                       : "; allowed are ");
     }
     char text[256], suggestion[128];
     const int length = snprintf(text, sizeof text, "\n%s: { %sx = 1; };", key->section, key->key);
@@ -425,6 +457,7 @@ int main(void) {
       cmocka_unit_test(test_every_key_beyond_its_limits),
       cmocka_unit_test(test_flags_and_numbers_as_text),
       cmocka_unit_test(test_unknown_keys_get_a_suggestion),
+      cmocka_unit_test(test_policies_by_their_old_names),
       cmocka_unit_test(test_random_configurations_round_trip),
       cmocka_unit_test(test_presets_are_the_papers_chips),
       cmocka_unit_test(test_defaults_are_the_papers),

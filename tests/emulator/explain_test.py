@@ -475,7 +475,7 @@ def main():
     check(20 < share < 100, share, "% of the fetches look up one of 1505 lines")
     slow("hits one by one", "another way than the first", "--set", "dcache.bytes=256", "--set", "dcache.ways=4")
     slow("hits one by one", "dcache.hit_latency_cycles", "--set", "dcache.hit_latency_cycles=2")
-    slow("hits one by one", "dcache.lru", "--set", "dcache.ways=2", "--set", "dcache.lru=true")
+    slow("hits one by one", "dcache.replacement", "--set", "dcache.ways=2", "--set", "dcache.replacement=lru")
 
     # What cannot be.
     def refuse(message, *options, files=()):

@@ -151,13 +151,13 @@ static void second_level_replacement(void **state) {
   struct bench bench = bench_of(&config, program, sizeof program / 4);
   ISSUES(&bench, 0, 124, 125, 249, 250, 374, 375, 395, 396, 520, 521, 541, 542);
   bench_end(&bench);
-  config.l2.lru = false;
+  config.l2.replacement = TRAX_REPLACE_FIFO;
   bench = bench_of(&config, program, sizeof program / 4);
   ISSUES(&bench, 0, 124, 125, 249, 250, 374, 375, 395, 396, 520, 521, 645, 646);
   bench_end(&bench);
 
   /* A write uses the line it finds, as the second load of A did. */
-  config.l2.lru = true;
+  config.l2.replacement = TRAX_REPLACE_LRU;
   config.memory.write_combining = false;
   const uint32_t written[] = {
       U(LUI, 1, 1), USE(2, LINE_A), USE(2, LINE_B), S(SWNT, 1, 1, LINE_A), USE(2, LINE_C), USE(2, LINE_A), HALT};
@@ -171,7 +171,7 @@ static void data_cache_replacement(void **state) {
   struct trax_config config = bench_far(1, 1);
   config.dcache.bytes = 128;
   config.dcache.ways = 2;
-  config.dcache.lru = true;
+  config.dcache.replacement = TRAX_REPLACE_LRU;
   /* One set: A, B, A hits, C takes B's place, A hits, B misses. */
   struct bench bench = BENCH(config, U(LUI, 1, 1), USE(2, LINE_A), USE(2, LINE_B), USE(2, LINE_A), USE(2, LINE_C),
                              USE(2, LINE_A), USE(2, LINE_B), HALT);

@@ -331,6 +331,8 @@ static double any_value(const struct trax_config_key *key) {
   switch (key->kind) {
   case TRAX_KIND_FLAG:
     return any(0, 1);
+  case TRAX_KIND_POLICY:
+    return any(0, TRAX_REPLACEMENT_COUNT - 1);
   case TRAX_KIND_POWER:
     if (key->least == 0) /* what may be absent */
       return any(0, 1) ? 0 : (double)(1u << any(0, 16));
@@ -386,7 +388,7 @@ static void beyond_the_paper(struct trax_config *config) {
   config->fpu.convert_latency_cycles = any(1, 3);
   config->int_mul.units_per_group = any(0, 1) ? 1 : any(1, 4);
   config->special.rsqrt_latency_cycles = any(0, 1) ? 0 : any(1, 20);
-  config->dcache.lru = any(0, 1);
+  config->dcache.replacement = any(0, TRAX_REPLACEMENT_COUNT - 1);
   const uint32_t l1_line = longer(config->icache.line_bytes, config->dcache.line_bytes);
   if (any(0, 2)) {
     config->l2.line_bytes = any_power(l1_line, 1024);
@@ -394,7 +396,7 @@ static void beyond_the_paper(struct trax_config *config) {
     config->l2.ways = any_power(1, config->l2.bytes / config->l2.line_bytes);
     if (config->l2.ways > 64)
       config->l2.ways = 64;
-    config->l2.lru = any(0, 1);
+    config->l2.replacement = any(0, TRAX_REPLACEMENT_COUNT - 1);
     config->l2.banks = any(1, 12);
     config->l2.latency_cycles = any(1, 40);
     config->l2.mshrs = any(0, 1) ? any(1, 8) : any(1, 300);

@@ -130,6 +130,8 @@ void print_case(const struct random_case *c, FILE *out) {
       continue;
     if (key->kind == TRAX_KIND_FLAG)
       fprintf(out, " --set %s=%s", key->name, value != 0 ? "true" : "false");
+    else if (key->kind == TRAX_KIND_POLICY)
+      fprintf(out, " --set %s=%s", key->name, trax_replacements[(size_t)value].word);
     else
       fprintf(out, " --set %s=%.12g", key->name, value);
   }

@@ -238,14 +238,14 @@ const struct rule *timing_rules(size_t *count) {
        R(ADD, 0, 2, 2), HALT);
   /* A 105, B 210, A hits, C 317 takes B's place, A hits. */
   RULE("Data cache", "or the least recently used line is replaced", FAR,
-       "dcache.bytes=128 dcache.ways=2 dcache.lru=true", 425, NONE, "104 105 209 210 314 315 316 317 421 422 423 424",
-       "icache_miss=104 wait_memory=309", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64),
-       R(ADD, 0, 2, 2), I(LW, 2, 1, 4), R(ADD, 0, 2, 2), I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 0),
-       R(ADD, 0, 2, 2), HALT);
-  RULE("Data cache", "a store uses the line it finds", FAR, "dcache.bytes=128 dcache.ways=2 dcache.lru=true", 424, NONE,
-       "104 105 209 210 314 315 316 420 421 422 423", "icache_miss=104 wait_memory=309", U(LUI, 1, 1), I(LW, 2, 1, 0),
-       R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), S(SW, 1, 1, 4), I(LW, 2, 1, 128), R(ADD, 0, 2, 2),
-       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+       "dcache.bytes=128 dcache.ways=2 dcache.replacement=lru", 425, NONE,
+       "104 105 209 210 314 315 316 317 421 422 423 424", "icache_miss=104 wait_memory=309", U(LUI, 1, 1),
+       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), I(LW, 2, 1, 4), R(ADD, 0, 2, 2),
+       I(LW, 2, 1, 128), R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  RULE("Data cache", "a store uses the line it finds", FAR, "dcache.bytes=128 dcache.ways=2 dcache.replacement=lru",
+       424, NONE, "104 105 209 210 314 315 316 420 421 422 423", "icache_miss=104 wait_memory=309", U(LUI, 1, 1),
+       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), S(SW, 1, 1, 4), I(LW, 2, 1, 128),
+       R(ADD, 0, 2, 2), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
   /* The load after the first store misses (106, there 210); the second store updates the line: the load of 213 hits and
      gets 9. */
   RULE("Data cache", "a store goes around the cache and updates a line in place", FAR, "", 217, NONE,

@@ -1,0 +1,34 @@
+/* Replacement policies: which place in its set an arriving line takes (docs/timing.md, "Data cache"). Configurations,
+   their errors and --help-config come from these rows; what a policy does stands in fast/cache_tags.h and, again,
+   in reference/lines.c. */
+#ifndef TRAX_MACHINE_REPLACEMENT_H
+#define TRAX_MACHINE_REPLACEMENT_H
+
+#include <stdbool.h>
+
+/* A row X(...) for each policy: identifier; word; whether it matters which lines are used; the place. */
+/* clang-format off */
+#define TRAX_REPLACEMENTS(X)                                                                                                               \
+  X(FIFO, "fifo", false, "first in, first out: a pointer of the set shows the place and moves on, modulo the ways")                        \
+  X(LRU, "lru", true, "an empty one, or else that of the least recently used line")
+/* clang-format on */
+
+enum trax_replacement {
+#define TRAX_REPLACEMENT(ID, ...) TRAX_REPLACE_##ID,
+  TRAX_REPLACEMENTS(TRAX_REPLACEMENT)
+#undef TRAX_REPLACEMENT
+};
+
+struct trax_replacement_policy {
+  const char *word;
+  bool by_use;
+  const char *place;
+};
+
+extern const struct trax_replacement_policy trax_replacements[];
+
+#define TRAX_REPLACEMENT(...) +1
+enum { TRAX_REPLACEMENT_COUNT = 0 TRAX_REPLACEMENTS(TRAX_REPLACEMENT) };
+#undef TRAX_REPLACEMENT
+
+#endif
