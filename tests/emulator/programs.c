@@ -86,6 +86,16 @@ static struct elf_file copy(void) {
                                          .symbol_count = COUNT(symbols)});
 }
 
+static struct elf_file lines(void) {
+#define LOAD(LINE) I(LW, A1, A0, 64 * (LINE)), R(ADD, A1, A1, A1)
+  enum { A, B, C, D, E };
+  const uint32_t text[] = {U(LUI, A0, 1), LOAD(A), LOAD(B), LOAD(C), LOAD(D), LOAD(B),
+                           LOAD(A),       LOAD(E), LOAD(C), LOAD(D), HALT};
+#undef LOAD
+  const char data[5 * 64] = {0};
+  return simple(text, COUNT(text), data, sizeof data, false);
+}
+
 static struct elf_file mix(void) {
   const uint32_t text[] = {U(LUI, A0, 1), I(ADDI, A1, ZERO, 50), I(ADDI, A2, ZERO, 1), U(LUI, A3, 0x3F80), /* 1.0f */
                            /* the loop */
@@ -138,12 +148,13 @@ static struct elf_file signature(void) {
 static const struct {
   const char *name;
   struct elf_file (*make)(void);
-} programs[] = {{"hello", hello}, {"exit3", exit3}, {"null", null},           {"abort", abort_program},
-                {"spin", spin},   {"items", items}, {"copy", copy},           {"mix", mix},
-                {"print", print}, {"idle", idle},   {"signature", signature}, {"long", long_program}};
+} programs[] = {{"hello", hello},      {"exit3", exit3}, {"null", null}, {"abort", abort_program},
+                {"spin", spin},        {"items", items}, {"copy", copy}, {"mix", mix},
+                {"lines", lines},      {"print", print}, {"idle", idle}, {"signature", signature},
+                {"long", long_program}};
 
-const char *const program_names[] = {"hello", "exit3", "null", "abort",     "spin", "items", "copy",
-                                     "mix",   "print", "idle", "signature", "long", NULL};
+const char *const program_names[] = {"hello", "exit3", "null",  "abort", "spin",      "items", "copy",
+                                     "mix",   "lines", "print", "idle",  "signature", "long",  NULL};
 
 struct elf_file program_file(const char *name) {
   for (size_t i = 0; i < COUNT(programs); ++i)

@@ -13,6 +13,7 @@
      items   finishes 1000 items
      copy    copies the buffer `input` to the buffer `output`, words; also has __trax_heap and __trax_heap_end
      mix     every thread 50 times: every kind of unit, memory and atomics; counts a ray each time
+     lines   loads from the lines A, B, C, D, B, A, E, C, D of 64 bytes, each when the one before has come
      print   prints "." for ever
      signature  stores two words, of which end_signature follows the second, and a third, and loads from address 4 */
 extern const char *const program_names[]; /* NULL-terminated */

@@ -1,0 +1,94 @@
+"""Patches that are kept as tests: what a stranger would add, in as few files as docs/tutorial.md says.
+
+  patched.py SOURCE SCRATCH [COMPILER-LAUNCHER]
+
+makes a copy of the sources in SCRATCH, which receives all patches, and builds what their tests need. Each patch fits the
+sources without the others."""
+
+import glob
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PARTS = ["CMakeLists.txt", "cmake", "docs", "emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "LICENSE", "README.md"]
+TARGETS = ["timing-engines-test", "timing-units-page", "emulator-programs", "trax-sim"]
+
+
+def run(*command, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
+    return done.stdout
+
+
+def build(source, scratch, launcher):
+    shutil.rmtree(scratch, ignore_errors=True)
+    os.makedirs(scratch)
+    for name in PARTS:
+        place, target = os.path.join(source, name), os.path.join(scratch, name)
+        if os.path.isdir(place):
+            shutil.copytree(place, target, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy2(place, target)
+    in_no_repository = os.environ | {"GIT_CEILING_DIRECTORIES": os.path.dirname(scratch)}
+    patches = sorted(glob.glob(os.path.join(HERE, "*.patch")))
+    for patch in patches:
+        run("git", "apply", "--check", patch, cwd=scratch, env=in_no_repository)
+    for patch in patches:
+        run("git", "apply", patch, cwd=scratch, env=in_no_repository)
+    launchers = [f"-DCMAKE_{language}_COMPILER_LAUNCHER={launcher}" for language in ("C", "CXX")]
+    run("cmake", "-S", scratch, "-B", f"{scratch}/build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=-O1",
+        "-DCMAKE_CXX_FLAGS=-O1", *launchers)
+    run("ninja", "-C", f"{scratch}/build", "-j2", *TARGETS)
+    run(f"{scratch}/build/bin/emulator-programs", scratch)
+
+
+def settings(keys):
+    return [word for key in keys for word in ("--set", key)]
+
+
+class Patched:
+    """What a test says of its patch, in the tree that patched.py made."""
+
+    def __init__(self, patch, most_files):
+        self.scratch = os.path.abspath(sys.argv[1])
+        self.failures = 0
+        with open(os.path.join(HERE, patch), encoding="utf-8") as file:
+            self.files = re.findall(r"^\+\+\+ b/(\S+)", file.read(), re.M)
+        self.check(0 < len(self.files) <= most_files, f"the patch changes {len(self.files)} files: {' '.join(self.files)}")
+
+    def check(self, good, text):
+        if not good:
+            self.failures += 1
+            print(text)
+
+    def run(self, program, *arguments):
+        return run(os.path.join(self.scratch, "build", "bin", program), *arguments, cwd=self.scratch)
+
+    def engines_agree(self, keys, count):
+        print(self.run("timing-engines-test", "--count", count, "--jobs", 2, *settings(keys)).strip())
+
+    def statistics(self, program, keys, *options):
+        self.run("trax-sim", f"{program}.elf", "--quiet", *settings(keys), *options, "--stats", "stats.json")
+        with open(os.path.join(self.scratch, "stats.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def check_pages(self):
+        self.run("timing-units-page", os.path.join("docs", "timing.md"))
+        with open(os.path.join(self.scratch, "docs", "emulator.md"), encoding="utf-8") as page:
+            text = page.read()
+        for option in ("--help-config", "--help-stats"):
+            self.check(self.run("trax-sim", option) in text, f"docs/emulator.md has not got what trax-sim {option} prints")
+
+    def end(self):
+        self.check_pages()
+        print(f"{len(self.files)} files, {self.failures} failures")
+        return 1 if self.failures else 0
+
+
+if __name__ == "__main__":
+    build(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else "")
