@@ -42,7 +42,7 @@ void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigne
                                             .line = line,
                                             .address = line << icache->tags.line_shift,
                                             .bytes = tm->config->icache.line_bytes});
-  icache->pending[icache->pending_count++] = (struct trax_icache_pending){line, bit};
+  icache->pending[icache->pending_count++] = (struct trax_icache_pending){.line = line, .waiting = bit};
   trax_tm_sleep(tm, tp, t, TRAX_CAUSE_ICACHE_MISS);
 }
 

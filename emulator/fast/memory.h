@@ -26,7 +26,7 @@ typedef uint32_t trax_request_id;
 struct trax_request_list {
   TRAX_REQUEST_LIST_STATE(TRAX_FIELD, )
 };
-static const struct trax_request_list trax_empty_list = {TRAX_NO_REQUEST, TRAX_NO_REQUEST};
+static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUEST, .last = TRAX_NO_REQUEST};
 
 /* Who waits for a channel or a bank of the second-level cache. */
 #define TRAX_WAITING_STATE(X, S)                                                                                       \
