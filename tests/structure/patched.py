@@ -47,7 +47,10 @@ def add_fields(scratch):
         rows = 0
         while lines[begin + rows].endswith("\\"):
             rows += 1
-        lines.insert(begin + generator.randint(1, rows), "  X(S, uint8_t, added, [8]) \\")
+        if rows:
+            lines.insert(begin + generator.randint(1, rows), "  X(S, uint8_t, added, [8]) \\")
+        else:
+            lines[begin] += " X(S, uint8_t, added, [8])"
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(lines))
     with open(os.path.join(scratch, ADDED), "w", encoding="utf-8") as file:
