@@ -46,9 +46,10 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   chip->tms = machine->config.chip.tms;
   if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error))
     return TRAX_ERROR;
-  chip->tm = calloc(chip->tms, sizeof *chip->tm);
+  chip->tm = aligned_alloc(_Alignof(struct trax_tm), chip->tms * sizeof *chip->tm);
   if (!chip->tm)
     return trax_fail(error, "out of memory");
+  memset(chip->tm, 0, chip->tms * sizeof *chip->tm);
   for (uint32_t i = 0; i < chip->tms; i++)
     if (trax_tm_create(&chip->tm[i], i, chip, run->options->output, error))
       return TRAX_ERROR;

@@ -27,29 +27,28 @@ struct trax_chip;
   X(S, uint32_t, running, )           /* threads that have not ended */                                                \
   X(S, trax_arbiter, queue_turn, )
 struct trax_tm {
-  TRAX_TM_STATE(TRAX_FIELD, )
-  uint32_t number, tps;
+  _Alignas(64) uint32_t number; /* no line of the host's caches is another TM's, too, which another thread may run */
+  uint32_t tps;
   struct trax_chip *chip;
   const struct trax_config *config;
   struct trax_machine *machine;
   const struct trax_text *text;
   FILE *output;                         /* of the guest; may be NULL */
   const struct trax_observer *observer; /* NULL: nobody */
-  struct trax_store_buffer *buffer;     /* while it runs ahead of the other TMs; else NULL */
-  uint64_t now;                         /* the cycle that is being simulated */
-
-  struct trax_tp *tp;         /* [tps] */
-  struct trax_icache *icache; /* [icaches] */
+  struct trax_tp *tp;                   /* [tps] */
+  struct trax_icache *icache;           /* [icaches] */
   uint32_t icaches;
-  struct trax_shared_unit unit[TRAX_SHARED_COUNT];
-  struct trax_dcache dcache;
-  struct trax_queue queue;
-
-  struct trax_fault fault; /* of the current cycle: the lowest TP's */
-
   struct trax_tm_stats *stats;
   struct trax_tp_stats *tp_stats; /* [tps] */
   int32_t *exit_statuses;         /* [tps] */
+
+  struct trax_store_buffer *buffer; /* while it runs ahead of the other TMs; else NULL */
+  uint64_t now;                     /* the cycle that is being simulated */
+  TRAX_TM_STATE(TRAX_FIELD, )
+  struct trax_shared_unit unit[TRAX_SHARED_COUNT];
+  struct trax_dcache dcache;
+  struct trax_queue queue;
+  struct trax_fault fault; /* of the current cycle: the lowest TP's */
 };
 
 trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_chip *chip, FILE *output,
