@@ -118,13 +118,13 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
   uint16_t asks = ftm->fast->program.asks[trax_fast_head(ftm, number)] & (TRAX_ASKS_KIND | TRAX_ASKS_FETCH);
-  if (inst->ask == TRAX_ASK_ILLEGAL) {
+  if (inst->resource == TRAX_RESOURCE_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
   }
-  if (inst->ask == TRAX_ASK_END || inst->ask == TRAX_ASK_FENCE)
+  if (inst->resource == TRAX_RESOURCE_END || inst->resource == TRAX_RESOURCE_FENCE)
     asks |= TRAX_ASKS_QUEUE;
-  if (inst->ask == TRAX_ASK_MEMORY) {
+  if (inst->resource == TRAX_RESOURCE_MEMORY) {
     tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
     const trax_fault_kind kind = trax_access_check(inst, &tm->machine->space, tp->address);
     if (kind) {

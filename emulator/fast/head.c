@@ -71,7 +71,7 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     trax_fast_execute_at_issue(ftm, number, ftm->fast->program.asks[index] & TRAX_ASKS_FETCH, index, 0);
     tp->inst = ftm->fast->program.note[index].decoded;
     tp->pc = ftp->resume_pc;
-    ftm->outside |= tp->inst->ask == TRAX_ASK_OUTSIDE ? bit : 0;
+    ftm->outside |= tp->inst->resource == TRAX_RESOURCE_NO_TEXT ? bit : 0;
   }
 }
 

@@ -16,7 +16,7 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
     ftp->atomics |= (uint64_t)1 << inst->rd;
   if (!trax_tp_execute(ftm->tm, number, t))
     return false;
-  if (inst->ask != TRAX_ASK_MEMORY)
+  if (inst->resource != TRAX_RESOURCE_MEMORY)
     trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
   else if (tp->address >= TRAX_LOCAL_BASE)
     trax_tp_set_usable(tp, inst->rd, t + ftm->tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
@@ -37,7 +37,7 @@ static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const struct trax_decoded *inst = trax_fast_head_note(ftm, number)->decoded;
   uint32_t latency = inst->latency;
   trax_cause cause = (trax_cause)inst->cause;
-  if (inst->ask == TRAX_ASK_MEMORY) {
+  if (inst->resource == TRAX_RESOURCE_MEMORY) {
     if (inst->is_store || (ftm->heads.low[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK)
       return;
     latency = ftm->tm->config->tp.local_latency_cycles;

@@ -8,7 +8,7 @@ static uint16_t asks_of(const struct trax_decoded *decoded) {
                                  [TRAX_SHARED_FP_MUL] = TRAX_ASKS_FP_MUL,
                                  [TRAX_SHARED_INT_MUL] = TRAX_ASKS_INT_MUL,
                                  [TRAX_SHARED_SPECIAL] = TRAX_ASKS_SPECIAL};
-  if (decoded->ask != TRAX_ASK_UNIT)
+  if (decoded->resource != TRAX_RESOURCE_UNIT)
     return 0;
   if (decoded->unit < TRAX_FAST_FURTHER)
     return own[decoded->unit];
@@ -38,7 +38,7 @@ static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint3
 
 /* Returns the mask of registers that must be usable before issue. A fence needs all of them. */
 static uint32_t waits_for(const struct trax_decoded *decoded) {
-  if (decoded->ask == TRAX_ASK_FENCE)
+  if (decoded->resource == TRAX_RESOURCE_FENCE)
     return ~1u;
   return (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u;
 }
@@ -48,7 +48,7 @@ _Static_assert(sizeof(struct trax_fast_inst) == 16, "four to a line of the host'
 static void predecode(struct trax_fast_program *program, const struct trax_decoded *decoded, uint32_t index,
                       uint32_t pc, uint32_t line, bool stops) {
   const void *const *const operations = trax_fast_operations();
-  const bool slow = decoded->ask != TRAX_ASK_MEMORY && decoded->latency > 1;
+  const bool slow = decoded->resource != TRAX_RESOURCE_MEMORY && decoded->latency > 1;
   const uint8_t op = stops || stops_burst(decoded) ? TRAX_OP_ILLEGAL : decoded->op;
   program->inst[index] = (struct trax_fast_inst){.operation = operations[index % TRAX_CHUNK ? op : TRAX_OP_COUNT],
                                                  .op = op,

@@ -245,7 +245,7 @@ static void check_tp(struct checker *checker, const struct trax_tm *tm, unsigned
   }
   expect(checker,
          !((tm->holding | fetching) >> number & 1) ||
-             trax_text_at(checker->chip->text, tp->pc)->ask != TRAX_ASK_OUTSIDE,
+             trax_text_at(checker->chip->text, tp->pc)->resource != TRAX_RESOURCE_NO_TEXT,
          "TM %u, TP %u: the instruction at 0x%08" PRIx32, tm->number, number, tp->pc);
   expect(checker, !(tm->awaiting >> number & 1) || awaits, "TM %u, TP %u: waits for nothing", tm->number, number);
   expect(checker, tp->run_end - tp->run_begin <= 64, "TM %u, TP %u: stores from 0x%" PRIx32 " to 0x%" PRIx32 " wait",

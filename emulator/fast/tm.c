@@ -263,7 +263,7 @@ static trax_cause serve_fence(struct trax_tm *tm, unsigned number) {
 /* Serves instructions other than fences in step 4. False: it needs a place and gets none. */
 static bool serve_others(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
-  if (tp->inst->ask == TRAX_ASK_END)
+  if (tp->inst->resource == TRAX_RESOURCE_END)
     return write_run(tm, number);
   if (tp->inst->is_store)
     return store_past_cache(tm, number) && count_store(tm, tp);
@@ -273,7 +273,7 @@ static bool serve_others(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 trax_cause trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
-  if (tm->tp[number].inst->ask == TRAX_ASK_FENCE)
+  if (tm->tp[number].inst->resource == TRAX_RESOURCE_FENCE)
     return serve_fence(tm, number);
   return serve_others(tm, number, t) ? TRAX_CAUSE_ISSUED : TRAX_CAUSE_MEMORY_QUEUE;
 }

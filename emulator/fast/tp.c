@@ -13,7 +13,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copie
 
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
   const unsigned registers[] = {tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd};
-  const bool all = tp->inst->ask == TRAX_ASK_FENCE;
+  const bool all = tp->inst->resource == TRAX_RESOURCE_FENCE;
   for (unsigned i = 0; i < (all ? TRAX_NUM_REGISTERS : 3); i++) {
     const unsigned number = all ? i : registers[i];
     if (tp->usable[number] > t) {

@@ -91,13 +91,13 @@ static void fault(struct chip *chip, struct thread *thread, const struct trax_de
 static trax_fault_kind check(const struct chip *chip, const struct thread *thread, const struct trax_decoded *inst,
                              uint32_t *address) {
   *address = 0;
-  if (inst->ask == TRAX_ASK_OUTSIDE) {
+  if (inst->resource == TRAX_RESOURCE_NO_TEXT) {
     *address = thread->pc;
     return thread->pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE;
   }
-  if (inst->ask == TRAX_ASK_ILLEGAL)
+  if (inst->resource == TRAX_RESOURCE_ILLEGAL)
     return TRAX_FAULT_ILLEGAL;
-  if (inst->ask != TRAX_ASK_MEMORY)
+  if (inst->resource != TRAX_RESOURCE_MEMORY)
     return TRAX_FAULT_NONE;
   *address = thread->reg[inst->ra] + (uint32_t)inst->imm;
   return trax_access_check(inst, &chip->machine->space, *address);
@@ -214,9 +214,9 @@ static struct trax_thread thread(void *context, uint32_t number) {
 /* --- creation and destruction --- */
 
 static bool is_slow(const struct trax_decoded *decoded) {
-  return decoded->is_nontemporal || decoded->is_atomic || decoded->ask == TRAX_ASK_ILLEGAL ||
-         decoded->ask == TRAX_ASK_OUTSIDE || decoded->ask == TRAX_ASK_FENCE || decoded->op == TRAX_OP_TRAP ||
-         decoded->op == TRAX_OP_HALT;
+  return decoded->is_nontemporal || decoded->is_atomic || decoded->resource == TRAX_RESOURCE_ILLEGAL ||
+         decoded->resource == TRAX_RESOURCE_NO_TEXT || decoded->resource == TRAX_RESOURCE_FENCE ||
+         decoded->op == TRAX_OP_TRAP || decoded->op == TRAX_OP_HALT;
 }
 
 static trax_status predecode(struct text *text, const struct trax_text *from, trax_error *error) {

@@ -13,7 +13,7 @@ static struct trax_gdb_break *find_break(struct trax_gdb *gdb, uint32_t address)
 
 /* Breakpoints are possible in text, and in local memory, to which GDB makes functions return that it calls itself. */
 static bool can_break(const struct trax_gdb *gdb, uint32_t address) {
-  return address >= TRAX_LOCAL_BASE || trax_text_at(&gdb->run->text, address)->ask != TRAX_ASK_OUTSIDE;
+  return address >= TRAX_LOCAL_BASE || trax_text_at(&gdb->run->text, address)->resource != TRAX_RESOURCE_NO_TEXT;
 }
 
 static bool insert_break(struct trax_gdb *gdb, uint32_t address) {

@@ -13,13 +13,13 @@ struct predicted { /* the copy */
 
 /* Whether the instruction affects only its thread. Others are skipped. */
 static bool is_harmless(const struct trax_gdb *gdb, const struct predicted *it, const struct trax_decoded *inst) {
-  switch ((trax_ask)inst->ask) {
-  case TRAX_ASK_END:
-  case TRAX_ASK_FENCE:
-  case TRAX_ASK_ILLEGAL:
-  case TRAX_ASK_OUTSIDE:
+  switch ((trax_resource)inst->resource) {
+  case TRAX_RESOURCE_END:
+  case TRAX_RESOURCE_FENCE:
+  case TRAX_RESOURCE_ILLEGAL:
+  case TRAX_RESOURCE_NO_TEXT:
     return false;
-  case TRAX_ASK_MEMORY: {
+  case TRAX_RESOURCE_MEMORY: {
     const uint32_t address = it->reg[inst->ra] + (uint32_t)inst->imm;
     return !inst->is_atomic && trax_access_check(inst, &gdb->machine->space, address) == TRAX_FAULT_NONE &&
            (!inst->is_store || address >= TRAX_LOCAL_BASE);

@@ -39,7 +39,7 @@ uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned
 
 /* Moves the thread to another pc. False: pc is no text. */
 static bool set_pc(struct trax_gdb *gdb, uint32_t thread, uint32_t pc) {
-  if (trax_text_at(&gdb->run->text, pc)->ask == TRAX_ASK_OUTSIDE)
+  if (trax_text_at(&gdb->run->text, pc)->resource == TRAX_RESOURCE_NO_TEXT)
     return false;
   gdb->thread[thread].skip_breaks = 0;
   if (thread == gdb->stopped)

@@ -9,19 +9,19 @@
 _Static_assert(sizeof(struct trax_decoded) <= 20,
                "decoded instructions should stay small: they are the host's hot data");
 
-static const struct trax_decoded outside = {.ask = TRAX_ASK_OUTSIDE, .rd = TRAX_NO_REGISTER};
+static const struct trax_decoded no_text = {.resource = TRAX_RESOURCE_NO_TEXT, .rd = TRAX_NO_REGISTER};
 
-static trax_ask ask_of(const trax_inst *inst, const struct trax_timing *timing) {
+static trax_resource resource_of(const trax_inst *inst, const struct trax_timing *timing) {
   const trax_op_info *info = &trax_op_table[inst->op];
   if (inst->op == TRAX_OP_ILLEGAL)
-    return TRAX_ASK_ILLEGAL;
+    return TRAX_RESOURCE_ILLEGAL;
   if (inst->op == TRAX_OP_HALT || (inst->op == TRAX_OP_TRAP && inst->imm == TRAX_TRAP_EXIT))
-    return TRAX_ASK_END;
+    return TRAX_RESOURCE_END;
   if (inst->op == TRAX_OP_FENCE)
-    return TRAX_ASK_FENCE;
+    return TRAX_RESOURCE_FENCE;
   if (info->unit == TRAX_UNIT_MEMORY)
-    return TRAX_ASK_MEMORY;
-  return timing->unit == TRAX_SHARED_NONE ? TRAX_ASK_NOTHING : TRAX_ASK_UNIT;
+    return TRAX_RESOURCE_MEMORY;
+  return timing->unit == TRAX_SHARED_NONE ? TRAX_RESOURCE_NONE : TRAX_RESOURCE_UNIT;
 }
 
 static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_config *config) {
@@ -30,7 +30,7 @@ static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_
   const struct trax_timing timing = trax_timing_of(inst.op, config);
   return (struct trax_decoded){
       .op = (uint8_t)inst.op,
-      .ask = (uint8_t)ask_of(&inst, &timing),
+      .resource = (uint8_t)resource_of(&inst, &timing),
       .unit = (uint8_t)timing.unit,
       .rd = flags & TRAX_WRITES_RD && inst.rd ? inst.rd : TRAX_NO_REGISTER,
       .ra = inst.ra,
@@ -71,7 +71,7 @@ trax_status trax_text_create(struct trax_text *text, const struct trax_space *sp
       memcpy(&bits, space->bytes + pc, sizeof bits);
       decoded[word] = decode(bits, pc, config);
     }
-    decoded[words] = outside;
+    decoded[words] = no_text;
     text->sections[text->count++] = (struct trax_text_section){segment->address, segment->address + words * 4, decoded};
   }
   return TRAX_OK;
@@ -89,7 +89,7 @@ const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t p
     for (size_t i = 0; i < text->count; i++)
       if (pc >= text->sections[i].begin && pc < text->sections[i].end)
         return text->sections[i].decoded + (pc - text->sections[i].begin) / 4;
-  return &outside;
+  return &no_text;
 }
 
 trax_fault_kind trax_access_check(const struct trax_decoded *inst, const struct trax_space *space, uint32_t address) {
@@ -102,6 +102,6 @@ void trax_fault_record(struct trax_fault *fault, const struct trax_space *space,
                        trax_fault_kind kind, uint32_t pc, uint32_t address) {
   *fault = (struct trax_fault){
       .kind = kind, .address = address, .bytes = inst->bytes, .write = inst->is_store || inst->is_atomic, .pc = pc};
-  if (inst->ask != TRAX_ASK_OUTSIDE)
+  if (inst->resource != TRAX_RESOURCE_NO_TEXT)
     memcpy(&fault->word, space->bytes + pc, sizeof fault->word);
 }

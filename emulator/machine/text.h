@@ -9,23 +9,23 @@
 #include <stdint.h>
 
 /* The resource that an instruction needs once its operands are usable (docs/timing.md, "Units"). */
-typedef enum trax_ask {
-  TRAX_ASK_NOTHING, /* none: it executes on the TP's own units */
-  TRAX_ASK_UNIT,    /* a shared unit */
-  TRAX_ASK_MEMORY,  /* local memory, a data-cache bank or the memory queue, by its address */
-  TRAX_ASK_END,     /* halt and the exit trap: a queue place, unless the write-combining buffer is empty */
-  TRAX_ASK_FENCE,   /* the same, and it waits for its TP's requests */
-  TRAX_ASK_ILLEGAL, /* none: it faults */
-  TRAX_ASK_OUTSIDE, /* none: the pc is not in the text, and the fetch faults */
-  TRAX_ASK_COUNT
-} trax_ask;
+typedef enum trax_resource {
+  TRAX_RESOURCE_NONE,    /* none: it executes on the TP's own units */
+  TRAX_RESOURCE_UNIT,    /* a shared unit */
+  TRAX_RESOURCE_MEMORY,  /* local memory, a data-cache bank or the memory queue, by its address */
+  TRAX_RESOURCE_END,     /* halt and the exit trap: a queue place, unless the write-combining buffer is empty */
+  TRAX_RESOURCE_FENCE,   /* the same, and it waits for its TP's requests */
+  TRAX_RESOURCE_ILLEGAL, /* none: it faults */
+  TRAX_RESOURCE_NO_TEXT, /* none: the pc is not in the text, and the fetch faults */
+  TRAX_RESOURCE_COUNT
+} trax_resource;
 
 enum { TRAX_NO_REGISTER = 32 }; /* the destination of results for r0; never read */
 
 struct trax_decoded {
   uint8_t op;   /* trax_op */
-  uint8_t ask;  /* trax_ask */
-  uint8_t unit; /* TRAX_ASK_UNIT: trax_shared */
+  uint8_t resource; /* trax_resource */
+  uint8_t unit;     /* TRAX_RESOURCE_UNIT: trax_shared */
   uint8_t rd;   /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
   uint8_t ra, rb;
   uint8_t wait_ra, wait_rb, wait_rd; /* registers that must be usable before issue; 0: none */
@@ -39,7 +39,7 @@ struct trax_decoded {
 
 struct trax_text_section {
   uint32_t begin, end;
-  struct trax_decoded *decoded; /* [(end - begin) / 4 + 1]; the last one is TRAX_ASK_OUTSIDE */
+  struct trax_decoded *decoded; /* [(end - begin) / 4 + 1]; the last one is TRAX_RESOURCE_NO_TEXT */
 };
 
 struct trax_text {
@@ -47,7 +47,7 @@ struct trax_text {
   size_t count;
 };
 
-/* Decodes all executable segments. An incomplete last word of a segment is TRAX_ASK_OUTSIDE. */
+/* Decodes all executable segments. An incomplete last word of a segment is TRAX_RESOURCE_NO_TEXT. */
 trax_status trax_text_create(struct trax_text *text, const struct trax_space *space, const struct trax_config *config,
                              trax_error *error);
 void trax_text_destroy(struct trax_text *text);
@@ -60,8 +60,8 @@ trax_fault_kind trax_access_check(const struct trax_decoded *inst, const struct 
 void trax_fault_record(struct trax_fault *fault, const struct trax_space *space, const struct trax_decoded *inst,
                        trax_fault_kind kind, uint32_t pc, uint32_t address);
 
-/* Returns the instruction at pc, or one that is TRAX_ASK_OUTSIDE if pc is not in the text. Consecutive instructions are
-   consecutive in memory, up to and including the first one that is TRAX_ASK_OUTSIDE. */
+/* Returns the instruction at pc, or one that is TRAX_RESOURCE_NO_TEXT if pc is not in the text. Consecutive
+   instructions are consecutive in memory, up to and including the first one that is TRAX_RESOURCE_NO_TEXT. */
 const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t pc);
 
 #endif

@@ -101,7 +101,7 @@ MUTANTS = [
     ("fast/cycle.c", "return (woken & tm->holding) | resumed_holding;", "return (woken & tm->holding) | (resumed_holding & 0);"),
     ("fast/cycle.c", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
     ("fast/cycle.c", "ftm->busy_registers[number] &= ~waits;", "ftm->busy_registers[number] = 0;"),
-    ("fast/cycle.c", "if (inst->ask == TRAX_ASK_END || ", "if ("),
+    ("fast/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
     ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
     ("fast/cycle.c", "*hits = there & ~ftm->deferred;", "*hits = there;"),
@@ -138,7 +138,7 @@ MUTANTS = [
     ("fast/cache_tags.h", "memset(tags->lines, 0, places * sizeof", "memset(tags->lines, 0, places / 2 * sizeof"),
     ("fast/state.c", "dcache->mshr, dcache->mshr_limit);", "dcache->mshr, 0);"),
     ("fast/program.c", "return ~1u;", "return ~3u;"),
-    ("fast/cycle.c", " || inst->ask == TRAX_ASK_FENCE)\n", ")\n"),
+    ("fast/cycle.c", " || inst->resource == TRAX_RESOURCE_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.
     ("fast/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
