@@ -11,9 +11,9 @@ struct trax_run;
 /* How a call of `advance` ended. */
 enum trax_advance {
   TRAX_GOES_ON,
-  TRAX_HAS_ENDED,     /* every thread has ended, and the last transfer is over */
-  TRAX_HAS_FAULTED,   /* a fault happened in the cycle before *t */
-  TRAX_AT_INSTRUCTION /* only an engine without time: a thread has reached the limit of instructions */
+  TRAX_HAS_ENDED,   /* every thread has ended, and the last transfer is over */
+  TRAX_HAS_FAULTED, /* a fault happened in the cycle before *t */
+  TRAX_AT_LIMIT     /* only an engine without time: a thread has reached the limit of instructions */
 };
 
 /* The registers, memory and pc of a thread. They may be changed through the pointers before import_state. */

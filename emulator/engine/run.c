@@ -52,12 +52,12 @@ static void collect(void *run) {
 }
 
 /* Calls the watches that are due before cycle t. *next receives the next cycle in which one is due. */
-static trax_status look(struct trax_run *run, uint64_t t, uint64_t *next) {
+static trax_status call_watches(struct trax_run *run, uint64_t t, uint64_t *next) {
   trax_status status = TRAX_OK;
   *next = TRAX_NEVER;
   for (struct trax_watch *watch = run->machine->watches; watch && !status; watch = watch->others) {
     if (watch->next <= t) {
-      status = watch->look(watch, run, t);
+      status = watch->inspect(watch, run, t);
       assert(status || watch->next > t);
     }
     if (watch->next < *next)
@@ -74,18 +74,18 @@ static void begin(struct trax_run *run) {
   run->begun = true;
   run->t = run->begin;
   run->limit = asked > run->begin ? asked : run->begin; /* a resumed run may begin beyond the limit */
-  run->looked_at = TRAX_NEVER;
+  run->next_watch = TRAX_NEVER;
   trax_poll_begin(&run->poll, run->machine, run->options);
   run->poll.collect = collect;
   run->poll.context = run;
 }
 
 static uint64_t earliest(const struct trax_run *run, uint64_t until) {
-  const uint64_t stop = run->limit < run->looked_at ? run->limit : run->looked_at;
+  const uint64_t stop = run->limit < run->next_watch ? run->limit : run->next_watch;
   return stop < until ? stop : until;
 }
 
-static trax_status go(struct trax_run *run, uint64_t until) {
+static trax_status run_until(struct trax_run *run, uint64_t until) {
   const struct trax_engine *engine = run->engine;
   run->ended = true; /* unless `until` is reached */
   while (true) {
@@ -93,8 +93,8 @@ static trax_status go(struct trax_run *run, uint64_t until) {
       run->ended = false;
       return TRAX_OK;
     }
-    if (run->t >= run->looked_at) {
-      const trax_status status = look(run, run->t, &run->looked_at);
+    if (run->t >= run->next_watch) {
+      const trax_status status = call_watches(run, run->t, &run->next_watch);
       if (status)
         return status;
     }
@@ -110,19 +110,19 @@ static trax_status go(struct trax_run *run, uint64_t until) {
       return TRAX_OK;
     case TRAX_HAS_FAULTED:
       return TRAX_FAULT;
-    case TRAX_AT_INSTRUCTION:
+    case TRAX_AT_LIMIT:
       return TRAX_STUCK;
     }
     trax_poll_pass(&run->poll, run->t > before ? run->t - before : TRAX_POLL_INTERVAL);
   }
 }
 
-trax_status trax_run_go(struct trax_run *run, uint64_t until) {
+trax_status trax_run_advance(struct trax_run *run, uint64_t until) {
   if (!run->begun)
     begin(run);
   if (run->engine->is_timed)
-    run->looked_at = run->t; /* a watch may have been added since */
-  const trax_status status = go(run, until);
+    run->next_watch = run->t; /* a watch may have been added since */
+  const trax_status status = run_until(run, until);
   if (!run->ended) {
     if (run->engine->commit)
       run->engine->commit(run->chip);

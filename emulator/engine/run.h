@@ -19,7 +19,7 @@ struct trax_run {
   bool begun, ended;
   uint64_t t;         /* the next cycle; after the end, the length of the run */
   uint64_t limit;     /* of cycles */
-  uint64_t looked_at; /* the next cycle in which a watch is due */
+  uint64_t next_watch; /* the next cycle in which a watch is due */
   struct trax_poll poll;
 };
 
@@ -31,7 +31,7 @@ void trax_run_destroy(struct trax_run *run);
 /* Runs until the program ends or faults, an interrupt, the limit of cycles, or the end by a watch: then `ended` is set,
    and `end` of the watches has been called. Or it stops before cycle `until` (TRAX_NEVER: does not), after which the
    run can be continued. An engine without time runs to its end. */
-trax_status trax_run_go(struct trax_run *run, uint64_t until);
+trax_status trax_run_advance(struct trax_run *run, uint64_t until);
 
 /* --- between cycles --- */
 

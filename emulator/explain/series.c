@@ -99,7 +99,7 @@ static void put_rows(struct series *series, const struct trax_run *run, uint64_t
   free(rows);
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct series *series = watch->context;
   trax_run_settle(run, t);
   put_rows(series, run, t);
@@ -121,7 +121,7 @@ trax_status trax_series_create(struct trax_explain *explain, trax_error *error) 
   if (trax_output_open(&series->output, explain->options.series, error) != TRAX_OK)
     return TRAX_ERROR;
   put_head(series->output.file);
-  series->watch = (struct trax_watch){.next = explain->options.series_interval, .look = look, .context = series};
+  series->watch = (struct trax_watch){.next = explain->options.series_interval, .inspect = inspect, .context = series};
   trax_machine_watch(explain->machine, &series->watch);
   return TRAX_OK;
 }

@@ -179,7 +179,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
         return TRAX_HAS_FAULTED;
     thread->overrun = thread->executed - end;
     if (thread->executed >= chip->limit)
-      return TRAX_AT_INSTRUCTION;
+      return TRAX_AT_LIMIT;
     instructions += thread->executed - before;
   }
   return chip->running ? TRAX_GOES_ON : TRAX_HAS_ENDED;

@@ -361,7 +361,7 @@ struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_li
   gdb->next_observer = machine->observer;
   gdb->observer = (struct trax_observer){gdb, on_issue, on_charge, on_arrival};
   machine->observer = &gdb->observer;
-  gdb->watch = (struct trax_watch){.look = inspect, .end = end, .context = gdb};
+  gdb->watch = (struct trax_watch){.inspect = inspect, .end = end, .context = gdb};
   trax_machine_watch(machine, &gdb->watch);
   return gdb;
 }

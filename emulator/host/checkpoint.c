@@ -217,7 +217,7 @@ static uint64_t next_time(const struct trax_checkpoint_options *options, uint64_
   return next;
 }
 
-static trax_status look(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
+static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
   watch->next = next_time(&checkpoint->options, t);
   if (t == run->begin || write_checkpoint(checkpoint, run, t, &checkpoint->error) == TRAX_OK)
@@ -386,7 +386,7 @@ trax_status trax_checkpoint_begin(struct trax_checkpoint **result, trax_machine 
   }
   if (options->write) {
     checkpoint->watch = (struct trax_watch){
-        .next = next_time(options, checkpoint->header.cycle), .look = look, .end = end, .context = checkpoint};
+        .next = next_time(options, checkpoint->header.cycle), .inspect = inspect, .end = end, .context = checkpoint};
     trax_machine_watch(machine, &checkpoint->watch);
   }
   *result = checkpoint;

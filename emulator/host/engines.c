@@ -170,7 +170,7 @@ trax_status trax_machine_advance(trax_machine *machine, uint64_t cycle, bool *en
   if (!machine->run)
     return trax_fail(error, machine->has_run ? "the run has ended" : "the run has not begun");
   const double begun = host_seconds();
-  machine->status = trax_run_go(machine->run, cycle);
+  machine->status = trax_run_advance(machine->run, cycle);
   machine->stats.cycles = machine->run->t;
   *ended = machine->run->ended;
   trax_status status = TRAX_OK;
@@ -212,7 +212,7 @@ trax_status trax_machine_look(trax_machine *machine, uint64_t cycle, trax_look *
   if (!callback)
     return trax_fail(error, "out of memory");
   *callback = (struct callback){.function = function, .context = context};
-  callback->watch = (struct trax_watch){.next = cycle, .look = call_back, .context = callback, .release = free};
+  callback->watch = (struct trax_watch){.next = cycle, .inspect = call_back, .context = callback, .release = free};
   trax_machine_watch(machine, &callback->watch);
   return TRAX_OK;
 }

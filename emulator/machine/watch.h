@@ -16,7 +16,7 @@ struct trax_watch {
   uint64_t next; /* the cycle before which the watch is called; TRAX_NEVER: never again */
   /* Called when all cycles before t are over and nothing of t has happened, in all TMs. t is `next`, or the first cycle
      of a run that begins later. It sets `next` to a cycle after t. A status other than TRAX_OK ends the run with it. */
-  trax_status (*look)(struct trax_watch *watch, struct trax_run *run, uint64_t t);
+  trax_status (*inspect)(struct trax_watch *watch, struct trax_run *run, uint64_t t);
   /* If not NULL, called when the run has ended before cycle t with this status. */
   void (*end)(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t);
   void *context;

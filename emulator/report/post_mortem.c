@@ -44,7 +44,7 @@ struct trax_post_mortem *trax_post_mortem_create(trax_machine *machine, const vo
   post_mortem->interrupt = interrupt;
   post_mortem->always = always;
   post_mortem->machine = machine;
-  post_mortem->watch = (struct trax_watch){.look = disable, .end = end, .context = post_mortem};
+  post_mortem->watch = (struct trax_watch){.inspect = disable, .end = end, .context = post_mortem};
   trax_machine_watch(machine, &post_mortem->watch);
   return post_mortem;
 }

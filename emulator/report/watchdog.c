@@ -69,7 +69,7 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
   watchdog->cycles = cycles;
   watchdog->charges = calloc(machine->stats.threads, sizeof *watchdog->charges);
   watchdog->pc = calloc(machine->stats.threads, sizeof *watchdog->pc);
-  watchdog->watch = (struct trax_watch){.look = check, .context = watchdog};
+  watchdog->watch = (struct trax_watch){.inspect = check, .context = watchdog};
   trax_machine_watch(machine, &watchdog->watch);
   if (watchdog->charges && watchdog->pc)
     return watchdog;

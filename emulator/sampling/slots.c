@@ -245,7 +245,7 @@ struct trax_slots *trax_slots_create(struct trax_run *run, const trax_slot_sampl
   slots->exact = slots->now + slots->words;
   slots->target = slots->plan.first;
   slots->watch =
-      (struct trax_watch){.next = slots->plan.units ? LEAST_STEP : TRAX_NEVER, .look = inspect, .context = slots};
+      (struct trax_watch){.next = slots->plan.units ? LEAST_STEP : TRAX_NEVER, .inspect = inspect, .context = slots};
   trax_machine_watch(machine, &slots->watch);
   return slots;
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* The counts between two cycles are complete: every thread is charged for all cycles before. */
-static trax_status look(struct trax_watch *watch, struct trax_run *it, uint64_t t) {
+static trax_status inspect(struct trax_watch *watch, struct trax_run *it, uint64_t t) {
   struct run *run = watch->context;
   const struct trax_machine *machine = it->machine;
   trax_run_settle(it, t);
@@ -45,7 +45,7 @@ static struct run run_options(const struct trax_config *config, const uint32_t *
   struct trax_machine *machine = run.bench.machine;
   FILE *output = open_memstream(&run.output, &run.output_bytes);
   assert_non_null(output);
-  struct trax_watch watch = {.next = LOOK_EVERY, .look = look, .context = &run, .others = other};
+  struct trax_watch watch = {.next = LOOK_EVERY, .inspect = inspect, .context = &run, .others = other};
   run.looked = looked;
   machine->watches = looked ? &watch : other;
   options.output = output;

@@ -47,7 +47,7 @@ static void each(size_t (*generate)(uint32_t *), unsigned rounds) {
     const uint64_t limit = any(0, 3) ? 0 : any(1, 5000);
     struct run undisturbed = run(&config, program, count, "fast", false, limit);
     for (unsigned take_up = 0; take_up < 2; take_up++) {
-      struct disturbance disturbance = {.watch = {.next = any(0, 100), .look = disturb}, .take_up = take_up};
+      struct disturbance disturbance = {.watch = {.next = any(0, 100), .inspect = disturb}, .take_up = take_up};
       disturbance.watch.context = &disturbance;
       struct run disturbed = run_watched(&config, program, count, "fast", false, limit, &disturbance.watch);
       expect_same(&undisturbed, &disturbed);
