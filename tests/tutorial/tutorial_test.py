@@ -6,11 +6,11 @@ Files and commands are taken from the page, in its order. Blocks of it, by what 
     c boxes.c (any language and a name)   a file in out/tutorial
     sh                                    commands of one shell, which begins in the top folder
     text                                  what the commands before print
-    diff                                  changes of the sources
-    sh whole, text whole                  the same as sh and text, with the changed sources built anew
+    c of PATH (any language)              a part of that file of the sources
+    sh whole, text whole                  the same as sh and text, with changed sources built anew
 
-Without --whole the changes are applied to a copy of the files that they change, and of these everything is made that takes no compiler: tables,
-manual, patterns. --whole COPY clones the sources into the folder COPY, builds them, and does all that the page says (some ten minutes).
+Without --whole the instruction's patch is applied to a copy of the files that it changes, and of these everything is made that takes no compiler:
+tables, manual, patterns. --whole COPY clones the sources into the folder COPY, builds them, and does all that the page says (some ten minutes).
 --update writes into the page what the commands have printed."""
 
 import argparse
@@ -44,8 +44,8 @@ def read_blocks(page):
     if inside:
         raise Failure(f"the block of line {inside[2]} has no end")
     for words, _, line in blocks:
-        if words.split()[:1] not in (["sh"], ["text"], ["diff"]) and len(words.split()) != 2:
-            raise Failure(f"line {line}: a block of \"{words}\": neither commands, what they print, changes nor a file")
+        if words.split()[:1] not in (["sh"], ["text"]) and len(words.split()) != 2 and words.split()[1:-1] != ["of"]:
+            raise Failure(f"line {line}: a block of \"{words}\": neither commands, what they print, a file nor a part of one")
     return blocks
 
 
@@ -58,7 +58,7 @@ def run_commands(blocks, root, whole):
         kind = words.split()
         if kind[0] == "sh" and (whole or kind[-1] != "whole"):
             script += [f"echo '{MARK}{line}'", text]
-        elif kind[0] not in ("sh", "text", "diff"):
+        elif kind[0] not in ("sh", "text") and len(kind) == 2:
             (folder / kind[1]).write_text(text)
     environment = {**os.environ, "LC_ALL": "C"}
     done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=root, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -114,12 +114,17 @@ def run(*command, **options):
     return done.stdout
 
 
-def check_changes(blocks, source, build, scratch):
-    """The page's changes: they apply, the tables made of them have the new instructions and are otherwise the same, patterns and tests are accepted."""
-    patch = "".join(text for words, text, _ in blocks if words == "diff")
+def check_parts(blocks, source):
+    """What the page shows of files is in them."""
+    for words, text, line in blocks:
+        if words.split()[1:-1] == ["of"] and text not in (source / words.split()[2]).read_text():
+            raise Failure(f"line {line}: this is no part of {words.split()[2]}")
+
+
+def check_changes(source, build, scratch):
+    """The instruction's patch: it applies, the tables made of them have the new instructions and are otherwise the same, patterns and tests are accepted."""
+    patch = (source / "tests/tutorial/instruction.patch").read_text()
     changed = re.findall(r"^\+\+\+ b/(\S+)", patch, re.M)
-    if not changed:
-        raise Failure("the page has no changes of sources")
     tree = scratch / "changed"
     for folder in ("isa", "llvm-target", "tests/isa/suite"):
         shutil.copytree(source / folder, tree / folder, ignore=shutil.ignore_patterns("__pycache__"))
@@ -186,12 +191,14 @@ def main():
                 root = scratch / "root"
                 root.mkdir()
                 (root / "build").symlink_to(build)
+                (root / "raytracer").symlink_to(source / "raytracer")
             printed = run_commands(blocks, root, bool(options.whole))
             if options.update:
                 shutil.copy(root / "out/tutorial/boxes.png", source / "docs" / "tutorial.png")
             new, compared = compare(page, blocks, printed, options.update)
             same_picture(root / "out" / "tutorial", source)
-            check_changes(blocks, source, build, scratch)
+            check_parts(blocks, source)
+            check_changes(source, build, scratch)
             if options.update:
                 path.write_text(new)
     except Failure as failure:
