@@ -5,7 +5,7 @@
 #define TRAX_EXPLAIN_STEP_H
 
 #include "engine/run.h"
-#include "explain/explain.h"
+#include "trax/explain.h"
 #include "program/program.h"
 #include "report/statistics.h"
 #include "trax/output.h"

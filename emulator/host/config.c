@@ -44,6 +44,13 @@ trax_config *trax_config_create(void) {
   return config;
 }
 
+trax_config *trax_config_copy(const trax_config *config) {
+  trax_config *copy = malloc(sizeof *copy);
+  if (copy)
+    *copy = *config;
+  return copy;
+}
+
 void trax_config_destroy(trax_config *config) {
   free(config);
 }
@@ -207,6 +214,33 @@ trax_status trax_config_set(trax_config *config, const char *key_text, const cha
   if (renamed)
     value = value ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
   return status == TRAX_OK ? trax_config_store(config, key, value, error) : TRAX_ERROR;
+}
+
+/* --- values by name --- */
+
+double trax_config_get(const trax_config *config, const char *name) {
+  for (size_t i = 0; i < trax_config_key_count; ++i)
+    if (strcmp(trax_config_keys[i].name, name) == 0)
+      return trax_config_value(config, &trax_config_keys[i]);
+  return NAN;
+}
+
+const char *trax_config_word(const trax_config *config, const char *name) {
+  for (size_t i = 0; i < trax_config_key_count; ++i)
+    if (strcmp(trax_config_keys[i].name, name) == 0 && trax_config_keys[i].kind == TRAX_KIND_POLICY)
+      return trax_replacements[(size_t)trax_config_value(config, &trax_config_keys[i])].word;
+  return NULL;
+}
+
+const char *trax_config_next_change(const trax_config *config, const char *after) {
+  bool behind = !after;
+  for (size_t i = 0; i < trax_config_key_count; ++i) {
+    const struct trax_config_key *key = &trax_config_keys[i];
+    if (behind && trax_config_value(config, key) != key->initial)
+      return key->name;
+    behind = behind || strcmp(key->name, after) == 0;
+  }
+  return NULL;
 }
 
 /* --- output --- */

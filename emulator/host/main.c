@@ -7,7 +7,7 @@
 #include "report/backtrace.h"
 #include "gdb/gdb.h"
 #include "host/options.h"
-#include "host/progress.h"
+#include "trax/run_progress.h"
 #include "trax/output.h"
 #include "trax/signals.h"
 #include "report/watchdog.h"

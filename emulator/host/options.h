@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "host/checkpoint.h"
-#include "explain/explain.h"
+#include "trax/explain.h"
 #include "trax/emulator.h"
 #include "trax/options.h"
 

@@ -30,6 +30,10 @@ trax_machine *trax_machine_create(const trax_config *config, trax_error *error) 
   return machine;
 }
 
+const trax_config *trax_machine_config(const trax_machine *machine) {
+  return &machine->config;
+}
+
 void trax_machine_destroy(trax_machine *machine) {
   if (!machine)
     return;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/image_internal.h"
 #include "machine/address_space.h"
+#include "program/image_internal.h"
 #include "trax/abi.h"
 #include "trax/input.h"
 
@@ -363,6 +363,11 @@ void trax_image_close(trax_image *image) {
 const char *trax_image_path(const trax_image *image) {
   return image->path;
 }
+const uint8_t *trax_image_bytes(const trax_image *image, size_t *size) {
+  *size = image->size;
+  return image->bytes;
+}
+
 uint32_t trax_image_entry(const trax_image *image) {
   return image->entry;
 }

@@ -33,6 +33,8 @@ trax_image *trax_image_open(const char *path, trax_error *error);
 void trax_image_close(trax_image *image);
 
 const char *trax_image_path(const trax_image *image);
+/* The file. */
+const uint8_t *trax_image_bytes(const trax_image *image, size_t *size);
 uint32_t trax_image_entry(const trax_image *image);
 const struct trax_load_segment *trax_image_segments(const trax_image *image, size_t *count);
 const struct trax_symbol *trax_image_symbols(const trax_image *image, size_t *count);

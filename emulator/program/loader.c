@@ -244,13 +244,43 @@ trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, co
   return finish_bind(machine, symbol, (uint32_t)got, true, error);
 }
 
-trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
-                                     trax_error *error) {
+trax_status trax_machine_buffer(trax_machine *machine, const char *symbol, uint32_t *address, uint8_t **bytes,
+                                uint32_t *size, trax_error *error) {
   const struct trax_bound_buffer *buffer = machine->host ? find_buffer(machine->host, symbol) : NULL;
   if (!buffer)
     return trax_fail(error, "no buffer %s is bound", symbol);
+  *address = buffer->address;
   *bytes = machine->space.bytes + buffer->address;
   *size = buffer->bytes;
+  return TRAX_OK;
+}
+
+trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
+                                     trax_error *error) {
+  uint32_t address;
+  uint8_t *found = NULL;
+  const trax_status status = trax_machine_buffer(machine, symbol, &address, &found, size, error);
+  if (status == TRAX_OK)
+    *bytes = found;
+  return status;
+}
+
+bool trax_machine_find_symbol(const trax_machine *machine, const char *symbol, uint32_t *address, uint32_t *size) {
+  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_symbol *found = host ? trax_image_symbol(host->image, symbol) : NULL;
+  if (!found)
+    return false;
+  *address = found->address;
+  *size = found->bytes;
+  return true;
+}
+
+trax_status trax_machine_read_program(const trax_machine *machine, const uint8_t **bytes, size_t *size,
+                                      trax_error *error) {
+  const struct trax_host *host = trax_host_of(machine);
+  if (!host)
+    return trax_fail(error, "no program is loaded");
+  *bytes = trax_image_bytes(host->image, size);
   return TRAX_OK;
 }
 

@@ -153,6 +153,10 @@ const char *trax_ending_name(const struct trax_machine *machine) {
   return "error";
 }
 
+const char *trax_stats_cause(unsigned number) {
+  return number < TRAX_CAUSE_COUNT ? trax_cause_names[number] : NULL;
+}
+
 /* --- by name --- */
 
 struct search {
@@ -169,7 +173,30 @@ static void match(void *context, const struct trax_figure *figure) {
   }
 }
 
+static bool match_sampled(const struct trax_sampling_stats *sampling, const char *name, double *value) {
+  const struct {
+    const char *name;
+    double value;
+  } figures[] = {{"cycles_low", sampling->low},
+                 {"cycles_high", sampling->high},
+                 {"windows", (double)sampling->windows},
+                 {"slots", sampling->asked.slots},
+                 {"detailed_slots", (double)sampling->detailed_slots},
+                 {"predicted_cycles", sampling->predicted}};
+  static const char level[] = "sampled.";
+  if (!sampling->is_sampled || strncmp(name, level, sizeof level - 1) != 0)
+    return false;
+  for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+    if (strcmp(name + sizeof level - 1, figures[i].name) == 0) {
+      *value = figures[i].value;
+      return true;
+    }
+  return false;
+}
+
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value) {
+  if (match_sampled(&machine->stats.sampling, name, value))
+    return true;
   struct search search = {name, value, false};
   struct trax_stats stats = machine->stats;
   if (machine->run) { /* between cycles: the counts so far */

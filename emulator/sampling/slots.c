@@ -308,6 +308,8 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
       .high = (double)t,
       .detailed_cycles = t,
       .detailed_slots = slots->plan.asked.slots};
+  stats->asked.costs = NULL; /* the caller may release them */
+  stats->asked.handed_out = NULL;
   for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++)
     for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
       stats->detailed_instructions += machine->tm_stats[i].instructions[op];

@@ -1,15 +1,14 @@
 /* What each pixel cost, as false colours and as numbers. */
-#include "explain/explain.h"
-#include "machine/machine.h"
 #include "render.h"
-#include "report/statistics.h"
+#include "trax/explain.h"
 #include "trax/output.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COST_CYCLES = TRAX_CAUSE_COUNT }; /* otherwise a cause; instructions are the cycles issued */
+/* Otherwise a cause (trax_stats_cause); instructions are the cycles issued. */
+enum { COST_ISSUED, COST_CYCLES = 1 << 16 };
 
 trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error) {
   if (strcmp(name, "cycles") == 0) {
@@ -17,11 +16,11 @@ trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error) 
     return TRAX_OK;
   }
   if (strcmp(name, "instructions") == 0) {
-    *what = TRAX_CAUSE_ISSUED;
+    *what = COST_ISSUED;
     return TRAX_OK;
   }
-  for (*what = TRAX_CAUSE_ISSUED + 1; *what < TRAX_CAUSE_HALTED; ++*what)
-    if (strcmp(name, trax_cause_names[*what]) == 0)
+  for (*what = COST_ISSUED + 1; trax_stats_cause(*what + 1); ++*what) /* all but the last: no pixel's */
+    if (strcmp(name, trax_stats_cause(*what)) == 0)
       return TRAX_OK;
   return trax_fail(
       error, "--cost: '%s' is none of cycles, instructions, and causes as wait_memory (trax-sim --help-stats)", name);

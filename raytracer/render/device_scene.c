@@ -1,5 +1,4 @@
 /* The scene as a specialised program reads it: the sections that its picture needs, and references as addresses. */
-#include "machine/machine.h"
 #include "render.h"
 
 #include <stdbool.h>

@@ -3,8 +3,6 @@
    intersection, nor shading. */
 #include "embree.h"
 
-#include "machine/machine.h"
-
 #include <stdlib.h>
 #include <string.h>
 

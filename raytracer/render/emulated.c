@@ -1,11 +1,9 @@
 #include "emulated.h"
 
-#include "machine/machine.h"
-#include "program/program.h"
-#include "host/progress.h"
 #include "report.h"
 #include "sampled.h"
 #include "trax/output.h"
+#include "trax/run_progress.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -119,7 +117,8 @@ static trax_status choose(struct chosen *chosen, const struct options *options, 
   const trax_status status =
       config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
   if (status == TRAX_OK)
-    *chosen = (struct chosen){options->queues ? options->queues : config->chip.tms, config->icache.bytes};
+    *chosen = (struct chosen){options->queues ? options->queues : (unsigned)trax_config_get(config, "chip.tms"),
+                              (uint32_t)trax_config_get(config, "icache.bytes")};
   trax_config_destroy(config);
   return status;
 }
@@ -130,7 +129,7 @@ trax_status emulated_cache_lines(unsigned *lines, const struct options *options,
   const trax_status status =
       config ? emulated_config(config, options, NULL, 0, error) : trax_fail(error, "out of memory");
   if (status == TRAX_OK) {
-    const uint32_t count = config->dcache.bytes / LINE_BYTES;
+    const uint32_t count = (uint32_t)trax_config_get(config, "dcache.bytes") / LINE_BYTES;
     *lines = count < 1 ? 1 : count < MOST_LINES ? count : MOST_LINES;
   }
   trax_config_destroy(config);
@@ -179,12 +178,11 @@ const char *kept_file(size_t number) {
 }
 
 /* The files that the program reads, and the command that runs it on them. */
-static trax_status keep_inputs(const struct options *options, const struct trax_frame *frame,
-                               const struct trax_program *program, trax_machine *machine, trax_error *error) {
+static trax_status keep_inputs(const struct options *options, const struct trax_frame *frame, trax_machine *machine,
+                               trax_error *error) {
   if (mkdir(options->keep, 0777) != 0 && errno != EEXIST)
     return trax_fail(error, "%s: %s", options->keep, strerror(errno));
-  const struct trax_image *image = trax_host_of(machine)->image;
-  const uint32_t paths = trax_image_symbol(image, "paths") ? trax_path_bytes(machine, frame) : 0;
+  const uint32_t paths = trax_program_has(machine, "paths") ? trax_path_bytes(machine, frame) : 0;
   char *text = NULL;
   size_t size = 0;
   FILE *command = open_memstream(&text, &size);
@@ -203,7 +201,7 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
   for (size_t i = 0; i < KEPT_BUFFERS && status == TRAX_OK; i++) {
     const uint8_t *bytes;
     uint32_t input_bytes;
-    if (!trax_image_symbol(image, kept_buffers[i].symbol))
+    if (!trax_program_has(machine, kept_buffers[i].symbol))
       continue;
     fprintf(command, " --bind %s=%s", kept_buffers[i].symbol, kept_buffers[i].file);
     status = trax_machine_read_buffer(machine, kept_buffers[i].symbol, &bytes, &input_bytes, error);
@@ -216,13 +214,12 @@ static trax_status keep_inputs(const struct options *options, const struct trax_
     fprintf(command, "--alloc paths=%u ", paths);
   fputs("program.elf\n", command);
   fclose(command);
-  uint8_t *elf = NULL;
+  const uint8_t *elf = NULL;
   size_t elf_bytes;
   if (status == TRAX_OK)
-    status = trax_image_read(program->path, &elf, &elf_bytes, error);
+    status = trax_machine_read_program(machine, &elf, &elf_bytes, error);
   if (status == TRAX_OK)
     status = write_bytes(options->keep, "program.elf", elf, elf_bytes, error);
-  free(elf);
   if (status == TRAX_OK)
     status = write_bytes(options->keep, "run.sh", text, size, error);
   free(text);
@@ -238,12 +235,13 @@ static double statistic(const trax_machine *machine, const char *name) {
 /* doubt: about the prediction of a sampled run; may be NULL. */
 static void print_machine(const trax_machine *machine, const char *doubt) {
   printf("cycles      %.0f (%.3f ms)\n", statistic(machine, "cycles"), 1e3 * statistic(machine, "seconds"));
-  const struct trax_sampling_stats *sampling = &machine->stats.sampling;
-  if (sampling->is_sampled) {
-    printf("sampled     %.0f to %.0f cycles with 95 %% confidence, %.1f %% of the slots in %llu ranges simulated\n",
-           sampling->low, sampling->high, 100.0 * (double)sampling->detailed_slots / sampling->asked.slots,
-           (unsigned long long)sampling->windows);
-    printf("predicted   %.0f cycles, before any was simulated", sampling->predicted);
+  double low;
+  if (trax_stats_get(machine, "sampled.cycles_low", &low)) {
+    printf("sampled     %.0f to %.0f cycles with 95 %% confidence, %.1f %% of the slots in %.0f ranges simulated\n",
+           low, statistic(machine, "sampled.cycles_high"),
+           100.0 * statistic(machine, "sampled.detailed_slots") / statistic(machine, "sampled.slots"),
+           statistic(machine, "sampled.windows"));
+    printf("predicted   %.0f cycles, before any was simulated", statistic(machine, "sampled.predicted_cycles"));
     if (doubt)
       printf("; uncertain: the model is not fitted to %s", doubt);
     putchar('\n');
@@ -282,13 +280,14 @@ static void show_twin(void *context, uint64_t done, uint64_t total) {
 
 /* The picture by the twin, which also tells what parts are worth simulating. */
 static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct trax_picture *picture,
-                                  const struct options *options, const struct trax_frame *frame, trax_machine *machine,
+                                  const struct options *options, const struct trax_frame *frame,
+                                  const struct trax_program *program, trax_machine *machine,
                                   trax_progress_line *progress, const volatile int *interrupt, trax_error *error) {
   struct trax_render_run twin = {.progress = show_twin, .progress_context = progress, .interrupt = interrupt};
   sampling->slots = options->sampling;
   if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
     sampling->slots.fraction = DEFAULT_FRACTION;
-  return trax_picture_sampling_init(sampling, picture, frame, machine, &twin, error);
+  return trax_picture_sampling_init(sampling, picture, frame, program, machine, &twin, error);
 }
 
 /* One picture by one program. figures may be NULL. */
@@ -304,19 +303,18 @@ static trax_status run_program(struct trax_picture *picture, const struct option
   if (status == TRAX_OK)
     status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
   if (status == TRAX_OK && options->keep)
-    status = keep_inputs(options, frame, program, machine, error);
+    status = keep_inputs(options, frame, machine, error);
   if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
     struct trax_run_progress shown = {.line = progress, .step = "rendering"};
-    struct trax_simulated_options run = {
-        .explain = &options->explain,
-        .run = {.output = stderr,
-                .total_items = (uint64_t)frame->params->width * frame->params->height,
-                .progress = trax_run_progress_show,
-                .progress_context = &shown,
-                .interrupt = interrupt,
-                .engine = options->engine == ENGINE_REFERENCE ? "reference" : "fast",
-                .host_threads = options->threads}};
+    struct trax_simulated_options run = {.explain = &options->explain,
+                                         .run = {.output = stderr,
+                                                 .total_items = (uint64_t)frame->params->width * frame->params->height,
+                                                 .progress = trax_run_progress_show,
+                                                 .progress_context = &shown,
+                                                 .interrupt = interrupt,
+                                                 .engine = options->engine == ENGINE_REFERENCE ? "reference" : "fast",
+                                                 .host_threads = options->threads}};
     if (options->cost_picture || options->cost_values) {
       run.costs = &costs;
       status = trax_costs_init(&costs, frame->params->width, frame->params->height,
@@ -324,14 +322,12 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     }
     struct trax_picture_sampling sampling = {0};
     if (status == TRAX_OK && options->sampled) {
-      status = begin_sampling(&sampling, picture, options, frame, machine, progress, interrupt, error);
+      status = begin_sampling(&sampling, picture, options, frame, program, machine, progress, interrupt, error);
       run.run.slots = &sampling.slots;
       run.run.total_items = 0; /* most are left out */
     }
     if (status == TRAX_OK)
       status = trax_simulated_run(picture, frame, machine, &run, error);
-    machine->stats.sampling.asked.costs = NULL;
-    machine->stats.sampling.asked.handed_out = NULL;
     const char *const doubt = options->program ? "another program" : sampling.doubt;
     trax_picture_sampling_release(&sampling);
     trax_progress_line_clear(progress);

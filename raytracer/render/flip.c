@@ -1,5 +1,4 @@
 /* FLIP, from the paper that metrics.h names; section numbers are the paper's. */
-#include "machine/machine.h"
 #include "metrics.h"
 
 #include <math.h>

@@ -1,5 +1,4 @@
 /* The device program's parameters: camera, light, palette, the order of pixels, the margin of boxes. */
-#include "machine/machine.h"
 #include "lighting.h"
 #include "reach.h"
 #include "render.h"

@@ -1,6 +1,5 @@
 #include "hits.h"
 
-#include "machine/machine.h"
 #include "double3.h"
 #include "exact.h"
 #include "reach.h"

@@ -1,7 +1,6 @@
 /* Scene and views from the command line. */
 #include "inputs.h"
 
-#include "machine/machine.h"
 #include "emulated.h"
 
 #include <math.h>

@@ -1,6 +1,5 @@
 /* trax-render: from meshes to a picture in one command. */
 #include "bench_accuracy.h"
-#include "machine/machine.h"
 #include "emulated.h"
 #include "files.h"
 #include "hits.h"

@@ -2,8 +2,8 @@
 #ifndef TRAX_RENDER_OPTIONS_H
 #define TRAX_RENDER_OPTIONS_H
 
-#include "explain/explain.h"
 #include "render.h"
+#include "trax/explain.h"
 #include "trax/options.h"
 
 /* The first two simulate the machine, to the same cycle. */

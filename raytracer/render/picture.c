@@ -1,5 +1,4 @@
 /* Pictures in memory and in files. */
-#include "machine/machine.h"
 #include "radiance.h"
 #include "render.h"
 #include "trax/input.h"

@@ -1,10 +1,6 @@
 /* The scene as plain arrays (trax/plain_scene.h). */
 #include "plain_scene.h"
 
-#include "machine/machine.h"
-#include "program/image.h"
-#include "program/program.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,9 +57,8 @@ static trax_status make_nodes(struct trax_plain_node **nodes, const struct trax_
 }
 
 trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene *scene, trax_error *error) {
-  const trax_image *image = trax_host_of(machine)->image;
   trax_status status = TRAX_OK;
-  if (trax_image_symbol(image, "plain_nodes")) {
+  if (trax_program_has(machine, "plain_nodes")) {
     const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
     if (format->width > 2)
       return trax_fail(error, "the program takes nodes of two children, not %s ones", format->name);
@@ -79,7 +74,7 @@ trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene
     free(nodes);
   }
   _Static_assert(sizeof(struct trax_plain_triangle) == sizeof(struct trax_triangle), "the same record");
-  if (status == TRAX_OK && trax_image_symbol(image, "plain_triangles"))
+  if (status == TRAX_OK && trax_program_has(machine, "plain_triangles"))
     status = trax_machine_bind(machine, "plain_triangles", scene->triangles,
                                scene->triangle_count * (uint32_t)sizeof *scene->triangles, error);
   return status;

@@ -5,8 +5,6 @@
    units are left out. */
 #include "prediction.h"
 
-#include "machine/machine.h"
-
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,8 +56,9 @@ struct model {
   bool failed;
   uint64_t rays;
 
-  const struct trax_config *config;
-  uint32_t tms, tps, set_mask, noted; /* noted: blocks that are */
+  double latency; /* of memory */
+  bool by_use; /* lines are replaced by when they were used, not by when they came */
+  uint32_t line_bytes, ways, tms, tps, set_mask, noted; /* noted: blocks that are */
   unsigned line_shift;
   uint32_t address;
   double bus_free, cycles_per_byte;
@@ -72,20 +71,20 @@ struct model {
 /* When a transfer that is asked for now is there. */
 static double transfer(struct model *model, double now, uint32_t bytes) {
   model->bus_free = (model->bus_free > now ? model->bus_free : now) + bytes * model->cycles_per_byte;
-  return model->bus_free + model->config->memory.latency_cycles;
+  return model->bus_free + model->latency;
 }
 
 /* When what is at an address can be used. */
 static double load(struct model *model, struct tm *tm, uint32_t address, double now) {
-  const uint32_t ways = model->config->dcache.ways, number = address >> model->line_shift;
+  const uint32_t ways = model->ways, number = address >> model->line_shift;
   uint32_t *lines = tm->line + (size_t)(number & model->set_mask) * ways;
   double *ready = tm->ready + (size_t)(number & model->set_mask) * ways;
   uint32_t way = 0;
   while (way < ways && lines[way] != number + 1)
     way++;
   const bool hit = way < ways;
-  const double time = hit ? ready[way] : transfer(model, now, model->config->dcache.line_bytes);
-  if (hit && !trax_replacements[model->config->dcache.replacement].by_use)
+  const double time = hit ? ready[way] : transfer(model, now, model->line_bytes);
+  if (hit && !model->by_use)
     return time;
   for (way = hit ? way : ways - 1; way > 0; way--) {
     lines[way] = lines[way - 1];
@@ -296,7 +295,7 @@ static void end_blocks(struct model *model) {
 /* --- the whole --- */
 
 static bool make_tm(struct tm *tm, uint32_t number, const struct model *model) {
-  const size_t lines = (size_t)(model->set_mask + 1) * model->config->dcache.ways;
+  const size_t lines = (size_t)(model->set_mask + 1) * model->ways;
   tm->first_queue = number % model->queue_count;
   tm->wake = calloc(model->tps, sizeof *tm->wake);
   tm->queue = calloc(model->tps, sizeof *tm->queue);
@@ -317,19 +316,25 @@ static trax_status begin_model(struct model *model, struct trax_prediction *pred
                                uint32_t queues, const struct trax_config *config, uint32_t scene_address,
                                trax_error *error) {
   const uint32_t slots = frame->params->slot_count;
+  const uint32_t line_bytes = (uint32_t)trax_config_get(config, "dcache.line_bytes");
+  const uint32_t ways = (uint32_t)trax_config_get(config, "dcache.ways");
+  const double bytes_per_microsecond = 1000 * trax_config_get(config, "memory.bandwidth_gbps");
   *prediction = (struct trax_prediction){.blocks = (slots + TRAX_PREDICTION_BLOCK - 1) / TRAX_PREDICTION_BLOCK};
   *model = (struct model){.log = {.full = make_room, .slot = end_slot},
                           .capacity = CHUNK,
                           .queue_count = queues,
                           .slots = slots,
                           .tile_bits = 2 * frame->params->tile_log2_side,
-                          .config = config,
-                          .tms = config->chip.tms,
-                          .tps = config->chip.tps_per_tm,
-                          .set_mask = config->dcache.bytes / config->dcache.line_bytes / config->dcache.ways - 1,
-                          .line_shift = (unsigned)__builtin_ctz(config->dcache.line_bytes),
+                          .latency = trax_config_get(config, "memory.latency_cycles"),
+                          .by_use = strcmp(trax_config_word(config, "dcache.replacement"), "fifo") != 0,
+                          .line_bytes = line_bytes,
+                          .ways = ways,
+                          .tms = (uint32_t)trax_config_get(config, "chip.tms"),
+                          .tps = (uint32_t)trax_config_get(config, "chip.tps_per_tm"),
+                          .set_mask = (uint32_t)trax_config_get(config, "dcache.bytes") / line_bytes / ways - 1,
+                          .line_shift = (unsigned)__builtin_ctz(line_bytes),
                           .address = scene_address,
-                          .cycles_per_byte = config->chip.clock_mhz / (1000 * config->memory.bandwidth_gbps),
+                          .cycles_per_byte = trax_config_get(config, "chip.clock_mhz") / bytes_per_microsecond,
                           .prediction = prediction};
   prediction->cycles = calloc(prediction->blocks + 1, sizeof *prediction->cycles);
   prediction->handed_out = calloc(((size_t)prediction->blocks + 1) * queues, sizeof *prediction->handed_out);
@@ -403,11 +408,10 @@ const char *trax_prediction_doubt(const struct trax_frame *frame, bool other_pro
     return "another program";
   if (frame->params->features & TRAX_PATH_FEATURES)
     return "another workload";
-  for (size_t i = 0; i < trax_config_key_count; i++)
-    if (!is_modelled(trax_config_keys[i].name) &&
-        trax_config_value(config, &trax_config_keys[i]) != trax_config_keys[i].initial)
-      return trax_config_keys[i].name;
-  return NULL;
+  const char *changed = trax_config_next_change(config, NULL);
+  while (changed && is_modelled(changed))
+    changed = trax_config_next_change(config, changed);
+  return changed;
 }
 
 void trax_prediction_release(struct trax_prediction *prediction) {

@@ -1,10 +1,9 @@
 /* What ranges of a picture's slots will cost the chip, roughly and soon: the twin's accesses to the scene, passed
-   through a coarse model of the chip. Sampled simulation (sampling/slots.h) takes it as a guess: what it says of the slots
-   that are simulated is compared with the truth, and what it says of the others is corrected by as much. */
+   through a coarse model of the chip. Sampled simulation (sampling/slots.h) takes it as a guess: what it says of the
+   slots that are simulated is compared with the truth, and what it says of the others is corrected by as much. */
 #ifndef TRAX_RENDER_PREDICTION_H
 #define TRAX_RENDER_PREDICTION_H
 
-#include "machine/config.h"
 #include "render.h"
 
 #include <stdint.h>

@@ -1,5 +1,4 @@
 /* How large a program for the TPs is. */
-#include "machine/machine.h"
 #include "render.h"
 
 #include <fcntl.h>

@@ -1,7 +1,5 @@
 #include "radiance.h"
 
-#include "machine/machine.h"
-
 #include <OpenEXR/openexr.h>
 #include <stdlib.h>
 #include <string.h>

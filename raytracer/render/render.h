@@ -189,7 +189,7 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
 
 /* embree.c: Embree 3 in robust mode finds the same hits among the same triangles; shading in binary64. */
 trax_status trax_render_embree(struct trax_picture *picture, const struct trax_frame *frame,
-                                  struct trax_render_run *run, trax_error *error);
+                               struct trax_render_run *run, trax_error *error);
 
 /* What a sample's rays met. */
 struct trax_exact_sample {
@@ -255,6 +255,8 @@ struct trax_simulated_options {
 
 /* What the program's buffer `paths` takes on this machine; 0: nothing uses it. */
 uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame);
+/* Whether the loaded program has the symbol. */
+bool trax_program_has(const trax_machine *machine, const char *symbol);
 /* Loads the program and binds what it reads. */
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
                                 const struct trax_program *program, trax_error *error);

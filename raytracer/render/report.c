@@ -1,6 +1,5 @@
 #include "report.h"
 
-#include "machine/machine.h"
 #include "trax/output.h"
 
 #include <jansson.h>

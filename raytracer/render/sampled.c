@@ -1,9 +1,5 @@
 #include "sampled.h"
 
-#include "machine/machine.h"
-#include "program/image.h"
-#include "program/program.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,11 +7,11 @@
 static trax_status predict(struct trax_picture_sampling *sampling, struct trax_picture *picture,
                            const struct trax_frame *frame, trax_machine *machine, bool by_rows, uint32_t queues,
                            struct trax_render_run *run, trax_error *error) {
-  const uint8_t *scene = machine->space.bytes;
-  uint32_t scene_bytes;
+  uint8_t *scene;
+  uint32_t scene_address = 0, scene_bytes;
   /* A program that has the scene as plain arrays has it somewhere else, and about as large. */
-  if (trax_image_symbol(trax_host_of(machine)->image, "scene") &&
-      trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error) != TRAX_OK)
+  if (trax_program_has(machine, "scene") &&
+      trax_machine_buffer(machine, "scene", &scene_address, &scene, &scene_bytes, error) != TRAX_OK)
     return TRAX_ERROR;
   struct trax_frame ordered = *frame;
   struct trax_render_params *params = malloc(frame->params_size);
@@ -25,8 +21,8 @@ static trax_status predict(struct trax_picture_sampling *sampling, struct trax_p
   if (by_rows)
     trax_frame_set_tiles(params, 0);
   ordered.params = params;
-  const trax_status status = trax_predict(&sampling->prediction, picture, &ordered, queues, &machine->config,
-                                          (uint32_t)(scene - machine->space.bytes), run, error);
+  const trax_status status = trax_predict(&sampling->prediction, picture, &ordered, queues,
+                                          trax_machine_config(machine), scene_address, run, error);
   sampling->slots.slots = params->slot_count;
   sampling->slots.tile = 1u << 2 * params->tile_log2_side;
   free(params);
@@ -34,31 +30,30 @@ static trax_status predict(struct trax_picture_sampling *sampling, struct trax_p
 }
 
 trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, struct trax_picture *picture,
-                                       const struct trax_frame *frame, trax_machine *machine,
-                                       struct trax_render_run *run, trax_error *error) {
-  const struct trax_image *image = trax_host_of(machine)->image;
-  const struct trax_symbol *by_tiles = trax_image_symbol(image, "next_slot");
-  const struct trax_symbol *counter = by_tiles ? by_tiles : trax_image_symbol(image, "next_pixel");
-  if (!counter)
+                                       const struct trax_frame *frame, const struct trax_program *program,
+                                       trax_machine *machine, struct trax_render_run *run, trax_error *error) {
+  uint32_t counter, counter_bytes;
+  const bool by_tiles = trax_machine_find_symbol(machine, "next_slot", &counter, &counter_bytes);
+  if (!by_tiles && !trax_machine_find_symbol(machine, "next_pixel", &counter, &counter_bytes))
     return trax_fail(error,
                      "%s: the program has neither next_slot nor next_pixel, which count the pixels handed out: "
                      "it cannot be sampled",
-                     trax_image_path(image));
-  const uint32_t queues = by_tiles && by_tiles->bytes > 4 ? by_tiles->bytes / 4 : 1; /* device/slots.h */
+                     program->path);
+  const uint32_t queues = by_tiles && counter_bytes > 4 ? counter_bytes / 4 : 1; /* device/slots.h */
   if (queues > TRAX_MAX_QUEUES)
-    return trax_fail(error, "%s: next_slot has %u queues; allowed are %u at most", trax_image_path(image), queues,
+    return trax_fail(error, "%s: next_slot has %u queues; allowed are %u at most", program->path, queues,
                      TRAX_MAX_QUEUES);
   const trax_status status = predict(sampling, picture, frame, machine, !by_tiles, queues, run, error);
   if (status != TRAX_OK)
     return status;
-  sampling->doubt = trax_prediction_doubt(frame, !by_tiles, &machine->config);
-  sampling->slots.counter = counter->address;
+  sampling->doubt = trax_prediction_doubt(frame, !by_tiles, trax_machine_config(machine));
+  sampling->slots.counter = counter;
   sampling->slots.costs = sampling->prediction.cycles;
   sampling->slots.queues = queues;
   sampling->slots.handed_out = sampling->prediction.handed_out;
   sampling->slots.block = TRAX_PREDICTION_BLOCK;
   /* Another program may trace other rays than the twin, unless it says that it does not. */
-  sampling->slots.rays = by_tiles || trax_image_symbol(image, "workload_rays") ? run->rays : 0;
+  sampling->slots.rays = by_tiles || trax_program_has(machine, "workload_rays") ? run->rays : 0;
   sampling->slots.items = (uint64_t)frame->params->width * frame->params->height;
   return TRAX_OK;
 }

@@ -1,10 +1,7 @@
 /* The picture as the emulated machine renders it. */
-#include "explain/explain.h"
-#include "machine/machine.h"
 #include "plain_scene.h"
-#include "program/image.h"
-#include "program/program.h"
 #include "render.h"
+#include "trax/explain.h"
 #include "trax/record.h"
 
 #include <string.h>
@@ -30,12 +27,11 @@ static trax_status run(trax_machine *machine, const struct trax_frame *frame,
 
 /* References become addresses where the scene is, in the machine's memory. */
 static trax_status relocate(trax_machine *machine, trax_error *error) {
-  const uint8_t *bytes;
-  uint32_t size;
-  if (trax_machine_read_buffer(machine, "scene", &bytes, &size, error) != TRAX_OK)
+  uint8_t *bytes;
+  uint32_t address, size;
+  if (trax_machine_buffer(machine, "scene", &address, &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
-  const uint32_t address = (uint32_t)(bytes - machine->space.bytes);
-  trax_scene_relocate(machine->space.bytes + address, address);
+  trax_scene_relocate(bytes, address);
   return TRAX_OK;
 }
 
@@ -50,7 +46,14 @@ static trax_status bind_record(trax_machine *machine, const struct trax_render_p
 }
 
 uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame) {
-  return frame->params->features & TRAX_PATH_FEATURES ? TRAX_PATH_BYTES * (uint32_t)machine->stats.threads : 0;
+  double threads = 0;
+  trax_stats_get(machine, "threads", &threads);
+  return frame->params->features & TRAX_PATH_FEATURES ? TRAX_PATH_BYTES * (uint32_t)threads : 0;
+}
+
+bool trax_program_has(const trax_machine *machine, const char *symbol) {
+  uint32_t address, size;
+  return trax_machine_find_symbol(machine, symbol, &address, &size);
 }
 
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
@@ -68,20 +71,19 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
     trax_device_scene_release(&scene);
   } else if (status == TRAX_OK) {
     /* Only programs of one's own have the scene as plain arrays, and perhaps not as the file. */
-    if (!trax_image_symbol(trax_host_of(machine)->image, "plain_nodes") ||
-        trax_image_symbol(trax_host_of(machine)->image, "scene"))
+    if (!trax_program_has(machine, "plain_nodes") || trax_program_has(machine, "scene"))
       status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
     if (status == TRAX_OK)
       status = trax_plain_scene_bind(machine, frame->scene, error);
   }
   /* A program whose constants are all folded has none. */
-  if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "params"))
+  if (status == TRAX_OK && trax_program_has(machine, "params"))
     status = trax_machine_bind(machine, "params", frame->params, frame->params_size, error);
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "image", NULL, trax_frame_image_bytes(frame), error);
-  if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "paths"))
+  if (status == TRAX_OK && trax_program_has(machine, "paths"))
     status = trax_machine_bind(machine, "paths", NULL, trax_path_bytes(machine, frame), error);
-  if (status == TRAX_OK && trax_image_symbol(trax_host_of(machine)->image, "record"))
+  if (status == TRAX_OK && trax_program_has(machine, "record"))
     status = bind_record(machine, frame->params, error);
   return status;
 }

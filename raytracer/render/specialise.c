@@ -1,6 +1,5 @@
 /* Programs for one picture: the device's source behind a file of constants (device/run.h), compiled when it is needed
    and kept under the hash of all that it is made from. */
-#include "machine/machine.h"
 #include "program_cache.h"
 #include "render.h"
 #include "trax/input.h"

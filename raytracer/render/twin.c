@@ -1,6 +1,5 @@
 /* The native twin: the device program's main, compiled for the host under another name for each triangle test, run by
    host threads. */
-#include "machine/machine.h"
 #include "hits.h"
 #include "render.h"
 

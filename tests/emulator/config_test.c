@@ -148,6 +148,28 @@ static void test_flags_and_numbers_as_text(void **state) {
   trax_config_destroy(config);
 }
 
+static void test_values_by_name(void **state) {
+  (void)state;
+  trax_config *config = trax_config_create();
+  assert_null(trax_config_next_change(config, NULL));
+  assert_int_equal(trax_config_set(config, "special.pipelined", config->special.pipelined ? "false" : "true", NULL), 0);
+  assert_int_equal(trax_config_set(config, "chip.tms", "4", NULL), TRAX_OK);
+  trax_config *copy = trax_config_copy(config);
+  assert_int_equal(trax_config_set(config, "chip.tms", "2", NULL), TRAX_OK);
+  assert_true(trax_config_get(copy, "chip.tms") == 4);
+  assert_true(trax_config_get(copy, "special.pipelined") == copy->special.pipelined);
+  assert_true(isnan(trax_config_get(copy, "chip.tns")));
+  assert_string_equal(trax_config_word(copy, "dcache.replacement"), "fifo");
+  assert_string_equal(trax_config_word(copy, "l2.replacement"), "lru");
+  assert_null(trax_config_word(copy, "chip.tms"));
+  const char *first = trax_config_next_change(copy, NULL);
+  assert_string_equal(first, "chip.tms");
+  assert_string_equal(trax_config_next_change(copy, first), "special.pipelined");
+  assert_null(trax_config_next_change(copy, "special.pipelined"));
+  trax_config_destroy(copy);
+  trax_config_destroy(config);
+}
+
 static void test_unknown_keys_get_a_suggestion(void **state) {
   (void)state;
   refuse("memory.bandwith_gbps", "8", "did you mean memory.bandwidth_gbps?");
@@ -456,6 +478,7 @@ int main(void) {
       cmocka_unit_test(test_every_key_at_its_limits),
       cmocka_unit_test(test_every_key_beyond_its_limits),
       cmocka_unit_test(test_flags_and_numbers_as_text),
+      cmocka_unit_test(test_values_by_name),
       cmocka_unit_test(test_unknown_keys_get_a_suggestion),
       cmocka_unit_test(test_policies_by_their_old_names),
       cmocka_unit_test(test_random_configurations_round_trip),

@@ -77,6 +77,17 @@ static void test_buffers_are_placed_behind_the_image(void **state) {
   assert_int_equal(trax_machine_bind(machine, "output", NULL, 100, &error), TRAX_OK);
   assert_int_equal(word(machine, COPY_OUTPUT), first + 64);
   assert_int_equal(word(machine, COPY_OUTPUT + 4), 100);
+  uint32_t place, place_bytes;
+  uint8_t *in_place;
+  assert_int_equal(trax_machine_buffer(machine, "output", &place, &in_place, &place_bytes, &error), TRAX_OK);
+  assert_int_equal(place, word(machine, COPY_OUTPUT));
+  assert_int_equal(place_bytes, 100);
+  assert_ptr_equal(in_place, machine->space.bytes + place);
+  assert_int_equal(trax_machine_buffer(machine, "last", &place, &in_place, &place_bytes, &error), TRAX_ERROR);
+  assert_true(trax_machine_find_symbol(machine, "output", &place, &place_bytes));
+  assert_int_equal(place, COPY_OUTPUT);
+  assert_int_equal(place_bytes, 8);
+  assert_false(trax_machine_find_symbol(machine, "none", &place, &place_bytes));
   assert_int_equal(word(machine, COPY_HEAP), first + 64 + 128);
 
   assert_int_equal(trax_machine_run(machine, NULL, &error), TRAX_OK);

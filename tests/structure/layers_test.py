@@ -1,82 +1,112 @@
-"""The emulator's folders include one another as the table of docs/architecture.md, "The emulator's layers", allows.
+"""The folders of the emulator and of the ray tracer include one another as the tables of docs/architecture.md allow.
 
   layers_test.py SOURCE
 
-The table is read from the page: a row for each folder, and in its second column the folders that it may include. Rows stand
-from the top layer to the bottom one, so a folder may only name those below it: there is no circle. The test also sees that
-it can fail: with an include added that looks up, to a copy of each folder's first file."""
+A table is read from its chapter: a row for each folder, and in its second column what the folder may include. Rows stand from
+the top layer to the bottom one, so a folder may only name those below it: there is no circle. The test also sees that it can
+fail: with includes added to a copy of a file of each folder that look up or, in the ray tracer, at what the emulator keeps to
+itself."""
 
 import os
 import re
 import sys
 
 SOURCE = sys.argv[1]
-PAGE = os.path.join(SOURCE, "docs", "architecture.md")
-ROOT = os.path.join(SOURCE, "emulator")
-CHAPTER = "## The emulator's layers"
+PAGE = "docs/architecture.md"
+# Part, its chapter, the fewest folders and files that prove anything.
+PARTS = [("emulator", "## The emulator's layers", 10, 100), ("raytracer", "## The ray tracer's rooms", 7, 100)]
+# What other parts offer to the ray tracer as trax/*.h.
+PUBLIC = {"emulator": "emulator/include/trax", "base": "emulator/base/include/trax", "isa": "isa/include/trax", "runtime": "runtime/include"}
 
 
-def table():
+def table(chapter):
     """Folder: those it may include, from the top layer to the bottom."""
-    with open(PAGE, encoding="utf-8") as page:
+    with open(os.path.join(SOURCE, PAGE), encoding="utf-8") as page:
         text = page.read()
-    chapter = text[text.index(CHAPTER):]
-    chapter = chapter[: chapter.find("\n## ", 1)]
-    rows = re.findall(r"^\| `(\w+)/` \| ([^|]*) \|", chapter, re.M)
+    text = text[text.index(chapter) :].split("\n## ")[0]
+    rows = re.findall(r"^\| `(\w+)/` \| ([^|]*) \|", text, re.M)
     names = [name for name, _ in rows]
-    return {name: names[i + 1 :] if below == "all below" else re.findall(r"`(\w+)/`", below)
-            for i, (name, below) in enumerate(rows)}
+    return {name: names[i + 1 :] if below == "all below" else re.findall(r"`(\w+)/?`", below) for i, (name, below) in enumerate(rows)}
 
 
-def includes(text):
-    """Folders of the emulator that a file names: "fast/chip.h", not "trax/files.h" or a file beside it."""
-    return re.findall(r'^#include "(\w+)/', text, re.M)
-
-
-def sources():
+def sources(part):
     """(folder, path, text) of all that is compiled."""
-    for folder in sorted(os.listdir(ROOT)):
-        for place, _, files in os.walk(os.path.join(ROOT, folder)):
+    for folder in sorted(os.listdir(os.path.join(SOURCE, part))):
+        for place, _, files in os.walk(os.path.join(SOURCE, part, folder)):
             for name in sorted(files):
-                if name.endswith((".c", ".h")):
+                if name.endswith((".c", ".cpp", ".h")):
                     path = os.path.join(place, name)
                     with open(path, encoding="utf-8") as file:
                         yield folder, os.path.relpath(path, SOURCE), file.read()
 
 
-def check(allowed, files):
-    """What is wrong, in lines."""
-    wrong = []
-    order = list(allowed)
-    for name, below in allowed.items():
-        wrong += [f"docs/architecture.md: {name}/ may include {other}/, which stands above it" for other in below
-                  if other in order and order.index(other) < order.index(name)]
-    for folder, path, text in files:
-        if folder not in allowed:
-            wrong.append(f"{path}: {folder}/ is not in the table")
-            continue
-        wrong += [f"{path}: {folder}/ may not include {other}/" for other in includes(text)
-                  if other not in (folder, "trax") and other not in allowed[folder]]
-    return wrong
+class Part:
+    def __init__(self, name, chapter):
+        self.name = name
+        self.allowed = table(chapter)
+        self.files = list(sources(name))
+        self.headers = {}  # name: folders that have such a file
+        for folder, path, _ in self.files:
+            self.headers.setdefault(os.path.basename(path), set()).add(folder)
+
+    def folder_of(self, path, include):
+        """Whose header it is: a folder of the part, or one of PUBLIC; "" if that is nobody's; None of those that need no
+        permission: the system's, generated ones and, in the emulator, the public ones."""
+        first = include.split("/")[0]
+        if self.name == "emulator":  # "fast/chip.h", not "trax/files.h" or a file beside it
+            return first if "/" in include and first != "trax" else None
+        if first == "trax":
+            found = [public for public, place in PUBLIC.items() if os.path.exists(os.path.join(SOURCE, place, include[5:]))]
+            return (found or ["include"])[0]
+        beside = os.path.normpath(os.path.join(os.path.dirname(path), include))
+        if os.path.exists(os.path.join(SOURCE, beside)):
+            return beside.split(os.sep)[1]
+        if "/" in include:
+            return ""
+        return next(iter(self.headers.get(include, ())), None)
+
+    def check(self, files):
+        """What is wrong, in lines."""
+        order = list(self.allowed)
+        wrong = [f"{PAGE}: {name}/ may include {other}/, which stands above it" for name, below in self.allowed.items() for other in below
+                 if other in order and order.index(other) < order.index(name)]
+        for folder, path, text in files:
+            if folder not in self.allowed:
+                wrong.append(f"{path}: {folder}/ is not in the table")
+                continue
+            for include in re.findall(r'^#include "([^"]+)"|^#include <(trax/[^>]+)>', text, re.M):
+                include = "".join(include)
+                owner = self.folder_of(path, include)
+                if owner not in (None, folder, *self.allowed[folder]):
+                    wrong.append(f"{path}: {folder}/ may not include {include}")
+        return wrong
+
+    def unnoticed(self):
+        """Which include that is added to a file of a folder, and forbidden there, is not noticed: in lines."""
+        order = list(self.allowed)
+        for i, name in enumerate(order):
+            own, path, text = next(one for one in self.files if one[0] == name)
+            if self.name == "emulator":
+                added = [f"{other}/x.h" for other in reversed(order[:i]) if other not in self.allowed[name]][:1]
+            else:
+                others = (header for header, folders in self.headers.items() if header.endswith(".h") and not folders & {name, *self.allowed[name]})
+                added = ["machine/machine.h", "program/program.h", next(others)]
+            for include in added:
+                if not self.check([(own, path, f'#include "{include}"\n' + text)]):
+                    yield f"{path}: an include of {include} is not noticed"
 
 
 def main():
-    allowed = table()
-    files = list(sources())
-    wrong = check(allowed, files)
-    for line in wrong:
-        print(line)
-    if len(allowed) < 10 or len(files) < 100:
-        print(f"{len(allowed)} rows and {len(files)} files are too few to prove anything")
-        return 1
-    order = list(allowed)
-    for i, name in enumerate(order[1:], 1):  # an include that looks up is noticed in each
-        above = next((other for other in reversed(order[:i]) if other not in allowed[name]), None)
-        some = next((folder, path, text) for folder, path, text in files if folder == name)
-        if above and not check(allowed, [(name, some[1], f'#include "{above}/x.h"\n' + some[2])]):
-            wrong.append(name)
-            print(f"an include of {above}/ in {some[1]} is not noticed")
-    return 1 if wrong else 0
+    failed = False
+    for name, chapter, folders, files in PARTS:
+        part = Part(name, chapter)
+        wrong = part.check(part.files) + list(part.unnoticed())
+        if len(part.allowed) < folders or len(part.files) < files:
+            wrong.append(f"{len(part.allowed)} rows and {len(part.files)} files of {name}/ are too few to prove anything")
+        for line in wrong:
+            print(line)
+        failed = failed or bool(wrong)
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

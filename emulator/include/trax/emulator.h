@@ -32,6 +32,8 @@ typedef struct trax_config trax_config;
 
 /* The defaults: 1 TM of 1 TP, everything else as in the paper. NULL: out of memory. */
 trax_config *trax_config_create(void);
+/* NULL: out of memory. */
+trax_config *trax_config_copy(const trax_config *config);
 void trax_config_destroy(trax_config *config);
 /* Sets one of the presets by name ("1x32" ... "8x64"), or reads a libconfig file if there is no preset of that name.
    Errors: the file cannot be read, syntax, an unknown key, a value out of range; the message names file and line. */
@@ -50,12 +52,19 @@ void trax_config_describe(FILE *out);
 /* The presets' names, ended by NULL. */
 const char *const *trax_config_presets(void);
 bool trax_config_is_preset(const char *name);
+/* Returns the value of a key, 0 or 1 for a flag, NaN if there is no such key. */
+double trax_config_get(const trax_config *config, const char *key);
+/* Returns the value of a key whose values are words, as "dcache.replacement". NULL: there is no such key. */
+const char *trax_config_word(const trax_config *config, const char *key);
+/* Returns the first key behind `after` (NULL: of all) whose value is not the default. NULL: there is none. */
+const char *trax_config_next_change(const trax_config *config, const char *after);
 
 /* --- machine --- */
 typedef struct trax_machine trax_machine;
 
 /* Copies config. NULL: the configuration is invalid, or out of memory. */
 trax_machine *trax_machine_create(const trax_config *config, trax_error *error);
+const trax_config *trax_machine_config(const trax_machine *machine);
 /* machine may be NULL. */
 void trax_machine_destroy(trax_machine *machine);
 /* Loads the one program of the machine. Errors: the file is not a valid TRaX executable, the program does not fit into
@@ -72,6 +81,15 @@ trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, co
  */
 trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
                                      trax_error *error);
+
+/* Finds a bound buffer for a caller who computes addresses or fills it in place, before the run. */
+trax_status trax_machine_buffer(trax_machine *machine, const char *symbol, uint32_t *address, uint8_t **bytes,
+                                uint32_t *size, trax_error *error);
+/* Finds a symbol of the program: its address and its size (0: unknown). False: there is none. */
+bool trax_machine_find_symbol(const trax_machine *machine, const char *symbol, uint32_t *address, uint32_t *size);
+/* Reads the ELF file that was loaded, up to the end that its headers give. Error: none is loaded. */
+trax_status trax_machine_read_program(const trax_machine *machine, const uint8_t **bytes, size_t *size,
+                                      trax_error *error);
 
 typedef struct trax_progress {
   uint64_t cycle;
@@ -173,8 +191,11 @@ trax_status trax_machine_write_signature(const trax_machine *machine, const char
 void trax_machine_print_fault(const trax_machine *machine, FILE *out);
 
 /* --- statistics: declared once in emulator/machine/stats.h; names are stable --- */
-/* Reads a figure by its JSON name ("cycles", "mrps", "dcache.hits"). False: there is none of that name. */
+/* Reads a figure by its JSON name ("cycles", "mrps", "dcache.hits"; of a sampled run also "sampled.cycles_low",
+   "cycles_high", "windows", "slots", "detailed_slots", "predicted_cycles"). False: there is none of that name. */
 bool trax_stats_get(const trax_machine *machine, const char *name, double *value);
+/* The name of a cause of thread-cycles, by number: 0 is "issued", the last is "halted", and NULL follows. */
+const char *trax_stats_cause(unsigned number);
 /* Prints all statistics as text. */
 void trax_stats_print(const trax_machine *machine, FILE *out);
 /* Writes all statistics as JSON. path "-" is standard output; a file appears only when it is complete. */

@@ -1,7 +1,6 @@
 #include "accuracy.h"
 
-#include "machine/machine.h"
-#include "machine/special_latency.h"
+#include "trax/special_latency.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -125,13 +124,6 @@ void trax_accuracy_fronts(struct trax_accuracy_row *rows, size_t count) {
 
 /* --- machines --- */
 
-static trax_config *copy_of(const trax_config *config) {
-  trax_config *copy = trax_config_create();
-  if (copy)
-    *copy = *config;
-  return copy;
-}
-
 static trax_status set_number(trax_config *config, const char *key, unsigned value, trax_error *error) {
   char text[16];
   snprintf(text, sizeof text, "%u", value);
@@ -141,7 +133,7 @@ static trax_status set_number(trax_config *config, const char *key, unsigned val
 /* The run's chip with the variant's unit. */
 static trax_status chip_of(trax_config **config, const struct trax_variant *variant,
                            const struct trax_accuracy_run *run, trax_error *error) {
-  *config = copy_of(run->config);
+  *config = trax_config_copy(run->config);
   if (!*config)
     return trax_fail(error, "out of memory");
   trax_status status = TRAX_OK;

@@ -1,7 +1,6 @@
 /* The rows as a table, CSV, JSON and work-precision diagrams. */
 #include "accuracy.h"
 
-#include "machine/machine.h"
 #include "trax/output.h"
 
 #include <errno.h>

@@ -1,7 +1,6 @@
 #include "bench_accuracy.h"
 
 #include "accuracy.h"
-#include "machine/machine.h"
 #include "emulated.h"
 #include "trax/input.h"
 #include "trax/output.h"
@@ -213,11 +212,13 @@ static void show_row(void *context, double fraction) {
 }
 
 static struct trax_accuracy_run run_of(struct bench *bench, const trax_config *config, const struct trax_exact *exact) {
+  const unsigned queues = bench->options->queues;
+  const uint32_t icache_bytes = (uint32_t)trax_config_get(config, "icache.bytes");
   return (struct trax_accuracy_run){
       .specialise = {.root = bench->root,
                      .cache = bench->options->cache,
-                     .icache_bytes = config->icache.bytes,
-                     .queues = bench->options->queues ? bench->options->queues : config->chip.tms,
+                     .icache_bytes = icache_bytes,
+                     .queues = queues ? queues : (unsigned)trax_config_get(config, "chip.tms"),
                      .interrupt = bench->interrupt},
       .config = config,
       .original = bench->scene,

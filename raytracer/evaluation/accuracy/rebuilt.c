@@ -1,8 +1,6 @@
 /* A scene once more from its triangles, for comparisons of what it is stored as. */
 #include "accuracy.h"
 
-#include "machine/machine.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -12,7 +12,7 @@ a unit that produces four bits a cycle, once at that of a unit that multiplies:
     digits   four bits a cycle
     newton   a table and Newton's iteration
 
-emulator/machine/special_latency.h defines both, and both give the paper's 8 cycles for 24 bits. The bunny of Debian's glmark2-data is
+emulator/include/trax/special_latency.h defines both, and both give the paper's 8 cycles for 24 bits. The bunny of Debian's glmark2-data is
 rendered, and conference if --scenes is given.
 """
 

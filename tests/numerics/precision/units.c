@@ -6,8 +6,8 @@
    frsqrt over all significands of x in [1, 2) and [2, 4), both parities of the exponent; fdiv over all significands of
    the divisor in [1, 2) for the dividends below. Other exponents only scale the results. Errors are against the
    quotient or root in binary64, in units of the last place of binary32 and relative. Prints CSV: operation, bits, the
-   latency of either design (machine/special_latency.h), greatest and mean error in units, relative. */
-#include "machine/special_latency.h"
+   latency of either design (trax/special_latency.h), greatest and mean error in units, relative. */
+#include "trax/special_latency.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -56,7 +56,7 @@ struct trax_item_cost {
   uint32_t place;      /* TRAX_NO_PLACE: it stored nothing to the buffer */
   uint64_t begin, end; /* cycles */
   uint64_t instructions;
-  const uint64_t *cycles; /* [TRAX_CAUSE_COUNT] */
+  const uint64_t *cycles; /* by cause, in the order of trax_stats_cause */
 };
 #define TRAX_NO_PLACE UINT32_MAX
 

@@ -1,4 +1,4 @@
-#include "host/progress.h"
+#include "trax/run_progress.h"
 
 #include <inttypes.h>
 

@@ -1,8 +1,8 @@
 /* The latency in cycles of an FPDIV/iSQRT unit for results of b bits (special.precision_bits), for two simple designs
    (Ercegovac and Lang, "Digital Arithmetic", 2004). Both take the paper's 8 cycles for 24 bits. The emulator itself
    uses special.latency_cycles; these functions are for studies of error against run time. */
-#ifndef TRAX_MACHINE_SPECIAL_LATENCY_H
-#define TRAX_MACHINE_SPECIAL_LATENCY_H
+#ifndef TRAX_SPECIAL_LATENCY_H
+#define TRAX_SPECIAL_LATENCY_H
 
 /* A digit recurrence of radix 16, four bits per cycle: two bits more than the result has, for rounding, and one cycle
    to normalise and round (chapters 5 and 6). */

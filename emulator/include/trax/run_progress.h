@@ -1,6 +1,6 @@
 /* Shows a run's progress on the progress line (trax/progress.h). */
-#ifndef TRAX_HOST_PROGRESS_H
-#define TRAX_HOST_PROGRESS_H
+#ifndef TRAX_RUN_PROGRESS_H
+#define TRAX_RUN_PROGRESS_H
 
 #include "trax/emulator.h"
 #include "trax/progress.h"
