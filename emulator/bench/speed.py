@@ -10,39 +10,22 @@ the picture, the functional engine the whole picture. With --whole, all engines 
 """
 
 import pathlib
-import shlex
 import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "raytracer/evaluation/bench"))
 from scenes import arguments, files_of  # noqa: E402
+from trax_eval.manifest import read_manifest  # noqa: E402
 
 
-def render(options, scene, more, scratch):
-    """Renders the scene, keeps the inputs of its trax-sim in scratch, and returns the arguments of that trax-sim."""
-    subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene, "--size", options.size, *more, "--quiet", "--keep", scratch,
-                    "-o", pathlib.Path(scratch) / "picture.png"], check=True)
-    lines = (pathlib.Path(scratch) / "run.sh").read_text().replace("\\\n", " ").splitlines()
-    words = shlex.split(next(line for line in lines if "--bind" in line))[1:]
-    return [word for word in words if not word.startswith("$")]  # without the script's variables
-
-
-def engine_arguments(words):
-    """Returns engine-bench's arguments for the executable and buffers of trax-sim's arguments."""
-    program, buffers, words = None, [], list(words)
-    while words:
-        word = words.pop(0)
-        if word in ("--bind", "--scene"):
-            buffers.append(words.pop(0) if word == "--bind" else "scene=" + words.pop(0))
-        elif word == "--alloc":
-            buffers.append(words.pop(0).replace("=", ":"))
-        elif word.startswith("--"):
-            if word != "--quiet":
-                words.pop(0)
-        else:
-            program = word
-    return [program, *buffers]
+def prepare(options, scene, scratch):
+    """The executable of the scene's picture and its buffers, in scratch, as engine-bench takes them."""
+    subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene, "--size", options.size, "--quiet", "--prepare", scratch],
+                   check=True)
+    manifest = read_manifest(scratch)
+    return [manifest["program"]["file"], *(f"{buffer['symbol']}={buffer['file']}" if "file" in buffer else f"{buffer['symbol']}:{buffer['bytes']}"
+                                           for buffer in manifest["buffers"])]
 
 
 def main():
@@ -57,10 +40,10 @@ def main():
     header = True
     for scene in options.names.split(","):
         with tempfile.TemporaryDirectory() as scratch:
-            words = render(options, scene, [], scratch)
+            arguments_of_program = prepare(options, scene, scratch)
             how_far = ["--no-reference"] if options.whole else ["--max-cycles", options.max_cycles]
             run = subprocess.run([(options.bin / "engine-bench").resolve(), "--chips", options.chips, *how_far,
-                                  "--repeats", options.repeats, *engine_arguments(words)],
+                                  "--repeats", options.repeats, *arguments_of_program],
                                  cwd=scratch, text=True, stdout=subprocess.PIPE)
         rows = run.stdout.splitlines()
         if header and rows:

@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "report/backtrace.h"
 #include "gdb/gdb.h"
 #include "host/options.h"
-#include "trax/run_progress.h"
-#include "trax/output.h"
-#include "trax/signals.h"
+#include "report/backtrace.h"
 #include "report/watchdog.h"
+#include "trax/output.h"
+#include "trax/run_progress.h"
+#include "trax/signals.h"
 
 enum { EXIT_ERROR = 1, EXIT_STUCK = 124, EXIT_SIGNAL = 128 };
 
@@ -42,6 +42,8 @@ static int complain(const trax_error *error) {
 static trax_status configure(trax_config *config, const struct trax_options *options, trax_error *error) {
   if (options->config && trax_config_load(config, options->config, error) != TRAX_OK)
     return TRAX_ERROR;
+  if (options->manifest && !options->config && trax_manifest_configure(options->manifest, config, error) != TRAX_OK)
+    return TRAX_ERROR;
   for (size_t i = 0; i < options->assignment_count; ++i) {
     const struct trax_assignment *set = &options->assignments[i];
     if (set->kind == TRAX_ASSIGN_SET && trax_config_set(config, set->name, set->value, error) != TRAX_OK)
@@ -51,7 +53,8 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
 }
 
 static trax_status load(trax_machine *machine, const struct trax_options *options, trax_error *error) {
-  trax_status status = trax_machine_load_elf(machine, options->program, error);
+  trax_status status = options->manifest ? trax_manifest_load(options->manifest, machine, error)
+                                         : trax_machine_load_elf(machine, options->program, error);
   for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; ++i) {
     const struct trax_assignment *buffer = &options->assignments[i];
     if (buffer->kind == TRAX_ASSIGN_BIND)

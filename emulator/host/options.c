@@ -11,6 +11,23 @@
 
 /* --- values --- */
 
+static trax_status append(struct trax_options *options, struct trax_assignment assignment, const char *name,
+                          size_t length, const char *value, trax_error *error) {
+  struct trax_assignment *grown =
+      realloc(options->assignments, (options->assignment_count + 1) * sizeof *options->assignments);
+  if (!grown)
+    return trax_fail(error, "out of memory");
+  options->assignments = grown;
+  assignment.name = malloc(length + strlen(value) + 2);
+  if (!assignment.name)
+    return trax_fail(error, "out of memory");
+  memcpy(assignment.name, name, length);
+  assignment.name[length] = 0;
+  assignment.value = strcpy(assignment.name + length + 1, value);
+  options->assignments[options->assignment_count++] = assignment;
+  return TRAX_OK;
+}
+
 static trax_status add_assignment(struct trax_options *options, const trax_option *option,
                                   struct trax_assignment assignment, const char *text, trax_error *error) {
   const char *equals = strchr(text, '=');
@@ -19,19 +36,8 @@ static trax_status add_assignment(struct trax_options *options, const trax_optio
   uint64_t bytes = 0;
   if (assignment.kind == TRAX_ASSIGN_ALLOC && trax_option_number(option, equals + 1, 0, UINT32_MAX, &bytes, error))
     return TRAX_ERROR;
-  struct trax_assignment *grown =
-      realloc(options->assignments, (options->assignment_count + 1) * sizeof *options->assignments);
-  if (!grown)
-    return trax_fail(error, "out of memory");
-  options->assignments = grown;
   assignment.bytes = (uint32_t)bytes;
-  assignment.name = strdup(text);
-  if (!assignment.name)
-    return trax_fail(error, "out of memory");
-  assignment.name[equals - text] = 0;
-  assignment.value = assignment.name + (equals - text) + 1;
-  options->assignments[options->assignment_count++] = assignment;
-  return TRAX_OK;
+  return append(options, assignment, text, (size_t)(equals - text), equals + 1, error);
 }
 
 #define ASSIGNMENT_PARSER(function, what)                                                                              \
@@ -186,9 +192,10 @@ static const trax_option rows[] = {
 
 static const trax_command command = {
     .name = "trax-sim",
-    .synopsis = "[OPTION...] PROGRAM",
+    .synopsis = "[OPTION...] PROGRAM|MANIFEST.json",
     .description = "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
-                   "output is standard output, and its exit status is that of trax-sim.",
+                   "output is standard output, and its exit status is that of trax-sim. A manifest\n"
+                   "names program, buffers and machine (docs/manifest.md); options are added to it.",
     .rows = rows,
     .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
              "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report "
@@ -254,7 +261,10 @@ static trax_status check_engine(const struct trax_options *options, trax_error *
 /* Checks that no output is an input and that no file is written twice. */
 static trax_status check_files(const struct trax_options *options, trax_error *error) {
   trax_files files = {0};
-  trax_files_input(&files, NULL, options->program);
+  if (options->manifest)
+    trax_manifest_inputs(options->manifest, &files);
+  else
+    trax_files_input(&files, NULL, options->program);
   if (options->config && !trax_config_is_preset(options->config))
     trax_files_input(&files, NULL, options->config);
   trax_command_files(&command, options, &files);
@@ -278,6 +288,30 @@ trax_status trax_options_check_outputs(const struct trax_options *options, trax_
   return status;
 }
 
+/* A manifest instead of a program: what it says of the run, as far as the command line does not say otherwise. */
+static trax_status take_manifest(struct trax_options *options, trax_error *error) {
+  if (!options->program || !trax_manifest_is(options->program))
+    return TRAX_OK;
+  options->manifest = trax_manifest_read(options->program, error);
+  if (!options->manifest)
+    return TRAX_ERROR;
+  options->program = trax_manifest_program(options->manifest);
+  if (!options->total_items)
+    options->total_items = trax_manifest_items(options->manifest);
+  const size_t given = options->assignment_count;
+  const char *symbol, *path;
+  for (size_t i = 0; trax_manifest_output(options->manifest, i, &symbol, &path); i++) {
+    size_t other = 0;
+    while (other < given && (options->assignments[other].kind != TRAX_ASSIGN_DUMP ||
+                             strcmp(options->assignments[other].name, symbol) != 0))
+      other++;
+    if (other == given && append(options, (struct trax_assignment){.kind = TRAX_ASSIGN_DUMP}, symbol, strlen(symbol),
+                                 path, error) != TRAX_OK)
+      return TRAX_ERROR;
+  }
+  return TRAX_OK;
+}
+
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
   *options = (struct trax_options){0};
   trax_engine_find(NULL, &options->engine, error);
@@ -289,8 +323,8 @@ trax_parsed trax_options_parse(struct trax_options *options, int count, char **a
     trax_fail(error, "two programs, %s and %s: a program takes no arguments", arguments[0], arguments[1]);
   else if (!options->program && !options->print_config)
     trax_fail(error, "no program is given");
-  else if (check_engine(options, error) == TRAX_OK && check_explain(options, error) == TRAX_OK &&
-           check_files(options, error) == TRAX_OK)
+  else if (take_manifest(options, error) == TRAX_OK && check_engine(options, error) == TRAX_OK &&
+           check_explain(options, error) == TRAX_OK && check_files(options, error) == TRAX_OK)
     return TRAX_PARSED_RUN;
   return TRAX_PARSED_WRONG;
 }
@@ -299,5 +333,6 @@ void trax_options_free(struct trax_options *options) {
   for (size_t i = 0; i < options->assignment_count; ++i)
     free(options->assignments[i].name);
   free(options->assignments);
+  trax_manifest_release(options->manifest);
   *options = (struct trax_options){0};
 }

@@ -9,6 +9,7 @@
 #include "host/checkpoint.h"
 #include "trax/explain.h"
 #include "trax/emulator.h"
+#include "trax/manifest.h"
 #include "trax/options.h"
 
 /* NAME=VALUE of --set, --bind, --alloc, --dump. */
@@ -20,6 +21,7 @@ struct trax_assignment {
 };
 
 struct trax_options {
+  trax_manifest *manifest; /* that was named instead of a program; NULL: none */
   const char *program, *config, *stats, *report, *post_mortem, *gdb_symbols, *signature; /* NULL: not given */
   struct trax_assignment *assignments; /* in the order of the command line */
   size_t assignment_count;

@@ -44,6 +44,9 @@ void trax_stats_describe_members(FILE *out);
 /* How the run ended: "finished", "fault", "interrupted", "limit", "stuck", "error". */
 const char *trax_ending_name(const struct trax_machine *machine);
 
+/* Makes a JSON object (jansson) of the configuration, an object for each section. NULL: out of memory. */
+struct json_t *trax_config_json(const struct trax_config *config);
+
 /* The share of the cycles in which a channel's bus was busy. */
 double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel);
 

@@ -206,9 +206,9 @@ static void put_channels(struct document *document, const trax_machine *machine)
   }
 }
 
-static void put_configuration(struct document *document, const struct trax_config *config) {
+json_t *trax_config_json(const struct trax_config *config) {
   json_t *configuration = json_object();
-  put(document, document->root, "configuration", configuration);
+  struct document all = {configuration, false}, *document = &all;
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
     double value = trax_config_value(config, key);
@@ -219,6 +219,10 @@ static void put_configuration(struct document *document, const struct trax_confi
         : key->kind == TRAX_KIND_POLICY ? json_string(trax_replacements[(size_t)value].word)
                                         : json_integer((json_int_t)value));
   }
+  if (!all.failed)
+    return configuration;
+  json_decref(configuration);
+  return NULL;
 }
 
 static trax_status dump(const trax_machine *machine, FILE *out, trax_error *error) {
@@ -242,7 +246,7 @@ static trax_status dump(const trax_machine *machine, FILE *out, trax_error *erro
   put_identity(&document, machine);
   put_tms(&document, machine);
   put_channels(&document, machine);
-  put_configuration(&document, &machine->config);
+  put(&document, root, "configuration", trax_config_json(&machine->config));
   bool written = !document.failed && json_dumpf(root, out, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0;
   json_decref(root);
   if (document.failed)

@@ -1,14 +1,13 @@
 #include "emulated.h"
 
+#include "prepare.h"
 #include "report.h"
 #include "sampled.h"
-#include "trax/output.h"
 #include "trax/run_progress.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define DEFAULT_FRACTION 0.05 /* of the work, with --sampled */
@@ -136,96 +135,6 @@ trax_status emulated_cache_lines(unsigned *lines, const struct options *options,
   return status;
 }
 
-static trax_status write_bytes(const char *directory, const char *name, const void *bytes, size_t size,
-                               trax_error *error) {
-  char path[TRAX_PATH_SIZE];
-  if (snprintf(path, sizeof path, "%s/%s", directory, name) >= (int)sizeof path)
-    return trax_fail(error, "%s: the path is too long", directory);
-  trax_output output;
-  trax_status status = trax_output_open(&output, path, error);
-  if (status != TRAX_OK)
-    return status;
-  if (fwrite(bytes, 1, size, output.file) != size) {
-    trax_output_discard(&output);
-    return trax_fail(error, "%s: %s", path, strerror(errno));
-  }
-  return trax_output_commit(&output, error);
-}
-
-/* A word for the shell, in quotes. */
-static void quote(FILE *out, const char *word) {
-  fputc('\'', out);
-  for (; *word; word++)
-    if (*word == '\'')
-      fputs("'\\''", out);
-    else
-      fputc(*word, out);
-  fputc('\'', out);
-}
-
-/* Of --keep: the buffers, in the order in which they were bound, since addresses depend on it. */
-static const struct {
-  const char *symbol, *file;
-} kept_buffers[] = {{"scene", "scene.trax"},
-                    {"plain_nodes", "nodes.bin"},
-                    {"plain_triangles", "triangles.bin"},
-                    {"params", "params.bin"}};
-enum { KEPT_BUFFERS = sizeof kept_buffers / sizeof *kept_buffers };
-
-const char *kept_file(size_t number) {
-  static const char *const others[] = {"program.elf", "run.sh", NULL};
-  return number < KEPT_BUFFERS ? kept_buffers[number].file : others[number - KEPT_BUFFERS];
-}
-
-/* The files that the program reads, and the command that runs it on them. */
-static trax_status keep_inputs(const struct options *options, const struct trax_frame *frame, trax_machine *machine,
-                               trax_error *error) {
-  if (mkdir(options->keep, 0777) != 0 && errno != EEXIST)
-    return trax_fail(error, "%s: %s", options->keep, strerror(errno));
-  const uint32_t paths = trax_program_has(machine, "paths") ? trax_path_bytes(machine, frame) : 0;
-  char *text = NULL;
-  size_t size = 0;
-  FILE *command = open_memstream(&text, &size);
-  if (!command)
-    return trax_fail(error, "out of memory");
-  fputs("#!/bin/sh\n# Renders into image.raw: row by row, R, G, B, A bytes, or R, G, B floats.\ncd \"$(dirname "
-        "\"$0\")\" || exit 1\n"
-        "exec \"${TRAX_SIM:-trax-sim}\" --config ",
-        command);
-  quote(command, options->config ? options->config : "4x32");
-  for (size_t i = 0; i < options->setting_count; i++) {
-    fprintf(command, " --set %s=", options->settings[i].key);
-    quote(command, options->settings[i].value);
-  }
-  trax_status status = TRAX_OK;
-  for (size_t i = 0; i < KEPT_BUFFERS && status == TRAX_OK; i++) {
-    const uint8_t *bytes;
-    uint32_t input_bytes;
-    if (!trax_program_has(machine, kept_buffers[i].symbol))
-      continue;
-    fprintf(command, " --bind %s=%s", kept_buffers[i].symbol, kept_buffers[i].file);
-    status = trax_machine_read_buffer(machine, kept_buffers[i].symbol, &bytes, &input_bytes, error);
-    if (status == TRAX_OK)
-      status = write_bytes(options->keep, kept_buffers[i].file, bytes, input_bytes, error);
-  }
-  fprintf(command, " --alloc image=%u --dump image=image.raw --progress-total %u \"$@\" ",
-          trax_frame_image_bytes(frame), frame->params->width * frame->params->height);
-  if (paths)
-    fprintf(command, "--alloc paths=%u ", paths);
-  fputs("program.elf\n", command);
-  fclose(command);
-  const uint8_t *elf = NULL;
-  size_t elf_bytes;
-  if (status == TRAX_OK)
-    status = trax_machine_read_program(machine, &elf, &elf_bytes, error);
-  if (status == TRAX_OK)
-    status = write_bytes(options->keep, "program.elf", elf, elf_bytes, error);
-  if (status == TRAX_OK)
-    status = write_bytes(options->keep, "run.sh", text, size, error);
-  free(text);
-  return status;
-}
-
 static double statistic(const trax_machine *machine, const char *name) {
   double value = 0;
   trax_stats_get(machine, name, &value);
@@ -292,9 +201,9 @@ static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct
 
 /* One picture by one program. figures may be NULL. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
-                               const struct trax_frame *frame, const struct trax_program *program,
-                               trax_progress_line *progress, const volatile int *interrupt,
-                               struct program_figures *figures, trax_error *error) {
+                               const struct trax_frame *frame, const struct trax_view *view,
+                               const struct trax_program *program, trax_progress_line *progress,
+                               const volatile int *interrupt, struct program_figures *figures, trax_error *error) {
   if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_config *config = trax_config_create();
@@ -303,7 +212,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
   if (status == TRAX_OK)
     status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
   if (status == TRAX_OK && options->keep)
-    status = keep_inputs(options, frame, machine, error);
+    status = prepare_write(options->keep, frame, view, machine, error);
   if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
     struct trax_run_progress shown = {.line = progress, .step = "rendering"};
@@ -351,8 +260,9 @@ static trax_status run_program(struct trax_picture *picture, const struct option
 /* --- both ways --- */
 
 static trax_status report(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                          const struct trax_program *specialised, trax_progress_line *progress,
-                          const volatile int *interrupt, bool *agrees, trax_error *error) {
+                          const struct trax_view *view, const struct trax_program *specialised,
+                          trax_progress_line *progress, const volatile int *interrupt, bool *agrees,
+                          trax_error *error) {
   struct options plain = *options; /* what explains or keeps the run is about the specialised program */
   plain.stats = plain.keep = plain.cost_picture = plain.cost_values = NULL;
   plain.explain = (struct trax_explain_options){0};
@@ -361,9 +271,9 @@ static trax_status report(struct trax_picture *picture, const struct options *op
   struct program_figures figures[2];
   trax_status status = general_program(&program, options, frame, error);
   if (status == TRAX_OK)
-    status = run_program(&other, &plain, frame, &program, progress, interrupt, &figures[0], error);
+    status = run_program(&other, &plain, frame, view, &program, progress, interrupt, &figures[0], error);
   if (status == TRAX_OK)
-    status = run_program(picture, options, frame, specialised, progress, interrupt, &figures[1], error);
+    status = run_program(picture, options, frame, view, specialised, progress, interrupt, &figures[1], error);
   if (status == TRAX_OK) {
     struct trax_difference difference;
     trax_picture_compare(&difference, picture, &other, 0);
@@ -382,7 +292,8 @@ static trax_status report(struct trax_picture *picture, const struct options *op
 }
 
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    trax_progress_line *progress, const volatile int *interrupt, bool *agrees, trax_error *error) {
+                    const struct trax_view *view, trax_progress_line *progress, const volatile int *interrupt,
+                    bool *agrees, trax_error *error) {
   struct trax_program program;
   trax_progress_line_show(progress, "compiling", -1, NULL);
   struct chosen chosen;
@@ -392,8 +303,8 @@ trax_status emulate(struct trax_picture *picture, const struct options *options,
   if (status != TRAX_OK)
     return status;
   if (!options->report)
-    return run_program(picture, options, frame, &program, progress, interrupt, NULL, error);
+    return run_program(picture, options, frame, view, &program, progress, interrupt, NULL, error);
   if (!program.specialised)
     return trax_fail(error, "--report: there is no specialised program to report on");
-  return report(picture, options, frame, &program, progress, interrupt, agrees, error);
+  return report(picture, options, frame, view, &program, progress, interrupt, agrees, error);
 }

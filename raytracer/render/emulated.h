@@ -20,12 +20,10 @@ trax_status emulated_cache_lines(unsigned *lines, const struct options *options,
 /* What the installation has, next to this program: ../FOLDER/NAME with its suffix. False if it cannot be read. */
 bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix);
 
-/* The files that --keep and --prepare write, by number; NULL behind the last one. */
-const char *kept_file(size_t number);
-
-/* The picture, and what the options want to know of the run. With --report two pictures, by the general program and by
-   the specialised one, and *agrees becomes false if they differ. */
+/* The picture, and what the options want to know of the run; view is the frame's. With --report two pictures, by the
+   general program and by the specialised one, and *agrees becomes false if they differ. */
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    trax_progress_line *progress, const volatile int *interrupt, bool *agrees, trax_error *error);
+                    const struct trax_view *view, trax_progress_line *progress, const volatile int *interrupt,
+                    bool *agrees, trax_error *error);
 
 #endif

@@ -1,8 +1,8 @@
 /* What trax-render reads and writes, compared before it begins (trax/files.h). */
 #include "files.h"
 
-#include "emulated.h"
 #include "inputs.h"
+#include "prepare.h"
 #include "trax/output.h"
 
 #include <stdlib.h>
@@ -60,8 +60,8 @@ trax_status check_files(trax_files *files, const struct options *options, trax_e
   if (add_inputs(files, options, error) != TRAX_OK || add_picture(files, options, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_command_files(&render_command, options, files);
-  for (size_t i = 0; options->keep && kept_file(i); i++)
-    add_in_folder(files, options->prepare ? "--prepare" : "--keep", options->keep, kept_file(i));
+  for (size_t i = 0; options->keep && prepared_file(i); i++)
+    add_in_folder(files, options->prepare ? "--prepare" : "--keep", options->keep, prepared_file(i));
   const bool is_file = options->output && !options->bench_accuracy;
   if (trax_files_check(files, error) != TRAX_OK ||
       (is_file && trax_output_name_check(options->output, "png pfm exr", error) != TRAX_OK) ||

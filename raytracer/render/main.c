@@ -171,7 +171,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   }
   if (status == TRAX_OK)
     status = options->engine <= ENGINE_REFERENCE
-                 ? emulate(&picture, options, &frame, progress, &trax_signal, agrees, error)
+                 ? emulate(&picture, options, &frame, view, progress, &trax_signal, agrees, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
                                options->quiet, error);
   if (status == TRAX_OK && output)

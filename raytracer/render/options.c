@@ -143,7 +143,7 @@ static const trax_option rows[] = {
      .meaning = "renders with both programs and prints what each takes; exit status 1 if the pictures\n"
                 "are not the same bit for bit"},
     {"keep", .argument = "DIR", FIELD(keep),
-     .meaning = "keeps what the program reads, and the trax-sim command that runs it"},
+     .meaning = "keeps what the program reads, and a manifest of it that trax-sim runs"},
     {"prepare", .argument = "DIR", .parse = take_prepare, .meaning = "the same, and renders nothing"},
     {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
     TRAX_OPTION_HELP('h'),

@@ -112,12 +112,10 @@ def programs(scratch):
 
 def picture(scratch):
     """The ray tracer on two TMs."""
-    subprocess.run([BIN / "trax-render", SOURCE / "tests/render/box.obj", "--size", "40x24", "--config", "2x32", "--quiet", "--keep",
-                    scratch, "-o", scratch / "picture.png"], check=True)
-    script = (scratch / "run.sh").read_text()
-    options = re.findall(r"--(?:bind|alloc) \S+", script)
-    expect_nothing("ray tracer", subprocess.run([BIN / "trax-sim", "--quiet", "--check-order", "--config", "2x32", *" ".join(options).split(), "program.elf"],
-                                                cwd=scratch, capture_output=True, text=True, timeout=600))
+    subprocess.run([BIN / "trax-render", SOURCE / "tests/render/box.obj", "--size", "40x24", "--config", "2x32", "--quiet", "--prepare",
+                    scratch], check=True)
+    expect_nothing("ray tracer", subprocess.run([BIN / "trax-sim", "--quiet", "--check-order", scratch / "manifest.json"],
+                                                capture_output=True, text=True, timeout=600))
 
 
 def refused(scratch):

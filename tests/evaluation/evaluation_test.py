@@ -142,8 +142,8 @@ def test_sweep(evaluation, scratch):
     for path in (scratch / "damaged/inputs").glob("*/program.elf"):
         path.write_bytes(path.read_bytes()[:-1])
     run = evaluation.run(dict(SMALL, chips="2x32"), "damaged")  # of as many TMs: the same inputs
-    check(run.returncode == 1 and "is damaged" in run.stderr, f"damaged inputs: {run.stderr}")
-    check(all(one["status"] == "failed" and "damaged" in one["error"] for one in evaluation.results("damaged")["runs"]), "failed runs in results.json")
+    check(run.returncode == 1 and "program.elf: " in run.stderr and "bytes, but" in run.stderr, f"damaged inputs: {run.stderr}")
+    check(all(one["status"] == "failed" and "bytes, but" in one["error"] for one in evaluation.results("damaged")["runs"]), "failed runs in results.json")
 
 
 REFUSED = [

@@ -13,12 +13,12 @@ import json
 import os
 import pathlib
 import re
-import shlex
 import subprocess
 import sys
 import tempfile
 
-from scenes import ROOT, arguments, files_of
+from scenes import ROOT, arguments, files_of  # first: it says where trax_eval is
+from trax_eval.manifest import buffer_options, read_manifest
 
 SCENES = ["conference", "crytek-sponza", "dragon", "forest"]
 NODE_WORDS, TRIANGLE_WORDS = 8, 10  # of trax/plain_scene.h
@@ -122,8 +122,7 @@ def compiled(source, changes, output, compiler):
 
 def simulate(options, folder, config, choice):
     """The statistics and the picture's bytes."""
-    command = shlex.split((folder / "run.sh").read_text().splitlines()[-1])
-    given = [part for word, value in zip(command, command[1:]) if word in ("--bind", "--alloc") for part in (word, value)]
+    given = buffer_options(read_manifest(folder))
     if (folder / "materials.bin").exists():
         given += ["--bind", "materials=materials.bin"]
     settings = [part for setting in ["fpu.compare_units=true", *choice.settings] for part in ("--set", setting)]

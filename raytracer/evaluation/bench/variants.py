@@ -15,7 +15,6 @@ import math
 import os
 import pathlib
 import re
-import shlex
 import struct
 import subprocess
 import sys
@@ -25,6 +24,7 @@ from device_scene import Scene
 from order_variants import ORDERS
 from scenes import ROOT, SCENES, arguments, find
 from traversal import program_bytes
+from trax_eval.manifest import buffer_options, read_manifest
 from triangle_variants import TRIANGLES
 
 GROUPS = {"order": ORDERS, "triangles": TRIANGLES}
@@ -78,10 +78,11 @@ def measure(options, prepared, variant, folder):
         if variant.scene:
             variant.scene(scene)
         (work / "scene.trax").write_bytes(scene.words.tobytes())
-        command = shlex.split((place / "run.sh").read_text().splitlines()[-1])
-        given = [part for word, value in zip(command, command[1:]) if word in ("--bind", "--alloc") for part in (word, value)]
-        for bound in (value.split("=")[1] for word, value in zip(given, given[1:]) if word == "--bind" and not value.startswith("scene=")):
-            (work / bound).write_bytes((place / bound).read_bytes())
+        manifest = read_manifest(place)
+        given = buffer_options(manifest)
+        for buffer in manifest["buffers"]:
+            if "file" in buffer and buffer["symbol"] != "scene":
+                (work / buffer["file"]).write_bytes((place / buffer["file"]).read_bytes())
         subprocess.run([options.bin / "trax-sim", "--quiet", "--config", config, "--host-threads", "1", *given, "--stats", "stats.json", "--dump", "image=image.raw",
                         "program.elf"], cwd=work, check=True)
         runs.append((json.loads((work / "stats.json").read_text()), (work / "image.raw").read_bytes(), 4 * len(scene.words), *sizes))

@@ -1,7 +1,7 @@
 """Jobs: what decides a run's result, a key made of exactly that, and the run itself.
 
 A folder of results has
-  inputs/HASH/    what programs read: program.elf, scene.trax, ..., as trax-render --prepare writes it; HASH is of these bytes
+  inputs/HASH/    what programs read, as trax-render --prepare writes it; HASH is of what its manifest says of that
   inputs/bytes/   the same files by the hash of their bytes, as hard links
   jobs/KEY.json   a run to be made; KEY is the hash of this
   runs/KEY.json   its result, which is the same in every byte whenever and wherever the job is run
@@ -16,7 +16,6 @@ import json
 import os
 import pathlib
 import platform
-import shlex
 import shutil
 import socket
 import struct
@@ -25,6 +24,7 @@ import tempfile
 import time
 import zlib
 
+from .manifest import NAME, read_manifest
 from .tools import run_tool
 from .util import Problem, hash_bytes, hash_file, hash_value, read_json, write_file, write_json
 
@@ -51,19 +51,7 @@ def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False, 
         run = run_tool(command)
         if run.returncode != 0:
             raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
-        words = shlex.split(pathlib.Path(scratch, "run.sh").read_text().splitlines()[-1])
-        buffers = [words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--bind"]
-        allocations = dict(words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--alloc")
-        if list(allocations) != ["image"]:  # others depend on the machine
-            raise Problem(f"{scene}: this picture needs more than the paper's workload, which a sweep cannot render")
-        width, height = map(int, size.split("x"))
-        description = {
-            "program": hash_file(pathlib.Path(scratch, "program.elf")),
-            "buffers": [[symbol, file, hash_file(pathlib.Path(scratch, file))] for symbol, file in buffers],
-            "image_bytes": int(allocations["image"]),
-            "width": width,
-            "height": height,
-        }
+        description = description_of(read_manifest(scratch))
         if quick:
             shutil.copyfile(scene, pathlib.Path(scratch, "whole.trax"))
             description["quick"] = [program, *([file, hash_file(pathlib.Path(scratch, file))] for file in QUICK_FILES)]
@@ -71,8 +59,9 @@ def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False, 
         if not only_look and not place.exists():
             (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
             os.chmod(scratch, 0o755)
-            for _, file, content in description["buffers"]:
-                share(pathlib.Path(scratch, file), place.parent / "bytes" / content)
+            for buffer in description["buffers"]:
+                if "file" in buffer:
+                    share(pathlib.Path(scratch, buffer["file"]), place.parent / "bytes" / buffer["xxh128"])
             try:
                 os.rename(scratch, place)
             except OSError:
@@ -81,6 +70,11 @@ def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False, 
         return description
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def description_of(manifest):
+    """What of the manifest decides a result: a job has a machine of its own."""
+    return {name: manifest[name] for name in ("program", "buffers", "items", "picture")}
 
 
 def share(path, content):
@@ -183,8 +177,11 @@ def clean_scratch(out):
 # --- runs
 
 
-def png(width, height, pixels):
-    """R, G, B, A bytes, row by row, as a picture (RFC 2083)."""
+def png(picture, pixels):
+    """What a manifest describes so, R, G, B, A bytes, row by row, as a PNG (RFC 2083)."""
+    width, height = picture["width"], picture["height"]
+    if picture["layout"] != "rgba uint8":
+        raise Problem(f"the picture is of {picture['layout']}, not of bytes")
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -196,7 +193,7 @@ def png(width, height, pixels):
 
 def quick_command(tools, inputs, job, scratch, threads):
     """trax-render on what the job's inputs were made of: some parts of the picture."""
-    size = f"{job['inputs']['width']}x{job['inputs']['height']}"
+    size = "{width}x{height}".format_map(job["inputs"]["picture"])
     command = [tools.path("trax-render"), str(inputs / "whole.trax"), "--view", str(inputs / "picture.view"), "--size", size, "--config",
                f"{scratch}/machine.cfg", "--sampled", "--threads", str(threads), "--quiet", "--stats", f"{scratch}/stats.json", "-o", f"{scratch}/image.png"]
     return command + (["--program", str(inputs / "program.elf")] if job["inputs"]["quick"][0] == "era" else [])
@@ -207,22 +204,21 @@ def command_of(tools, inputs, job, scratch, threads):
     if job["engine"] == "quick":
         return quick_command(tools, inputs, job, scratch, threads)
     command = [tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats", f"{scratch}/stats.json"]
-    for symbol, file, _ in job["inputs"]["buffers"]:
-        command += ["--bind", f"{symbol}={inputs / file}"]
-    command += ["--alloc", f"image={job['inputs']['image_bytes']}", "--dump", f"image={scratch}/image.raw"]
-    command += ["--host-threads", str(threads)]
+    command += ["--dump", f"{job['inputs']['picture']['buffer']}={scratch}/image.raw", "--host-threads", str(threads)]
     if job["series"]:
         command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
     if job["lockstep"]:
         command += ["--lockstep", f"{scratch}/lockstep.csv"]
-    return [*command, str(inputs / "program.elf")]
+    return [*command, str(inputs / NAME)]
 
 
 def check_inputs(job, inputs):
-    files = [("program.elf", job["inputs"]["program"]), *((file, expected) for _, file, expected in job["inputs"]["buffers"])]
-    for file, expected in [*files, *job["inputs"].get("quick", [None])[1:]]:
-        if hash_file(inputs / file) != expected:
-            raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
+    """What the manifest names is checked by trax-sim."""
+    quick = job["inputs"].get("quick", [None])[1:]
+    expected = {name: value for name, value in job["inputs"].items() if name != "quick"}
+    damaged = [] if description_of(read_manifest(inputs)) == expected else [NAME]
+    for file in damaged + [file for file, expected in quick if hash_file(inputs / file) != expected]:
+        raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
 
 
 # The simulator dies with this process, whatever ends it: also if that was before the kernel had been asked for it.
@@ -270,7 +266,7 @@ def keep_results(out, key, job, scratch, statistics, host):
         picture = hash_bytes(pixels)
         path = out / "pictures" / f"{picture}.png"
         if not path.exists():
-            write_file(path, png(job["inputs"]["width"], job["inputs"]["height"], pixels))
+            write_file(path, png(job["inputs"]["picture"], pixels))
     if job["series"]:
         write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
     result = {"key": key, "job": job, "picture": picture, "statistics": statistics}

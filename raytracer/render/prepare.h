@@ -1,0 +1,13 @@
+/* What trax-render --keep and --prepare write: a run of trax-sim (trax/manifest.h). */
+#ifndef TRAX_RENDER_PREPARE_H
+#define TRAX_RENDER_PREPARE_H
+
+#include "render.h"
+
+/* Of a machine that trax_simulated_load has loaded. */
+trax_status prepare_write(const char *folder, const struct trax_frame *frame, const struct trax_view *view,
+                          trax_machine *machine, trax_error *error);
+/* The files that it writes, by number; NULL behind the last one. */
+const char *prepared_file(size_t number);
+
+#endif
