@@ -129,6 +129,16 @@ def test_sweep(evaluation, scratch):
         check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")
         check(1 / 32 <= one["values"]["simd_utilisation.32"] <= one["values"]["simd_bound.32"] < 1, "warps of 32")
 
+    # The program and the order of nodes are those for the caches of each machine.
+    sizes = {"icache.bytes": [1024, 4096], "dcache.bytes": [2048, 16384]}
+    check(evaluation.run(dict(SMALL, chips="1x32", series=0, set=sizes), "caches").returncode == 0, "caches")
+    made = {}
+    for one in evaluation.results("caches")["runs"]:
+        inputs = json.loads((scratch / "caches/jobs" / f"{one['key']}.json").read_text())["inputs"]
+        made[one["machine"]["icache.bytes"], one["machine"]["dcache.bytes"]] = inputs["program"]["xxh128"], inputs["buffers"][0]["xxh128"]
+    check(made[1024, 16384][0] != made[4096, 16384][0] == made[4096, 2048][0], "the program is not the instruction cache's")
+    check(made[4096, 2048][1] != made[4096, 16384][1], "the order of nodes is not the data cache's")
+
     # Damage is noticed, and a run that fails says why.
     victim = scratch / "undisturbed/jobs" / f"{runs[0]['key']}.json"
     job = json.loads(victim.read_text())

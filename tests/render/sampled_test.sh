@@ -65,6 +65,16 @@ for queues in 1 5; do
   [ "$(number some.json queues)" = $queues ] || fail "$queues queues: $(number some.json queues)"
 done
 
+# --- what the prediction's constants are not known for is said
+render some --size 96x64 --sampled
+grep -q '^predicted .* cycles, before any was simulated$' .out || fail "the default chip: $(cat .out)"
+render some --size 96x64 --sampled --set special.pipelined=false
+grep -q '; uncertain: the model is not fitted to special.pipelined$' .out || fail "another unit: $(cat .out)"
+render some --size 96x64 --sampled --program "$bin/../lib/trax/trax-raytracer.elf" --nodes binary
+grep -q '; uncertain: the model is not fitted to another program$' .out || fail "another program: $(cat .out)"
+render some --size 96x64 --sampled --paths 2
+grep -q '; uncertain: the model is not fitted to another workload$' .out || fail "another workload: $(cat .out)"
+
 # --- the same for any number of host threads, and as precise as asked
 render one --size 320x180 --sampled --threads 1
 render two --size 320x180 --sampled --threads 2

@@ -38,16 +38,16 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in 
 QUICK_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of: quick runs choose by it what to simulate
 
 
-def prepare_inputs(out, tools, scene, view, size, program, queues, quick=False, only_look=False):
-    """The files that a program reads for a picture; returns their description, which is part of the job. queues: of pixels, or None for a program that
-    knows nothing of them. only_look: nothing is kept."""
+def prepare_inputs(out, tools, scene, view, size, program, chip, quick=False, only_look=False):
+    """The files that a program reads for a picture; returns their description, which is part of the job. chip: what of it decides about the program, its TMs
+    and the bytes of an instruction cache; None: nothing does. only_look: nothing is kept."""
     scratch = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
         command += ["--write-view", f"{scratch}/picture.view"] if quick else []
         command += ["--view", view] if view else []
         command += ["--program", tools.era_program()] if program == "era" else []
-        command += ["--queues", str(queues)] if queues else []
+        command += ["--queues", str(chip[0]), "--set", f"icache.bytes={chip[1]}"] if chip else []
         run = run_tool(command)
         if run.returncode != 0:
             raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")

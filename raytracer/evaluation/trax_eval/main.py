@@ -12,7 +12,7 @@ from . import runners
 from .jobs import clean_scratch, is_done, key_of, make_job, prepare_inputs, write_job
 from .paper import Paper
 from .results import collect, plan_file, write_plan
-from .scenes import scene_file
+from .scenes import IMPORT_OPTIONS, order_options, scene_file
 from .sweep import MODES, PROGRAMS, parse_size, read_sweep
 from .tables import print_tables
 from .tools import Tools
@@ -150,14 +150,17 @@ class Planner:
     def inputs(self, sweep, point):
         scene = sweep.scenes[point.scene]
         self.note(f"{point.scene}, {point.size}, {point.program}")
-        path = self.once(("scene", tuple(scene["meshes"]), point.program),
-                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, point.program, self.only_look))
+        machine = point.chip, point.machine()
+        ours = point.program == "ours"  # it is made for a machine, as trax-render has it
+        options = [*IMPORT_OPTIONS[point.program], *(order_options(self.tools.whole(*machine, "dcache.bytes")) if ours else [])]
+        path = self.once(("scene", tuple(scene["meshes"]), tuple(options)),
+                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, options, self.only_look))
         if path is None:
             return None
         quick = point.mode == "quick"
-        queues = self.tools.shape(point.chip, point.machine())[0] if point.program == "ours" else None  # as trax-render has it
-        return self.once((path, scene["view"], point.size, point.program, queues, quick),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, queues, quick, self.only_look))
+        chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if ours else None
+        return self.once((path, scene["view"], point.size, point.program, chip, quick),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, chip, quick, self.only_look))
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""

@@ -36,8 +36,17 @@ def neighbours(mesh):
 IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary", "--splits=1", "--passes", "0"]}
 
 
-def scene_file(out, tools, directory, name, scene, program, only_look=False):
-    """The scene file of a scene; imported once for the same meshes and the same importer. NAME.trax in the directory comes first. only_look: None if it
+PAPERS_LINES = 256  # of the data cache, what trax-scene takes by itself
+
+
+def order_options(dcache_bytes):
+    """trax-scene orders nodes for the data cache that they are for."""
+    lines = min(max(dcache_bytes // 64, 1), 4096)
+    return [] if lines == PAPERS_LINES else ["--cache-lines", str(lines)]
+
+
+def scene_file(out, tools, directory, name, scene, options, only_look=False):
+    """The scene file of a scene; imported once for the same meshes, options and importer. NAME.trax in the directory comes first. only_look: None if it
     has not been imported."""
     built = directory / f"{name}.trax"
     if built.is_file():
@@ -46,7 +55,6 @@ def scene_file(out, tools, directory, name, scene, program, only_look=False):
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
     if only_look and not any((out / "scenes").glob("*.trax")):
         return None
-    options = IMPORT_OPTIONS[program]
     key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
     if only_look and not path.exists():

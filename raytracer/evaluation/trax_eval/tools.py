@@ -51,7 +51,11 @@ class Tools:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
         return run.stdout
 
+    def whole(self, chip, settings, key):
+        """A value of that machine which is a whole number: "dcache.bytes"."""
+        section, name = key.split(".")
+        return int(re.search(rf"^{section}: {{.*?^ *{name} = (\d+);", self.configuration(chip, settings), re.MULTILINE | re.DOTALL).group(1))
+
     def shape(self, chip, settings):
         """(TMs, TPs of each) of that chip."""
-        text = self.configuration(chip, settings)
-        return tuple(int(re.search(rf"^ *{key} = (\d+);", text, re.MULTILINE).group(1)) for key in ("tms", "tps_per_tm"))
+        return self.whole(chip, settings, "chip.tms"), self.whole(chip, settings, "chip.tps_per_tm")
