@@ -57,7 +57,7 @@ struct model {
   uint64_t rays;
 
   double latency; /* of memory */
-  bool by_use; /* lines are replaced by when they were used, not by when they came */
+  bool by_use;    /* lines are replaced by when they were used, not by when they came */
   uint32_t line_bytes, ways, tms, tps, set_mask, noted; /* noted: blocks that are */
   unsigned line_shift;
   uint32_t address;
