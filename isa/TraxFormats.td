@@ -36,9 +36,9 @@ def srnum : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]>
   let PrintMethod = "printSpecialRegister";
   let DecoderMethod = "decodeSpecialRegister";
 }
-def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
+def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 7; }]> {
   let ParserMatchClass = TraxImmAsmOperand<"TrapCode",
-      "trap code must be exit, putc, abort, rays, items, puts or a number in the range [0, 5]",
+      "trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]",
       "parseTrapCode">;
   let PrintMethod = "printTrapCode";
   let DecoderMethod = "decodeTrapCode";

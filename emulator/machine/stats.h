@@ -5,6 +5,7 @@
 
 #include "machine/config.h"
 #include "machine/units.h"
+#include "trax/abi.h"
 #include "trax/isa.h"
 
 #include <stdint.h>
@@ -39,7 +40,8 @@ typedef enum trax_cause {
 
 /* Counters of each TM; the chip's figure is the sum: identifier, name, unit, meaning. */
 #define TRAX_TM_COUNTERS(X)                                                                                            \
-  X(rays, "rays", "rays", "rays the program reported with the rays trap")                                              \
+  X(rays, "rays", "rays", "rays the program reported with the traps rays and kinds")                                   \
+  TRAX_RAY_KINDS(TRAX_KIND_COUNTER, X)                                                                                 \
   X(items, "items", "items", "items (pixels) the program reported with the items trap")                                \
   X(flops, "flops", "operations", "floating-point adds, subtractions and multiplications")                             \
   X(taken_branches, "taken_branches", "instructions", "branches and jumps that did not go to the next instruction")    \
@@ -69,6 +71,8 @@ typedef enum trax_cause {
   X(memory_requests, "memory.requests", "requests", "requests to off-chip memory of any kind")                         \
   X(queue_peak, "memory.queue_peak", "requests", "most requests of one TM under way at once; for the chip, the sum")
 
+#define TRAX_KIND_COUNTER(X, ID, NAME, NUMBER, MEANING)                                                                \
+  X(rays_##NAME, "rays_by_kind." #NAME, "rays", "of these " MEANING)
 #define TRAX_SHARED_COUNTER(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, OPERATIONS, ...)           \
   X(NAME##_ops, #NAME ".operations", "operations", OPERATIONS)
 

@@ -27,6 +27,15 @@ static trax_fault_kind put_string(const struct trax_space *space, const uint8_t 
   return TRAX_FAULT_NONE;
 }
 
+static void count_kinds(struct trax_tm_stats *stats, uint32_t counts) {
+  const uint32_t field = (1u << TRAX_KIND_BITS) - 1;
+#define COUNT(X, ID, NAME, NUMBER, MEANING)                                                                            \
+  stats->rays_##NAME += counts >> TRAX_KIND_BITS * NUMBER & field;                                                     \
+  stats->rays += counts >> TRAX_KIND_BITS * NUMBER & field;
+  TRAX_RAY_KINDS(COUNT, )
+#undef COUNT
+}
+
 trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, struct trax_tm_stats *stats,
                           FILE *output, uint32_t value, int32_t code) {
   switch (code) {
@@ -38,12 +47,16 @@ trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, 
     return TRAX_FAULT_ABORT;
   case TRAX_TRAP_RAYS:
     stats->rays += value;
+    stats->rays_other += value;
     break;
   case TRAX_TRAP_ITEMS:
     stats->items += value;
     break;
   case TRAX_TRAP_PUTS:
     return put_string(space, local, value, output);
+  case TRAX_TRAP_KINDS:
+    count_kinds(stats, value);
+    break;
   }
   return TRAX_FAULT_NONE;
 }

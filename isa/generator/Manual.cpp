@@ -92,6 +92,9 @@ static void checkTemplate(StringRef Text, const std::string &Path, const Isa &Is
   TRAX_TRAPS(ROW)
   TRAX_FENCES(ROW)
 #undef ROW
+#define ROW(X, ID, NAME, NUMBER, MEANING) Require(Twine(NUMBER) + " | `" #NAME "` | " MEANING " |");
+  TRAX_RAY_KINDS(ROW, )
+#undef ROW
   for (const Instruction &I : Isa.Instructions) {
     StringRef Rest = I.Semantics;
     while (!Rest.empty()) {

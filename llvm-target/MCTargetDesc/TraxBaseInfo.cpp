@@ -9,8 +9,8 @@ using namespace llvm;
 static constexpr StringLiteral SpecialRegisters[] = {"thread", "tm", "tp", "threads", "cycle", "cycleh"};
 static_assert(std::size(SpecialRegisters) == TRAX_SR_COUNT && TRAX_SR_THREADS == 3 && TRAX_SR_CYCLEH == 5);
 
-static constexpr StringLiteral Traps[] = {"exit", "putc", "abort", "rays", "items", "puts"};
-static_assert(std::size(Traps) == TRAX_TRAP_COUNT && TRAX_TRAP_ABORT == 2 && TRAX_TRAP_PUTS == 5);
+static constexpr StringLiteral Traps[] = {"exit", "putc", "abort", "rays", "items", "puts", "kinds"};
+static_assert(std::size(Traps) == TRAX_TRAP_COUNT && TRAX_TRAP_ABORT == 2 && TRAX_TRAP_KINDS == 6);
 
 static constexpr StringLiteral Fences[] = {"", "r", "w", "rw"}; // nothing is number 0
 static_assert(std::size(Fences) == TRAX_FENCE_RW + 1 && TRAX_FENCE_R == 1 && TRAX_FENCE_W == 2);

@@ -12,6 +12,22 @@ struct trax_buffer {
   unsigned size; /* bytes */
 };
 
+/* Kinds of rays (docs/isa.md, "Traps"). */
+enum trax_ray_kind {
+  TRAX_RAY_PRIMARY,   /* from the eye */
+  TRAX_RAY_SHADOW,    /* towards a light */
+  TRAX_RAY_OCCLUSION, /* ambient occlusion */
+  TRAX_RAY_DIFFUSE,
+  TRAX_RAY_GLOSSY,
+  TRAX_RAY_MIRROR,
+  TRAX_RAY_GLASS, /* refracted */
+  TRAX_RAY_OTHER
+};
+#define TRAX_RAY_KIND_COUNT 8
+
+/* n rays of a kind, 15 at most, for trax_count_kinds. Terms of different kinds may be added. */
+#define TRAX_RAYS(kind, n) ((unsigned)(n) << 4 * (kind))
+
 #ifdef __trax__
 
 #define TRAX_INLINE static inline __attribute__((always_inline, unused))
@@ -68,9 +84,13 @@ __attribute__((noreturn)) TRAX_INLINE void trax_halt(void) {
   __builtin_trax_halt();
 }
 
-/* Adds to the run's counters of rays and of finished items (pixels). */
-TRAX_INLINE void trax_count_rays(unsigned n) {
+/* Adds to the run's counters of rays, of rays by kind, and of finished items (pixels). A thread that counts rays of one
+   kind works for that kind from there on, until its next count of rays or items (trax-sim --ray-kinds). */
+TRAX_INLINE void trax_count_rays(unsigned n) { /* of kind TRAX_RAY_OTHER */
   __builtin_trax_trap(n, 3);
+}
+TRAX_INLINE void trax_count_kinds(unsigned rays) { /* a sum of TRAX_RAYS(kind, n) */
+  __builtin_trax_trap(rays, 6);
 }
 TRAX_INLINE void trax_count_items(unsigned n) {
   __builtin_trax_trap(n, 4);
@@ -96,13 +116,14 @@ __attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
 struct trax_native {
   unsigned thread, tm, tp, threads;
   unsigned long long rays, items;
+  unsigned long long kinds[TRAX_RAY_KIND_COUNT]; /* they add up to rays */
 };
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 extern _Thread_local struct trax_native trax_native;
-__attribute__((weak)) _Thread_local struct trax_native trax_native = {0, 0, 0, 1, 0, 0};
+__attribute__((weak)) _Thread_local struct trax_native trax_native = {0, 0, 0, 1, 0, 0, {0}};
 #ifdef __cplusplus
 }
 #endif
@@ -152,6 +173,13 @@ __attribute__((noreturn)) TRAX_INLINE void trax_halt(void) {
 }
 TRAX_INLINE void trax_count_rays(unsigned n) {
   trax_native.rays += n;
+  trax_native.kinds[TRAX_RAY_OTHER] += n;
+}
+TRAX_INLINE void trax_count_kinds(unsigned rays) {
+  for (int kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++) {
+    trax_native.rays += rays >> 4 * kind & 15;
+    trax_native.kinds[kind] += rays >> 4 * kind & 15;
+  }
 }
 TRAX_INLINE void trax_count_items(unsigned n) {
   trax_native.items += n;

@@ -75,6 +75,8 @@ function __builtin_trax_trap
   jalr r0, 0(r1)
   trap r4, 5
   jalr r0, 0(r1)
+  trap r4, 6
+  jalr r0, 0(r1)
 .Lillegal_code:
   .word 0
   end __builtin_trax_trap

@@ -116,6 +116,9 @@ trap r4, items
 # CHECK: trap r4, puts
 # ENC-SAME: encoding: [0x05,0x00,0x04,0xa4]
 trap r4, puts
+# CHECK: trap r4, kinds
+# ENC-SAME: encoding: [0x06,0x00,0x04,0xa4]
+trap r4, kinds
 # CHECK: trap r4, exit
 # ENC-SAME: encoding: [0x00,0x00,0x04,0xa4]
 trap r4, 0

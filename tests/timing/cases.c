@@ -125,6 +125,8 @@ static void compare_functional_mode(const struct random_case *c, struct comparis
            different_bytes(difference, "instructions by operation", x->stats.total.instructions,
                            y->stats.total.instructions, sizeof x->stats.total.instructions) ||
            different_number(difference, "rays", x->stats.total.rays, y->stats.total.rays) ||
+           different_bytes(difference, "rays by kind", &x->stats.total.rays_primary, &y->stats.total.rays_primary,
+                           TRAX_RAY_KIND_COUNT * sizeof x->stats.total.rays_primary) ||
            different_number(difference, "items", x->stats.total.items, y->stats.total.items) ||
            different_number(difference, "kind of fault", x->fault.kind, y->fault.kind) ||
            different_number(difference, "pc of the fault", x->fault.pc, y->fault.pc) ||

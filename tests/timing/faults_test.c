@@ -166,9 +166,12 @@ static void guest_output(void **state) {
                               T(4, TRAX_TRAP_PUTS),
                               I(ADDI, 5, 0, 3),
                               T(5, TRAX_TRAP_RAYS),
+                              U(LUI, 6, 0x2100),
+                              I(ORI, 6, 6, 0x6543),
+                              T(6, TRAX_TRAP_KINDS),
                               T(1, TRAX_TRAP_ITEMS),
                               HALT};
-  struct bench bench = bench_begin(&lockstep, program, 13);
+  struct bench bench = bench_begin(&lockstep, program, 16);
   FILE *file = tmpfile();
   assert_non_null(file);
   const trax_run_options options = {.output = file};
@@ -178,7 +181,11 @@ static void guest_output(void **state) {
   assert_int_equal(fread(text, 1, sizeof text - 1, file), 6);
   assert_string_equal(text, "ABhihi");
   fclose(file);
-  assert_int_equal(bench.machine->stats.total.rays, 6);
+  const uint64_t *kinds = &bench.machine->stats.total.rays_primary;
+  const uint64_t expected[TRAX_RAY_KIND_COUNT] = {6, 8, 10, 12, 0, 0, 2, 4 + 6}; /* of two threads */
+  for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
+    assert_int_equal(kinds[kind], expected[kind]);
+  assert_int_equal(bench.machine->stats.total.rays, 48);
   assert_int_equal(bench.machine->stats.total.items, 1);
   bench_end(&bench);
 }

@@ -115,6 +115,10 @@ size_t any_program(uint32_t *words) {
   return n;
 }
 
+static int32_t rays_trap(unsigned ra) {
+  return ra & 1 ? TRAX_TRAP_KINDS : TRAX_TRAP_RAYS;
+}
+
 /* Bases into four pages of DATA, at most one of them the thread's own. */
 static uint32_t any_racing_operation(unsigned left) {
   const unsigned rd = any(0, 15), ra = any(0, 15), base = any(16, 19);
@@ -138,7 +142,7 @@ static uint32_t any_racing_operation(unsigned left) {
   case 7:
     return any(0, 1) ? any(0, 2) ? NOP : any_fence() : U(RDSR, rd, (int32_t)any(0, 5));
   case 8:
-    return any(0, 5) ? NOP : T(ra, any(0, 2) ? any(0, 1) ? TRAX_TRAP_RAYS : TRAX_TRAP_ITEMS : TRAX_TRAP_PUTC);
+    return any(0, 5) ? NOP : T(ra, any(0, 2) ? any(0, 1) ? rays_trap(ra) : TRAX_TRAP_ITEMS : TRAX_TRAP_PUTC);
   case 9:
     return any(0, 60) ? NOP : any(0, 1) ? T(ra, TRAX_TRAP_EXIT) : HALT;
   default:
@@ -260,6 +264,8 @@ static uint32_t any_instruction(unsigned at, unsigned end) {
     inst.imm = seldom(200) ? (int32_t)any(0, TRAX_TRAP_COUNT)
                : seldom(3) ? TRAX_TRAP_PUTC
                            : (int32_t)any(TRAX_TRAP_RAYS, TRAX_TRAP_ITEMS);
+    if (inst.imm == TRAX_TRAP_RAYS)
+      inst.imm = rays_trap(inst.ra);
     if (inst.imm == TRAX_TRAP_PUTS && seldom(2)) /* of memory rather than of a random address */
       inst.ra = SHARED;
     return trax_encode(inst);

@@ -49,7 +49,8 @@
   X(TRAX_TRAP_ABORT, "abort", 2)                                                                                       \
   X(TRAX_TRAP_RAYS, "rays", 3)                                                                                         \
   X(TRAX_TRAP_ITEMS, "items", 4)                                                                                       \
-  X(TRAX_TRAP_PUTS, "puts", 5)
+  X(TRAX_TRAP_PUTS, "puts", 5)                                                                                         \
+  X(TRAX_TRAP_KINDS, "kinds", 6)
 
 #define TRAX_TRAP_EXIT 0
 #define TRAX_TRAP_PUTC 1
@@ -57,7 +58,23 @@
 #define TRAX_TRAP_RAYS 3
 #define TRAX_TRAP_ITEMS 4
 #define TRAX_TRAP_PUTS 5
-#define TRAX_TRAP_COUNT 6
+#define TRAX_TRAP_KINDS 6
+#define TRAX_TRAP_COUNT 7
+
+/* Kinds of rays: Y(X, ID, name, number, meaning). The operand of the trap `kinds` has TRAX_KIND_BITS bits for each,
+   kind 0 in the lowest. <trax.h> has the same numbers. */
+#define TRAX_RAY_KINDS(Y, X)                                                                                           \
+  Y(X, PRIMARY, primary, 0, "from the eye")                                                                            \
+  Y(X, SHADOW, shadow, 1, "towards a light")                                                                           \
+  Y(X, OCCLUSION, occlusion, 2, "ambient occlusion: is something near the surface?")                                   \
+  Y(X, DIFFUSE, diffuse, 3, "scattered by a diffuse surface")                                                          \
+  Y(X, GLOSSY, glossy, 4, "scattered by a surface with a rough layer")                                                 \
+  Y(X, MIRROR, mirror, 5, "reflected by a mirror or by glass")                                                         \
+  Y(X, GLASS, glass, 6, "refracted by glass")                                                                          \
+  Y(X, OTHER, other, 7, "of no stated kind, as all that the trap rays counts")
+
+#define TRAX_RAY_KIND_COUNT 8
+#define TRAX_KIND_BITS 4
 
 /* Kinds of fences: constant, assembler name, number; RW is both. */
 #define TRAX_FENCES(X)                                                                                                 \

@@ -26,6 +26,19 @@ static inline void trax_store_nt(unsigned *p, unsigned value) {
 static inline void trax_count_rays(unsigned n) {
   (void)n;
 }
+enum {
+  TRAX_RAY_PRIMARY,
+  TRAX_RAY_SHADOW,
+  TRAX_RAY_OCCLUSION,
+  TRAX_RAY_DIFFUSE,
+  TRAX_RAY_GLOSSY,
+  TRAX_RAY_MIRROR,
+  TRAX_RAY_GLASS
+};
+#define TRAX_RAYS(kind, n) ((unsigned)(n) << 4 * (kind))
+static inline void trax_count_kinds(unsigned rays) {
+  (void)rays;
+}
 static inline void trax_count_items(unsigned n) {
   (void)n;
 }

@@ -193,6 +193,8 @@ static uint32_t trap(struct model_execution *execution, const uint32_t *argument
   case 5:  /* puts */
     put_string(execution, value);
     break;
+  case 6: /* kinds */
+    break;
   default:
     execution->fault = MODEL_FAULT_ILLEGAL;
   }

@@ -12,6 +12,7 @@ EQUIVALENT = [
     ("fcvt.wu.s: downwards", "the same for what is not negative, and the rest gives 0"),
     ("trap: rays *", "the host counts, and no signature shows it"),
     ("trap: items *", "the host counts, and no signature shows it"),
+    ("trap: kinds *", "the host counts, and no signature shows it"),
     ("local: the fault's address is the word's", "a misaligned access is another fault"),
     ("fetch: the fault's address is the word's", "a misaligned pc is another fault"),
     ("illegal: the fault's address is the word's", "it is 0"),

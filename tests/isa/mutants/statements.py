@@ -145,6 +145,8 @@ TRAPS = [
     (4, "TRAP(RA, 3);", "items counts rays"),
     (5, "", "puts is ignored"),
     (5, "TRAP(RA + 1, 5);", "puts begins a byte late"),
+    (6, "", "kinds is ignored"),
+    (6, "TRAP(RA, 3);", "kinds counts rays"),
 ]
 
 

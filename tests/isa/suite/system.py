@@ -67,7 +67,7 @@ def read_special(inst, constants):
 
 def trapping(inst, constants):
     """Each code; those that end the thread or the machine have images of their own (faults.py has abort)."""
-    codes = {name: constants[f"TRAX_TRAP_{name}"] for name in ("EXIT", "PUTC", "ABORT", "RAYS", "ITEMS", "PUTS")}
+    codes = {name: constants[f"TRAX_TRAP_{name}"] for name in ("EXIT", "PUTC", "ABORT", "RAYS", "ITEMS", "PUTS", "KINDS")}
     if sorted(codes.values()) != list(range(constants["TRAX_TRAP_COUNT"])):
         raise ValueError("a trap has no test: add it to tests/isa/suite/system.py")
     program = Program(inst.mnemonic, inst.mnemonic)
@@ -100,7 +100,7 @@ def trapping(inst, constants):
         program.output += b"local"[:length]
         program.case("code puts")
     program.fill(lambda n: 0x01010101 * n)
-    for name in ("RAYS", "ITEMS"):
+    for name in ("RAYS", "ITEMS", "KINDS"):
         for a in ("r0", "r7"):
             program.emit(inst.text(a=a, i=codes[name]))
             program.case(f"code {name.lower()}")
