@@ -103,7 +103,9 @@ static const struct {
     {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), trax_perfetto_create},
     {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), trax_heat_create},
     {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), trax_items_create},
+    {FILE_OF(ray_kinds), FILE_OF(ray_kinds), FILE_OF(ray_kinds), trax_ray_kinds_create},
     {FILE_OF(lockstep), FILE_OF(lockstep), FILE_OF(lockstep), trax_lockstep_create},
+    {FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), trax_lockstep_rays_create},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 

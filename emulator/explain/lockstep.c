@@ -1,17 +1,25 @@
-/* The issue slots that the run's items would take on a SIMD machine: the instructions of each item are replayed in
-   warps of threads that share one program counter.
+/* The issue slots that the run's items, or its rays by kind, would take on a SIMD machine: the instructions of each item
+   or ray are replayed in warps of threads that share one program counter.
 
    A warp of width W has W items that are consecutive in the order in which the program took them. An item's number is
    the value of the last atomic increment that its thread executed before the item ended. The warp executes the
    instruction at the lowest address of its threads' pcs, for the threads that are at it. If code is laid out in the
    order of its control flow, threads reconverge as early as possible (Collange, "Stack-less SIMT reconvergence at low
    cost", ENS Lyon 2011). Memory and units take no time. So the result is the use of issue slots alone, an upper bound
-   for a lockstep machine that does not repack its warps. */
-#include "explain/step.h"
+   for a lockstep machine that does not repack its warps.
+
+   A warp of rays has W rays of one kind and generation, of consecutive items. A ray's generation is the number of rays
+   of its kind that its item had before it. So rays are compacted into full warps before they begin, as between the
+   kernels of a wavefront path tracer (Laine, Karras and Aila, "Megakernels Considered Harmful", HPG 2013), and no lane
+   is lost to an item that has no such ray. A ray's instructions are those from the trap that counts it to the next trap
+   that counts rays or items: its traversal and the shading of its hit. The share of lanes that are active in an issue
+   slot is the SIMD efficiency of Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs" (HPG 2009). */
+#include "explain/kinds.h"
 #include "explain/table.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A sequence of instructions without a taken jump. */
 struct run {
@@ -21,13 +29,17 @@ struct run {
 struct recording {
   struct run *runs;
   size_t count, capacity;
-  uint32_t number; /* the item's number */
+  uint32_t queue, number; /* of the item: the address that was incremented, and the value */
+  unsigned kind;          /* of a ray; TRAX_NO_RAY for an item */
+  uint32_t generation;
 };
 
 struct lockstep {
   struct trax_explain *explain;
   trax_output output;
+  bool by_ray;
   struct recording *threads;
+  uint32_t (*generations)[TRAX_RAY_KIND_COUNT]; /* [threads], if by ray */
   struct recording *items;
   size_t count, capacity;
   bool out_of_memory;
@@ -39,7 +51,18 @@ static void end_item(struct lockstep *lockstep, struct recording *thread) {
     return;
   }
   lockstep->items[lockstep->count++] = *thread;
-  *thread = (struct recording){.number = thread->number};
+  *thread = (struct recording){.queue = thread->queue, .number = thread->number, .kind = TRAX_NO_RAY};
+}
+
+/* Called before the step's instruction is recorded. */
+static void begin_ray(struct lockstep *lockstep, struct recording *thread, const struct trax_step *step) {
+  const unsigned kind = trax_counted_kind(step);
+  if (kind == TRAX_NO_RAY)
+    return;
+  if (thread->kind != TRAX_NO_RAY)
+    end_item(lockstep, thread);
+  thread->kind = kind;
+  thread->generation = lockstep->generations[step->thread][kind]++;
 }
 
 static void add_step(void *self, const struct trax_step *step) {
@@ -47,6 +70,13 @@ static void add_step(void *self, const struct trax_step *step) {
   struct recording *thread = &lockstep->threads[step->thread];
   if (!step->issue)
     return; /* instructions after a thread's last item belong to no item */
+  if (trax_op_table[step->inst.op].flags & TRAX_IS_ATOMIC)
+    thread->queue = step->issue->address;
+  if (lockstep->by_ray) {
+    begin_ray(lockstep, thread, step);
+    if (thread->kind == TRAX_NO_RAY)
+      return;
+  }
   struct run *last = thread->count ? &thread->runs[thread->count - 1] : NULL;
   if (last && last->pc + 4 * last->count == step->pc) {
     last->count++;
@@ -55,8 +85,11 @@ static void add_step(void *self, const struct trax_step *step) {
   } else {
     lockstep->out_of_memory = true;
   }
-  if (step->inst.op == TRAX_OP_TRAP && step->inst.imm == TRAX_TRAP_ITEMS)
+  if (trax_ends_item(step)) {
     end_item(lockstep, thread);
+    if (lockstep->by_ray)
+      memset(lockstep->generations[step->thread], 0, sizeof *lockstep->generations);
+  }
 }
 
 static void arrive(void *self, const struct trax_arrival *arrival) {
@@ -124,21 +157,52 @@ static int by_number(const void *a, const void *b) {
   return (one->number > other->number) - (one->number < other->number);
 }
 
-static trax_status finish(void *self, trax_error *error) {
-  struct lockstep *lockstep = self;
-  if (lockstep->out_of_memory)
-    return trax_fail(error, "out of memory for the instructions of %zu items", lockstep->count);
-  qsort(lockstep->items, lockstep->count, sizeof *lockstep->items, by_number);
-  fprintf(lockstep->output.file, "width,warps,instructions,slots,utilisation,longest\n");
+static int by_kind(const void *a, const void *b) {
+  const struct recording *one = a, *other = b;
+  if (one->kind != other->kind)
+    return one->kind < other->kind ? -1 : 1;
+  if (one->generation != other->generation)
+    return one->generation < other->generation ? -1 : 1;
+  if (one->queue != other->queue)
+    return one->queue < other->queue ? -1 : 1;
+  return by_number(a, b);
+}
+
+/* Writes a row for each width. The items of a warp are of one generation. */
+static void write_rows(FILE *out, const char *name, const struct recording *items, size_t count) {
   for (size_t width = 1; width <= WIDEST; width *= 2) {
     uint64_t slots = 0, executed = 0, longest = 0, warps = 0;
-    for (size_t first = 0; first < lockstep->count; first += width, warps++) {
-      const size_t rest = lockstep->count - first;
-      slots += run_warp(&lockstep->items[first], rest < width ? rest : width, &executed, &longest);
+    for (size_t first = 0, size; first < count; first += size, warps++) {
+      for (size = 1; size < width && first + size < count;)
+        if (items[first + size].generation != items[first].generation)
+          break;
+        else
+          size++;
+      slots += run_warp(&items[first], size, &executed, &longest);
     }
-    fprintf(lockstep->output.file, "%zu,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.6f,%.6f\n", width, warps, executed, slots,
+    fprintf(out, "%s%zu,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.6f,%.6f\n", name, width, warps, executed, slots,
             slots ? (double)executed / ((double)width * (double)slots) : 0,
             longest ? (double)executed / ((double)width * (double)longest) : 0);
+  }
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  struct lockstep *lockstep = self;
+  FILE *out = lockstep->output.file;
+  if (lockstep->out_of_memory)
+    return trax_fail(error, "out of memory for the instructions of %zu items", lockstep->count);
+  if (lockstep->count) /* qsort's array is not to be NULL */
+    qsort(lockstep->items, lockstep->count, sizeof *lockstep->items, lockstep->by_ray ? by_kind : by_number);
+  fprintf(out, "%swidth,warps,instructions,slots,utilisation,longest\n", lockstep->by_ray ? "kind,rays," : "");
+  if (!lockstep->by_ray)
+    write_rows(out, "", lockstep->items, lockstep->count);
+  for (size_t first = 0, end; lockstep->by_ray && first < lockstep->count; first = end) {
+    const unsigned kind = lockstep->items[first].kind;
+    char name[64];
+    for (end = first; end < lockstep->count && lockstep->items[end].kind == kind;)
+      end++;
+    snprintf(name, sizeof name, "%s,%zu,", trax_ray_kind_names[kind], end - first);
+    write_rows(out, name, lockstep->items + first, end - first);
   }
   return trax_output_commit(&lockstep->output, error);
 }
@@ -151,23 +215,39 @@ static void destroy(void *self) {
   for (uint64_t i = 0; lockstep->threads && i < lockstep->explain->machine->stats.threads; i++)
     free(lockstep->threads[i].runs);
   free(lockstep->items);
+  free(lockstep->generations);
   free(lockstep->threads);
   free(lockstep);
 }
 
-trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+static trax_status create(struct trax_explain *explain, struct trax_reader *reader, const char *path, bool by_ray,
+                          trax_error *error) {
+  const uint64_t threads = explain->machine->stats.threads;
   struct lockstep *lockstep = calloc(1, sizeof *lockstep);
   if (!lockstep)
     return trax_fail(error, "out of memory");
   lockstep->explain = explain;
-  lockstep->threads = calloc(explain->machine->stats.threads, sizeof *lockstep->threads);
-  if (!lockstep->threads)
+  lockstep->by_ray = by_ray;
+  lockstep->threads = calloc(threads, sizeof *lockstep->threads);
+  lockstep->generations = by_ray ? calloc(threads, sizeof *lockstep->generations) : NULL;
+  const bool enough = lockstep->threads && (lockstep->generations || !by_ray);
+  if (!enough)
     trax_fail(error, "out of memory for the threads");
-  if (!lockstep->threads || trax_output_open(&lockstep->output, explain->options.lockstep, error) != TRAX_OK) {
+  if (!enough || trax_output_open(&lockstep->output, path, error) != TRAX_OK) {
     destroy(lockstep);
     return TRAX_ERROR;
   }
+  for (uint64_t i = 0; i < threads; i++)
+    lockstep->threads[i].kind = TRAX_NO_RAY;
   *reader =
       (struct trax_reader){.self = lockstep, .step = add_step, .arrival = arrive, .finish = finish, .destroy = destroy};
   return TRAX_OK;
+}
+
+trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  return create(explain, reader, explain->options.lockstep, false, error);
+}
+
+trax_status trax_lockstep_rays_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  return create(explain, reader, explain->options.lockstep_rays, true, error);
 }

@@ -44,7 +44,7 @@ struct trax_explain {
   struct trax_observer observer;
   struct trax_steps *steps; /* [threads] */
   struct trax_places *places;
-  struct trax_reader readers[8];
+  struct trax_reader readers[10];
   unsigned reader_count;
   struct trax_arrival *arrivals; /* those of which the readers have not been notified yet */
   size_t arrival_count, arrival_capacity;
@@ -64,7 +64,9 @@ trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reade
 trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 trax_status trax_items_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
+trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
+trax_status trax_lockstep_rays_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 
 /* --- series.c: a watch, not a reader --- */
 trax_status trax_series_create(struct trax_explain *explain, trax_error *error);

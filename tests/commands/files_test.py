@@ -75,7 +75,8 @@ def simulator():
     words = ["--config", "chip.cfg", "--bind", "input=in.bin", "--alloc", "output=16", "copy.elf"]
     windowed = ("--window", "0:10")
     outputs = [option("report"), option("stats"), option("signature"), option("profile"), option("profile-folded"), option("annotate"),
-               option("heat"), option("heat-lines"), option("items"), option("lockstep"), option("series"), option("trace"),
+               option("heat"), option("heat-lines"), option("items"), option("lockstep"), option("lockstep-rays"), option("ray-kinds"),
+               option("series"), option("trace"),
                option("perfetto", *windowed), option("konata", *windowed), option("post-mortem"), option("checkpoint"), option("gdb-symbols"),
                lambda path: ["--dump", f"output={path}"]]
     outputs_onto(["copy.elf", "chip.cfg", "in.bin"], outputs, "trax-sim", *words)

@@ -14,18 +14,20 @@ struct trax_explain;
 
 struct trax_explain_options {
   /* Files to write; NULL: not wanted. "-" is standard output. */
-  const char *profile;  /* thread-cycles by function and source line */
-  const char *folded;   /* by call stack, for flame graphs */
-  const char *annotate; /* by instruction */
-  const char *trace;    /* every issue in the window */
-  const char *konata;   /* the window as a pipeline, for Konata */
-  const char *perfetto; /* the window as JSON trace events */
-  const char *heat;     /* accesses to memory by object */
-  const char *heat_lines; /* accesses to memory by 64 bytes */
-  const char *items;      /* the cost of each item */
-  const char *lockstep;   /* the issue slots that the items would take on a SIMD machine */
-  const char *series;     /* the counters of each interval of cycles */
-  bool check_order;       /* report the first load that may return an old value to standard error */
+  const char *profile;       /* thread-cycles by function and source line */
+  const char *folded;        /* by call stack, for flame graphs */
+  const char *annotate;      /* by instruction */
+  const char *trace;         /* every issue in the window */
+  const char *konata;        /* the window as a pipeline, for Konata */
+  const char *perfetto;      /* the window as JSON trace events */
+  const char *heat;          /* accesses to memory by object */
+  const char *heat_lines;    /* accesses to memory by 64 bytes */
+  const char *items;         /* the cost of each item */
+  const char *ray_kinds;     /* the cost of the rays of each kind */
+  const char *lockstep;      /* the issue slots that the items would take on a SIMD machine */
+  const char *lockstep_rays; /* the issue slots that the rays of each kind would take on one */
+  const char *series;        /* the counters of each interval of cycles */
+  bool check_order;          /* report the first load that may return an old value to standard error */
 
   uint64_t series_interval; /* cycles; 0: TRAX_SERIES_INTERVAL */
   /* The window of trace, konata and perfetto: cycles begin <= t < end (0: to the run's end), of the TMs and of the TPs

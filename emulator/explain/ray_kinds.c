@@ -1,0 +1,195 @@
+/* The cost of the rays of each kind: the thread-cycles, instructions and requests of the threads while they work for a
+   ray of that kind (explain/kinds.h). The rows add up to the run's statistics. The row `none` has the work for no ray,
+   the row `rest` what belongs to no instruction: lines of the instruction cache, and transfers of stores, which are
+   combined. */
+#include "explain/kinds.h"
+#include "report/energy.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KINDS = TRAX_RAY_KIND_COUNT + 1 };
+
+const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT] = {
+#define NAME(X, ID, NAME, NUMBER, MEANING) [NUMBER] = #NAME,
+    TRAX_RAY_KINDS(NAME, )
+#undef NAME
+};
+
+struct ray_kinds {
+  struct trax_explain *explain;
+  trax_output output;
+  struct trax_tm_stats kinds[KINDS];
+  uint8_t *working; /* [threads]: the kind of ray that the thread works for */
+};
+
+/* --- the counters, as the engines count them --- */
+
+static uint64_t transfer_bytes(const struct trax_config *config, uint32_t bytes) {
+  return bytes < config->memory.min_transfer_bytes ? config->memory.min_transfer_bytes : bytes;
+}
+
+static void count_load(struct trax_tm_stats *to, const struct trax_config *config, const struct trax_step *step,
+                       unsigned flags) {
+  if (flags & TRAX_IS_NONTEMPORAL) {
+    to->nontemporal_loads++;
+    to->nontemporal_read_bytes += transfer_bytes(config, 4);
+    return;
+  }
+  to->dcache_hits += (step->issue->outcome & TRAX_OUTCOME_HIT) != 0;
+  to->dcache_merged += (step->issue->outcome & TRAX_OUTCOME_MERGED) != 0;
+  if (step->issue->outcome & TRAX_OUTCOME_MISS) {
+    to->dcache_misses++;
+    to->data_read_bytes += config->dcache.line_bytes;
+  }
+}
+
+static void count_store(struct trax_tm_stats *to, const struct trax_step *step, unsigned flags) {
+  to->combined_stores += (step->issue->outcome & TRAX_OUTCOME_COMBINED) != 0;
+  if (flags & TRAX_IS_NONTEMPORAL)
+    to->nontemporal_stores++;
+  else if (step->issue->outcome & TRAX_OUTCOME_HIT)
+    to->store_hits++;
+  else
+    to->store_misses++;
+}
+
+static void count_instruction(struct trax_tm_stats *to, const struct trax_config *config,
+                              const struct trax_step *step) {
+  const trax_op_info *info = &trax_op_table[step->inst.op];
+  to->cycles[TRAX_CAUSE_ISSUED]++;
+  to->instructions[step->inst.op]++;
+  to->icache_hits++; /* one fetch, for the energy */
+  to->taken_branches += step->issue->next_pc != step->pc + 4;
+  if (!info->access_bytes)
+    return;
+  if (step->issue->address >= TRAX_LOCAL_BASE)
+    ++*(info->flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads);
+  else if (info->flags & TRAX_IS_ATOMIC)
+    to->atomic_bytes += transfer_bytes(config, config->memory.atomic_bytes);
+  else if (info->flags & TRAX_IS_STORE)
+    count_store(to, step, info->flags);
+  else
+    count_load(to, config, step, info->flags);
+}
+
+static void add_step(void *self, const struct trax_step *step) {
+  struct ray_kinds *rays = self;
+  uint8_t *working = &rays->working[step->thread];
+  for (size_t i = 0; i < step->count; i++)
+    rays->kinds[*working].cycles[step->charges[i].cause] += step->charges[i].cycles;
+  if (!step->issue)
+    return;
+  const unsigned kind = trax_counted_kind(step);
+  if (kind != TRAX_NO_RAY)
+    *working = (uint8_t)kind;
+  count_instruction(&rays->kinds[*working], &rays->explain->machine->config, step);
+  if (trax_ends_item(step)) {
+    rays->kinds[TRAX_NO_RAY].items += step->issue->result;
+    *working = TRAX_NO_RAY;
+  }
+}
+
+/* --- the table --- */
+
+static bool has_column(const char *counter) {
+  return strncmp(counter, "rays", 4) != 0 && strncmp(counter, "icache.", 7) != 0 &&
+         strcmp(counter, "memory.queue_peak") != 0 && strcmp(counter, "memory.requests") != 0 &&
+         strcmp(counter, "memory.write_requests") != 0;
+}
+
+static void write_head(FILE *out) {
+  fprintf(out, "kind,rays,mrps,thread_cycles,utilisation,bytes,bytes_per_ray,energy,energy_per_ray");
+#define HEAD(ID, NAME, ...) fprintf(out, "," NAME);
+  TRAX_CAUSES(HEAD)
+#undef HEAD
+#define HEAD(ID, NAME, UNIT, MEANING)                                                                                  \
+  if (has_column(NAME))                                                                                                \
+    fprintf(out, "," NAME);
+  TRAX_TM_COUNTERS(HEAD)
+#undef HEAD
+  fputc('\n', out);
+}
+
+static double share(double a, double b) {
+  return b > 0 ? a / b : 0;
+}
+
+static void write_row(const struct ray_kinds *rays, const char *name, const struct trax_tm_stats *row, uint64_t count,
+                      double joules) {
+  FILE *out = rays->output.file;
+  const struct trax_machine *machine = rays->explain->machine;
+  uint64_t cycles = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    cycles += row->cycles[cause];
+  const uint64_t bytes = row->data_read_bytes + row->instruction_read_bytes + row->nontemporal_read_bytes +
+                         row->written_bytes + row->atomic_bytes;
+  fprintf(out, "%s,%" PRIu64 ",%.6f,%" PRIu64 ",%.6f,%" PRIu64 ",%.6f,%.9g,%.9g", name, count,
+          share((double)count * machine->config.chip.clock_mhz * (double)machine->stats.threads, (double)cycles), cycles,
+          share((double)row->cycles[TRAX_CAUSE_ISSUED], (double)cycles), bytes, share((double)bytes, (double)count),
+          joules, share(joules, (double)count));
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    fprintf(out, ",%" PRIu64, row->cycles[cause]);
+#define COUNT(ID, NAME, UNIT, MEANING)                                                                                 \
+  if (has_column(NAME))                                                                                                \
+    fprintf(out, ",%" PRIu64, row->ID);
+  TRAX_TM_COUNTERS(COUNT)
+#undef COUNT
+  fputc('\n', out);
+}
+
+/* Of structs of counts. */
+static void subtract(struct trax_tm_stats *from, const struct trax_tm_stats *stats) {
+  uint64_t *to = (uint64_t *)from;
+  for (size_t i = 0; i < sizeof *from / sizeof *to; i++)
+    to[i] -= ((const uint64_t *)stats)[i];
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  struct ray_kinds *rays = self;
+  const struct trax_machine *machine = rays->explain->machine;
+  const struct trax_config *config = &machine->config;
+  const struct trax_tm_stats *total = &machine->stats.total;
+  const uint64_t *counted = &total->rays_primary;
+  const double all = trax_energy_of(&machine->stats, config).total;
+  struct trax_tm_stats rest = *total;
+  double rest_energy = all;
+  write_head(rays->output.file);
+  for (unsigned kind = 0; kind < KINDS; kind++) {
+    struct trax_stats row = {.total = rays->kinds[kind]};
+    trax_stats_derive(&row.total, config);
+    const double joules = trax_energy_of(&row, config).total;
+    subtract(&rest, &row.total);
+    rest_energy -= joules;
+    write_row(rays, kind == TRAX_NO_RAY ? "none" : trax_ray_kind_names[kind], &row.total,
+              kind == TRAX_NO_RAY ? 0 : counted[kind], joules);
+  }
+  write_row(rays, "rest", &rest, 0, rest_energy);
+  write_row(rays, "all", total, total->rays, all);
+  return trax_output_commit(&rays->output, error);
+}
+
+static void destroy(void *self) {
+  struct ray_kinds *rays = self;
+  trax_output_discard(&rays->output);
+  free(rays->working);
+  free(rays);
+}
+
+trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
+  struct ray_kinds *rays = calloc(1, sizeof *rays);
+  if (!rays)
+    return trax_fail(error, "out of memory");
+  rays->explain = explain;
+  rays->working = malloc(explain->machine->stats.threads);
+  if (!rays->working)
+    trax_fail(error, "out of memory for the kinds of rays");
+  if (!rays->working || trax_output_open(&rays->output, explain->options.ray_kinds, error) != TRAX_OK) {
+    destroy(rays);
+    return TRAX_ERROR;
+  }
+  memset(rays->working, TRAX_NO_RAY, explain->machine->stats.threads);
+  *reader = (struct trax_reader){.self = rays, .step = add_step, .finish = finish, .destroy = destroy};
+  return TRAX_OK;
+}

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""rays_test.py TRAX_SIM RAYS: --ray-kinds and --lockstep-rays against the run's trace and statistics, from both engines and on machines with and
+without a second-level cache."""
+import collections
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SIM, PROGRAM = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:3])
+KINDS = ["primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other"]
+ITEMS = 300
+failures = 0
+
+
+def check(condition, *message):
+    global failures
+    if not condition:
+        failures += 1
+        print("FAILED:", *(str(part)[:400] for part in message))
+
+
+def equal(a, b, *what):
+    check(a == b, *what, a, "is not", b)
+
+
+def run(directory, engine, *options):
+    directory.mkdir(exist_ok=True)
+    result = subprocess.run([SIM, "--quiet", "--engine", engine, "--stats", "stats.json", "--alloc", f"results={4 * ITEMS}", *options, PROGRAM],
+                            cwd=directory, capture_output=True, text=True, timeout=120)
+    equal((result.returncode, result.stderr), (0, ""), directory, options)
+    return json.loads((directory / "stats.json").read_text())
+
+
+def rows(path):
+    return list(csv.DictReader(path.open()))
+
+
+def counted_kind(code, operand):
+    """The kind of the rays that a trap counts, if it is one."""
+    if code == "rays":
+        return "other" if operand else None
+    kinds = [kind for number, kind in enumerate(KINDS) if operand >> 4 * number & 15]
+    return kinds[0] if len(kinds) == 1 else None
+
+
+class Ray:
+    def __init__(self, kind, generation):
+        self.kind, self.generation, self.stream, self.number = kind, generation, [], None
+
+
+def read_trace(path):
+    """({kind: {what: how many}}, rays), from the lines of the trace alone. A cycle belongs to the instruction that a thread issues in it or waits for."""
+    counts = collections.defaultdict(collections.Counter)
+    kind, until, number, ray, generations, rays = {}, collections.Counter(), {}, {}, collections.defaultdict(collections.Counter), []
+    for line in path.read_text().splitlines()[1:]:
+        match = re.match(r" *(\d+) +(\d+) +\S+ +(\w+) ", line)
+        cycle, thread, pc = int(match[1]), match[2], match[3]
+        if pc == "arrival":
+            number[thread] = int(re.search(r"r\d+=(\w{8})$", line)[1], 16)
+            continue
+        before = kind.get(thread, "none")
+        counts[before]["thread_cycles"] += cycle - until[thread]
+        until[thread] = cycle + 1
+        trap = re.search(r"  trap r\d+, (\w+) +(\w{8})", line)
+        new = counted_kind(trap[1], int(trap[2], 16)) if trap and trap[1] in ("rays", "kinds") else None
+        if new:
+            if thread in ray:
+                rays.append(ray.pop(thread))
+            ray[thread] = Ray(new, generations[thread][new])
+            generations[thread][new] += 1
+        now = kind[thread] = new or before
+        counts[now]["thread_cycles"] += 1
+        counts[now]["issued"] += 1
+        for name, pattern in (("flops", r"  f(add|sub|mul) "), ("dcache.misses", r" miss\b"), ("dcache.hits", r"  lw .* hit\b"), ("fp_mul.operations", r"  fmul ")):
+            counts[now][name] += re.search(pattern, line) is not None
+        if thread in ray:
+            ray[thread].stream.append(int(pc, 16))
+            ray[thread].number = number[thread]
+        if trap and trap[1] == "items":
+            kind[thread] = "none"
+            generations[thread].clear()
+            if thread in ray:
+                rays.append(ray.pop(thread))
+    return counts, rays
+
+
+def check_kinds(directory, stats, counts, line_bytes):
+    table = {row["kind"]: row for row in rows(directory / "kinds")}
+    equal(list(table), KINDS + ["none", "rest", "all"], "rows")
+    for kind in KINDS + ["none"]:
+        row = table[kind]
+        equal(int(row["rays"]), stats["rays_by_kind"].get(kind, 0), "rays", kind)
+        for what in ("issued", "flops", "dcache.misses", "dcache.hits", "fp_mul.operations"):
+            equal(int(row[what]), counts[kind][what], what, "of", kind)
+        if kind != "none":  # where a thread's end is, which the trace does not show
+            equal(int(row["thread_cycles"]), counts[kind]["thread_cycles"], "thread-cycles of", kind)
+        equal(int(row["memory.data_read_bytes"]), line_bytes * counts[kind]["dcache.misses"], "bytes of", kind)
+    for what, total in table["all"].items():
+        parts = [float(table[kind][what]) for kind in KINDS + ["none", "rest"]] if what != "kind" else []
+        if what not in ("kind", "mrps", "utilisation", "bytes_per_ray", "energy_per_ray"):
+            check(abs(sum(parts) - float(total)) <= 1e-6 * float(total), what, "adds up to", sum(parts), "not", total)
+            check(min(parts) >= 0, what, "of a kind is negative", parts)
+    # Only lines of the instruction cache, combined stores and what a second-level cache does are nobody's.
+    for what, value in table["rest"].items():
+        if what not in ("kind", "bytes", "energy", "memory.instruction_read_bytes", "memory.written_bytes"):
+            equal(float(value), 0, "the rest of", what)
+    everything = table["all"]
+    equal([int(everything["rays"]), int(everything["thread_cycles"])], [stats["rays"], stats["thread_cycles"]], "all")
+    check(abs(float(everything["mrps"]) - stats["mrps"]) < 1e-5 * stats["mrps"], "mrps", everything["mrps"], stats["mrps"])
+    check(abs(float(everything["energy"]) - stats["energy"]["total"]) < 1e-8 * stats["energy"]["total"], "energy")
+    diffuse = table["diffuse"]
+    seconds = stats["seconds"] * int(diffuse["thread_cycles"]) / stats["thread_cycles"]
+    check(abs(float(diffuse["mrps"]) * 1e6 * seconds / int(diffuse["rays"]) - 1) < 1e-5, "a kind's rate")
+    check(float(diffuse["energy"]) > 0 and float(table["rest"]["energy"]) > 0, "energy of kinds")
+
+
+def check_lockstep(directory, made):
+    table = rows(directory / "lockstep")
+    present = [kind for kind in KINDS if any(ray.kind == kind for ray in made)]
+    equal([(row["kind"], int(row["width"])) for row in table], [(kind, 1 << i) for kind in present for i in range(7)], "rows")
+    for row in table:
+        kind, width = row["kind"], int(row["width"])
+        ordered = sorted((ray for ray in made if ray.kind == kind), key=lambda ray: (ray.generation, ray.number))
+        warps, slots = 0, 0
+        for generation in sorted({ray.generation for ray in ordered}):
+            same = [ray.stream for ray in ordered if ray.generation == generation]
+            for first in range(0, len(same), width):
+                warp = [list(reversed(stream)) for stream in same[first : first + width]]
+                warps += 1
+                while any(warp):
+                    lowest = min(stream[-1] for stream in warp if stream)
+                    slots += 1
+                    for stream in warp:
+                        if stream and stream[-1] == lowest:
+                            stream.pop()
+        executed = sum(len(ray.stream) for ray in ordered)
+        equal([int(row[name]) for name in ("rays", "warps", "instructions", "slots")], [len(ordered), warps, executed, slots], kind, width)
+        equal(row["utilisation"], f"{executed / (width * slots):.6f}", kind, width)
+
+
+def main(directory):
+    files = ["--ray-kinds", "kinds", "--lockstep-rays", "lockstep", "--trace", "trace"]
+    chip = ["--set", "chip.tms=2", "--set", "chip.tps_per_tm=8"]
+    machines = {"plain": (chip, 64), "l2": ([*chip, "--set", "l2.bytes=65536", "--set", "dcache.line_bytes=32"], 32)}
+    for name, (machine, line_bytes) in machines.items():
+        both = {engine: run(directory / f"{name}-{engine}", engine, *machine, *files) for engine in ("fast", "reference")}
+        for file in ("kinds", "lockstep"):
+            equal((directory / f"{name}-fast" / file).read_text(), (directory / f"{name}-reference" / file).read_text(), "engines:", file)
+        stats = both["fast"]
+        for engine in ("reference", "functional"):
+            other = both.get(engine) or run(directory / f"{name}-{engine}", engine, *machine)
+            equal((stats["rays_by_kind"], stats["rays"]), (other["rays_by_kind"], other["rays"]), engine)
+        sixths = [slot % 4 for slot in range(ITEMS)]
+        expected = {"primary": ITEMS, "shadow": sum(sixths), "diffuse": 2 * sum(sixths), "occlusion": 15 * ITEMS, "other": 9 * ITEMS + 3 * (ITEMS // 5)}
+        equal(stats["rays_by_kind"], {kind: expected.get(kind, 0) for kind in KINDS}, "counters")
+        equal(stats["rays"], sum(expected.values()), "rays")
+        counts, made = read_trace(directory / f"{name}-fast" / "trace")
+        check_kinds(directory / f"{name}-fast", stats, counts, line_bytes)
+        check_lockstep(directory / f"{name}-fast", made)
+        tms = {kind: sum(tm["rays_by_kind"][kind] for tm in stats["tms"]) for kind in KINDS}
+        equal(tms, stats["rays_by_kind"], "TMs")
+    series = run(directory / "series", "fast", *chip, "--series", "series", "--series-interval", "100")
+    table = [row for row in rows(directory / "series" / "series") if row["tm"] == "all"]
+    for kind in KINDS:
+        equal(sum(int(row[f"rays_by_kind.{kind}"]) for row in table), series["rays_by_kind"][kind], "series", kind)
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    main(pathlib.Path(temporary))
+sys.exit(1 if failures else 0)
