@@ -142,7 +142,7 @@ static void prepare(void *context, struct trax_machine *machine) {
     assert_non_null(leg->watchdog);
   }
   if (leg->end.interrupt) {
-    leg->interrupt = (struct trax_watch){.next = leg->end.interrupt, .look = interrupt};
+    leg->interrupt = (struct trax_watch){.next = leg->end.interrupt, .inspect = interrupt};
     trax_machine_watch(machine, &leg->interrupt);
   }
 }

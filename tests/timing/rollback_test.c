@@ -259,9 +259,9 @@ static void from_a_checkpoint(void **state) {
   for (unsigned with_l2 = 0; with_l2 < 2; with_l2++) {
     config.l2.bytes = with_l2 ? 1024 : 0;
     run_with_checkpoint(&config, program, count, &(struct trax_checkpoint_options){.write = path},
-                        (struct trax_watch){.next = SAVED_AT, .look = touch_added});
+                        (struct trax_watch){.next = SAVED_AT, .inspect = touch_added});
     run_with_checkpoint(&config, program, count, &(struct trax_checkpoint_options){.resume = path},
-                        (struct trax_watch){.next = 0, .look = expect_added});
+                        (struct trax_watch){.next = 0, .inspect = expect_added});
   }
   for (size_t i = 0; i < added_count; i++)
     if (!touched[i])
