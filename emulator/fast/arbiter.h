@@ -16,9 +16,9 @@ static inline unsigned trax_first(uint64_t mask) {
 }
 
 /* Returns the first requester (not 0) from the pointer on, and leaves the pointer. */
-static inline unsigned trax_arbiter_look(trax_arbiter pointer, uint64_t askers) {
-  const uint64_t from_pointer = askers & (~(uint64_t)0 << pointer);
-  return trax_first(from_pointer ? from_pointer : askers);
+static inline unsigned trax_arbiter_peek(trax_arbiter pointer, uint64_t requesters) {
+  const uint64_t from_pointer = requesters & (~(uint64_t)0 << pointer);
+  return trax_first(from_pointer ? from_pointer : requesters);
 }
 
 static inline void trax_arbiter_to_back(trax_arbiter *pointer, unsigned winner) {
@@ -26,13 +26,13 @@ static inline void trax_arbiter_to_back(trax_arbiter *pointer, unsigned winner) 
 }
 
 /* Grants up to `count` requests and returns the winners. */
-static inline uint64_t trax_arbiter_grant(trax_arbiter *pointer, uint64_t askers, unsigned count) {
+static inline uint64_t trax_arbiter_grant(trax_arbiter *pointer, uint64_t requesters, unsigned count) {
   uint64_t winners = 0;
-  for (; askers && count; count--) {
-    const unsigned winner = trax_arbiter_look(*pointer, askers);
+  for (; requesters && count; count--) {
+    const unsigned winner = trax_arbiter_peek(*pointer, requesters);
     trax_arbiter_to_back(pointer, winner);
     winners |= (uint64_t)1 << winner;
-    askers &= ~((uint64_t)1 << winner);
+    requesters &= ~((uint64_t)1 << winner);
   }
   return winners;
 }

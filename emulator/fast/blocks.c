@@ -30,11 +30,11 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
 
 /* Rolls a TP back to what it has issued: undoes its burst, and executes the issued steps again. They give the same
    results, since no block that they loaded from has been written yet. */
-static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
+static void roll_back_tp(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
   struct trax_tp *tp = &ftm->tm->tp[number];
-  if (ftm->deferred & bit)
+  if (ftm->executes_at_issue & bit)
     return;
   while (ftp->undo_count) {
     const struct trax_fast_undo *undo = &ftp->undo[--ftp->undo_count];
@@ -43,24 +43,24 @@ static void come_back(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   memcpy(tp->reg, ftp->reg, sizeof ftp->reg);
   const unsigned issued = ftm->heads.at[number];
   const uint32_t head = trax_fast_head(ftm, number);
-  const uint16_t asks = ftp->asks[issued];                       /* the head needs the same resources as before */
-  trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, 0); /* takes the whole burst off the counts */
+  const uint16_t step = ftp->step[issued];                           /* the head needs the same resources as before */
+  trax_fast_end_burst(ftm, number, ftm->heads.last[number] + 1u, 0); /* takes the whole burst off the counts */
   ftp->resume = ftp->begin;
-  ftp->resume_pc = fast->program.note[ftp->begin - fast->program.inst].pc;
+  ftp->resume_pc = fast->program.timing[ftp->begin - fast->program.inst].pc;
   const unsigned again = trax_fast_burst(fast, ftm, number, issued);
   assert(again == issued && ftp->resume == &fast->program.inst[head]);
   (void)again;
-  trax_fast_close(ftm, number, issued, issued);
-  tp->inst = fast->program.note[ftp->resume - fast->program.inst].decoded;
+  trax_fast_end_burst(ftm, number, issued, issued);
+  tp->inst = fast->program.timing[ftp->resume - fast->program.inst].decoded;
   tp->pc = ftp->resume_pc;
   tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
-  trax_fast_execute_at_issue(ftm, number, asks, head, tp->address);
+  trax_fast_execute_at_issue(ftm, number, step, head, tp->address);
 }
 
 void trax_fast_roll_back(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++)
     for (unsigned tp = 0; tp < fast->tm[i].tm->tps; tp++)
-      come_back(fast, &fast->tm[i], tp);
+      roll_back_tp(fast, &fast->tm[i], tp);
 }
 
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {

@@ -17,9 +17,9 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
 }
 
 /* Records `count` instructions from index on as the steps from `at` on, a segment of the burst. */
-static inline void note_segment(struct trax_fast_tp *ftp, unsigned segment, unsigned at, const uint16_t *asks, uint32_t index,
-                             const unsigned count) {
-  memcpy(ftp->asks + at, asks, count * sizeof *asks);
+static inline void record_segment(struct trax_fast_tp *ftp, unsigned segment, unsigned at, const uint16_t *step,
+                                  uint32_t index, const unsigned count) {
+  memcpy(ftp->step + at, step, count * sizeof *step);
   memset(ftp->segment + at, (int)segment, count);
   ftp->origin[segment] = index - at;
 }

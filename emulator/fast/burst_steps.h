@@ -18,8 +18,8 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   const struct trax_fast_program *const program = &fast->program;
   const struct trax_fast_inst *inst = ftp->resume;
   const struct trax_config *const config = ftm->tm->config;
-  const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_ASKS_SLOWLY : 0;
-  const uint16_t slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0;
+  const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_STEP_SLOW : 0;
+  const uint16_t slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0;
   const uint32_t banks = ftm->data_banks, bank_mask = banks & (banks - 1) ? 0 : banks - 1;
   uint8_t *const blocks = fast->blocks.state;
   const uint64_t accessible = fast->chip->machine->space.size - TRAX_NULL_END;
@@ -27,19 +27,19 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   uint32_t address, word, jumps = 0;
   unsigned loads = 0, segment = 0;
   uint64_t resume_pc = ftp->resume_pc; /* the latest jump's target, needed if it is no text */
-  int64_t *const changes = ftm->changes;
+  int64_t *const count_deltas = ftm->count_deltas;
   uint64_t lines = 0;
   ftp->undo_count = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
   unsigned at;
-  changes[inst - program->inst]++;
+  count_deltas[inst - program->inst]++;
   goto chunk;
 
 #define AT ((unsigned)(((uintptr_t)inst - begin) / sizeof *inst))
 #include "machine/semantics_begin.h"
 #define PRECISION config->special.precision_bits
-#define PC (program->note[inst - program->inst].pc)
+#define PC (program->timing[inst - program->inst].pc)
 #define LOAD(ADDRESS, BYTES)                                                                                           \
   (__extension__({                                                                                                     \
     address = (ADDRESS);                                                                                               \
@@ -60,10 +60,10 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
       }                                                                                                                \
       memcpy(&word, global + address, BYTES);                                                                          \
       loads++;                                                                                                         \
-      ftp->asks[at] |= (uint16_t)(TRAX_ASKS_BANK | data_bank(banks, bank_mask, address) << TRAX_ASKS_BANK_SHIFT);      \
+      ftp->step[at] |= (uint16_t)(TRAX_STEP_BANK | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);      \
     } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
       memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
-      ftp->asks[at] |= slow_local;                                                                                     \
+      ftp->step[at] |= slow_local;                                                                                     \
     } else {                                                                                                           \
       goto stop;                                                                                                       \
     }                                                                                                                  \
@@ -109,15 +109,15 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     if (next_pc != NOWHERE && (is_relative || (uint32_t)next_pc != PC + 4)) {                                          \
       jumps++;                                                                                                         \
       at = AT;                                                                                                         \
-      ftp->asks[at] |= slow_jump;                                                                                      \
-      changes[inst + 1 - program->inst]--;                                                                             \
+      ftp->step[at] |= slow_jump;                                                                                      \
+      count_deltas[inst + 1 - program->inst]--;                                                                        \
       if (is_relative) {                                                                                               \
         inst += inst->imm / 4;                                                                                         \
       } else {                                                                                                         \
         inst = trax_fast_inst_at(program, (uint32_t)next_pc);                                                          \
         resume_pc = next_pc;                                                                                           \
       }                                                                                                                \
-      changes[inst - program->inst]++;                                                                                 \
+      count_deltas[inst - program->inst]++;                                                                            \
       begin = (uintptr_t)inst - (at + 1) * sizeof *inst;                                                               \
       goto chunk;                                                                                                      \
     } else {                                                                                                           \
@@ -136,18 +136,18 @@ chunk:
 #if EXACTLY
   if (at == limit)
     goto stop;
-  note_segment(ftp, segment++, at, program->asks + index, index, 1);
+  record_segment(ftp, segment++, at, program->step + index, index, 1);
 #else
   if (at + TRAX_CHUNK - index % TRAX_CHUNK > limit)
     goto stop;
-  note_segment(ftp, segment++, at, program->asks + index, index, TRAX_CHUNK); /* also steps that are not reached */
+  record_segment(ftp, segment++, at, program->step + index, index, TRAX_CHUNK); /* also steps that are not reached */
 #endif
   __extension__({ goto *places[inst->op]; });
 
 stop:
-  changes[inst - program->inst]--;
+  count_deltas[inst - program->inst]--;
   ftp->resume = inst;
-  ftp->resume_pc = inst == program->outside ? (uint32_t)resume_pc : program->note[inst - program->inst].pc;
+  ftp->resume_pc = inst == program->no_text ? (uint32_t)resume_pc : program->timing[inst - program->inst].pc;
   ftp->burst_jumps = jumps;
   ftp->burst_lines = lines;
   return AT;

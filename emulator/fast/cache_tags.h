@@ -104,10 +104,10 @@ static inline uint64_t trax_cache_tags_install(struct trax_cache_tags *tags, uin
   const size_t set = line & tags->set_mask;
   const uint32_t way = trax_cache_tags_next(tags, set);
   uint64_t *place = tags->lines + set * tags->ways + way;
-  const uint64_t gone = *place;
+  const uint64_t evicted = *place;
   *place = (uint64_t)line + 1;
   trax_cache_tags_note(tags, set, way, true);
-  return gone;
+  return evicted;
 }
 
 #endif

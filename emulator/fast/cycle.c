@@ -22,7 +22,7 @@ static void arrive(struct trax_fast_tm *ftm, uint64_t t) {
     trax_queue_pop(&tm->queue);
     trax_tm_complete(tm, &request, t);
     if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
-      trax_fast_line_has_come(ftm, request.icache, request.line);
+      trax_fast_line_arrived(ftm, request.icache, request.line);
   }
 }
 
@@ -36,15 +36,15 @@ static ALWAYS_INLINE uint64_t wake(struct trax_fast_tm *ftm, uint64_t t) {
   if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
     trax_tm_wake_sleepers(tm, t);
   const uint64_t woken = tm->awake & ~awake;
-  const uint64_t resumed_holding = ftm->resumed_holding;
-  ftm->resumed_holding = 0;
-  return (woken & tm->holding) | resumed_holding;
+  const uint64_t recheck = ftm->recheck;
+  ftm->recheck = 0;
+  return (woken & tm->holding) | recheck;
 }
 
 /* --- step 1 --- */
 
-static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
-  for (uint64_t rest = ftm->outside & ftm->tm->awake & ~ftm->tm->holding; rest; rest &= rest - 1) {
+static void fault_no_text(struct trax_fast_tm *ftm, uint64_t t) {
+  for (uint64_t rest = ftm->no_text & ftm->tm->awake & ~ftm->tm->holding; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     const uint32_t pc = ftm->tm->tp[number].pc;
     trax_tm_fault(ftm->tm, number, t, pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE, pc);
@@ -52,47 +52,47 @@ static void fault_outside(struct trax_fast_tm *ftm, uint64_t t) {
 }
 
 /* Grants the banks of one instruction cache after the other, for any configuration; returns the losers. */
-static uint64_t refuse_fetches_of_any_shape(struct trax_fast_tm *ftm, uint64_t askers, const uint64_t *bit) {
+static uint64_t refuse_fetches_of_any_shape(struct trax_fast_tm *ftm, uint64_t requesters, const uint64_t *bit) {
   const struct trax_tm *tm = ftm->tm;
   const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
   uint64_t losers = 0;
   for (uint32_t icache = 0; icache < tm->icaches; icache++) {
-    const uint64_t ask_it = askers & trax_group_mask(icache, tm->config->icache.tps_per_cache);
-    trax_fast_lanes *behind = &ftm->behind[icache * ftm->vectors];
-    for (uint32_t first = 0; first < banks; first += TRAX_FAST_LANES, behind++) {
-      trax_fast_lanes asking;
+    const uint64_t here = requesters & trax_group_mask(icache, tm->config->icache.tps_per_cache);
+    trax_fast_lanes *rr_mask = &ftm->fetch_rr_masks[icache * ftm->vectors];
+    for (uint32_t first = 0; first < banks; first += TRAX_FAST_LANES, rr_mask++) {
+      trax_fast_lanes requesting;
       for (uint32_t i = 0; i < TRAX_FAST_LANES; i++) {
-        asking[i] = ask_it;
+        requesting[i] = here;
         for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
-          asking[i] &= (first + i) >> k & 1 ? bit[k] : ~bit[k];
+          requesting[i] &= (first + i) >> k & 1 ? bit[k] : ~bit[k];
       }
       for (uint32_t port = 0; port < ports; port++) {
         trax_fast_lanes winners;
-        TRAX_FAST_ARBITRATE(trax_fast_lanes, behind, asking, &winners);
-        asking ^= winners;
+        TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, requesting, &winners);
+        requesting ^= winners;
       }
-      losers |= trax_fast_any(&asking);
+      losers |= trax_fast_any(&requesting);
     }
   }
   return losers;
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
-static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_fast_tm *ftm, const bool wide, uint64_t askers) {
+static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_fast_tm *ftm, const bool wide, uint64_t requesters) {
   uint64_t bit[TRAX_FAST_BANK_BITS];
-  trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_FETCH_SHIFT, 4, bit);
+  trax_fast_transpose(&ftm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
   if (ftm->simple_fetch) {
 #ifdef __AVX512BW__
     if (wide)
-      return trax_fast_refuse_four(&ftm->rr_mask16, askers, bit);
+      return trax_fast_refuse_four(&ftm->fetch_rr_masks16, requesters, bit);
 #endif
     uint64_t losers = 0;
-    for (unsigned pair = 0; pair < 2 && askers >> 32 * pair; pair++)
-      losers |= (uint64_t)trax_fast_refuse_pair(&ftm->rr_mask16, pair, askers, bit) << 32 * pair;
+    for (unsigned pair = 0; pair < 2 && requesters >> 32 * pair; pair++)
+      losers |= (uint64_t)trax_fast_refuse_pair(&ftm->fetch_rr_masks16, pair, requesters, bit) << 32 * pair;
     return losers;
   }
-  trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_FETCH_SHIFT + 4, 2, bit + 4);
-  return refuse_fetches_of_any_shape(ftm, askers, bit);
+  trax_fast_transpose(&ftm->heads, wide, TRAX_STEP_FETCH_SHIFT + 4, 2, bit + 4);
+  return refuse_fetches_of_any_shape(ftm, requesters, bit);
 }
 
 /* The TP has won its bank and looks up the line of its head. True: a hit. */
@@ -100,13 +100,13 @@ static bool look_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_icache *icache = &tm->icache[ftm->icache_of[number]];
   if (!ftm->resident[ftm->icache_of[number]][ftm->fast->program.line[trax_fast_head(ftm, number)]]) {
-    trax_fast_show(ftm, number);
+    trax_fast_export_head(ftm, number);
     if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
       trax_icache_look_up(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
       return false;
     }
   }
-  ftm->looked_up += !(ftm->deferred >> number & 1);
+  ftm->looked_up += !(ftm->executes_at_issue >> number & 1);
   return true;
 }
 
@@ -117,13 +117,13 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  uint16_t asks = ftm->fast->program.asks[trax_fast_head(ftm, number)] & (TRAX_ASKS_KIND | TRAX_ASKS_FETCH);
+  uint16_t step = ftm->fast->program.step[trax_fast_head(ftm, number)] & (TRAX_STEP_KIND | TRAX_STEP_FETCH);
   if (inst->resource == TRAX_RESOURCE_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
   }
   if (inst->resource == TRAX_RESOURCE_END || inst->resource == TRAX_RESOURCE_FENCE)
-    asks |= TRAX_ASKS_QUEUE;
+    step |= TRAX_STEP_QUEUE;
   if (inst->resource == TRAX_RESOURCE_MEMORY) {
     tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
     const trax_fault_kind kind = trax_access_check(inst, &tm->machine->space, tp->address);
@@ -132,15 +132,15 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
       return false;
     }
     if (tp->address >= TRAX_LOCAL_BASE)
-      asks &= TRAX_ASKS_FETCH;
+      step &= TRAX_STEP_FETCH;
     else if (inst->is_nontemporal || inst->is_atomic)
-      asks |= TRAX_ASKS_QUEUE;
+      step |= TRAX_STEP_QUEUE;
     else {
-      asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);
+      step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % ftm->data_banks << TRAX_STEP_BANK_SHIFT);
       ftm->tp[number].address[0] = tp->address;
     }
   }
-  ftm->tp[number].asks[0] = asks | TRAX_ASKS_SLOWLY;
+  ftm->tp[number].step[0] = step | TRAX_STEP_SLOW;
   trax_fast_set_head(&ftm->heads, number, 0);
   return true;
 }
@@ -148,11 +148,11 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, bool fetched, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const struct trax_tp *tp = &tm->tp[number];
-  const uint32_t waits = trax_fast_head_note(ftm, number)->waits;
+  const uint32_t waits = trax_fast_head_timing(ftm, number)->waits;
   for (uint32_t rest = waits & ftm->busy_registers[number]; rest; rest &= rest - 1)
     if (tp->usable[trax_first(rest)] > t) {
       uint64_t until = 0;
-      trax_fast_show(ftm, number);
+      trax_fast_export_head(ftm, number);
       const trax_cause cause = trax_tp_wait(tp, t, &until);
       if (until == TRAX_NEVER) {
         trax_tm_sleep(tm, number, t, cause);
@@ -165,32 +165,33 @@ static bool operands_usable(struct trax_fast_tm *ftm, unsigned number, bool fetc
   ftm->busy_registers[number] &= ~waits;
   ftm->busy &= ~((uint64_t)!ftm->busy_registers[number] << number);
   if ((ftm->busy | ftm->uncertain) >> number & 1)
-    trax_fast_plan(ftm, number, fetched);
+    trax_fast_schedule_check(ftm, number, fetched);
   return true;
 }
 
 /* Steps 1 and 2; woken: TPs that hold an instruction whose operands must be checked. */
 static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool wide, uint64_t woken,
-                                          struct trax_fast_refused *lost, uint64_t t) {
+                                          struct trax_fast_refused *refused, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  if (ftm->outside)
-    fault_outside(ftm, t);
-  const uint64_t askers = tm->awake & ~tm->holding;
+  if (ftm->no_text)
+    fault_no_text(ftm, t);
+  const uint64_t requesters = tm->awake & ~tm->holding;
   uint64_t hits = 0;
-  if (askers) {
-    const uint64_t losers = refuse_fetches(ftm, wide, askers);
-    lost->fetch = losers;
-    hits = askers & ~losers;
+  if (requesters) {
+    const uint64_t losers = refuse_fetches(ftm, wide, requesters);
+    refused->fetch = losers;
+    hits = requesters & ~losers;
   }
   const uint64_t due = trax_fast_due(&ftm->heads, wide);
-  const uint64_t maybe_missing = (ftm->uncertain & due) | ftm->deferred;
+  const uint64_t maybe_missing = (ftm->uncertain & due) | ftm->executes_at_issue;
   uint64_t passed = hits & ~((ftm->busy & due) | maybe_missing);
   for (uint64_t rest = (hits & ~passed) | woken; rest; rest &= rest - 1) {
     const uint64_t bit = rest & -rest;
     const unsigned number = trax_first(rest);
     if ((hits & maybe_missing & bit) && !look_up(ftm, number, t))
       hits ^= bit;
-    else if (operands_usable(ftm, number, hits & bit, t) && (!(ftm->deferred & bit) || classify(ftm, number, t)))
+    else if (operands_usable(ftm, number, hits & bit, t) &&
+             (!(ftm->executes_at_issue & bit) || classify(ftm, number, t)))
       passed |= bit;
   }
   tm->stats->icache_hits += count_bits(hits);
@@ -201,49 +202,49 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_fast_tm *ftm, const bool w
 /* --- steps 3 and 4 --- */
 
 /* Grants four banks; adds the winners, and those of them whose lines are in way 0 of their sets. */
-static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_fast_lanes *behind,
-                                           const trax_fast_lanes *asking, uint64_t *winners, uint64_t *there) {
+static ALWAYS_INLINE void grant_four_banks(const struct trax_fast_tm *ftm, trax_fast_lanes *rr_mask,
+                                           const trax_fast_lanes *requesting, uint64_t *winners, uint64_t *way0_hits) {
   const struct trax_cache_tags *tags = &ftm->tm->dcache.tags;
   trax_fast_lanes winner;
-  TRAX_FAST_ARBITRATE(trax_fast_lanes, behind, *asking, &winner);
+  TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, *requesting, &winner);
   *winners |= trax_fast_any(&winner);
 #pragma GCC unroll 4
   for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches, since requests are hard to predict */
     const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
     const uint32_t line = trax_line_of(tags, ftm->address_of[number][ftm->heads.load[number]]);
-    const bool is_there = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
-    *there |= winner[i] & -(uint64_t)is_there;
+    const bool is_hit = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
+    *way0_hits |= winner[i] & -(uint64_t)is_hit;
   }
 }
 
 /* Grants the banks of the data cache and returns the winners. `hits` receives the loads among them that are granted
    without a further look-up. */
-static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool wide, uint64_t askers, uint64_t *bit,
+static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool wide, uint64_t requesters, uint64_t *bit,
                                           uint64_t *hits) {
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
   /* Lane i: the TPs whose bank number has i in its lowest two bits. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
-  uint64_t winners = 0, there = 0;
+  uint64_t winners = 0, way0_hits = 0;
   if (__builtin_expect(ftm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
-    const trax_fast_lanes first = by_low_bits & (none + (askers & ~bit[2]));
-    grant_four_banks(ftm, &ftm->data_bank_rr_mask[0], &first, &winners, &there);
+    const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
+    grant_four_banks(ftm, &ftm->data_bank_rr_masks[0], &first, &winners, &way0_hits);
     if (ftm->data_banks > TRAX_FAST_LANES) {
-      const trax_fast_lanes second = by_low_bits & (none + (askers & bit[2]));
-      grant_four_banks(ftm, &ftm->data_bank_rr_mask[1], &second, &winners, &there);
+      const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
+      grant_four_banks(ftm, &ftm->data_bank_rr_masks[1], &second, &winners, &way0_hits);
     }
   } else {
-    trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 3, 1, bit + 3);
-    trax_fast_transpose(&ftm->heads, wide, TRAX_ASKS_BANK_SHIFT + 4, 2, bit + 4);
+    trax_fast_transpose(&ftm->heads, wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
+    trax_fast_transpose(&ftm->heads, wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
     for (uint32_t first = 0; first < ftm->data_banks; first += TRAX_FAST_LANES) {
-      uint64_t asking = askers;
+      uint64_t requesting = requesters;
       for (uint32_t k = 2; k < ftm->data_bank_bits; k++)
-        asking &= first >> k & 1 ? bit[k] : ~bit[k];
-      const trax_fast_lanes four = by_low_bits & (none + asking);
-      grant_four_banks(ftm, &ftm->data_bank_rr_mask[first / TRAX_FAST_LANES], &four, &winners, &there);
+        requesting &= first >> k & 1 ? bit[k] : ~bit[k];
+      const trax_fast_lanes four = by_low_bits & (none + requesting);
+      grant_four_banks(ftm, &ftm->data_bank_rr_masks[first / TRAX_FAST_LANES], &four, &winners, &way0_hits);
     }
   }
-  *hits = there & ~ftm->deferred;
+  *hits = way0_hits & ~ftm->executes_at_issue;
   return winners;
 }
 
@@ -256,7 +257,7 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   ftm->single_hits++;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
-    const unsigned rd = trax_fast_head_note(ftm, number)->decoded->rd;
+    const unsigned rd = trax_fast_head_timing(ftm, number)->decoded->rd;
     trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
     trax_fast_set_busy(ftm, number, rd);
   }
@@ -265,9 +266,9 @@ static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
 
 static bool serve(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  if (!(ftm->deferred >> number & 1) && load_hits(ftm, number, t))
+  if (!(ftm->executes_at_issue >> number & 1) && load_hits(ftm, number, t))
     return true;
-  trax_fast_show(ftm, number);
+  trax_fast_export_head(ftm, number);
   const trax_cause refused = trax_tm_serve(tm, number, t);
   if (refused != TRAX_CAUSE_ISSUED) {
     trax_tm_charge(tm, number, refused);
@@ -277,31 +278,32 @@ static bool serve(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   return true;
 }
 
-static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t askers, uint64_t t) {
-  const unsigned turn = ftm->tm->queue_turn;
+static uint64_t grant_queue(struct trax_fast_tm *ftm, uint64_t requesters, uint64_t t) {
+  const unsigned pointer = ftm->tm->queue_arbiter;
   uint64_t granted = 0;
-  for (uint64_t rest = askers >> turn | askers << (-turn & 63); rest; rest &= rest - 1) { /* bit 0: the pointer's TP */
-    const unsigned number = (trax_first(rest) + turn) & 63;
+  for (uint64_t rest = requesters >> pointer | requesters << (-pointer & 63); rest;
+       rest &= rest - 1) { /* bit 0: the pointer's TP */
+    const unsigned number = (trax_first(rest) + pointer) & 63;
     granted |= (uint64_t)serve(ftm, number, t) << number;
   }
   return granted;
 }
 
 /* Grants units of a kind, group by group. */
-static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *unit, uint64_t askers, uint64_t t) {
+static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *unit, uint64_t requesters, uint64_t t) {
   const struct trax_shared_kind *const kind = &unit->kind;
   uint64_t winners = 0;
   for (uint32_t group = 0; group < kind->groups; group++) {
-    const uint64_t all = askers & trax_group_mask(group, kind->group_size);
+    const uint64_t all = requesters & trax_group_mask(group, kind->group_size);
     if (kind->is_pipelined) {
-      winners |= trax_arbiter_grant(&unit->turn[group], all, kind->per_group);
+      winners |= trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group);
       continue;
     }
     uint64_t *const free_from = &unit->free_from[(size_t)group * kind->per_group];
     for (uint32_t i = 0; i < kind->per_group && all & ~winners; i++)
       if (free_from[i] <= t) {
-        const uint64_t winner = trax_arbiter_grant(&unit->turn[group], all & ~winners, 1);
-        free_from[i] = t + trax_fast_head_note(ftm, trax_first(winner))->decoded->latency;
+        const uint64_t winner = trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1);
+        free_from[i] = t + trax_fast_head_timing(ftm, trax_first(winner))->decoded->latency;
         winners |= winner;
       }
   }
@@ -311,16 +313,16 @@ static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *uni
 _Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
 
 /* Grants the kinds of units that steps encode by a number; bit: the planes of that number. Returns the winners. */
-static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct trax_fast_refused *lost, uint64_t askers,
-                                            const uint64_t *bit, uint64_t t) {
+static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct trax_fast_refused *refused,
+                                            uint64_t requesters, const uint64_t *bit, uint64_t t) {
   uint64_t granted = 0;
 #pragma GCC unroll 8
   for (unsigned unit = TRAX_FAST_FURTHER; unit < TRAX_SHARED_COUNT; unit++) {
-    uint64_t ask_it = askers;
+    uint64_t here = requesters;
     for (unsigned k = 0; k < 3; k++)
-      ask_it &= (unit - TRAX_FAST_FURTHER) >> k & 1 ? bit[k] : ~bit[k];
-    const uint64_t won = ask_it ? grant_any(ftm, &ftm->tm->unit[unit], ask_it, t) : 0;
-    lost->unit[unit] = ask_it & ~won;
+      here &= (unit - TRAX_FAST_FURTHER) >> k & 1 ? bit[k] : ~bit[k];
+    const uint64_t won = here ? grant_any(ftm, &ftm->tm->unit[unit], here, t) : 0;
+    refused->unit[unit] = here & ~won;
     granted |= won;
   }
   return granted;
@@ -328,46 +330,46 @@ static ALWAYS_INLINE uint64_t grant_further(struct trax_fast_tm *ftm, struct tra
 
 /* Steps 3 and 4: returns the TPs that were granted all that they need. `slow` receives the TPs with slow heads, and
    `banks` those that request a data bank. */
-static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_refused *lost,
+static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, struct trax_fast_refused *refused,
                                     uint64_t *slow, uint64_t *banks, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
-  uint64_t bit[TRAX_ASKS_BANK_SHIFT + TRAX_FAST_BANK_BITS];
-  trax_fast_transpose(&ftm->heads, wide, 0, TRAX_ASKS_BANK_SHIFT + 3, bit);
+  uint64_t bit[TRAX_STEP_BANK_SHIFT + TRAX_FAST_BANK_BITS];
+  trax_fast_transpose(&ftm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
   const uint64_t ready = ftm->ready, ready_low = ready & ~bit[3];
   const uint64_t further = (unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER ? ready & bit[1] & bit[2] & bit[3] : 0;
   const uint64_t ready_high = ready & bit[3] & ~further;
-  /* Bits 1 to 3 are the kind: see TRAX_ASKS_FP_ADD and the following enumerators. */
+  /* Bits 1 to 3 are the kind: see TRAX_STEP_FP_ADD and the following enumerators. */
   uint64_t granted = ready_low & ~(bit[1] | bit[2]);
-  uint64_t askers, won;
-  const trax_fast_pair fp_askers = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
-  const trax_fast_pair fp_won = trax_fast_grant_units(&ftm->fp, fp_askers);
+  uint64_t requesters, won;
+  const trax_fast_pair fp_requesters = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
+  const trax_fast_pair fp_won = trax_fast_grant_units(&ftm->fp, fp_requesters);
   granted |= fp_won[0] | fp_won[1];
-  lost->unit[TRAX_SHARED_FP_ADD] = fp_askers[0] & ~fp_won[0];
-  lost->unit[TRAX_SHARED_FP_MUL] = fp_askers[1] & ~fp_won[1];
-  if ((askers = ready_low & bit[1] & bit[2])) {
-    granted |= won = trax_fast_grant_units(&ftm->int_mul, (trax_fast_pair){askers, 0})[0];
-    lost->unit[TRAX_SHARED_INT_MUL] = askers & ~won;
+  refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
+  refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
+  if ((requesters = ready_low & bit[1] & bit[2])) {
+    granted |= won = trax_fast_grant_units(&ftm->int_mul, (trax_fast_pair){requesters, 0})[0];
+    refused->unit[TRAX_SHARED_INT_MUL] = requesters & ~won;
   }
-  if ((askers = ready_high & bit[1])) {
-    granted |= won = grant_any(ftm, &tm->unit[TRAX_SHARED_SPECIAL], askers, t);
-    lost->unit[TRAX_SHARED_SPECIAL] = askers & ~won;
+  if ((requesters = ready_high & bit[1])) {
+    granted |= won = grant_any(ftm, &tm->unit[TRAX_SHARED_SPECIAL], requesters, t);
+    refused->unit[TRAX_SHARED_SPECIAL] = requesters & ~won;
   }
   if (further)
-    granted |= grant_further(ftm, lost, further, bit + TRAX_ASKS_BANK_SHIFT, t);
-  uint64_t queue_askers = ready_high & bit[2];
-  *banks = askers = ready_high & ~(bit[1] | bit[2]);
-  if (askers) {
+    granted |= grant_further(ftm, refused, further, bit + TRAX_STEP_BANK_SHIFT, t);
+  uint64_t queue_requesters = ready_high & bit[2];
+  *banks = requesters = ready_high & ~(bit[1] | bit[2]);
+  if (requesters) {
     uint64_t hits;
-    won = grant_banks(ftm, wide, askers, bit + TRAX_ASKS_BANK_SHIFT, &hits);
-    lost->bank = askers & ~won;
-    if (ftm->hits_in_turn)
+    won = grant_banks(ftm, wide, requesters, bit + TRAX_STEP_BANK_SHIFT, &hits);
+    refused->bank = requesters & ~won;
+    if (ftm->serial_hits)
       hits = 0; /* serve() handles them */
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
-    queue_askers |= won & ~hits;
+    queue_requesters |= won & ~hits;
   }
-  if (queue_askers)
-    granted |= grant_queue(ftm, queue_askers, t);
+  if (queue_requesters)
+    granted |= grant_queue(ftm, queue_requesters, t);
   ftm->ready &= ~granted;
   *slow = bit[0];
   return granted;
@@ -382,72 +384,72 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
     carry_;                                                                                                            \
   }))
 
-static bool is_any(const trax_fast_refusals *losses) {
+static bool is_any(const trax_fast_refusals *refusals) {
   uint64_t any = 0;
   for (unsigned i = 0; i < TRAX_FAST_COUNTERS; i++)
-    any |= (*losses)[i];
+    any |= (*refusals)[i];
   return any != 0;
 }
 
-void trax_fast_count_log(struct trax_fast_refusal_counts *tally) {
+void trax_fast_count_log(struct trax_fast_refusal_counts *counts) {
   const trax_fast_refusals none = {0};
   trax_fast_refusals carry = none;
-  for (; tally->logged < TRAX_FAST_LOG; tally->logged++)
-    tally->log[tally->logged] = none;
+  for (; counts->logged < TRAX_FAST_LOG; counts->logged++)
+    counts->log[counts->logged] = none;
   unsigned count = TRAX_FAST_LOG; /* number of terms of the current bit, at the beginning of the log */
   for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
-    trax_fast_refusals sum = tally->log[0];
+    trax_fast_refusals sum = counts->log[0];
     count /= 2;
     for (unsigned i = 0; i < count; i++)
-      tally->log[i] = ADD_TWO(&sum, tally->log[2 * i + 1], tally->log[2 * i + 2]);
-    carry = ADD_TWO(&tally->planes[bit], sum, carry);
+      counts->log[i] = ADD_TWO(&sum, counts->log[2 * i + 1], counts->log[2 * i + 2]);
+    carry = ADD_TWO(&counts->planes[bit], sum, carry);
   }
   for (unsigned bit = TRAX_FAST_LOG_BITS; bit < 64 && is_any(&carry); bit++)
-    carry = ADD_TWO(&tally->planes[bit], carry, none);
-  tally->logged = 0;
+    carry = ADD_TWO(&counts->planes[bit], carry, none);
+  counts->logged = 0;
 }
 
 /* A cycle of a TM. */
-struct turn {
+struct tm_cycle {
   struct trax_fast_tm *ftm;
   uint64_t t, woken, granted, slow, banks;
-  struct trax_fast_refused lost;
+  struct trax_fast_refused refused;
 };
 
-static ALWAYS_INLINE void begin(struct turn *turn) {
-  turn->ftm->tm->now = turn->t;
-  turn->woken = wake(turn->ftm, turn->t);
+static ALWAYS_INLINE void begin(struct tm_cycle *cycle) {
+  cycle->ftm->tm->now = cycle->t;
+  cycle->woken = wake(cycle->ftm, cycle->t);
 }
 
-static ALWAYS_INLINE void issue(const struct turn *turn, const bool wide) {
-  const uint64_t quick = turn->granted & ~turn->slow, slow = turn->granted & turn->slow;
-  trax_fast_pass_loads(&turn->ftm->heads, quick & turn->banks);
+static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
+  const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
+  trax_fast_pass_loads(&cycle->ftm->heads, quick & cycle->banks);
   if (slow)
-    trax_fast_issue(turn->ftm, quick, slow, turn->t);
+    trax_fast_issue(cycle->ftm, quick, slow, cycle->t);
   else
-    trax_fast_issue_quickly(turn->ftm, wide, quick);
+    trax_fast_issue_quickly(cycle->ftm, wide, quick);
 }
 
-static ALWAYS_INLINE void end(const struct turn *turn) {
-  struct trax_fast_tm *const ftm = turn->ftm;
-  trax_fast_count(&ftm->tally, &turn->lost);
+static ALWAYS_INLINE void end(const struct tm_cycle *cycle) {
+  struct trax_fast_tm *const ftm = cycle->ftm;
+  trax_fast_count(&ftm->refusal_counts, &cycle->refused);
   if (__builtin_expect(ftm->tm->observer != NULL, false))
-    trax_fast_tell(ftm, &turn->lost);
-  ftm->tm->next_cycle = ftm->tm->awake ? turn->t + 1 : trax_tm_next_cycle(ftm->tm, turn->t);
+    trax_fast_notify_refusals(ftm, &cycle->refused);
+  ftm->tm->next_cycle = ftm->tm->awake ? cycle->t + 1 : trax_tm_next_cycle(ftm->tm, cycle->t);
 }
 
 /* Simulates a cycle of one TM, or of two independent TMs, whose steps are interleaved: while the host waits for results
    of one TM, it executes instructions of the other. */
-static ALWAYS_INLINE void take_turns(struct turn one, struct turn other, const bool two, const bool wide) {
+static ALWAYS_INLINE void run_cycles(struct tm_cycle one, struct tm_cycle other, const bool two, const bool wide) {
   begin(&one);
   if (two)
     begin(&other);
-  fetch_and_check(one.ftm, wide, one.woken, &one.lost, one.t);
+  fetch_and_check(one.ftm, wide, one.woken, &one.refused, one.t);
   if (two)
-    fetch_and_check(other.ftm, wide, other.woken, &other.lost, other.t);
-  one.granted = grant(one.ftm, wide, &one.lost, &one.slow, &one.banks, one.t);
+    fetch_and_check(other.ftm, wide, other.woken, &other.refused, other.t);
+  one.granted = grant(one.ftm, wide, &one.refused, &one.slow, &one.banks, one.t);
   if (two)
-    other.granted = grant(other.ftm, wide, &other.lost, &other.slow, &other.banks, other.t);
+    other.granted = grant(other.ftm, wide, &other.refused, &other.slow, &other.banks, other.t);
   issue(&one, wide);
   if (two)
     issue(&other, wide);
@@ -456,18 +458,18 @@ static ALWAYS_INLINE void take_turns(struct turn one, struct turn other, const b
     end(&other);
 }
 
-_Static_assert(TRAX_FAST_ABREAST == 2, "take_turns simulates at most two TMs");
+_Static_assert(TRAX_FAST_INTERLEAVED == 2, "run_cycles simulates at most two TMs");
 
-static void take_turn(struct trax_fast_tm *ftm, uint64_t t) {
-  const struct turn turn = {.ftm = ftm, .t = t};
+static void run_cycle(struct trax_fast_tm *ftm, uint64_t t) {
+  const struct tm_cycle cycle = {.ftm = ftm, .t = t};
   if (ftm->wide)
-    take_turns(turn, turn, false, true);
+    run_cycles(cycle, cycle, false, true);
   else
-    take_turns(turn, turn, false, false);
+    run_cycles(cycle, cycle, false, false);
 }
 
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t) {
-  take_turn(&fast->tm[tm], t);
+  run_cycle(&fast->tm[tm], t);
 }
 
 static inline bool runs(const struct trax_fast_tm *ftm, uint64_t end) {
@@ -476,8 +478,8 @@ static inline bool runs(const struct trax_fast_tm *ftm, uint64_t end) {
 
 static ALWAYS_INLINE void run_two(struct trax_fast_tm *one, struct trax_fast_tm *other, uint64_t end, const bool wide) {
   while (runs(one, end) && runs(other, end))
-    take_turns((struct turn){.ftm = one, .t = one->tm->next_cycle},
-               (struct turn){.ftm = other, .t = other->tm->next_cycle}, true, wide);
+    run_cycles((struct tm_cycle){.ftm = one, .t = one->tm->next_cycle},
+               (struct tm_cycle){.ftm = other, .t = other->tm->next_cycle}, true, wide);
 }
 
 void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
@@ -488,5 +490,5 @@ void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count,
     run_two(one, other, end, false);
   for (struct trax_fast_tm *ftm = one; ftm <= other; ftm++)
     while (runs(ftm, end))
-      take_turn(ftm, ftm->tm->next_cycle);
+      run_cycle(ftm, ftm->tm->next_cycle);
 }

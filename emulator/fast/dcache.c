@@ -61,7 +61,7 @@ bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned n
   struct trax_mshr *mshr = &dcache->mshr[dcache->mshr_count++];
   *mshr = (struct trax_mshr){.line = line, .first_waiter = NO_WAITER};
   wait_for_line(dcache, mshr, tp, number);
-  trax_arbiter_to_back(&tm->queue_turn, number);
+  trax_arbiter_to_back(&tm->queue_arbiter, number);
   return true;
 }
 

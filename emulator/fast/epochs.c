@@ -29,7 +29,7 @@ struct undo {
 enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 
 struct writer {
-  uint64_t round;
+  uint64_t generation;
   uint32_t address;
   uint16_t tm; /* or BY_... */
   bool early;  /* incremented before the epoch, in which this was to happen */
@@ -38,7 +38,7 @@ struct writer {
 struct trax_epochs {
   struct trax_chip *chip;
   struct trax_pool *pool;
-  uint32_t abreast;                  /* TMs that one thread runs together */
+  uint32_t interleaved;              /* TMs that one thread runs together */
   struct trax_store_buffer *buffers; /* [tms] */
   uint64_t length;                   /* cycles of the shortest epoch: from a request to its completion */
   uint64_t end;                      /* of the current one */
@@ -59,14 +59,14 @@ struct trax_epochs {
 
   struct writer *writers; /* [writer_capacity], a power of two; open addressing */
   size_t writer_count, writer_capacity;
-  uint64_t round;
+  uint64_t generation;
   bool failed;                       /* out of memory */
   size_t *next_write, *next_request; /* [tms]: of the buffers, those that have not been dealt with */
 };
 
 /* --- snapshots --- */
 
-static void note_section(void *context, const struct trax_section *section) {
+static void record_section(void *context, const struct trax_section *section) {
   struct trax_epochs *epochs = context;
   epochs->section_count++;
   epochs->snapshot_size += section->size * section->count;
@@ -75,12 +75,12 @@ static void note_section(void *context, const struct trax_section *section) {
 }
 
 /* Notes how many sections there are, and then which. */
-static bool note_sections(struct trax_epochs *epochs) {
-  trax_state_visit(epochs->chip, note_section, epochs);
+static bool record_sections(struct trax_epochs *epochs) {
+  trax_state_visit(epochs->chip, record_section, epochs);
   epochs->sections = calloc(epochs->section_count, sizeof *epochs->sections);
   epochs->section_count = epochs->snapshot_size = 0;
   if (epochs->sections)
-    trax_state_visit(epochs->chip, note_section, epochs);
+    trax_state_visit(epochs->chip, record_section, epochs);
   return epochs->sections;
 }
 
@@ -133,7 +133,7 @@ static bool grow(void **array, size_t count, size_t *capacity, size_t size) {
 static struct writer *find_writer(const struct trax_epochs *epochs, uint32_t address) {
   const size_t mask = epochs->writer_capacity - 1;
   size_t i = (address >> 2) * (size_t)0x9E3779B1u & mask;
-  while (epochs->writers[i].round == epochs->round && epochs->writers[i].address != address)
+  while (epochs->writers[i].generation == epochs->generation && epochs->writers[i].address != address)
     i = (i + 1) & mask;
   return &epochs->writers[i];
 }
@@ -141,12 +141,12 @@ static struct writer *find_writer(const struct trax_epochs *epochs, uint32_t add
 static bool grow_writers(struct trax_epochs *epochs) {
   if (2 * epochs->writer_count < epochs->writer_capacity)
     return true;
-  struct trax_epochs larger = {.round = epochs->round, .writer_capacity = 2 * epochs->writer_capacity};
+  struct trax_epochs larger = {.generation = epochs->generation, .writer_capacity = 2 * epochs->writer_capacity};
   larger.writers = calloc(larger.writer_capacity, sizeof *larger.writers);
   if (!larger.writers)
     return false;
   for (size_t i = 0; i < epochs->writer_capacity; i++)
-    if (epochs->writers[i].round == epochs->round)
+    if (epochs->writers[i].generation == epochs->generation)
       *find_writer(&larger, epochs->writers[i].address) = epochs->writers[i];
   free(epochs->writers);
   epochs->writers = larger.writers;
@@ -155,7 +155,7 @@ static bool grow_writers(struct trax_epochs *epochs) {
 }
 
 /* The word at `address` is about to be written by a TM or the controller. NULL: out of memory. */
-static const struct writer *note_writer(struct trax_epochs *epochs, uint32_t address, uint32_t tm) {
+static const struct writer *record_writer(struct trax_epochs *epochs, uint32_t address, uint32_t tm) {
   if (!grow((void **)&epochs->undo, epochs->undo_count, &epochs->undo_capacity, sizeof *epochs->undo) ||
       !grow_writers(epochs))
     return NULL;
@@ -163,8 +163,8 @@ static const struct writer *note_writer(struct trax_epochs *epochs, uint32_t add
   undo->address = address & ~3u;
   memcpy(&undo->word, epochs->chip->machine->space.bytes + undo->address, sizeof undo->word);
   struct writer *writer = find_writer(epochs, undo->address);
-  if (writer->round != epochs->round) {
-    *writer = (struct writer){epochs->round, undo->address, (uint16_t)tm, epochs->early};
+  if (writer->generation != epochs->generation) {
+    *writer = (struct writer){epochs->generation, undo->address, (uint16_t)tm, epochs->early};
     epochs->writer_count++;
   } else if (writer->tm != tm) {
     writer->tm = BY_SEVERAL;
@@ -180,7 +180,7 @@ static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_w
   trax_fast_set_written(&fast->blocks, write->address);
   if (!write->bytes)
     return true;
-  const struct writer *writer = note_writer(epochs, write->address, tm);
+  const struct writer *writer = record_writer(epochs, write->address, tm);
   if (!writer || writer->early)
     return false;
   memcpy(epochs->chip->machine->space.bytes + write->address, &write->value, write->bytes);
@@ -208,14 +208,14 @@ static bool write_up_to(struct trax_epochs *epochs, uint64_t t, uint64_t *next) 
 }
 
 /* The controller learns of the requests made up to cycle t. Returns the cycle of the next one. */
-static uint64_t show_requests(struct trax_epochs *epochs, uint64_t t) {
+static uint64_t submit_requests(struct trax_epochs *epochs, uint64_t t) {
   struct trax_chip *chip = epochs->chip;
   uint64_t next = TRAX_NEVER;
   for (uint32_t i = 0; i < chip->tms; i++) {
     const struct trax_store_buffer *buffer = &epochs->buffers[i];
     size_t *request = &epochs->next_request[i];
     for (; *request < buffer->request_count && buffer->requests[*request] <= t; ++*request)
-      trax_memory_show(&chip->memory, &chip->tm[i]);
+      trax_memory_submit(&chip->memory, &chip->tm[i]);
     if (*request < buffer->request_count && buffer->requests[*request] < next)
       next = buffer->requests[*request];
   }
@@ -223,9 +223,9 @@ static uint64_t show_requests(struct trax_epochs *epochs, uint64_t t) {
 }
 
 /* The controller is about to increment a word. */
-static void note_increment(void *context, uint32_t address) {
+static void record_increment(void *context, uint32_t address) {
   struct trax_epochs *epochs = context;
-  epochs->failed |= !note_writer(epochs, address, BY_CONTROLLER);
+  epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);
 }
 
 /* Step 3 of all cycles of the epoch, but for what has been done before it. */
@@ -235,7 +235,7 @@ static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   uint64_t next_request = 0, next_write = 0;
   while (t < epochs->end) {
     if (next_request <= t)
-      next_request = show_requests(epochs, t);
+      next_request = submit_requests(epochs, t);
     if (next_write <= t && !write_up_to(epochs, t, &next_write))
       return false;
     trax_memory_cycle(memory, chip->tm, &chip->machine->space, t);
@@ -246,12 +246,12 @@ static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
 }
 
 /* Whether a TM has read what somebody else wrote in this epoch. */
-static bool has_read_too_early(const struct trax_epochs *epochs) {
+static bool has_conflict(const struct trax_epochs *epochs) {
   for (uint32_t i = 0; epochs->writer_count && i < epochs->chip->tms; i++) {
     const struct trax_store_buffer *buffer = &epochs->buffers[i];
     for (size_t j = 0; j < buffer->read_count; j++) {
       const struct writer *writer = find_writer(epochs, buffer->reads[j]);
-      if (writer->round == epochs->round && writer->tm != i)
+      if (writer->generation == epochs->generation && writer->tm != i)
         return true;
     }
   }
@@ -267,7 +267,7 @@ static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
     return false; /* the run's end is found cycle by cycle */
   memset(epochs->next_write, 0, chip->tms * sizeof *epochs->next_write);
   memset(epochs->next_request, 0, chip->tms * sizeof *epochs->next_request);
-  return run_controller(epochs, begin) && !epochs->failed && !has_read_too_early(epochs);
+  return run_controller(epochs, begin) && !epochs->failed && !has_conflict(epochs);
 }
 
 /* --- epochs --- */
@@ -275,8 +275,8 @@ static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
 static void run_tms(void *context, uint32_t group) {
   const struct trax_epochs *epochs = context;
   const struct trax_chip *chip = epochs->chip;
-  const uint32_t first = group * epochs->abreast, left = chip->tms - first;
-  chip->variant->run_ahead(chip->fast, first, left < epochs->abreast ? left : epochs->abreast, epochs->end);
+  const uint32_t first = group * epochs->interleaved, left = chip->tms - first;
+  chip->variant->run_ahead(chip->fast, first, left < epochs->interleaved ? left : epochs->interleaved, epochs->end);
 }
 
 /* Begins an epoch: whatever waits for memory and is served in the same cycles whatever the TMs request in them is
@@ -286,7 +286,7 @@ static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) 
   for (uint32_t i = 0; i < chip->tms; i++)
     if (chip->tm[i].next_cycle < t)
       chip->tm[i].next_cycle = t;
-  epochs->round++;
+  epochs->generation++;
   epochs->writer_count = 0;
   epochs->failed = false;
   epochs->early = true;
@@ -317,7 +317,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     epochs->pause = FIRST_PAUSE;
     take_snapshot(epochs, *t);
   }
-  chip->memory.before_increment = note_increment;
+  chip->memory.before_increment = record_increment;
   chip->memory.context = epochs;
   begin_epoch(epochs, *t, until);
   for (uint32_t i = 0; i < chip->tms; i++) {
@@ -363,13 +363,13 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
   epochs->writers = calloc(epochs->writer_capacity, sizeof *epochs->writers);
   epochs->next_write = calloc(chip->tms, sizeof *epochs->next_write);
   epochs->next_request = calloc(chip->tms, sizeof *epochs->next_request);
-  if (!epochs->buffers || !note_sections(epochs) || !epochs->writers || !epochs->next_write || !epochs->next_request)
+  if (!epochs->buffers || !record_sections(epochs) || !epochs->writers || !epochs->next_write || !epochs->next_request)
     return trax_fail(error, "out of memory");
   epochs->snapshot = malloc(epochs->snapshot_size);
   if (!epochs->snapshot)
     return trax_fail(error, "out of memory");
-  epochs->abreast = chip->tms / threads < TRAX_FAST_ABREAST ? chip->tms / threads : TRAX_FAST_ABREAST;
-  const uint32_t groups = (chip->tms + epochs->abreast - 1) / epochs->abreast;
+  epochs->interleaved = chip->tms / threads < TRAX_FAST_INTERLEAVED ? chip->tms / threads : TRAX_FAST_INTERLEAVED;
+  const uint32_t groups = (chip->tms + epochs->interleaved - 1) / epochs->interleaved;
   epochs->pool = trax_pool_create(threads, groups, run_tms, epochs, error);
   return epochs->pool ? TRAX_OK : TRAX_ERROR;
 }

@@ -31,12 +31,12 @@ static bool create_fetch(struct trax_fast_tm *ftm, const struct trax_tm *tm) {
   const uint32_t tps = tm->config->icache.tps_per_cache, banks = tm->config->icache.banks;
   ftm->simple_fetch = tps == 16 && banks <= 16 && tm->config->icache.ports_per_bank == 1;
   ftm->vectors = (banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
-  ftm->behind = create_aligned((size_t)tm->icaches * ftm->vectors, sizeof *ftm->behind);
+  ftm->fetch_rr_masks = create_aligned((size_t)tm->icaches * ftm->vectors, sizeof *ftm->fetch_rr_masks);
   ftm->resident = calloc(tm->icaches, sizeof *ftm->resident);
   ftm->resident_lines = calloc(tm->icaches, sizeof *ftm->resident_lines);
   for (unsigned i = 0; i < tm->tps; i++)
     ftm->icache_of[i] = (uint8_t)(i / tps);
-  return ftm->behind && ftm->resident && ftm->resident_lines;
+  return ftm->fetch_rr_masks && ftm->resident && ftm->resident_lines;
 }
 
 static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, struct trax_tm *tm, trax_error *error) {
@@ -44,16 +44,16 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   ftm->tm = tm;
   ftm->wide = tm->tps > 32;
   ftm->tp = create_aligned(tm->tps, sizeof *ftm->tp);
-  ftm->changes = calloc(fast->program.inst_count + 1, sizeof *ftm->changes);
-  if (!create_fetch(ftm, tm) || !ftm->tp || !ftm->changes)
+  ftm->count_deltas = calloc(fast->program.inst_count + 1, sizeof *ftm->count_deltas);
+  if (!create_fetch(ftm, tm) || !ftm->tp || !ftm->count_deltas)
     return trax_fail(error, "out of memory");
   ftm->data_banks = tm->dcache.banks;
   while (1u << ftm->data_bank_bits < ftm->data_banks)
     ftm->data_bank_bits++;
   create_units(&ftm->fp, &tm->unit[TRAX_SHARED_FP_ADD], &tm->unit[TRAX_SHARED_FP_MUL]);
   create_units(&ftm->int_mul, &tm->unit[TRAX_SHARED_INT_MUL], &tm->unit[TRAX_SHARED_INT_MUL]);
-  ftm->hits_in_turn = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
-  ftm->heads.steps = ftm->tp->asks;
+  ftm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
+  ftm->heads.steps = ftm->tp->step;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* TPs that do not exist have TP 0's steps: vectors read them */
     trax_fast_begin_heads(&ftm->heads, i, i < tm->tps ? i * (uint32_t)(sizeof *ftm->tp / sizeof(uint16_t)) : 0);
     ftm->address_of[i] = ftm->tp[i < tm->tps ? i : 0].address;
@@ -92,8 +92,8 @@ static void destroy(struct trax_fast *fast) {
     return;
   for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++) {
     free(fast->tm[i].tp);
-    free(fast->tm[i].changes);
-    free(fast->tm[i].behind);
+    free(fast->tm[i].count_deltas);
+    free(fast->tm[i].fetch_rr_masks);
     free(fast->tm[i].resident);
     free(fast->tm[i].resident_lines);
   }
@@ -108,11 +108,11 @@ static void collect(struct trax_fast *fast) {
     struct trax_fast_tm *ftm = &fast->tm[i];
     int64_t count = 0;
     for (size_t index = 0; index < fast->program.inst_count; index++) {
-      count += ftm->changes[index];
-      ftm->tm->stats->instructions[fast->program.note[index].decoded->op] += (uint64_t)count;
-      ftm->changes[index] = 0;
+      count += ftm->count_deltas[index];
+      ftm->tm->stats->instructions[fast->program.timing[index].decoded->op] += (uint64_t)count;
+      ftm->count_deltas[index] = 0;
     }
-    ftm->changes[fast->program.inst_count] = 0;
+    ftm->count_deltas[fast->program.inst_count] = 0;
   }
 }
 
@@ -137,28 +137,28 @@ static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
 };
 
 static void charge_refusals(struct trax_fast_tm *ftm) {
-  trax_fast_count_log(&ftm->tally);
+  trax_fast_count_log(&ftm->refusal_counts);
   for (unsigned bit = 0; bit < 64; bit++)
-    for (unsigned lost = 0; lost < TRAX_FAST_REFUSALS; lost++)
-      for (uint64_t tps = ftm->tally.planes[bit][lost]; tps; tps &= tps - 1)
-        ftm->tm->tp_stats[trax_first(tps)].cycles[refusal_causes[lost]] += (uint64_t)1 << bit;
-  memset(&ftm->tally, 0, sizeof ftm->tally);
+    for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
+      for (uint64_t tps = ftm->refusal_counts.planes[bit][refused]; tps; tps &= tps - 1)
+        ftm->tm->tp_stats[trax_first(tps)].cycles[refusal_causes[refused]] += (uint64_t)1 << bit;
+  memset(&ftm->refusal_counts, 0, sizeof ftm->refusal_counts);
 }
 
-void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_refused *lost) {
+void trax_fast_notify_refusals(const struct trax_fast_tm *ftm, const struct trax_fast_refused *refused) {
   const uint64_t losers[] = {
-#define LOSERS(MEMBER, CAUSE) lost->MEMBER,
+#define LOSERS(MEMBER, CAUSE) refused->MEMBER,
       TRAX_FAST_REFUSED(LOSERS)
 #undef LOSERS
   };
   for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
     for (uint64_t rest = losers[i]; rest; rest &= rest - 1)
-      trax_tm_tell(ftm->tm, trax_first(rest), refusal_causes[i], ftm->tm->now, 1);
+      trax_tm_notify_charge(ftm->tm, trax_first(rest), refusal_causes[i], ftm->tm->now, 1);
 }
 
 /* Returns how many steps of the current burst have been issued. */
 static unsigned issued_of_burst(const struct trax_fast_tm *ftm, unsigned tp) {
-  return (ftm->deferred | ftm->tm->ended) >> tp & 1 ? 0 : ftm->heads.at[tp];
+  return (ftm->executes_at_issue | ftm->tm->ended) >> tp & 1 ? 0 : ftm->heads.at[tp];
 }
 
 /* Counts the issued part of a burst, and takes it off what the burst's end will count. */
@@ -175,18 +175,18 @@ static void count_burst(struct trax_fast_tm *ftm, unsigned tp) {
 }
 
 /* Adds (sign 1) or removes (sign -1) the executed instructions that have not been issued. */
-static void count_ahead(struct trax_fast_tm *ftm, int64_t sign) {
+static void count_unissued(struct trax_fast_tm *ftm, int64_t sign) {
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
-    if (!((ftm->deferred | ftm->tm->ended) >> tp & 1))
+    if (!((ftm->executes_at_issue | ftm->tm->ended) >> tp & 1))
       for (unsigned i = ftm->heads.at[tp]; i <= ftm->heads.last[tp]; i++) {
         const uint32_t index = trax_fast_index(&ftm->tp[tp], i);
-        ftm->changes[index] += sign;
-        ftm->changes[index + 1] -= sign;
+        ftm->count_deltas[index] += sign;
+        ftm->count_deltas[index + 1] -= sign;
       }
 }
 
 /* Reports how often the run left the fast path. */
-static void tell_slow_ways(const struct trax_fast *fast) {
+static void report_fast_path(const struct trax_fast *fast) {
   struct trax_fast_path *path = &fast->chip->machine->fast_path;
   const struct trax_fast_tm *first = &fast->tm[0]; /* all TMs are configured alike */
   path->known = true;
@@ -195,7 +195,7 @@ static void tell_slow_ways(const struct trax_fast *fast) {
   path->general_fetch = !first->simple_fetch;
   path->uneven_units = !first->fp.even;
   path->many_data_banks = first->data_banks > 2 * TRAX_FAST_LANES;
-  path->hits_in_turn = first->hits_in_turn;
+  path->serial_hits = first->serial_hits;
   path->looked_up = path->single_hits = path->at_issue = 0;
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     path->looked_up += fast->tm[i].looked_up;
@@ -210,13 +210,13 @@ static void settle(struct trax_fast *fast) {
     for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
       count_burst(ftm, tp);
     charge_refusals(ftm);
-    count_ahead(ftm, -1);
+    count_unissued(ftm, -1);
   }
   collect(fast);
-  tell_slow_ways(fast);
+  report_fast_path(fast);
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     count_local(fast->tm[i].tm->stats);
-    count_ahead(&fast->tm[i], 1);
+    count_unissued(&fast->tm[i], 1);
   }
 }
 

@@ -20,10 +20,10 @@
 #define trax_fast_operations TRAX_FAST_NAME(trax_fast_operations, TRAX_FAST_VARIANT)
 #define trax_fast_advance TRAX_FAST_NAME(trax_fast_advance, TRAX_FAST_VARIANT)
 #define trax_fast_refill TRAX_FAST_NAME(trax_fast_refill, TRAX_FAST_VARIANT)
-#define trax_fast_show TRAX_FAST_NAME(trax_fast_show, TRAX_FAST_VARIANT)
-#define trax_fast_close TRAX_FAST_NAME(trax_fast_close, TRAX_FAST_VARIANT)
-#define trax_fast_line_has_come TRAX_FAST_NAME(trax_fast_line_has_come, TRAX_FAST_VARIANT)
-#define trax_fast_tell TRAX_FAST_NAME(trax_fast_tell, TRAX_FAST_VARIANT)
+#define trax_fast_export_head TRAX_FAST_NAME(trax_fast_export_head, TRAX_FAST_VARIANT)
+#define trax_fast_end_burst TRAX_FAST_NAME(trax_fast_end_burst, TRAX_FAST_VARIANT)
+#define trax_fast_line_arrived TRAX_FAST_NAME(trax_fast_line_arrived, TRAX_FAST_VARIANT)
+#define trax_fast_notify_refusals TRAX_FAST_NAME(trax_fast_notify_refusals, TRAX_FAST_VARIANT)
 #define trax_fast_run_ahead TRAX_FAST_NAME(trax_fast_run_ahead, TRAX_FAST_VARIANT)
 #define trax_fast_cycle TRAX_FAST_NAME(trax_fast_cycle, TRAX_FAST_VARIANT)
 #define trax_fast_count_log TRAX_FAST_NAME(trax_fast_count_log, TRAX_FAST_VARIANT)
@@ -32,7 +32,7 @@
 #define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
 #define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
 #define trax_fast_roll_back TRAX_FAST_NAME(trax_fast_roll_back, TRAX_FAST_VARIANT)
-#define trax_fast_plan TRAX_FAST_NAME(trax_fast_plan, TRAX_FAST_VARIANT)
+#define trax_fast_schedule_check TRAX_FAST_NAME(trax_fast_schedule_check, TRAX_FAST_VARIANT)
 #define trax_fast_export TRAX_FAST_NAME(trax_fast_export, TRAX_FAST_VARIANT)
 #define trax_fast_import TRAX_FAST_NAME(trax_fast_import, TRAX_FAST_VARIANT)
 #endif
@@ -60,7 +60,7 @@ struct trax_fast_inst {
 };
 
 /* What its timing needs. */
-struct trax_fast_note {
+struct trax_fast_timing {
   const struct trax_decoded *decoded;
   uint32_t waits; /* mask of registers that must be usable */
   uint32_t pc;
@@ -78,11 +78,11 @@ struct trax_fast_program {
   size_t count, inst_count;
   uint32_t lines;              /* TRAX_FAST_LINES: or more */
   struct trax_fast_inst *inst; /* [inst_count] */
-  struct trax_fast_note *note; /* [inst_count] */
+  struct trax_fast_timing *timing; /* [inst_count] */
   uint16_t *line;              /* [inst_count]: of the program, for `resident` */
-  uint16_t *asks;              /* [inst_count + TRAX_CHUNK]: of a step, unless its address says more */
+  uint16_t *step;              /* [inst_count + TRAX_CHUNK]: of a step, unless its address says more */
   uint64_t *lines_ahead;       /* [inst_count]: bit line % 64 of the lines from here to a jump or the chunk's end */
-  struct trax_fast_inst *outside; /* the last */
+  struct trax_fast_inst *no_text; /* the last */
 };
 
 struct trax_fast_undo {
@@ -99,9 +99,9 @@ struct trax_fast_tp {
   uint32_t burst_jumps; /* of the current burst, its last step included */
   uint64_t burst_lines; /* bit line % 64: in which lines of the program its steps are, and perhaps in more */
 
-  /* The steps of the burst, what timing needs of instructions that have been executed; or only the deferred head.
-     Behind the last one there may be more. */
-  _Alignas(64) uint16_t asks[TRAX_BURST + TRAX_CHUNK];
+  /* The steps of the burst, what timing needs of instructions that have been executed; or only the executes_at_issue
+     head. Behind the last one there may be more. */
+  _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
   uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* of the burst: trax_fast_index */
   uint32_t address[TRAX_BURST];            /* of the loads of global memory, one after the other */
   uint32_t origin[TRAX_BURST + 1];         /* [segment]: the index of its first instruction minus the number of its step */
@@ -118,7 +118,7 @@ struct trax_fast_tm {
   struct trax_fast *fast;
   struct trax_fast_tp *tp; /* [tps] */
   /* How often each instruction was executed since that was collected: the sum of this up to it, in its section. */
-  int64_t *changes; /* [inst_count + 1] */
+  int64_t *count_deltas; /* [inst_count + 1] */
   struct trax_fast_heads heads;
   bool wide;                                       /* more than 32 TPs */
   const uint32_t *address_of[TRAX_MAX_TPS_PER_TM]; /* trax_fast_tp.address; of those that do not exist, TP 0's */
@@ -128,29 +128,29 @@ struct trax_fast_tm {
 
   /* Masks of TPs. */
   uint64_t ready;     /* have an instruction and usable operands and lack a unit, a bank or a place */
-  uint64_t deferred;  /* the head executes at issue */
-  uint64_t outside;   /* the head cannot be fetched */
+  uint64_t executes_at_issue; /* the head executes at issue */
+  uint64_t no_text;           /* the head cannot be fetched */
   uint64_t busy;      /* busy_registers is not 0 */
   uint64_t uncertain; /* a line of the burst may not be there */
-  uint64_t resumed_holding;  /* hold an instruction since before the run was taken up: its operands are looked at again */
+  uint64_t recheck;   /* hold an instruction since before the run was taken up: its operands are looked at again */
 
   /* For each bank of the instruction caches, the TPs behind the latest winner. `simple_fetch`: 16 TPs share a cache of
      at most 16 banks that let one into each; then the TPs of all caches are handled together (heads.h). Else the banks
      of one cache after another's, each beginning a vector. */
   bool simple_fetch;
   uint32_t vectors; /* of a cache */
-  struct trax_fast_banks16 rr_mask16;
-  trax_fast_lanes *behind;
+  struct trax_fast_banks16 fetch_rr_masks16;
+  trax_fast_lanes *fetch_rr_masks;
   uint32_t data_banks, data_bank_bits;
-  bool hits_in_turn;                    /* a hit of the data cache needs more than counting: latency, or order of use */
+  bool serial_hits;                     /* a hit of the data cache needs more than counting: latency, or order of use */
   uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches] */
   uint64_t *resident_lines;             /* [tm->icaches]: the same, bit by line, of programs of 64 lines; else 0 */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 
   struct trax_fast_units fp;      /* adders, multipliers */
   struct trax_fast_units int_mul; /* integer multipliers, nothing */
-  trax_fast_lanes data_bank_rr_mask[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
-  struct trax_fast_refusal_counts tally;
+  trax_fast_lanes data_bank_rr_masks[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
+  struct trax_fast_refusal_counts refusal_counts;
 
   /* What took a slow way (machine/fast_path.h): fetches that were looked up, hits of the data cache that were served
      one by one, instructions that executed at issue. */
@@ -198,8 +198,8 @@ static inline uint32_t trax_fast_head(const struct trax_fast_tm *ftm, unsigned t
   return trax_fast_index(&ftm->tp[tp], ftm->heads.at[tp]);
 }
 
-static inline const struct trax_fast_note *trax_fast_head_note(const struct trax_fast_tm *ftm, unsigned tp) {
-  return &ftm->fast->program.note[trax_fast_head(ftm, tp)];
+static inline const struct trax_fast_timing *trax_fast_head_timing(const struct trax_fast_tm *ftm, unsigned tp) {
+  return &ftm->fast->program.timing[trax_fast_head(ftm, tp)];
 }
 
 /* In busy_registers. */
@@ -211,12 +211,12 @@ static inline uint32_t trax_fast_register_bit(unsigned rd) {
 /* Finds the next head that must be looked at: it needs a register of busy_registers or, if the TP is among `uncertain`,
    lies in another line than this one. `fetched`: this one has been looked at and fetched in this cycle; else a head
    that was to be looked at before stays so, since lines may have gone. */
-void trax_fast_plan(struct trax_fast_tm *ftm, unsigned tp, bool fetched);
+void trax_fast_schedule_check(struct trax_fast_tm *ftm, unsigned tp, bool fetched);
 
 static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
   ftm->busy_registers[tp] |= trax_fast_register_bit(rd);
   ftm->busy |= (uint64_t)1 << tp;
-  trax_fast_plan(ftm, tp, false);
+  trax_fast_schedule_check(ftm, tp, false);
 }
 
 /* --- program.c --- */
@@ -228,7 +228,7 @@ static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_f
   for (size_t i = 0; i < program->count && pc % 4 == 0; i++)
     if (pc - program->sections[i].begin < program->sections[i].bytes)
       return program->sections[i].inst + (pc - program->sections[i].begin) / 4;
-  return program->outside;
+  return program->no_text;
 }
 
 /* --- burst.c --- */
@@ -240,25 +240,25 @@ unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsig
 const void *const *trax_fast_operations(void);
 
 /* --- head.c --- */
-/* All steps are used up: the next burst. If nothing can run ahead, the head is deferred. */
+/* All steps are used up: the next burst. If nothing can run ahead, the head is executes_at_issue. */
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
 /* Brings the head to where tm.c and tp.c find it: inst, pc, address. */
-void trax_fast_show(struct trax_fast_tm *ftm, unsigned tp);
+void trax_fast_export_head(struct trax_fast_tm *ftm, unsigned tp);
 /* The first `issued` of the `executed` steps of the TP's burst are over, and no others will be. */
-void trax_fast_close(struct trax_fast_tm *ftm, unsigned tp, unsigned executed, unsigned issued);
+void trax_fast_end_burst(struct trax_fast_tm *ftm, unsigned tp, unsigned executed, unsigned issued);
 /* A line has arrived in an instruction cache, and perhaps another one has gone. */
-void trax_fast_line_has_come(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
+void trax_fast_line_arrived(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
 
 /* --- fast.c --- */
 /* Tells an observer who was refused something in the current cycle. */
-void trax_fast_tell(const struct trax_fast_tm *ftm, const struct trax_fast_refused *lost);
+void trax_fast_notify_refusals(const struct trax_fast_tm *ftm, const struct trax_fast_refused *refused);
 
 /* --- cycle.c --- */
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
 void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
 
 /* --- issue.c --- */
-/* Step 5; the heads of the `slow` ones are marked with TRAX_ASKS_SLOWLY. */
+/* Step 5; the heads of the `slow` ones are marked with TRAX_STEP_SLOW. */
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
@@ -266,7 +266,7 @@ trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struc
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* A store or atomic increment is about to write to a global address. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
-/* Every TP goes back to what it has issued, and is deferred. */
+/* Every TP goes back to what it has issued, and is executes_at_issue. */
 void trax_fast_roll_back(struct trax_fast *fast);
 
 /* --- transfer.c: trax_fast_variant's functions of these names --- */

@@ -27,9 +27,9 @@ static bool all_resident(const struct trax_fast_tm *ftm, unsigned number, unsign
   return true;
 }
 
-enum { FARTHEST_LOOK = 16, NO_LOOK = 255 };
+enum { CHECK_HORIZON = 16, NO_CHECK = 255 };
 
-void trax_fast_plan(struct trax_fast_tm *ftm, unsigned number, bool fetched) {
+void trax_fast_schedule_check(struct trax_fast_tm *ftm, unsigned number, bool fetched) {
   const struct trax_fast_program *program = &ftm->fast->program;
   const struct trax_fast_tp *ftp = &ftm->tp[number];
   const uint32_t busy = ftm->busy_registers[number];
@@ -37,14 +37,14 @@ void trax_fast_plan(struct trax_fast_tm *ftm, unsigned number, bool fetched) {
   const uint16_t line = program->line[trax_fast_index(ftp, at)];
   const bool uncertain = ftm->uncertain >> number & 1;
   unsigned next = at + 1;
-  for (; next <= last && next <= at + FARTHEST_LOOK; next++) {
+  for (; next <= last && next <= at + CHECK_HORIZON; next++) {
     const uint32_t index = trax_fast_index(ftp, next);
-    if ((program->note[index].waits & busy) ||
+    if ((program->timing[index].waits & busy) ||
         (uncertain && (program->line[index] != line || line == TRAX_FAST_LINES - 1)))
       break;
   }
-  if (fetched || !uncertain || next < ftm->heads.look[number])
-    ftm->heads.look[number] = (uint8_t)next;
+  if (fetched || !uncertain || next < ftm->heads.check_at[number])
+    ftm->heads.check_at[number] = (uint8_t)next;
 }
 
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
@@ -59,19 +59,19 @@ void trax_fast_refill(struct trax_fast_tm *ftm, unsigned number) {
     count = trax_fast_burst(ftm->fast, ftm, number, ftm->fast->burst);
   }
   if (count) {
-    ftm->deferred &= ~bit;
+    ftm->executes_at_issue &= ~bit;
     ftm->uncertain = (ftm->uncertain & ~bit) | (all_resident(ftm, number, count) ? 0 : bit);
-    ftp->asks[count - 1] |= TRAX_ASKS_SLOWLY;
+    ftp->step[count - 1] |= TRAX_STEP_SLOW;
     ftm->heads.last[number] = (uint8_t)(count - 1);
     ftm->heads.load[number] = 0;
-    ftm->heads.look[number] = (ftm->busy | ftm->uncertain) & bit ? 0 : NO_LOOK;
+    ftm->heads.check_at[number] = (ftm->busy | ftm->uncertain) & bit ? 0 : NO_CHECK;
     trax_fast_set_head(&ftm->heads, number, 0);
   } else {
     const uint32_t index = (uint32_t)(ftp->resume - ftm->fast->program.inst);
-    trax_fast_execute_at_issue(ftm, number, ftm->fast->program.asks[index] & TRAX_ASKS_FETCH, index, 0);
-    tp->inst = ftm->fast->program.note[index].decoded;
+    trax_fast_execute_at_issue(ftm, number, ftm->fast->program.step[index] & TRAX_STEP_FETCH, index, 0);
+    tp->inst = ftm->fast->program.timing[index].decoded;
     tp->pc = ftp->resume_pc;
-    ftm->outside |= tp->inst->resource == TRAX_RESOURCE_NO_TEXT ? bit : 0;
+    ftm->no_text |= tp->inst->resource == TRAX_RESOURCE_NO_TEXT ? bit : 0;
   }
 }
 
@@ -80,23 +80,23 @@ uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned number) {
   if (ftm->heads.at[number] == ftm->heads.last[number]) {
     trax_fast_refill(ftm, number);
   } else {
-    ftm->heads.load[number] += (ftm->heads.low[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK;
+    ftm->heads.load[number] += (ftm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK;
     trax_fast_set_head(&ftm->heads, number, ftm->heads.at[number] + 1u);
   }
-  return ftm->deferred & bit ? ftm->tm->tp[number].pc : trax_fast_head_note(ftm, number)->pc;
+  return ftm->executes_at_issue & bit ? ftm->tm->tp[number].pc : trax_fast_head_timing(ftm, number)->pc;
 }
 
-void trax_fast_show(struct trax_fast_tm *ftm, unsigned number) {
+void trax_fast_export_head(struct trax_fast_tm *ftm, unsigned number) {
   const uint32_t index = trax_fast_head(ftm, number);
   struct trax_tp *tp = &ftm->tm->tp[number];
-  if (ftm->deferred >> number & 1)
+  if (ftm->executes_at_issue >> number & 1)
     return; /* set when it became the head; classify has set the address */
-  tp->inst = ftm->fast->program.note[index].decoded;
-  tp->pc = ftm->fast->program.note[index].pc;
+  tp->inst = ftm->fast->program.timing[index].decoded;
+  tp->pc = ftm->fast->program.timing[index].pc;
   tp->address = tp->inst->bytes ? ftm->tp[number].address[ftm->heads.load[number]] : 0;
 }
 
-void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned executed, unsigned issued) {
+void trax_fast_end_burst(struct trax_fast_tm *ftm, unsigned number, unsigned executed, unsigned issued) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   ftp->issued += issued;
   ftp->jumps += ftp->burst_jumps;
@@ -104,31 +104,31 @@ void trax_fast_close(struct trax_fast_tm *ftm, unsigned number, unsigned execute
     const uint32_t index = trax_fast_index(ftp, i);
     const uint32_t next =
         i + 1 < executed ? trax_fast_index(ftp, i + 1) : (uint32_t)(ftp->resume - ftm->fast->program.inst);
-    ftm->changes[index]--;
-    ftm->changes[index + 1]++;
+    ftm->count_deltas[index]--;
+    ftm->count_deltas[index + 1]++;
     ftp->jumps -= next != index + 1;
   }
 }
 
-void trax_fast_line_has_come(struct trax_fast_tm *ftm, unsigned number, uint32_t line) {
+void trax_fast_line_arrived(struct trax_fast_tm *ftm, unsigned number, uint32_t line) {
   const struct trax_fast_program *program = &ftm->fast->program;
   const struct trax_cache_tags *tags = &ftm->tm->icache[number].tags;
-  const uint64_t gone = ftm->tm->icache[number].gone; /* its number + 1 */
+  const uint64_t evicted = ftm->tm->icache[number].evicted; /* its number + 1 */
   for (size_t i = 0; i < program->count; i++) {
     const struct trax_fast_section *section = &program->sections[i];
     const uint64_t last_line = (section->begin + section->bytes) >> tags->line_shift;
-    const uint64_t comes_as = section->line + (uint64_t)line - section->first_line;
-    const uint64_t goes_as = section->line + gone - 1 - section->first_line;
-    if (gone > section->first_line && gone - 1 <= last_line && goes_as < TRAX_FAST_LINES - 1)
-      trax_fast_set_resident(ftm, number, (uint32_t)goes_as, false);
-    if (line >= section->first_line && line <= last_line && comes_as < TRAX_FAST_LINES - 1)
-      trax_fast_set_resident(ftm, number, (uint32_t)comes_as, true);
+    const uint64_t arrived_index = section->line + (uint64_t)line - section->first_line;
+    const uint64_t evicted_index = section->line + evicted - 1 - section->first_line;
+    if (evicted > section->first_line && evicted - 1 <= last_line && evicted_index < TRAX_FAST_LINES - 1)
+      trax_fast_set_resident(ftm, number, (uint32_t)evicted_index, false);
+    if (line >= section->first_line && line <= last_line && arrived_index < TRAX_FAST_LINES - 1)
+      trax_fast_set_resident(ftm, number, (uint32_t)arrived_index, true);
   }
   for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
     if (ftm->icache_of[tp] == number) {
-      if (gone) {
+      if (evicted) {
         ftm->uncertain |= (uint64_t)1 << tp;
-        ftm->heads.look[tp] = 0;
+        ftm->heads.check_at[tp] = 0;
       }
     }
 }

@@ -5,10 +5,11 @@
 
 #include "fast/fast.h"
 
-static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned icache, uint32_t line, bool is_there) {
-  ftm->resident[icache][line] = is_there;
+static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned icache, uint32_t line, bool is_resident) {
+  ftm->resident[icache][line] = is_resident;
   if (ftm->fast->program.lines <= 64)
-    ftm->resident_lines[icache] = (ftm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_there << line;
+    ftm->resident_lines[icache] = (ftm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_resident
+                                                                                               << line;
 }
 
 /* Makes the TP's next instruction its head, after a new burst if necessary; returns its pc. */
@@ -22,11 +23,11 @@ static inline __attribute__((always_inline)) void trax_fast_issue_quickly(struct
 }
 
 /* Makes an instruction the TP's head, which executes at issue; its step is the only one. */
-static inline void trax_fast_execute_at_issue(struct trax_fast_tm *ftm, unsigned number, uint16_t asks, uint32_t index,
-                                   uint32_t address) {
+static inline void trax_fast_execute_at_issue(struct trax_fast_tm *ftm, unsigned number, uint16_t step, uint32_t index,
+                                              uint32_t address) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
-  ftm->deferred |= (uint64_t)1 << number;
-  ftp->asks[0] = asks | TRAX_ASKS_SLOWLY;
+  ftm->executes_at_issue |= (uint64_t)1 << number;
+  ftp->step[0] = step | TRAX_STEP_SLOW;
   ftp->segment[0] = 0;
   ftp->origin[0] = index;
   ftp->address[0] = address;

@@ -47,7 +47,7 @@ void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigne
 }
 
 void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t) {
-  icache->gone = trax_cache_tags_install(&icache->tags, line);
+  icache->evicted = trax_cache_tags_install(&icache->tags, line);
   for (uint32_t i = 0; i < icache->pending_count; i++)
     if (icache->pending[i].line == line) {
       tm->holding |= icache->pending[i].waiting;

@@ -24,7 +24,7 @@ struct trax_icache {
   uint32_t number;
   struct trax_cache_tags tags;
   struct trax_icache_pending *pending; /* [tps], the first pending_count in use */
-  uint64_t gone; /* the number of the line whose place the latest arrival took, plus 1; 0: the place was empty */
+  uint64_t evicted; /* the number of the line whose place the latest arrival took, plus 1; 0: the place was empty */
 };
 
 bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);

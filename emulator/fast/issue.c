@@ -27,18 +27,18 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   ftp->jumps += !goes_on;
   ftp->issued++;
   ftm->at_issue++;
-  ftm->changes[index]++;
-  ftm->changes[index + 1]--;
+  ftm->count_deltas[index]++;
+  ftm->count_deltas[index + 1]--;
   return true;
 }
 
 /* Updates the scoreboard if the result is not usable in the next cycle and does not come from memory. */
-static void note_result(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
-  const struct trax_decoded *inst = trax_fast_head_note(ftm, number)->decoded;
+static void set_result_usable(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+  const struct trax_decoded *inst = trax_fast_head_timing(ftm, number)->decoded;
   uint32_t latency = inst->latency;
   trax_cause cause = (trax_cause)inst->cause;
   if (inst->resource == TRAX_RESOURCE_MEMORY) {
-    if (inst->is_store || (ftm->heads.low[number] & TRAX_ASKS_KIND) == TRAX_ASKS_BANK)
+    if (inst->is_store || (ftm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK)
       return;
     latency = ftm->tm->config->tp.local_latency_cycles;
     cause = TRAX_CAUSE_DATA_LOCAL;
@@ -56,20 +56,20 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
   struct trax_tm *tm = ftm->tm;
   struct trax_fast_tp *ftp = &ftm->tp[number];
   struct trax_tp *tp = &tm->tp[number];
-  trax_fast_show(ftm, number);
+  trax_fast_export_head(ftm, number);
   const struct trax_decoded *inst = tp->inst;
   const uint32_t pc = tp->pc;
-  if (ftm->deferred & bit) {
+  if (ftm->executes_at_issue & bit) {
     if (!execute(ftm, number, t))
       return;
   } else {
-    note_result(ftm, number, t);
+    set_result_usable(ftm, number, t);
     if (ftm->heads.at[number] == ftm->heads.last[number])
-      trax_fast_close(ftm, number, ftm->heads.last[number] + 1u, ftm->heads.last[number] + 1u);
+      trax_fast_end_burst(ftm, number, ftm->heads.last[number] + 1u, ftm->heads.last[number] + 1u);
   }
   tm->holding &= ~bit;
   if (tm->observer)
-    trax_tm_tell_issue(tm, number, pc, inst, ftm->deferred & bit ? tp->pc : ftp->resume_pc);
+    trax_tm_notify_issue(tm, number, pc, inst, ftm->executes_at_issue & bit ? tp->pc : ftp->resume_pc);
   if (tm->ended & bit)
     return;
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
@@ -88,13 +88,13 @@ void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, ui
   /* Heads that execute at issue may affect other TPs, so the order of TPs matters: TPs before such a head issue first.
      TPs after it may roll back, and their heads then execute at issue (blocks.c). */
   uint64_t effects;
-  while (__builtin_expect((effects = slow & ftm->deferred) != 0, false)) {
+  while (__builtin_expect((effects = slow & ftm->executes_at_issue) != 0, false)) {
     const uint64_t up_to = effects ^ (effects - 1);
     issue_quickly(ftm, quick & up_to);
     quick &= ~up_to;
     for (uint64_t rest = slow & up_to; rest; rest &= rest - 1)
       issue_slowly(ftm, trax_first(rest), t);
-    const uint64_t back = quick & ftm->deferred;
+    const uint64_t back = quick & ftm->executes_at_issue;
     quick ^= back;
     slow = (slow & ~up_to) | back;
   }

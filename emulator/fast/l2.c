@@ -24,7 +24,7 @@ trax_status trax_l2_create(struct trax_l2 **result, const struct trax_config *co
   for (uint32_t i = 0; i < l2->mshr_limit; i++)
     l2->used[i] = (uint16_t)i;
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    l2->coming[i] = trax_empty_list;
+    l2->arriving[i] = trax_empty_list;
   l2->next_arrival = TRAX_NEVER;
   return TRAX_OK;
 }
@@ -55,13 +55,13 @@ static struct trax_l2_mshr *mshr_of(const struct trax_l2 *l2, trax_request_id id
 }
 
 /* Returns the channel of the line that arrives next, the lowest one of several, and sets next_arrival to its cycle. */
-static unsigned next_to_come(struct trax_l2 *l2) {
+static unsigned next_to_arrive(struct trax_l2 *l2) {
   unsigned soonest = 0;
   l2->next_arrival = TRAX_NEVER;
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    if (l2->coming[i].first != TRAX_NO_REQUEST && mshr_of(l2, l2->coming[i].first)->arrival < l2->next_arrival) {
+    if (l2->arriving[i].first != TRAX_NO_REQUEST && mshr_of(l2, l2->arriving[i].first)->arrival < l2->next_arrival) {
       soonest = i;
-      l2->next_arrival = mshr_of(l2, l2->coming[i].first)->arrival;
+      l2->next_arrival = mshr_of(l2, l2->arriving[i].first)->arrival;
     }
   return soonest;
 }
@@ -70,19 +70,19 @@ static unsigned next_to_come(struct trax_l2 *l2) {
 static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
   struct trax_l2 *l2 = memory->l2;
   while (l2->next_arrival <= t) {
-    const trax_request_id id = trax_memory_take_first(memory, tms, &l2->coming[next_to_come(l2)]);
+    const trax_request_id id = trax_memory_take_first(memory, tms, &l2->arriving[next_to_arrive(l2)]);
     const uint32_t line = trax_line_of(&l2->tags, mshr_of(l2, id)->request.address);
     const uint32_t index = find(l2, line), last = --l2->used_count;
     trax_cache_tags_install(&l2->tags, line);
     l2->line[index] = l2->line[last];
     l2->used[index] = l2->used[last];
     l2->used[last] = (uint16_t)(id - TRAX_LINE_REQUEST);
-    next_to_come(l2);
+    next_to_arrive(l2);
   }
 }
 
-void trax_l2_line_comes(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,
-                        uint64_t arrival) {
+void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,
+                         uint64_t arrival) {
   struct trax_l2 *l2 = memory->l2;
   struct trax_l2_mshr *mshr = mshr_of(l2, id);
   mshr->arrival = arrival;
@@ -90,7 +90,7 @@ void trax_l2_line_comes(struct trax_memory *memory, struct trax_tm *tms, unsigne
     l2->next_arrival = arrival;
   while (mshr->waiters.first != TRAX_NO_REQUEST)
     trax_memory_complete(tms, trax_memory_take_first(memory, tms, &mshr->waiters), arrival + l2->latency);
-  trax_memory_append(memory, tms, &l2->coming[channel], id);
+  trax_memory_append(memory, tms, &l2->arriving[channel], id);
 }
 
 /* --- banks --- */
@@ -137,8 +137,8 @@ static enum outcome look_up(struct trax_l2 *l2, struct trax_memory_stats *stats,
 
 static void serve_bank(struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *bank, uint64_t t) {
   struct trax_l2 *l2 = memory->l2;
-  const unsigned tm = trax_waiting_turn(bank);
-  const struct trax_request *request = trax_memory_request(memory, tms, bank->of[tm].first);
+  const unsigned tm = trax_waiting_arbitrate(bank);
+  const struct trax_request *request = trax_memory_request(memory, tms, bank->list[tm].first);
   uint32_t on_its_way = 0;
   const enum outcome outcome = look_up(l2, memory->stats, request, &on_its_way);
   if (outcome == REFUSED) {

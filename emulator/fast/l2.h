@@ -15,10 +15,10 @@ struct trax_l2_mshr {
 };
 
 #define TRAX_L2_STATE(X, S)                                                                                            \
-  X(S, uint32_t, waiting, )                                   /* requests that wait for banks */                       \
-  X(S, uint32_t, used_count, )                                /* lines on their way */                                 \
-  X(S, struct trax_request_list, coming, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */         \
-  X(S, uint64_t, next_arrival, )                              /* TRAX_NEVER if none is */
+  X(S, uint32_t, waiting, )                                     /* requests that wait for banks */                     \
+  X(S, uint32_t, used_count, )                                  /* lines on their way */                               \
+  X(S, struct trax_request_list, arriving, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */       \
+  X(S, uint64_t, next_arrival, )                                /* TRAX_NEVER if none is */
 
 struct trax_l2 {
   TRAX_L2_STATE(TRAX_FIELD, )
@@ -38,8 +38,8 @@ void trax_l2_destroy(struct trax_l2 *l2); /* which may be NULL */
 /* The cache's part of step 3 of cycle t. */
 void trax_l2_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t);
 /* The transfer of a line has begun; it arrives in `arrival`. */
-void trax_l2_line_comes(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,
-                        uint64_t arrival);
+void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,
+                         uint64_t arrival);
 
 static inline struct trax_waiting *trax_l2_bank(const struct trax_l2 *l2, uint32_t address) {
   return &l2->bank[trax_line_of(&l2->tags, address) % l2->banks];

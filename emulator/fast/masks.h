@@ -23,12 +23,12 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
 /* Round-robin arbiters, one in each lane. A round-robin mask has the bits after the latest winner, which is equivalent
    to a pointer to the first of them. The first requester in the mask wins, or else the first requester of all. Winners
    are 0 if there are no requesters. */
-#define TRAX_FAST_ARBITRATE(LANES, BEHIND, ASKERS, WINNERS)                                                            \
+#define TRAX_FAST_ARBITRATE(LANES, RR_MASK, REQUESTERS, WINNERS)                                                       \
   do {                                                                                                                 \
-    const LANES preferred_ = (ASKERS) & *(BEHIND);                                                                     \
-    const LANES among_ = preferred_ | ((ASKERS) & (LANES)(preferred_ == 0));                                           \
+    const LANES preferred_ = (REQUESTERS) & *(RR_MASK);                                                                \
+    const LANES among_ = preferred_ | ((REQUESTERS) & (LANES)(preferred_ == 0));                                       \
     *(WINNERS) = among_ & -among_;                                                                                     \
-    *(BEHIND) = ~(*(WINNERS) | (*(WINNERS) - 1)) | (*(BEHIND) & (LANES)(*(WINNERS) == 0));                             \
+    *(RR_MASK) = ~(*(WINNERS) | (*(WINNERS) - 1)) | (*(RR_MASK) & (LANES)(*(WINNERS) == 0));                             \
   } while (0)
 
 /* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache. A pair of caches takes 32 bits for
@@ -46,7 +46,7 @@ typedef uint32_t trax_fast_pairs __attribute__((vector_size(4 * TRAX_FAST_PAIRS)
 struct trax_fast_banks16 {
   /* Round-robin masks: [pair][bank][cache of the pair], or [bank][cache] where trax_fast_refuse_four is used. */
   union {
-    _Alignas(64) uint16_t turn[2][16][2];
+    _Alignas(64) uint16_t of_pair[2][16][2];
     uint16_t of_four[16][4];
   };
 };
@@ -69,8 +69,8 @@ static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
 }
 
 /* Grants the banks of a pair of caches. plane: the bits of the numbers of the TPs' banks. Returns the losers. */
-static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t askers,
-                                           const uint64_t *plane) {
+static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t requesters,
+                                             const uint64_t *plane) {
   static const _Alignas(64) uint32_t match[4][16] = {
 #define BANKS(K) /* all ones for the banks whose bit K is 0 */                                                         \
   {BANK(0, K), BANK(1, K), BANK(2, K),  BANK(3, K),  BANK(4, K),  BANK(5, K),  BANK(6, K),  BANK(7, K),                \
@@ -80,63 +80,64 @@ static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, un
 #undef BANK
 #undef BANKS
   const trax_fast_pairs none = {0};
-  trax_fast_pairs lost = none;
+  trax_fast_pairs refused = none;
 #pragma GCC unroll 4
   for (unsigned i = 0; i < 16; i += TRAX_FAST_PAIRS) {
-    trax_fast_pairs asking = none + (uint32_t)(askers >> 32 * pair);
+    trax_fast_pairs requesting = none + (uint32_t)(requesters >> 32 * pair);
 #pragma GCC unroll 4
     for (unsigned k = 0; k < 4; k++)
-      asking &= (none + (uint32_t)(plane[k] >> 32 * pair)) ^ *(const trax_fast_pairs *)&match[k][i];
-    trax_fast_lanes16 *const behind = (trax_fast_lanes16 *)banks->turn[pair][i];
+      requesting &= (none + (uint32_t)(plane[k] >> 32 * pair)) ^ *(const trax_fast_pairs *)&match[k][i];
+    trax_fast_lanes16 *const rr_mask = (trax_fast_lanes16 *)banks->of_pair[pair][i];
     trax_fast_lanes16 winners;
-    TRAX_FAST_ARBITRATE(trax_fast_lanes16, behind, (trax_fast_lanes16)asking, &winners);
-    lost |= asking ^ (trax_fast_pairs)winners;
+    TRAX_FAST_ARBITRATE(trax_fast_lanes16, rr_mask, (trax_fast_lanes16)requesting, &winners);
+    refused |= requesting ^ (trax_fast_pairs)winners;
   }
-  return trax_fast_any_pair(&lost);
+  return trax_fast_any_pair(&refused);
 }
 
 #ifdef __AVX512BW__
 /* The same for four caches, whose round-robin masks are in banks->of_four. */
-static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, uint64_t askers, const uint64_t *plane) {
-  typedef uint16_t turns __attribute__((vector_size(64), may_alias));
-  __m512i asking = _mm512_set1_epi64((long long)askers);
+static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, uint64_t requesters,
+                                             const uint64_t *plane) {
+  typedef uint16_t masks __attribute__((vector_size(64), may_alias));
+  __m512i requesting = _mm512_set1_epi64((long long)requesters);
 #pragma GCC unroll 3
   for (unsigned k = 0; k < 3; k++) { /* lane i: banks i and i + 8 */
     static const _Alignas(64) uint64_t zero[3][8] = {{~0ull, 0, ~0ull, 0, ~0ull, 0, ~0ull, 0},
                                                      {~0ull, ~0ull, 0, 0, ~0ull, ~0ull, 0, 0},
                                                      {~0ull, ~0ull, ~0ull, ~0ull}};
-    asking = _mm512_ternarylogic_epi64(asking, _mm512_set1_epi64((long long)plane[k]), _mm512_load_si512(zero[k]),
-                                       0x60); /* asking & (plane ^ zero) */
+    requesting = _mm512_ternarylogic_epi64(requesting, _mm512_set1_epi64((long long)plane[k]),
+                                           _mm512_load_si512(zero[k]), 0x60); /* requesting & (plane ^ zero) */
   }
   const __m512i upper = _mm512_set1_epi64((long long)plane[3]);
-  const __m512i half[2] = {_mm512_andnot_si512(upper, asking), _mm512_and_si512(upper, asking)};
-  __m512i lost = _mm512_setzero_si512();
+  const __m512i half[2] = {_mm512_andnot_si512(upper, requesting), _mm512_and_si512(upper, requesting)};
+  __m512i refused = _mm512_setzero_si512();
 #pragma GCC unroll 2
   for (unsigned i = 0; i < 2; i++) {
-    turns winners;
-    TRAX_FAST_ARBITRATE(turns, (turns *)banks->of_four[8 * i], (turns)half[i], &winners);
-    lost = _mm512_ternarylogic_epi64(lost, half[i], (__m512i)winners, 0xF6); /* lost | (half ^ winners) */
+    masks winners;
+    TRAX_FAST_ARBITRATE(masks, (masks *)banks->of_four[8 * i], (masks)half[i], &winners);
+    refused = _mm512_ternarylogic_epi64(refused, half[i], (__m512i)winners, 0xF6); /* refused | (half ^ winners) */
   }
-  const __m256i four = _mm256_or_si256(_mm512_castsi512_si256(lost), _mm512_extracti64x4_epi64(lost, 1));
+  const __m256i four = _mm256_or_si256(_mm512_castsi512_si256(refused), _mm512_extracti64x4_epi64(refused, 1));
   const __m128i two = _mm_or_si128(_mm256_castsi256_si128(four), _mm256_extracti128_si256(four, 1));
   return (uint64_t)_mm_cvtsi128_si64(_mm_or_si128(two, _mm_unpackhi_epi64(two, two)));
 }
 #endif
 
 /* Returns the round-robin mask of a cache's bank. `wide`: the TM has more than 32 TPs. */
-static inline uint16_t *trax_fast_fetch_turn(struct trax_fast_banks16 *banks, const bool wide, unsigned icache,
-                                             unsigned bank) {
+static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks, const bool wide, unsigned icache,
+                                                unsigned bank) {
 #ifdef __AVX512BW__
   if (wide)
     return &banks->of_four[bank][icache];
 #endif
   (void)wide;
-  return &banks->turn[icache / 2][bank][icache % 2];
+  return &banks->of_pair[icache / 2][bank][icache % 2];
 }
 
 /* The TPs that were refused a bank or unit in a cycle, by its kind: X(member, cause). */
-#define TRAX_FAST_REFUSED(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_LOST_UNIT, X) X(bank, DCACHE_BANK)
-#define TRAX_FAST_LOST_UNIT(X, ID, ...) X(unit[TRAX_SHARED_##ID], ID)
+#define TRAX_FAST_REFUSED(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_REFUSED_UNIT, X) X(bank, DCACHE_BANK)
+#define TRAX_FAST_REFUSED_UNIT(X, ID, ...) X(unit[TRAX_SHARED_##ID], ID)
 enum { TRAX_FAST_REFUSALS = TRAX_SHARED_COUNT + 2 };
 
 struct trax_fast_refused {
@@ -157,17 +158,17 @@ struct trax_fast_refusal_counts {
 };
 
 /* Adds the log to the planes. */
-void trax_fast_count_log(struct trax_fast_refusal_counts *tally);
+void trax_fast_count_log(struct trax_fast_refusal_counts *counts);
 
-static inline void trax_fast_count(struct trax_fast_refusal_counts *tally, const struct trax_fast_refused *lost) {
+static inline void trax_fast_count(struct trax_fast_refusal_counts *counts, const struct trax_fast_refused *refused) {
   /* Words are stored singly: they are not read soon, and to assemble a vector would cost more. */
   typedef uint64_t word __attribute__((may_alias));
-  word *log = (word *)&tally->log[tally->logged];
-#define LOG(MEMBER, CAUSE) *log++ = lost->MEMBER;
+  word *log = (word *)&counts->log[counts->logged];
+#define LOG(MEMBER, CAUSE) *log++ = refused->MEMBER;
   TRAX_FAST_REFUSED(LOG)
 #undef LOG
-  if (++tally->logged == TRAX_FAST_LOG)
-    trax_fast_count_log(tally);
+  if (++counts->logged == TRAX_FAST_LOG)
+    trax_fast_count_log(counts);
 }
 
 /* Shared units of two kinds. `even`: both kinds have the same groups, one unit for each, and the groups' size
@@ -178,26 +179,26 @@ struct trax_fast_units {
   uint32_t group_size;
   bool even;
   uint64_t top, below_top; /* if `even`: the last bit of each group, and the other bits */
-  trax_fast_pair behind;   /* the round-robin masks of all groups */
+  trax_fast_pair rr_masks; /* the round-robin masks of all groups */
   struct {
     uint32_t groups, per_group;
     uint64_t group[64];
   } uneven[2];
 };
 
-static inline uint64_t trax_fast_grant_unevenly(struct trax_fast_units *units, unsigned kind, uint64_t askers) {
-  uint64_t winners = 0, behind = units->behind[kind];
+static inline uint64_t trax_fast_grant_unevenly(struct trax_fast_units *units, unsigned kind, uint64_t requesters) {
+  uint64_t winners = 0, rr_mask = units->rr_masks[kind];
   for (uint32_t i = 0; i < units->uneven[kind].groups; i++) {
     const uint64_t group = units->uneven[kind].group[i];
-    uint64_t all = askers & group;
+    uint64_t all = requesters & group;
     for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {
-      const uint64_t preferred = all & behind, among = preferred ? preferred : all, winner = among & -among;
+      const uint64_t preferred = all & rr_mask, among = preferred ? preferred : all, winner = among & -among;
       winners |= winner;
       all ^= winner;
-      behind = (behind & ~group) | (group & ~(winner | (winner - 1)));
+      rr_mask = (rr_mask & ~group) | (group & ~(winner | (winner - 1)));
     }
   }
-  units->behind[kind] = behind;
+  units->rr_masks[kind] = rr_mask;
   return winners;
 }
 
@@ -208,27 +209,27 @@ static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *u
 
 /* Returns the winner of each group. If `even`, this is TRAX_FAST_ARBITRATE for all groups at once. */
 static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units,
-                                                                                  trax_fast_pair askers) {
+                                                                                  trax_fast_pair requesters) {
   if (!units->even)
-    return (trax_fast_pair){trax_fast_grant_unevenly(units, 0, askers[0]),
-                            trax_fast_grant_unevenly(units, 1, askers[1])};
+    return (trax_fast_pair){trax_fast_grant_unevenly(units, 0, requesters[0]),
+                            trax_fast_grant_unevenly(units, 1, requesters[1])};
   if (units->group_size == 1)
-    return askers;
+    return requesters;
   if (units->group_size == 8) {
     typedef uint8_t groups __attribute__((vector_size(16), may_alias));
     groups winners;
-    TRAX_FAST_ARBITRATE(groups, (groups *)&units->behind, (groups)askers, &winners);
+    TRAX_FAST_ARBITRATE(groups, (groups *)&units->rr_masks, (groups)requesters, &winners);
     return (trax_fast_pair)winners;
   }
   const int to_first = (int)units->group_size - 1;
-  const trax_fast_pair preferred = askers & units->behind;
+  const trax_fast_pair preferred = requesters & units->rr_masks;
   const trax_fast_pair have = trax_fast_groups_of(units, preferred);
-  const trax_fast_pair among = preferred | (askers & ~((have - (have >> to_first)) | have));
-  const trax_fast_pair asked = trax_fast_groups_of(units, askers), first = asked >> to_first;
+  const trax_fast_pair among = preferred | (requesters & ~((have - (have >> to_first)) | have));
+  const trax_fast_pair asked = trax_fast_groups_of(units, requesters), first = asked >> to_first;
   /* In groups with a requester, the subtraction of `first` does not borrow from the next group. */
   const trax_fast_pair winners = among & ~(among - first);
-  const trax_fast_pair asked_groups = (asked - first) | asked;
-  units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners | (winners - first)));
+  const trax_fast_pair requested_groups = (asked - first) | asked;
+  units->rr_masks = (units->rr_masks & ~requested_groups) | (requested_groups & ~(winners | (winners - first)));
   return winners;
 }
 

@@ -75,7 +75,7 @@ struct trax_waiting *trax_waiting_create(uint32_t count) {
   struct trax_waiting *waiting = calloc(count, sizeof *waiting);
   for (uint32_t i = 0; waiting && i < count; i++)
     for (unsigned tm = 0; tm < TRAX_MAX_TMS; tm++)
-      waiting[i].of[tm] = trax_empty_list;
+      waiting[i].list[tm] = trax_empty_list;
   return waiting;
 }
 
@@ -102,16 +102,16 @@ trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct 
   return id;
 }
 
-unsigned trax_waiting_turn(struct trax_waiting *waiting) {
-  const unsigned number = trax_arbiter_look(waiting->turn, waiting->tms);
-  trax_arbiter_to_back(&waiting->turn, number);
+unsigned trax_waiting_arbitrate(struct trax_waiting *waiting) {
+  const unsigned number = trax_arbiter_peek(waiting->arbiter, waiting->tms);
+  trax_arbiter_to_back(&waiting->arbiter, number);
   return number;
 }
 
 trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *waiting,
                                   unsigned number) {
-  const trax_request_id id = trax_memory_take_first(memory, tms, &waiting->of[number]);
-  if (waiting->of[number].first == TRAX_NO_REQUEST)
+  const trax_request_id id = trax_memory_take_first(memory, tms, &waiting->list[number]);
+  if (waiting->list[number].first == TRAX_NO_REQUEST)
     waiting->tms &= ~((uint64_t)1 << number);
   return id;
 }
@@ -126,18 +126,18 @@ void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tms, trax_requ
   memory->waiting++;
 }
 
-void trax_memory_show(struct trax_memory *memory, struct trax_tm *tm) {
+void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm) {
   struct trax_queue *queue = &tm->queue;
   const uint64_t bit = (uint64_t)1 << tm->number;
   if (memory->keeps_order) {
-    queue->shown++;
+    queue->submitted++;
     memory->tms |= bit;
     return;
   }
-  const uint32_t place = queue->first_fresh, address = queue->requests[place].address;
+  const uint32_t place = queue->first_unsubmitted, address = queue->requests[place].address;
   struct trax_waiting *waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : channel_of(memory, address)->waiting;
-  queue->first_fresh = queue->requests[place].next;
-  trax_memory_append(memory, tm - tm->number, &waiting->of[tm->number], tm->number << TRAX_REQUEST_BITS | place);
+  queue->first_unsubmitted = queue->requests[place].next;
+  trax_memory_append(memory, tm - tm->number, &waiting->list[tm->number], tm->number << TRAX_REQUEST_BITS | place);
   waiting->tms |= bit;
   *(memory->l2 ? &memory->l2->waiting : &memory->waiting) += 1;
 }
@@ -185,9 +185,9 @@ static bool is_free(const struct trax_channel *channel, uint64_t t) {
 
 /* The single channel serves the oldest waiting request in a TM's ring. */
 static void serve_ring(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t) {
-  trax_arbiter_to_back(&memory->turn, tm->number);
+  trax_arbiter_to_back(&memory->arbiter, tm->number);
   struct trax_request *request = trax_queue_first_waiting(&tm->queue);
-  if (++tm->queue.started == tm->queue.shown)
+  if (++tm->queue.started == tm->queue.submitted)
     memory->tms &= ~((uint64_t)1 << tm->number);
   request->completion = transfer(memory, 0, request, space, t);
   if (request->completion < tm->next_cycle)
@@ -196,14 +196,14 @@ static void serve_ring(struct trax_memory *memory, struct trax_tm *tm, struct tr
 
 static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
   while (memory->tms && is_free(&memory->channel[0], t))
-    serve_ring(memory, &tms[trax_arbiter_look(memory->turn, memory->tms)], space, t);
+    serve_ring(memory, &tms[trax_arbiter_peek(memory->arbiter, memory->tms)], space, t);
 }
 
 /* Whether a TM without a waiting request, which the arbiter would prefer to the next TM with one, may make a request by
    cycle t. */
 static bool may_be_overtaken(const struct trax_memory *memory, const struct trax_tm *tms, unsigned count, uint64_t t) {
-  const unsigned next = trax_arbiter_look(memory->turn, memory->tms);
-  for (unsigned number = memory->turn < count ? memory->turn : 0; number != next;
+  const unsigned next = trax_arbiter_peek(memory->arbiter, memory->tms);
+  for (unsigned number = memory->arbiter < count ? memory->arbiter : 0; number != next;
        number = number + 1 < count ? number + 1 : 0)
     if (tms[number].next_cycle <= t)
       return true;
@@ -218,7 +218,7 @@ uint64_t trax_memory_run_ahead(struct trax_memory *memory, struct trax_tm *tms, 
       t = free_cycle;
     if (t >= end || !memory->tms || may_be_overtaken(memory, tms, count, t))
       break;
-    serve_ring(memory, &tms[trax_arbiter_look(memory->turn, memory->tms)], space, t);
+    serve_ring(memory, &tms[trax_arbiter_peek(memory->arbiter, memory->tms)], space, t);
   }
   return t;
 }
@@ -232,13 +232,13 @@ static void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struc
   struct trax_channel *channel = &memory->channel[number];
   while (has_waiting(channel) && is_free(channel, t)) {
     struct trax_waiting *waiting = channel->waiting;
-    const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_turn(waiting))
+    const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_arbitrate(waiting))
                                        : trax_memory_take_first(memory, tms, &channel->passed);
     struct trax_request *request = trax_memory_request(memory, tms, id);
     const uint64_t back = transfer(memory, number, request, space, t);
     memory->waiting--;
     if (id >= TRAX_LINE_REQUEST)
-      trax_l2_line_comes(memory, tms, number, id, back);
+      trax_l2_set_arrival(memory, tms, number, id, back);
     else
       trax_memory_complete(tms, id,
                            back + (memory->l2 ? memory->l2->latency : 0) +

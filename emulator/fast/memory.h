@@ -31,8 +31,8 @@ static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUES
 /* Who waits for a channel or a bank of the second-level cache. */
 #define TRAX_WAITING_STATE(X, S)                                                                                       \
   X(S, uint64_t, tms, ) /* mask: whose list is not empty */                                                            \
-  X(S, trax_arbiter, turn, )                                                                                           \
-  X(S, struct trax_request_list, of, [TRAX_MAX_TMS])
+  X(S, trax_arbiter, arbiter, )                                                                                        \
+  X(S, struct trax_request_list, list, [TRAX_MAX_TMS])
 struct trax_waiting {
   TRAX_WAITING_STATE(TRAX_FIELD, )
 };
@@ -56,9 +56,9 @@ struct trax_channel {
 
 /* `keeps_order`: one channel and nothing else; then the TMs' queues are rings. */
 #define TRAX_MEMORY_STATE(X, S)                                                                                        \
-  X(S, trax_arbiter, turn, ) /* of the channel, if keeps_order */                                                      \
-  X(S, uint64_t, tms, )      /* mask: TMs with requests that wait for it */                                            \
-  X(S, uint32_t, waiting, )  /* requests that wait for channels; unless keeps_order */
+  X(S, trax_arbiter, arbiter, ) /* of the channel, if keeps_order */                                                   \
+  X(S, uint64_t, tms, )         /* mask: TMs with requests that wait for it */                                         \
+  X(S, uint32_t, waiting, )     /* requests that wait for channels; unless keeps_order */
 
 struct trax_memory {
   TRAX_MEMORY_STATE(TRAX_FIELD, )
@@ -87,7 +87,7 @@ trax_status trax_memory_create(struct trax_memory *memory, const struct trax_con
 void trax_memory_destroy(struct trax_memory *memory);
 
 /* The memory learns of the TM's oldest request that it does not know of: it waits from now on. */
-void trax_memory_show(struct trax_memory *memory, struct trax_tm *tm);
+void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm);
 
 /* Step 3 of cycle t: takes requests and starts transfers. Lowers tm[].next_cycle where a completion comes sooner. */
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t);
@@ -116,7 +116,7 @@ trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct 
 /* `count` of them, empty; NULL if there is no memory. */
 struct trax_waiting *trax_waiting_create(uint32_t count);
 /* Whose turn it is, of those who wait. */
-unsigned trax_waiting_turn(struct trax_waiting *waiting);
+unsigned trax_waiting_arbitrate(struct trax_waiting *waiting);
 /* Takes the oldest request of TM `number`. */
 trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tm, struct trax_waiting *waiting,
                                   unsigned number);

@@ -3,16 +3,16 @@
 #include <stdlib.h>
 
 /* The resource that an instruction needs, as far as it does not depend on its address; 0 for memory accesses. */
-static uint16_t asks_of(const struct trax_decoded *decoded) {
-  static const uint16_t own[] = {[TRAX_SHARED_FP_ADD] = TRAX_ASKS_FP_ADD,
-                                 [TRAX_SHARED_FP_MUL] = TRAX_ASKS_FP_MUL,
-                                 [TRAX_SHARED_INT_MUL] = TRAX_ASKS_INT_MUL,
-                                 [TRAX_SHARED_SPECIAL] = TRAX_ASKS_SPECIAL};
+static uint16_t step_of(const struct trax_decoded *decoded) {
+  static const uint16_t own[] = {[TRAX_SHARED_FP_ADD] = TRAX_STEP_FP_ADD,
+                                 [TRAX_SHARED_FP_MUL] = TRAX_STEP_FP_MUL,
+                                 [TRAX_SHARED_INT_MUL] = TRAX_STEP_INT_MUL,
+                                 [TRAX_SHARED_SPECIAL] = TRAX_STEP_SPECIAL};
   if (decoded->resource != TRAX_RESOURCE_UNIT)
     return 0;
   if (decoded->unit < TRAX_FAST_FURTHER)
     return own[decoded->unit];
-  return (uint16_t)(TRAX_ASKS_FURTHER | (decoded->unit - TRAX_FAST_FURTHER) << TRAX_ASKS_BANK_SHIFT);
+  return (uint16_t)(TRAX_STEP_FURTHER | (decoded->unit - TRAX_FAST_FURTHER) << TRAX_STEP_BANK_SHIFT);
 }
 
 /* Whether an instruction always ends a burst: its result depends on time, or its effect is visible to other TPs. */
@@ -56,10 +56,10 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
                                                  .ra = decoded->ra,
                                                  .rb = decoded->rb,
                                                  .imm = decoded->imm};
-  program->note[index] = (struct trax_fast_note){.decoded = decoded, .waits = waits_for(decoded), .pc = pc};
+  program->timing[index] = (struct trax_fast_timing){.decoded = decoded, .waits = waits_for(decoded), .pc = pc};
   program->line[index] = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1);
-  program->asks[index] =
-      (uint16_t)(asks_of(decoded) | (slow ? TRAX_ASKS_SLOWLY : 0) | decoded->bank << TRAX_ASKS_FETCH_SHIFT);
+  program->step[index] =
+      (uint16_t)(step_of(decoded) | (slow ? TRAX_STEP_SLOW : 0) | decoded->bank << TRAX_STEP_FETCH_SHIFT);
 }
 
 trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,
@@ -73,11 +73,11 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     return trax_fail(error, "%zu instructions are too many for the fast engine", total);
   program->sections = calloc(text->count ? text->count : 1, sizeof *program->sections);
   program->inst = malloc(total * sizeof *program->inst);
-  program->asks = calloc(total + TRAX_CHUNK, sizeof *program->asks);
-  program->note = malloc(total * sizeof *program->note);
+  program->step = calloc(total + TRAX_CHUNK, sizeof *program->step);
+  program->timing = malloc(total * sizeof *program->timing);
   program->line = malloc(total * sizeof *program->line);
   program->lines_ahead = calloc(total + 1, sizeof *program->lines_ahead);
-  if (!program->sections || !program->inst || !program->note || !program->line || !program->asks ||
+  if (!program->sections || !program->inst || !program->timing || !program->line || !program->step ||
       !program->lines_ahead)
     return trax_fail(error, "out of memory for %zu instructions", total);
   uint32_t index = 0, lines = 0;
@@ -95,7 +95,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES;
   }
   program->lines = lines;
-  program->outside = &program->inst[index];
+  program->no_text = &program->inst[index];
   predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* an odd address is never text */
   for (size_t i = total; i-- > 0;) {
     const bool goes_on = (i + 1) % TRAX_CHUNK && program->inst[i].op != TRAX_OP_JAL; /* jalr may have no effect */
@@ -107,8 +107,8 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
 void trax_fast_program_destroy(struct trax_fast_program *program) {
   free(program->sections);
   free(program->inst);
-  free(program->asks);
-  free(program->note);
+  free(program->step);
+  free(program->timing);
   free(program->line);
   free(program->lines_ahead);
 }

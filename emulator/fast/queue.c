@@ -11,7 +11,7 @@ bool trax_queue_create(struct trax_queue *queue, uint32_t depth, bool keeps_orde
     return queue->requests;
   queue->heap = calloc(depth, sizeof *queue->heap);
   queue->places = calloc(depth, sizeof *queue->places);
-  queue->first_fresh = TRAX_NO_REQUEST;
+  queue->first_unsubmitted = TRAX_NO_REQUEST;
   for (uint32_t i = 0; queue->places && i < depth; i++)
     queue->places[i] = (uint16_t)i;
   return queue->requests && queue->heap && queue->places;
@@ -23,16 +23,16 @@ void trax_queue_destroy(struct trax_queue *queue) {
   free(queue->places);
 }
 
-void trax_queue_push_fresh(struct trax_queue *queue, struct trax_request request) {
+void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request) {
   const uint32_t index = queue->places[queue->count++];
   request.next = TRAX_NO_REQUEST;
   request.number = queue->made++;
   queue->requests[index] = request;
-  if (queue->first_fresh == TRAX_NO_REQUEST)
-    queue->first_fresh = index;
+  if (queue->first_unsubmitted == TRAX_NO_REQUEST)
+    queue->first_unsubmitted = index;
   else
-    queue->requests[queue->last_fresh].next = index;
-  queue->last_fresh = index;
+    queue->requests[queue->last_unsubmitted].next = index;
+  queue->last_unsubmitted = index;
 }
 
 /* Whether request a arrives before b; requests of one cycle arrive in the order in which they were made. */

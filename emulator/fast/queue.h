@@ -42,10 +42,10 @@ struct trax_request {
   X(S, uint32_t, oldest, )                                                                                             \
   X(S, uint32_t, count, )                                                                                              \
   X(S, uint32_t, started, )                                                                                            \
-  X(S, uint32_t, shown, )                                                                                              \
+  X(S, uint32_t, submitted, )                                                                                          \
   X(S, uint32_t, peak, ) /* largest count */                                                                           \
-  X(S, uint32_t, first_fresh, )                                                                                        \
-  X(S, uint32_t, last_fresh, )                                                                                         \
+  X(S, uint32_t, first_unsubmitted, )                                                                                  \
+  X(S, uint32_t, last_unsubmitted, )                                                                                   \
   X(S, uint64_t, made, ) /* requests */
 struct trax_queue {
   TRAX_QUEUE_STATE(TRAX_FIELD, )
@@ -60,7 +60,7 @@ bool trax_queue_create(struct trax_queue *queue, uint32_t depth, bool keeps_orde
 void trax_queue_destroy(struct trax_queue *queue);
 
 /* For queues that are no ring. */
-void trax_queue_push_fresh(struct trax_queue *queue, struct trax_request request);
+void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request);
 /* The request's completion has become known. */
 void trax_queue_start(struct trax_queue *queue, uint32_t index);
 void trax_queue_pop_heap(struct trax_queue *queue);
@@ -71,7 +71,7 @@ static inline bool trax_queue_has_place(const struct trax_queue *queue) {
 
 static inline void trax_queue_push(struct trax_queue *queue, struct trax_request request) {
   if (queue->heap) {
-    trax_queue_push_fresh(queue, request);
+    trax_queue_push_unsubmitted(queue, request);
   } else {
     const uint32_t index = queue->oldest + queue->count;
     queue->requests[index < queue->depth ? index : index - queue->depth] = request;
@@ -107,7 +107,7 @@ static inline void trax_queue_pop(struct trax_queue *queue) {
   }
   queue->oldest = queue->oldest + 1 < queue->depth ? queue->oldest + 1 : 0;
   queue->count--;
-  queue->shown--;
+  queue->submitted--;
   queue->started--;
 }
 

@@ -137,10 +137,10 @@ static void visit_fast_tm(const struct visitor *visitor, struct trax_fast_tm *ft
   const struct trax_tm *tm = ftm->tm;
   VISIT_DERIVED(ftm, 1);
   VISIT_DERIVED(ftm->tp, tm->tps);
-  VISIT_DERIVED(ftm->changes, ftm->fast->program.inst_count + 1);
+  VISIT_DERIVED(ftm->count_deltas, ftm->fast->program.inst_count + 1);
   VISIT_DERIVED(ftm->resident, tm->icaches);
   VISIT_DERIVED(ftm->resident_lines, tm->icaches);
-  VISIT_DERIVED(ftm->behind, (size_t)tm->icaches * ftm->vectors);
+  VISIT_DERIVED(ftm->fetch_rr_masks, (size_t)tm->icaches * ftm->vectors);
 }
 
 void trax_state_visit(void *state, trax_section_visitor *visit, void *context) {

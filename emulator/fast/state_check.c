@@ -47,9 +47,9 @@ static void check_tags(struct checker *checker, const struct trax_cache_tags *ta
            trax_cache_tags_next(tags, set));
 }
 
-static void check_turns(struct checker *checker, const trax_arbiter *turn, size_t count, const char *which) {
+static void check_arbiters(struct checker *checker, const trax_arbiter *arbiter, size_t count, const char *which) {
   for (size_t i = 0; i < count; i++)
-    expect(checker, turn[i] < 64, "%s %zu: it is the turn of %u", which, i, turn[i]);
+    expect(checker, arbiter[i] < 64, "%s %zu: the pointer is %u", which, i, arbiter[i]);
 }
 
 /* --- a TM --- */
@@ -149,17 +149,17 @@ static void check_heap(struct checker *checker, const struct trax_tm *tm) {
   for (uint32_t i = 0; i < queue->depth; i++)
     taken += queue->requests[i].bytes != 0;
   expect(checker, taken == queue->count, "TM %u: %" PRIu32 " requests of %" PRIu32, tm->number, taken, queue->count);
-  expect(checker, queue->first_fresh == TRAX_NO_REQUEST, "TM %u: request %" PRIu32 " is fresh", tm->number,
-         queue->first_fresh);
+  expect(checker, queue->first_unsubmitted == TRAX_NO_REQUEST, "TM %u: request %" PRIu32 " is fresh", tm->number,
+         queue->first_unsubmitted);
 }
 
 static void check_queue(struct checker *checker, const struct trax_tm *tm, struct wanted *wanted) {
   const struct trax_queue *queue = &tm->queue;
   if (!expect(checker,
               queue->oldest < queue->depth && queue->count <= queue->depth && queue->started <= queue->count &&
-                  (queue->heap || queue->shown == queue->count),
+                  (queue->heap || queue->submitted == queue->count),
               "TM %u, memory queue: %" PRIu32 " of %" PRIu32 " requests begun, %" PRIu32 " known, from %" PRIu32,
-              tm->number, queue->started, queue->count, queue->shown, queue->oldest))
+              tm->number, queue->started, queue->count, queue->submitted, queue->oldest))
     return;
   if (queue->heap)
     check_heap(checker, tm);
@@ -171,7 +171,7 @@ static void check_queue(struct checker *checker, const struct trax_tm *tm, struc
 static void check_dcache(struct checker *checker, const struct trax_tm *tm, struct wanted *wanted) {
   const struct trax_dcache *dcache = &tm->dcache;
   check_tags(checker, &dcache->tags, "data cache");
-  check_turns(checker, dcache->bank, TRAX_MAX_TPS_PER_TM, "bank of the data cache");
+  check_arbiters(checker, dcache->bank, TRAX_MAX_TPS_PER_TM, "bank of the data cache");
   if (!expect(checker, dcache->mshr_count <= dcache->mshr_limit && dcache->mshr_count == wanted->data_lines,
               "TM %u: %" PRIu32 " miss registers, %" PRIu32 " lines", tm->number, dcache->mshr_count,
               wanted->data_lines))
@@ -199,7 +199,7 @@ static uint64_t check_icaches(struct checker *checker, const struct trax_tm *tm,
     const struct trax_icache *icache = &tm->icache[i];
     const uint64_t group = trax_group_mask(i, tm->config->icache.tps_per_cache);
     check_tags(checker, &icache->tags, "instruction cache");
-    check_turns(checker, icache->bank, 64, "bank of an instruction cache");
+    check_arbiters(checker, icache->bank, 64, "bank of an instruction cache");
     if (!expect(checker, icache->pending_count <= tm->tps, "TM %u: %" PRIu32 " instruction lines are on their way",
                 tm->number, icache->pending_count))
       return waiting;
@@ -271,7 +271,7 @@ static void check_units(struct checker *checker, const struct trax_tm *tm) {
   };
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++) {
     const struct trax_shared_unit *unit = &tm->unit[i];
-    check_turns(checker, unit->turn, 64, names[i]);
+    check_arbiters(checker, unit->arbiter, 64, names[i]);
     for (size_t j = 0; j < trax_shared_unit_count(unit); j++)
       expect(checker, is_soon(checker, unit->free_from[j]), "TM %u, %s %zu: busy up to %" PRIu64, tm->number, names[i],
              j, unit->free_from[j]);
@@ -300,7 +300,7 @@ static void check_tm(struct checker *checker, struct trax_tm *tm) {
   for (unsigned i = 0; i < tm->tps; i++)
     check_tp(checker, tm, i, fetching, &wanted);
   check_units(checker, tm);
-  check_turns(checker, &tm->queue_turn, 1, "memory queue");
+  check_arbiters(checker, &tm->queue_arbiter, 1, "memory queue");
   expect(checker, tm->progressed <= t, "TM %u: the latest trap was before cycle %" PRIu64, tm->number, tm->progressed);
   expect(checker, tm->next_cycle <= (tm->awake ? t : trax_tm_next_cycle(tm, t - 1)),
          "TM %u: nothing happens before cycle %" PRIu64, tm->number, tm->next_cycle);
@@ -340,9 +340,9 @@ static uint32_t check_list(struct checker *checker, const struct trax_request_li
 /* Returns how many wait. */
 static uint32_t check_waiting(struct checker *checker, const struct trax_waiting *waiting, const char *which) {
   uint32_t count = 0;
-  check_turns(checker, &waiting->turn, 1, which);
+  check_arbiters(checker, &waiting->arbiter, 1, which);
   for (unsigned tm = 0; tm < TRAX_MAX_TMS && !checker->failed; tm++) {
-    const struct trax_request_list *list = &waiting->of[tm];
+    const struct trax_request_list *list = &waiting->list[tm];
     expect(checker, (waiting->tms >> tm & 1) == (list->first != TRAX_NO_REQUEST), "%s: 0x%" PRIx64 " wait", which,
            waiting->tms);
     count += check_list(checker, list, false, which);
@@ -364,8 +364,8 @@ static void check_l2(struct checker *checker, const struct trax_l2 *l2) {
     waiting += check_waiting(checker, &l2->bank[i], "bank of the second-level cache");
   expect(checker, waiting == l2->waiting, "second-level cache: %" PRIu32 " of %" PRIu32 " wait", waiting, l2->waiting);
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS && !checker->failed; i++) {
-    const trax_request_id first = l2->coming[i].first;
-    check_list(checker, &l2->coming[i], true, "coming line");
+    const trax_request_id first = l2->arriving[i].first;
+    check_list(checker, &l2->arriving[i], true, "coming line");
     if (!checker->failed && first != TRAX_NO_REQUEST &&
         expect(checker, first >= TRAX_LINE_REQUEST, "coming line: request 0x%" PRIx32, first)) {
       const uint64_t arrival = l2->mshr[first - TRAX_LINE_REQUEST].arrival;
@@ -394,7 +394,7 @@ static void check_lines_listed(struct checker *checker, const struct trax_l2 *l2
     expect(checker, checker->lines_listed[l2->used[i]] == (i < l2->used_count),
            "second-level cache: miss register %u is in no list, or without a line", l2->used[i]);
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    for (trax_request_id id = l2->coming[i].first; id != TRAX_NO_REQUEST;) { /* a list of ids that are known */
+    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;) { /* a list of ids that are known */
       if (!expect(checker, id >= TRAX_LINE_REQUEST && l2->mshr[id - TRAX_LINE_REQUEST].arrival != TRAX_NEVER,
                   "coming line: request 0x%" PRIx32, id))
         return;
@@ -406,7 +406,7 @@ static void check_memory(struct checker *checker) {
   const struct trax_memory *memory = &checker->chip->memory;
   const uint32_t depth = checker->chip->tm->queue.depth;
   uint32_t waiting = 0;
-  check_turns(checker, &memory->turn, 1, "memory controller");
+  check_arbiters(checker, &memory->arbiter, 1, "memory controller");
   for (uint32_t i = 0; i < memory->channels && !checker->failed; i++) {
     const struct trax_channel *channel = &memory->channel[i];
     expect(checker, channel->free_from.units < memory->units_per_cycle && channel->free_from.cycle <= checker->farthest,
@@ -424,7 +424,7 @@ static void check_memory(struct checker *checker) {
     check_lines_listed(checker, memory->l2);
   for (uint32_t tm = 0; tm < TRAX_MAX_TMS && !checker->failed; tm++) {
     const struct trax_queue *queue = tm < checker->chip->tms ? &checker->chip->tm[tm].queue : NULL;
-    const bool waits = memory->keeps_order && queue && queue->started < queue->shown;
+    const bool waits = memory->keeps_order && queue && queue->started < queue->submitted;
     expect(checker, (memory->tms >> tm & 1) == waits, "memory controller: 0x%" PRIx64 " wait", memory->tms);
     for (uint32_t place = 0; queue && queue->heap && place < depth; place++)
       expect(checker,

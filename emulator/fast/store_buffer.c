@@ -14,7 +14,7 @@ void trax_store_buffer_destroy(struct trax_store_buffer *buffer) {
 
 void trax_store_buffer_begin(struct trax_store_buffer *buffer) {
   buffer->write_count = buffer->read_count = buffer->request_count = buffer->word_count = 0;
-  buffer->round++;
+  buffer->generation++;
   buffer->stop = false;
 }
 
@@ -36,7 +36,7 @@ static bool grow(struct trax_store_buffer *buffer, void **array, size_t count, s
 static struct trax_store_buffer_word *find(const struct trax_store_buffer *buffer, uint32_t address) {
   const size_t mask = buffer->word_capacity - 1;
   size_t i = (address >> 2) * (size_t)0x9E3779B1u & mask;
-  while (buffer->words[i].round == buffer->round && buffer->words[i].address != address)
+  while (buffer->words[i].generation == buffer->generation && buffer->words[i].address != address)
     i = (i + 1) & mask;
   return &buffer->words[i];
 }
@@ -45,15 +45,16 @@ static struct trax_store_buffer_word *find(const struct trax_store_buffer *buffe
 static bool grow_words(struct trax_store_buffer *buffer) {
   if (2 * buffer->word_count < buffer->word_capacity)
     return true;
-  struct trax_store_buffer larger = {
-      .round = buffer->round, .word_capacity = buffer->word_capacity ? 2 * buffer->word_capacity : FIRST_CAPACITY};
+  struct trax_store_buffer larger = {.generation = buffer->generation,
+                                     .word_capacity =
+                                         buffer->word_capacity ? 2 * buffer->word_capacity : FIRST_CAPACITY};
   larger.words = calloc(larger.word_capacity, sizeof *larger.words);
   if (!larger.words) {
     buffer->stop = true;
     return false;
   }
   for (size_t i = 0; i < buffer->word_capacity; i++)
-    if (buffer->words[i].round == buffer->round)
+    if (buffer->words[i].generation == buffer->generation)
       *find(&larger, buffer->words[i].address) = buffer->words[i];
   free(buffer->words);
   buffer->words = larger.words;
@@ -61,7 +62,7 @@ static bool grow_words(struct trax_store_buffer *buffer) {
   return true;
 }
 
-static void note_write(struct trax_store_buffer *buffer, struct trax_store_buffer_write write) {
+static void record_write(struct trax_store_buffer *buffer, struct trax_store_buffer_write write) {
   if (grow(buffer, (void **)&buffer->writes, buffer->write_count, &buffer->write_capacity, sizeof *buffer->writes))
     buffer->writes[buffer->write_count++] = write;
 }
@@ -75,7 +76,7 @@ uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct t
   memcpy(&word, space->bytes + word_address, sizeof word);
   if (buffer->word_count) {
     const struct trax_store_buffer_word *own = find(buffer, word_address);
-    if (own->round == buffer->round)
+    if (own->generation == buffer->generation)
       word = (word & ~own->mask) | own->value;
   }
   memcpy(&value, (const uint8_t *)&word + (address & 3), bytes);
@@ -84,12 +85,12 @@ uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct t
 
 void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint32_t address, uint32_t value,
                              unsigned bytes) {
-  note_write(buffer, (struct trax_store_buffer_write){t, address, value, bytes});
+  record_write(buffer, (struct trax_store_buffer_write){t, address, value, bytes});
   if (!grow_words(buffer))
     return;
   struct trax_store_buffer_word *own = find(buffer, address & ~3u);
-  if (own->round != buffer->round) {
-    *own = (struct trax_store_buffer_word){.round = buffer->round, .address = address & ~3u};
+  if (own->generation != buffer->generation) {
+    *own = (struct trax_store_buffer_word){.generation = buffer->generation, .address = address & ~3u};
     buffer->word_count++;
   }
   const unsigned shift = 8 * (address & 3);
@@ -99,7 +100,7 @@ void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint3
 }
 
 void trax_store_buffer_increment(struct trax_store_buffer *buffer, uint64_t t, uint32_t address) {
-  note_write(buffer, (struct trax_store_buffer_write){.cycle = t, .address = address});
+  record_write(buffer, (struct trax_store_buffer_write){.cycle = t, .address = address});
 }
 
 void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t) {

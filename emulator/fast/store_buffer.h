@@ -16,7 +16,7 @@ struct trax_store_buffer_write {
 
 /* A word of global memory as the TM's own stores have changed it: `mask` has the bits that they wrote. */
 struct trax_store_buffer_word {
-  uint64_t round;   /* the entry is valid if this is the buffer's round */
+  uint64_t generation; /* the entry is valid if this is the buffer's round */
   uint32_t address; /* a multiple of 4 */
   uint32_t value, mask;
 };
@@ -30,7 +30,7 @@ struct trax_store_buffer {
   size_t request_count, request_capacity;
   struct trax_store_buffer_word *words; /* [word_capacity], a power of two; open addressing */
   size_t word_count, word_capacity;
-  uint64_t round; /* the number of the epoch */
+  uint64_t generation; /* the number of the epoch */
   bool stop;      /* the epoch must be given up: output, or out of memory */
 };
 

@@ -177,21 +177,21 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   if (tm->buffer)
     trax_store_buffer_request(tm->buffer, tm->now);
   else
-    trax_memory_show(&tm->chip->memory, tm);
+    trax_memory_submit(&tm->chip->memory, tm);
 }
 
-static bool request_in_turn(struct trax_tm *tm, unsigned tp, struct trax_request request) {
+static bool request_and_advance(struct trax_tm *tm, unsigned tp, struct trax_request request) {
   if (!trax_queue_has_place(&tm->queue))
     return false;
   trax_tm_request(tm, request);
-  trax_arbiter_to_back(&tm->queue_turn, tp);
+  trax_arbiter_to_back(&tm->queue_arbiter, tp);
   return true;
 }
 
 static bool request_write(struct trax_tm *tm, unsigned number, uint32_t begin, uint32_t end) {
   const struct trax_request request = {
       .kind = TRAX_REQUEST_WRITE, .tp = (uint8_t)number, .address = begin, .bytes = end - begin};
-  return request_in_turn(tm, number, request);
+  return request_and_advance(tm, number, request);
 }
 
 /* Writes the run in the TP's write-combining buffer, if there is one. False: it needs a place and gets none. */
@@ -233,7 +233,7 @@ static bool read_past_cache(struct trax_tm *tm, unsigned number) {
                                        .rd = tp->inst->rd,
                                        .address = tp->address,
                                        .bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes};
-  if (!request_in_turn(tm, number, request))
+  if (!request_and_advance(tm, number, request))
     return false;
   tm->stats->nontemporal_loads += !atomic;
   trax_tp_set_usable(tp, tp->inst->rd, TRAX_NEVER, atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS);
@@ -278,8 +278,8 @@ trax_cause trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   return serve_others(tm, number, t) ? TRAX_CAUSE_ISSUED : TRAX_CAUSE_MEMORY_QUEUE;
 }
 
-void trax_tm_tell_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
-                        uint32_t next_pc) {
+void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
+                          uint32_t next_pc) {
   struct trax_tp *tp = &tm->tp[number];
   struct trax_issue issue = {.cycle = tm->now,
                              .tm = tm->number,
@@ -325,7 +325,7 @@ void trax_tm_settle(struct trax_tm *tm, uint64_t t) {
     if (tm->awake >> i & 1)
       continue;
     tm->tp_stats[i].cycles[tp->asleep_cause] += t - tp->asleep_since;
-    trax_tm_tell(tm, i, (trax_cause)tp->asleep_cause, tp->asleep_since, t - tp->asleep_since);
+    trax_tm_notify_charge(tm, i, (trax_cause)tp->asleep_cause, tp->asleep_since, t - tp->asleep_since);
     tp->asleep_since = t;
   }
 }

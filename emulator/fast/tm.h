@@ -25,7 +25,7 @@ struct trax_chip;
   X(S, uint64_t, next_cycle, )        /* no earlier cycle changes anything in this TM */                               \
   X(S, uint64_t, progressed, )        /* the cycle after the latest trap or halt; 0: there was none */                 \
   X(S, uint32_t, running, )           /* threads that have not ended */                                                \
-  X(S, trax_arbiter, queue_turn, )
+  X(S, trax_arbiter, queue_arbiter, )
 struct trax_tm {
   _Alignas(64) uint32_t number; /* no line of the host's caches is another TM's, too, which another thread may run */
   uint32_t tps;
@@ -59,8 +59,8 @@ void trax_tm_destroy(struct trax_tm *tm);
 void trax_tm_settle(struct trax_tm *tm, uint64_t t);
 
 /* Tells an observer of what has been charged. */
-static inline void trax_tm_tell(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
-                                uint64_t cycles) {
+static inline void trax_tm_notify_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
+                                         uint64_t cycles) {
   if (__builtin_expect(tm->observer != NULL, false) && tm->observer->charge && cycles && cause != TRAX_CAUSE_ISSUED)
     tm->observer->charge(tm->observer->context, tm->number, tp, cause, since, cycles);
 }
@@ -68,7 +68,7 @@ static inline void trax_tm_tell(const struct trax_tm *tm, unsigned tp, trax_caus
 /* For the current cycle. */
 static inline void trax_tm_charge(struct trax_tm *tm, unsigned tp, trax_cause cause) {
   tm->tp_stats[tp].cycles[cause]++;
-  trax_tm_tell(tm, tp, cause, tm->now, 1);
+  trax_tm_notify_charge(tm, tp, cause, tm->now, 1);
 }
 
 /* Puts an awake TP to sleep; it is charged to cause from cycle `since` on. Whoever calls sees to its waking. */
@@ -81,7 +81,8 @@ static inline void trax_tm_sleep(struct trax_tm *tm, unsigned tp, uint64_t since
 static inline void trax_tm_wake(struct trax_tm *tm, unsigned tp, uint64_t t) {
   tm->awake |= (uint64_t)1 << tp;
   tm->tp_stats[tp].cycles[tm->tp[tp].asleep_cause] += t - tm->tp[tp].asleep_since;
-  trax_tm_tell(tm, tp, (trax_cause)tm->tp[tp].asleep_cause, tm->tp[tp].asleep_since, t - tm->tp[tp].asleep_since);
+  trax_tm_notify_charge(tm, tp, (trax_cause)tm->tp[tp].asleep_cause, tm->tp[tp].asleep_since,
+                        t - tm->tp[tp].asleep_since);
 }
 
 /* Ends the thread from cycle `since` on. */
@@ -102,8 +103,8 @@ void trax_tm_sleep_until(struct trax_tm *tm, unsigned tp, uint64_t t, uint64_t s
 /* The TP's turn in step 4; its inst and address are set. TRAX_CAUSE_ISSUED, or what refuses it. */
 trax_cause trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
 /* Tells an observer, which there must be, of what TP `tp` has just issued at pc; it goes on at next_pc. */
-void trax_tm_tell_issue(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst,
-                        uint32_t next_pc);
+void trax_tm_notify_issue(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst,
+                          uint32_t next_pc);
 uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t);
 
 /* Requests to memory, with their accounting; the queue must have a place. */

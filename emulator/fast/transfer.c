@@ -7,38 +7,38 @@
 
 /* --- arbiters: a pointer, and the round-robin mask of the bits from the pointer on (masks.h) --- */
 
-static trax_arbiter pointer_of(uint64_t behind) {
-  return (trax_arbiter)(behind ? trax_first(behind) : 0);
+static trax_arbiter pointer_of(uint64_t rr_mask) {
+  return (trax_arbiter)(rr_mask ? trax_first(rr_mask) : 0);
 }
 
-static uint64_t behind_of(trax_arbiter pointer) {
+static uint64_t rr_mask_of(trax_arbiter pointer) {
   return pointer ? ~(uint64_t)0 << pointer : 0;
 }
 
-static uint64_t get_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
+static uint64_t get_fetch_rr_mask(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
   if (ftm->simple_fetch)
-    return (uint64_t)*trax_fast_fetch_turn(&ftm->rr_mask16, ftm->wide, icache, bank) << 16 * icache;
-  return ((const uint64_t *)(ftm->behind + icache * ftm->vectors))[bank];
+    return (uint64_t)*trax_fast_fetch_rr_mask(&ftm->fetch_rr_masks16, ftm->wide, icache, bank) << 16 * icache;
+  return ((const uint64_t *)(ftm->fetch_rr_masks + icache * ftm->vectors))[bank];
 }
 
-static void set_fetch_turn(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t behind) {
+static void set_fetch_rr_mask(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
   if (ftm->simple_fetch)
-    *trax_fast_fetch_turn(&ftm->rr_mask16, ftm->wide, icache, bank) = (uint16_t)(behind >> 16 * icache);
+    *trax_fast_fetch_rr_mask(&ftm->fetch_rr_masks16, ftm->wide, icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
   else
-    ((uint64_t *)(ftm->behind + icache * ftm->vectors))[bank] = behind;
+    ((uint64_t *)(ftm->fetch_rr_masks + icache * ftm->vectors))[bank] = rr_mask;
 }
 
 static void export_units(const struct trax_fast_units *units, unsigned kind, struct trax_shared_unit *unit) {
   for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
-    unit->turn[i] = pointer_of(units->behind[kind] & units->uneven[kind].group[i]);
+    unit->arbiter[i] = pointer_of(units->rr_masks[kind] & units->uneven[kind].group[i]);
 }
 
 static void import_units(struct trax_fast_units *units, unsigned kind, const struct trax_shared_unit *unit) {
-  uint64_t behind = 0;
+  uint64_t rr_mask = 0;
   for (uint32_t i = 0; i < units->uneven[kind].groups; i++)
-    if (unit->turn[i])
-      behind |= units->uneven[kind].group[i] & ~(uint64_t)0 << unit->turn[i];
-  units->behind[kind] = behind;
+    if (unit->arbiter[i])
+      rr_mask |= units->uneven[kind].group[i] & ~(uint64_t)0 << unit->arbiter[i];
+  units->rr_masks[kind] = rr_mask;
 }
 
 static void export_arbiters(struct trax_fast_tm *ftm) {
@@ -48,9 +48,9 @@ static void export_arbiters(struct trax_fast_tm *ftm) {
   export_units(&ftm->int_mul, 0, &tm->unit[TRAX_SHARED_INT_MUL]);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      tm->icache[i].bank[bank] = pointer_of(get_fetch_turn(ftm, i, bank));
+      tm->icache[i].bank[bank] = pointer_of(get_fetch_rr_mask(ftm, i, bank));
   for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_rr_mask)[bank]);
+    tm->dcache.bank[bank] = pointer_of(((const uint64_t *)ftm->data_bank_rr_masks)[bank]);
 }
 
 static void import_arbiters(struct trax_fast_tm *ftm) {
@@ -60,9 +60,9 @@ static void import_arbiters(struct trax_fast_tm *ftm) {
   import_units(&ftm->int_mul, 0, &tm->unit[TRAX_SHARED_INT_MUL]);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      set_fetch_turn(ftm, i, bank, behind_of(tm->icache[i].bank[bank]));
+      set_fetch_rr_mask(ftm, i, bank, rr_mask_of(tm->icache[i].bank[bank]));
   for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
-    ((uint64_t *)ftm->data_bank_rr_mask)[bank] = behind_of(tm->dcache.bank[bank]);
+    ((uint64_t *)ftm->data_bank_rr_masks)[bank] = rr_mask_of(tm->dcache.bank[bank]);
 }
 
 void trax_fast_export(struct trax_fast *fast) {
@@ -101,7 +101,7 @@ static void find_atomics(struct trax_fast_tm *ftm) {
   }
 }
 
-static void take_up(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
+static void import_tp(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];
   const struct trax_tm *tm = ftm->tm;
@@ -128,11 +128,11 @@ void trax_fast_import(struct trax_fast *fast, uint64_t t) {
     struct trax_tm *tm = ftm->tm;
     import_arbiters(ftm);
     find_resident_lines(ftm);
-    ftm->ready = ftm->outside = 0;
-    ftm->deferred = tm->ended; /* ended threads have no bursts */
-    ftm->resumed_holding = tm->awake & tm->holding;
+    ftm->ready = ftm->no_text = 0;
+    ftm->executes_at_issue = tm->ended; /* ended threads have no bursts */
+    ftm->recheck = tm->awake & tm->holding;
     for (unsigned tp = 0; tp < tm->tps; tp++)
       if (!(tm->ended >> tp & 1))
-        take_up(ftm, tp, t);
+        import_tp(ftm, tp, t);
   }
 }

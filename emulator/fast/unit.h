@@ -7,7 +7,7 @@
 #include "machine/section.h"
 #include "machine/timing.h"
 
-#define TRAX_SHARED_UNIT_STATE(X, S) X(S, trax_arbiter, turn, [64]) /* [groups] */
+#define TRAX_SHARED_UNIT_STATE(X, S) X(S, trax_arbiter, arbiter, [64]) /* [groups] */
 
 /* All of a kind, in groups of TPs. */
 struct trax_shared_unit {

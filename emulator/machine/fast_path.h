@@ -19,7 +19,7 @@ struct trax_fast_path {
   bool general_fetch;   /* the banks of the instruction caches are arbitrated one cache after the other */
   bool uneven_units;    /* adders and multipliers are arbitrated one group after the other */
   bool many_data_banks; /* the banks of the data cache are arbitrated four at a time */
-  bool hits_in_turn;    /* hits of the data cache are served one by one */
+  bool serial_hits;     /* hits of the data cache are served one by one */
   uint32_t text_lines;  /* lines of instructions of the program; TRAX_KNOWN_LINES + 1: or more */
 
   uint64_t looked_up;     /* fetches that hit and whose line had to be looked up */

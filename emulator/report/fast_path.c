@@ -62,7 +62,7 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   row(&table, "data banks by fours", path->many_data_banks ? cycles : 0, cycles, "cycles",
       "dcache.tps_per_bank makes more than 8 banks");
   row(&table, "lines looked up", path->looked_up, total->icache_hits, "fetches", lines);
-  row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config, path->hits_in_turn));
+  row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config, path->serial_hits));
   row(&table, "executed at issue", path->at_issue, instructions, "instructions",
       "stores, increments, traps, loads past the cache, loads of words written during the run");
   if (!table.any)

@@ -215,7 +215,7 @@ static const char *const free_names[] = {
     "tags->lines.",          "trax_tp.reg",        "trax_tp.pc",           "trax_tp.address",
     "trax_tp.local",         "trax_tp.run_begin",  "trax_tp.run_end",      "trax_request.value",
     "trax_request.number",   "trax_request.line",  "trax_queue.peak",      "trax_queue.made",
-    "trax_queue.last_fresh", "tm->exit_statuses.", "dcache->next_waiter.",
+    "trax_queue.last_unsubmitted", "tm->exit_statuses.", "dcache->next_waiter.",
 };
 
 static bool may_be_anything(const char *name) {

@@ -60,7 +60,7 @@ static void fast_controller(const struct transfers *transfers, uint32_t channels
   assert_true(trax_queue_create(&tm.queue, REQUESTS, trax_memory_keeps_order(&config)));
   for (unsigned i = 0; i < REQUESTS; i++) { /* all in channel 0 */
     trax_queue_push(&tm.queue, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = 64});
-    trax_memory_show(&memory, &tm);
+    trax_memory_submit(&memory, &tm);
   }
   uint64_t t = transfers->begin;
   for (unsigned looks = 0; trax_memory_has_waiting(&memory); looks++) {

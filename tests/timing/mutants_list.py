@@ -92,19 +92,19 @@ MUTANTS = [
     ("reference/faults.c", "trax_ref_is(tp, TRAX_IS_STORE | TRAX_IS_ATOMIC));\n}\n\nvoid", "trax_ref_is(tp, TRAX_IS_STORE));\n}\n\nvoid"),
 
     # --- the fast engine: arbiters ---
-    ("fast/masks.h", "units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners | (winners - first)));", "units->behind = (units->behind & ~asked_groups) | (asked_groups & ~(winners - first));"),
-    ("fast/masks.h", "const trax_fast_pair among = preferred | (askers & ~((have - (have >> to_first)) | have));", "const trax_fast_pair among = (preferred & ~have) | askers;"),
+    ("fast/masks.h", "units->rr_masks = (units->rr_masks & ~requested_groups) | (requested_groups & ~(winners | (winners - first)));", "units->rr_masks = (units->rr_masks & ~requested_groups) | (requested_groups & ~(winners - first));"),
+    ("fast/masks.h", "const trax_fast_pair among = preferred | (requesters & ~((have - (have >> to_first)) | have));", "const trax_fast_pair among = (preferred & ~have) | requesters;"),
     ("fast/masks.h", "(group & ~(winner | (winner - 1)))", "(group & ~(winner - 1))"),
     ("fast/masks.h", "for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {", "for (uint32_t unit = 1; unit && all; unit--) {"),
     ("fast/cycle.c", "for (uint32_t port = 0; port < ports; port++)", "for (uint32_t port = 0; port < ports && port < 1; port++)"),
     # --- steps 1 and 2 ---
-    ("fast/cycle.c", "return (woken & tm->holding) | resumed_holding;", "return (woken & tm->holding) | (resumed_holding & 0);"),
-    ("fast/cycle.c", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 4 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);", "asks |= (uint16_t)(TRAX_ASKS_BANK | tp->address / 8 % ftm->data_banks << TRAX_ASKS_BANK_SHIFT);"),
+    ("fast/cycle.c", "return (woken & tm->holding) | recheck;", "return (woken & tm->holding) | (recheck & 0);"),
+    ("fast/cycle.c", "step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % ftm->data_banks << TRAX_STEP_BANK_SHIFT);", "step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 8 % ftm->data_banks << TRAX_STEP_BANK_SHIFT);"),
     ("fast/cycle.c", "ftm->busy_registers[number] &= ~waits;", "ftm->busy_registers[number] = 0;"),
     ("fast/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
-    ("fast/cycle.c", "const unsigned turn = ftm->tm->queue_turn;", "const unsigned turn = 0;"),
-    ("fast/cycle.c", "*hits = there & ~ftm->deferred;", "*hits = there;"),
+    ("fast/cycle.c", "const unsigned pointer = ftm->tm->queue_arbiter;", "const unsigned pointer = 0;"),
+    ("fast/cycle.c", "*hits = way0_hits & ~ftm->executes_at_issue;", "*hits = way0_hits;"),
     ("fast/cycle.c", "    hits = 0; /* serve() handles them */", "    hits += 0; /* serve sees to that */"),
     # --- step 5 and the heads ---
     ("fast/issue.c", "if (latency > 1) {", "if (latency > 2) {"),
@@ -116,11 +116,11 @@ MUTANTS = [
     ("fast/fast.h", "address - blocks->input < blocks->input_bytes;\n}", "false;\n}"),
     # --- the core, for the fast engine ---
     ("fast/tm.c", "if (!trax_queue_has_place(&tm->queue))", "if (0)"),
-    ("fast/tm.c", "trax_arbiter_to_back(&tm->queue_turn, tp);", "trax_arbiter_to_back(&tm->queue_turn, tp - 1);"),
+    ("fast/tm.c", "trax_arbiter_to_back(&tm->queue_arbiter, tp);", "trax_arbiter_to_back(&tm->queue_arbiter, tp - 1);"),
     ("fast/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
     ("fast/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin", "address <= tp->run_end && address + bytes > tp->run_begin"),
-    ("fast/dcache.c", "trax_arbiter_to_back(&tm->queue_turn, number);", ""),
-    ("fast/cycle.c", "free_from[i] = t + trax_fast_head_note(ftm, trax_first(winner))->decoded->latency;", "free_from[i] = t + trax_fast_head_note(ftm, trax_first(all))->decoded->latency;"),
+    ("fast/dcache.c", "trax_arbiter_to_back(&tm->queue_arbiter, number);", ""),
+    ("fast/cycle.c", "free_from[i] = t + trax_fast_head_timing(ftm, trax_first(winner))->decoded->latency;", "free_from[i] = t + trax_fast_head_timing(ftm, trax_first(all))->decoded->latency;"),
     ("fast/cycle.c", "if (free_from[i] <= t)", "if (free_from[i] <= t + 1)"),
     ("fast/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}", "(struct trax_instant){t, 0}"),
     ("fast/memory.c", "return channel->free_from.cycle <= t;", "return channel->free_from.cycle < t + !channel->free_from.units;"),
@@ -153,8 +153,8 @@ MUTANTS = [
     ("fast/tp.c", "{tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd}",
      "{tp->inst->wait_rb, tp->inst->wait_ra, tp->inst->wait_rd}"),
     # The special units have one round robin.
-    ("fast/cycle.c", "trax_arbiter_grant(&unit->turn[group], all & ~winners, 1)",
-     "trax_arbiter_grant(&(trax_arbiter){unit->turn[group]}, all & ~winners, 1)"),
+    ("fast/cycle.c", "trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1)",
+     "trax_arbiter_grant(&(trax_arbiter){unit->arbiter[group]}, all & ~winners, 1)"),
     # When a TM goes back, so do they.
     ("fast/state.c", "unit->free_from, trax_shared_unit_count(unit));", "unit->free_from, 0);"),
     # As many operations are accepted as units are free.
@@ -170,7 +170,7 @@ MUTANTS = [
     ("fast/dcache.c", "if (dcache->mshr[i].line == line) {",
      "if (dcache->mshr[i].line == line && i < 3) {"),
     # A load that took a place moves the queue's turn.
-    ("fast/dcache.c", "  trax_arbiter_to_back(&tm->queue_turn, number);\n  return true;",
+    ("fast/dcache.c", "  trax_arbiter_to_back(&tm->queue_arbiter, number);\n  return true;",
      "  (void)number;\n  return true;"),
     # The latency of a hit.
     ("fast/dcache.c", "t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT",
@@ -188,7 +188,7 @@ MUTANTS = [
     ("fast/icache.c", "tm->holding |= icache->pending[i].waiting;",
      "tm->holding |= icache->pending[i].waiting & -icache->pending[i].waiting;"),
     # Round robin over the TMs.
-    ("fast/memory.c", "trax_arbiter_to_back(&memory->turn, tm->number);",
+    ("fast/memory.c", "trax_arbiter_to_back(&memory->arbiter, tm->number);",
      "(void)0;"),
     # A transfer takes bytes / B cycles.
     ("fast/memory.c", "begin.units + request->bytes * memory->units_per_byte",
@@ -212,7 +212,7 @@ MUTANTS = [
     ("fast/tm.c", "tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;",
      "tp->run_begin = tp->run_begin;"),
     # Who took a place moves the queue's turn.
-    ("fast/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_turn, tp);",
+    ("fast/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_arbiter, tp);",
      "  trax_tm_request(tm, request);\n  (void)tp;"),
     # An atomic increment costs atomic_bytes.
     ("fast/tm.c", ".bytes = atomic ? tm->config->memory.atomic_bytes : tp->inst->bytes",
@@ -242,17 +242,17 @@ MUTANTS = [
     ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t;",
      "trax_queue_oldest(&tm->queue)->completion < t;"),
     # Losers of a fetch are charged.
-    ("fast/cycle.c", "lost->fetch = losers;",
-     "lost->fetch = losers & ~tm->awaiting & ~(losers >> 63 << 63);"),
+    ("fast/cycle.c", "refused->fetch = losers;",
+     "refused->fetch = losers & ~tm->awaiting & ~(losers >> 63 << 63);"),
     # Loads and stores past the cache ask for no bank.
-    ("fast/cycle.c", "else if (inst->is_nontemporal || inst->is_atomic)\n      asks",
-     "else if (inst->is_atomic)\n      asks"),
+    ("fast/cycle.c", "else if (inst->is_nontemporal || inst->is_atomic)\n      step",
+     "else if (inst->is_atomic)\n      step"),
     # A pc that is not a multiple of 4 is misaligned.
     ("fast/cycle.c", "pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE",
      "TRAX_FAULT_EXECUTE"),
     # Losers of integer multipliers are charged.
-    ("fast/cycle.c", "lost->unit[TRAX_SHARED_INT_MUL] = askers & ~won;",
-     "lost->unit[TRAX_SHARED_INT_MUL] = askers & ~won & ~(askers & -askers);"),
+    ("fast/cycle.c", "refused->unit[TRAX_SHARED_INT_MUL] = requesters & ~won;",
+     "refused->unit[TRAX_SHARED_INT_MUL] = requesters & ~won & ~(requesters & -requesters);"),
     # A refused access is charged to the queue.
     ("fast/cycle.c", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
@@ -263,13 +263,13 @@ MUTANTS = [
     ("fast/masks.h", "(*(WINNERS) | (*(WINNERS) - 1)) |",
      "(*(WINNERS) - 1) |"),
     # Round robin of units in even groups.
-    ("fast/masks.h", "(asked_groups & ~(winners | (winners - first)))",
-     "(asked_groups & ~(winners - first))"),
+    ("fast/masks.h", "(requested_groups & ~(winners | (winners - first)))",
+     "(requested_groups & ~(winners - first))"),
     # The bubble after a taken branch.
     ("fast/issue.c", "t + 1 + bubble, TRAX_CAUSE_BRANCH",
      "t + bubble, TRAX_CAUSE_BRANCH"),
     # Effects happen in the TPs' order.
-    ("fast/issue.c", "(effects = slow & ftm->deferred) != 0",
+    ("fast/issue.c", "(effects = slow & ftm->executes_at_issue) != 0",
      "(effects = 0) != 0"),
     # The latency of local memory.
     ("fast/issue.c", "latency = ftm->tm->config->tp.local_latency_cycles;\n    cause",
@@ -284,8 +284,8 @@ MUTANTS = [
     ("fast/head.c", "ftp->jumps -= next != index + 1;",
      "(void)next;"),
     # A line that was replaced is not there.
-    ("fast/head.c", "trax_fast_set_resident(ftm, number, (uint32_t)goes_as, false);",
-     "(void)goes_as;"),
+    ("fast/head.c", "trax_fast_set_resident(ftm, number, (uint32_t)evicted_index, false);",
+     "(void)evicted_index;"),
     # Lines of programs of more than 64 may be missing, too.
     ("fast/head.c", "if (!ftm->resident[icache][ftm->fast->program.line[origin + i]])",
      "if (ftm->fast->program.lines <= 64 && !ftm->resident[icache][ftm->fast->program.line[origin + i]])"),
@@ -293,26 +293,26 @@ MUTANTS = [
     ("fast/head.c", "        ftm->uncertain |= (uint64_t)1 << tp;",
      "        ftm->uncertain |= 0;"),
     # And from then on.
-    ("fast/head.c", "        ftm->heads.look[tp] = 0;\n",
+    ("fast/head.c", "        ftm->heads.check_at[tp] = 0;\n",
      ""),
     # A head in another line is looked at,
     ("fast/head.c", "program->line[index] != line ||",
      "false ||"),
     # one that needs a register,
-    ("fast/head.c", "(program->note[index].waits & busy) ||",
-     "(program->note[index].waits & busy & 0xFFFF) ||"),
+    ("fast/head.c", "(program->timing[index].waits & busy) ||",
+     "(program->timing[index].waits & busy & 0xFFFF) ||"),
     # and one behind a head that was not fetched in this cycle.
-    ("fast/head.c", "if (fetched || !uncertain || next < ftm->heads.look[number])",
+    ("fast/head.c", "if (fetched || !uncertain || next < ftm->heads.check_at[number])",
      "if (fetched || true)"),
     # A new burst may begin with any of these.
-    ("fast/head.c", "(ftm->busy | ftm->uncertain) & bit ? 0 : NO_LOOK;",
-     "NO_LOOK;"),
+    ("fast/head.c", "(ftm->busy | ftm->uncertain) & bit ? 0 : NO_CHECK;",
+     "NO_CHECK;"),
     # Which instruction a step is.
     ("fast/burst.c", "ftp->origin[segment] = index - at;",
      "ftp->origin[segment] = index - (at & 127);"),
     # Round robin of units by bytes.
-    ("fast/masks.h", "TRAX_FAST_ARBITRATE(groups, (groups *)&units->behind, (groups)askers, &winners);",
-     "trax_fast_pair all = {-1, -1};\n    TRAX_FAST_ARBITRATE(groups, (groups *)&all, (groups)askers, &winners);"),
+    ("fast/masks.h", "TRAX_FAST_ARBITRATE(groups, (groups *)&units->rr_masks, (groups)requesters, &winners);",
+     "trax_fast_pair all = {-1, -1};\n    TRAX_FAST_ARBITRATE(groups, (groups *)&all, (groups)requesters, &winners);"),
     # A write calls back those who have run ahead.
     ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))\n    trax_fast_roll_back",
      "if (trax_fast_is_loaded(&fast->blocks, address) && address % 16)\n    trax_fast_roll_back"),
@@ -326,14 +326,14 @@ MUTANTS = [
     ("fast/burst_steps.h", "if (state == TRAX_BLOCK_WRITTEN)",
      "if (0)"),
     # A jump with a bubble is not quick.
-    ("fast/burst_steps.h", "config->tp.branch_bubble_cycles > 0 ? TRAX_ASKS_SLOWLY : 0",
-     "config->tp.branch_bubble_cycles > 1 ? TRAX_ASKS_SLOWLY : 0"),
+    ("fast/burst_steps.h", "config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0",
+     "config->tp.branch_bubble_cycles > 1 ? TRAX_STEP_SLOW : 0"),
     # The cycle counter ends a burst.
     ("fast/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/epochs.c", "writer->round == epochs->round && writer->tm != i)",
-     "writer->round == epochs->round && writer->tm != i && writer->tm < 64)"),
+    ("fast/epochs.c", "writer->generation == epochs->generation && writer->tm != i)",
+     "writer->generation == epochs->generation && writer->tm != i && writer->tm < 64)"),
     # A word that several wrote conflicts.
     ("fast/epochs.c", "writer->tm = BY_SEVERAL;",
      "writer->tm = tm;"),
@@ -349,7 +349,7 @@ MUTANTS = [
     # The controller is restored.
     ("fast/state.c", "VISIT_ALL(trax_memory, memory, 1);", "VISIT_ALL(trax_memory, memory, 0);"),
     # Increments are noted as writes.
-    ("fast/epochs.c", "epochs->failed |= !note_writer(epochs, address, BY_CONTROLLER);",
+    ("fast/epochs.c", "epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);",
      "(void)address; (void)windows;"),
     # Requests are shown in their cycle.
     ("fast/epochs.c", "buffer->requests[*request] <= t; ++*request)",
@@ -358,6 +358,6 @@ MUTANTS = [
     ("fast/epochs.c", "if (next_write <= t && !write_up_to",
      "if (t == 0 && !write_up_to"),
     # A TM sees its own stores.
-    ("fast/store_buffer.c", "if (own->round == buffer->round)\n      word",
-     "if (own->round == buffer->round && own->mask == ~0u)\n      word"),
+    ("fast/store_buffer.c", "if (own->generation == buffer->generation)\n      word",
+     "if (own->generation == buffer->generation && own->mask == ~0u)\n      word"),
 ]

@@ -78,9 +78,15 @@ static void leave_out(const void *bytes) {
 static void find_state(const struct trax_chip *chip, struct trax_machine *machine, size_t before_epochs) {
   const struct trax_fast_program *program = &chip->fast->program;
   block_count = before_epochs;
-  const void *const others[] = {
-      chip,          chip->fast,    chip->fast->blocks.state, program->sections, program->inst, program->asks,
-      program->note, program->line, program->lines_ahead};
+  const void *const others[] = {chip,
+                                chip->fast,
+                                chip->fast->blocks.state,
+                                program->sections,
+                                program->inst,
+                                program->step,
+                                program->timing,
+                                program->line,
+                                program->lines_ahead};
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
     leave_out(others[i]);
   blocks[block_count++] = (struct block){(uint8_t *)&machine->stats.memory, sizeof machine->stats.memory};
