@@ -62,10 +62,11 @@ struct trax_engine {
   /* Returns how many places of a TM's memory queue are taken when all cycles before t are over. */
   uint32_t (*queued)(const void *chip, uint32_t tm, uint64_t t);
 
-  /* Checkpoints; NULL: the engine has none. visit: all that the rest of the run depends on besides global memory, and
-     all that was counted, in sections whose sizes and order depend on the configuration alone. After export_state; to
-     read it also after settle. check: whether a state that may have come from anywhere can be taken up before cycle t;
-     NULL if so, else what is wrong, in `text`. import_state follows. */
+  /* Checkpoints; NULL: the engine has none.
+     visit: visits all that the rest of the run depends on besides global memory, and all counters, in sections whose
+     sizes and order depend on the configuration alone. export_state precedes it, and also settle if the state is read.
+     check: checks a state from an untrusted file before import_state. Returns NULL if the run can continue with it
+     before cycle t, else the reason, in `text`. */
   void (*visit)(void *chip, trax_section_visitor *visit, void *context);
   const char *(*check)(void *chip, uint64_t t, char text[128]);
 };

@@ -22,7 +22,7 @@ static void add_text(struct trax_layout *layout, const char *text) {
   add_bytes(layout, text, strlen(text) + 1);
 }
 
-/* NULL: there is one already. */
+/* Adds an entry. NULL: there is one of that name already. */
 static struct trax_layout *new_entry(struct layouts *layouts, const char *name) {
   for (size_t i = 0; i < layouts->count; i++)
     if (strncmp(layouts->entries[i].name, name, sizeof layouts->entries[i].name - 1) == 0)

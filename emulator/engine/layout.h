@@ -1,4 +1,4 @@
-/* The layout of a state (machine/section.h): what another build must agree on to read it. */
+/* The layout of a state (machine/section.h), which must be the same in a build that reads it. */
 #ifndef TRAX_ENGINE_LAYOUT_H
 #define TRAX_ENGINE_LAYOUT_H
 
@@ -6,14 +6,14 @@
 
 enum { TRAX_MOST_LAYOUTS = 128 };
 
-/* Of all sections of one name. */
+/* The layout of all sections of one name. */
 struct trax_layout {
   char name[40];
   uint64_t hash; /* of its fields: types, names, sizes, order */
 };
 
-/* Returns how many entries it made, fewer than TRAX_MOST_LAYOUTS: one for each name of a section that has fields, and
-   one for each table whose numbers the fields hold. */
+/* Makes an entry for each name of a section with fields, and for each enumeration whose numbers the fields hold.
+   Returns the number of entries, which is less than TRAX_MOST_LAYOUTS. */
 size_t trax_layout_of(const struct trax_engine *engine, void *chip, struct trax_layout *layouts);
 
 #endif

@@ -132,7 +132,7 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
 chunk:
   at = AT;
   const uint32_t index = (uint32_t)(inst - program->inst);
-  lines |= program->lines_ahead[index];
+  lines |= program->chunk_lines[index];
 #if EXACTLY
   if (at == limit)
     goto stop;

@@ -1,5 +1,5 @@
-/* Which lines a cache holds: sets of ways, and which of them the next line replaces (machine/replacement.h). Lines are
-   known by their number, address / line_bytes. Used by all caches. */
+/* The tags of a cache, of any kind: sets of ways, and the state of its replacement policy (machine/replacement.h). A
+   line's number is address / line_bytes. */
 #ifndef TRAX_FAST_CACHE_TAGS_H
 #define TRAX_FAST_CACHE_TAGS_H
 
@@ -13,9 +13,9 @@ struct trax_cache_tags {
   uint32_t ways, set_mask;
   unsigned line_shift;
   enum trax_replacement policy;
-  bool by_use;     /* it matters which lines are used */
-  uint64_t *lines; /* [sets][ways]: line number + 1; 0 is an empty place. LRU: the latest used first */
-  uint64_t *next;  /* [sets]: what the policy knows of the next place. FIFO: its way */
+  bool by_use;     /* the policy depends on the uses of lines */
+  uint64_t *lines; /* [sets][ways]: line number + 1; 0: empty. LRU: in the order of use, the latest first */
+  uint64_t *next;  /* [sets]: the policy's state. FIFO: the way of the next arriving line */
 };
 
 static inline bool trax_cache_tags_create(struct trax_cache_tags *tags, uint32_t bytes, uint32_t line_bytes,
@@ -59,7 +59,7 @@ static inline uint32_t trax_cache_tags_next(const struct trax_cache_tags *tags, 
   return (uint32_t)tags->next[set];
 }
 
-/* Notes that the line in `way` is used, or has arrived there. */
+/* Updates the policy's state: the line in `way` is used, or has arrived there. */
 static inline void trax_cache_tags_note(struct trax_cache_tags *tags, size_t set, uint32_t way, bool arrived) {
   uint64_t *lines = tags->lines + set * tags->ways;
   const uint64_t line = lines[way];
@@ -68,7 +68,7 @@ static inline void trax_cache_tags_note(struct trax_cache_tags *tags, size_t set
     if (arrived)
       tags->next[set] = (way + 1) & (tags->ways - 1);
     break;
-  case TRAX_REPLACE_LRU: /* those used since it was go one way back */
+  case TRAX_REPLACE_LRU: /* moves the line to the front */
     for (; way > 0; way--)
       lines[way] = lines[way - 1];
     lines[0] = line;
@@ -76,7 +76,7 @@ static inline void trax_cache_tags_note(struct trax_cache_tags *tags, size_t set
   }
 }
 
-/* Whether the cache has the line, which is used if so. */
+/* Whether the cache has the line; counts as a use of it. */
 static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t line) {
   if (!tags->by_use)
     return trax_cache_tags_have(tags, line);
@@ -89,7 +89,7 @@ static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t li
   return false;
 }
 
-/* All places are empty from now on. Returns how many were not. */
+/* Drops all lines and returns their number. */
 static inline uint32_t trax_cache_tags_drop(struct trax_cache_tags *tags) {
   const size_t places = ((size_t)tags->set_mask + 1) * tags->ways;
   uint32_t dropped = 0;
@@ -99,7 +99,7 @@ static inline uint32_t trax_cache_tags_drop(struct trax_cache_tags *tags) {
   return dropped;
 }
 
-/* Returns the number of the line whose place it takes, plus 1; 0 if the place was empty. */
+/* Enters a line. Returns the number of the line that it replaces, + 1; 0: none. */
 static inline uint64_t trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
   const size_t set = line & tags->set_mask;
   const uint32_t way = trax_cache_tags_next(tags, set);

@@ -1,4 +1,4 @@
-/* The chip as the fast engine simulates it: TMs, the memory controller, and what runs them. */
+/* The chip of the fast engine: TMs, the memory controller, and the variant and epochs that simulate them. */
 #ifndef TRAX_FAST_CHIP_H
 #define TRAX_FAST_CHIP_H
 
@@ -13,12 +13,12 @@ struct trax_chip {
   uint32_t tms;
   struct trax_memory memory;
   const struct trax_fast_variant *variant;
-  struct trax_fast *fast;       /* the variant's */
+  struct trax_fast *fast;     /* the variant's data */
   struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */
   uint64_t end;                 /* when all threads have ended: the cycle in which the last transfer is over; else 0 */
 };
 
-/* How many threads have not ended. */
+/* Returns the number of threads that have not ended. */
 static inline uint32_t trax_chip_running(const struct trax_chip *chip) {
   uint32_t running = 0;
   for (uint32_t i = 0; i < chip->tms; i++)
@@ -29,7 +29,7 @@ static inline uint32_t trax_chip_running(const struct trax_chip *chip) {
 void trax_chip_export(struct trax_chip *chip);
 void trax_chip_import(struct trax_chip *chip, uint64_t t);
 
-/* The engine, with the best variant that the host can run, and with each that is compiled, by name. */
+/* The engine with the best variant that the host can run, and the engines of single variants. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;
 #ifdef TRAX_FAST_HAVE_V3
 extern const struct trax_engine trax_fast_avx2_engine;

@@ -482,7 +482,7 @@ static ALWAYS_INLINE void run_two(struct trax_fast_tm *one, struct trax_fast_tm 
                (struct tm_cycle){.ftm = other, .t = other->tm->next_cycle}, true, wide);
 }
 
-void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
+void trax_fast_run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
   struct trax_fast_tm *const one = &fast->tm[first], *const other = one + count - 1;
   if (count > 1 && one->wide)
     run_two(one, other, end, true);

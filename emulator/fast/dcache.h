@@ -26,20 +26,20 @@ struct trax_dcache {
   struct trax_cache_tags tags;
   uint32_t banks, mshr_limit;
   struct trax_mshr *mshr; /* [mshr_limit], the first mshr_count in use */
-  uint16_t *next_waiter;  /* [tps * 32]: by TP * 32 + register; a register waits for one line at a time */
+  uint16_t *next_waiter;  /* [TP * 32 + register]: the next one in its list; a register waits for one line at a time */
 };
 
 bool trax_dcache_create(struct trax_dcache *dcache, const struct trax_tm *tm);
 void trax_dcache_destroy(struct trax_dcache *dcache);
 
-/* Step 4 of a load in cycle t: a hit, merged, a miss (true), or refused for want of a place or a miss register (false).
- */
+/* Serves a load in step 4 of cycle t: a hit, merged or a miss. False: it needs a queue place or a miss register and
+   gets none. */
 bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned tp, uint64_t t);
 
-/* A fence drops all lines, which are counted, and those on their way will pass. */
+/* Drops all lines, for a fence, and returns their number. The lines on their way will pass. */
 uint32_t trax_dcache_drop(struct trax_dcache *dcache);
 
-/* A line arrives in cycle t: all who wait for it can use it. */
+/* Handles the arrival of a line in cycle t: the registers that wait for it are usable. */
 void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t);
 
 #endif

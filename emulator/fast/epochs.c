@@ -11,28 +11,28 @@
 #include <string.h>
 
 enum {
-  LEAST_EPOCH = 16,             /* cycles; shorter ones are not worth it */
-  MOST_AHEAD = 1024,            /* cycles for which the controller serves requests before an epoch */
-  FIRST_SNAPSHOT_INTERVAL = 64, /* shortest epochs after which another state is kept to which the run can go back; */
-  LONGEST_SNAPSHOT_INTERVAL = 1024, /* it doubles as long as it does not */
-  MOST_UNDO = 1 << 18,              /* words written to global memory, after which a state is kept in any case */
-  FIRST_PAUSE = 64,                 /* cycles that are run one by one after a conflict, besides those that contain it */
-  LONGEST_PAUSE = 1 << 20,          /* it doubles with each conflict that follows soon */
+  LEAST_EPOCH = 16,             /* cycles; shorter epochs do not pay */
+  MOST_EARLY = 1024,            /* limit of the cycles whose transfers are started before an epoch */
+  FIRST_SNAPSHOT_INTERVAL = 64, /* in shortest epochs; doubles with each snapshot until a roll back */
+  LONGEST_SNAPSHOT_INTERVAL = 1024,
+  MOST_UNDO = 1 << 18,     /* words written to global memory after which a snapshot is taken in any case */
+  FIRST_PAUSE = 64,        /* cycles simulated one by one after the epoch of a conflict; doubles with each */
+  LONGEST_PAUSE = 1 << 20, /* conflict until a snapshot */
 };
 
-/* What a word of global memory was before it was written. */
+/* A word of global memory before it was written. */
 struct undo {
   uint32_t address, word;
 };
 
-/* Who wrote a word in the current epoch. */
+/* The write set of the current epoch: the writer of each word. */
 enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 
 struct writer {
   uint64_t generation;
   uint32_t address;
-  uint16_t tm; /* or BY_... */
-  bool early;  /* incremented before the epoch, in which this was to happen */
+  uint16_t tm; /* a TM's number, or BY_... */
+  bool early;  /* the controller incremented it before the epoch, for a cycle of the epoch */
 };
 
 struct trax_epochs {
@@ -41,27 +41,27 @@ struct trax_epochs {
   uint32_t interleaved;              /* TMs that one thread runs together */
   struct trax_store_buffer *buffers; /* [tms] */
   uint64_t length;                   /* cycles of the shortest epoch: from a request to its completion */
-  uint64_t end;                      /* of the current one */
-  bool early;                        /* what the controller does now is to happen in the epoch's course */
+  uint64_t end;                      /* of the current epoch */
+  bool early;                        /* the controller now serves requests for cycles of the epoch to come */
 
-  /* The state to which the run can go back. */
+  /* The snapshot. */
   bool has_snapshot;
   uint64_t snapshot_cycle;
-  unsigned snapshot_interval;    /* shortest epochs */
+  unsigned snapshot_interval;    /* in shortest epochs */
   struct trax_section *sections; /* [section_count] */
   size_t section_count, snapshot_size;
-  uint8_t *snapshot; /* all sections, one behind the other */
-  struct undo *undo; /* [undo_count]: writes to global memory since then */
+  uint8_t *snapshot; /* all sections, one after the other */
+  struct undo *undo; /* [undo_count]: writes to global memory since the snapshot */
   size_t undo_count, undo_capacity;
 
-  uint64_t cautious_from, cautious_until; /* the cycles between these are run one by one */
+  uint64_t cautious_from, cautious_until; /* these cycles are simulated one by one */
   uint64_t pause;
 
   struct writer *writers; /* [writer_capacity], a power of two; open addressing */
   size_t writer_count, writer_capacity;
   uint64_t generation;
   bool failed;                       /* out of memory */
-  size_t *next_write, *next_request; /* [tms]: of the buffers, those that have not been dealt with */
+  size_t *next_write, *next_request; /* [tms]: the next one of the TM's store buffer to be handled */
 };
 
 /* --- snapshots --- */
@@ -74,7 +74,7 @@ static void record_section(void *context, const struct trax_section *section) {
     epochs->sections[epochs->section_count - 1] = *section;
 }
 
-/* Notes how many sections there are, and then which. */
+/* Counts the sections, and then lists them. */
 static bool record_sections(struct trax_epochs *epochs) {
   trax_state_visit(epochs->chip, record_section, epochs);
   epochs->sections = calloc(epochs->section_count, sizeof *epochs->sections);
@@ -154,7 +154,7 @@ static bool grow_writers(struct trax_epochs *epochs) {
   return true;
 }
 
-/* The word at `address` is about to be written by a TM or the controller. NULL: out of memory. */
+/* Records that a TM or the controller is about to write the word at `address`. NULL: out of memory. */
 static const struct writer *record_writer(struct trax_epochs *epochs, uint32_t address, uint32_t tm) {
   if (!grow((void **)&epochs->undo, epochs->undo_count, &epochs->undo_capacity, sizeof *epochs->undo) ||
       !grow_writers(epochs))
@@ -172,7 +172,8 @@ static const struct writer *record_writer(struct trax_epochs *epochs, uint32_t a
   return writer;
 }
 
-/* False: what was loaded before it is written must be loaded again, or what was incremented before, incremented. */
+/* Performs a store of a TM, or prepares the block of an atomic increment. False: the epoch must be given up, since a
+   burst has loaded from the block, or the controller has incremented the word too early, or memory ran out. */
 static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_write *write, uint32_t tm) {
   struct trax_fast *fast = epochs->chip->fast;
   if (trax_fast_is_loaded(&fast->blocks, write->address))
@@ -187,7 +188,8 @@ static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_w
   return true;
 }
 
-/* The stores of the cycles up to t, in the order of cycles and TMs. *next receives the cycle of the next one. */
+/* Performs the stores of the cycles up to t, in the order of cycles and TMs. *next receives the cycle of the next one.
+ */
 static bool write_up_to(struct trax_epochs *epochs, uint64_t t, uint64_t *next) {
   while (true) {
     uint32_t first = 0;
@@ -207,7 +209,7 @@ static bool write_up_to(struct trax_epochs *epochs, uint64_t t, uint64_t *next) 
   }
 }
 
-/* The controller learns of the requests made up to cycle t. Returns the cycle of the next one. */
+/* Submits the requests made up to cycle t. Returns the cycle of the next one. */
 static uint64_t submit_requests(struct trax_epochs *epochs, uint64_t t) {
   struct trax_chip *chip = epochs->chip;
   uint64_t next = TRAX_NEVER;
@@ -222,13 +224,13 @@ static uint64_t submit_requests(struct trax_epochs *epochs, uint64_t t) {
   return next;
 }
 
-/* The controller is about to increment a word. */
+/* Called before the controller increments a word. */
 static void record_increment(void *context, uint32_t address) {
   struct trax_epochs *epochs = context;
   epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);
 }
 
-/* Step 3 of all cycles of the epoch, but for what has been done before it. */
+/* Performs step 3 of all cycles of the epoch, except for the transfers that begin_epoch has started. */
 static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   struct trax_chip *chip = epochs->chip;
   struct trax_memory *memory = &chip->memory;
@@ -245,7 +247,7 @@ static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   return write_up_to(epochs, epochs->end, &next_write);
 }
 
-/* Whether a TM has read what somebody else wrote in this epoch. */
+/* Whether a TM has read a word that another TM or the controller wrote in this epoch. */
 static bool has_conflict(const struct trax_epochs *epochs) {
   for (uint32_t i = 0; epochs->writer_count && i < epochs->chip->tms; i++) {
     const struct trax_store_buffer *buffer = &epochs->buffers[i];
@@ -264,7 +266,7 @@ static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
     if (epochs->buffers[i].stop || chip->tm[i].fault.kind)
       return false;
   if (!trax_chip_running(chip))
-    return false; /* the run's end is found cycle by cycle */
+    return false; /* the end of the run must be simulated cycle by cycle */
   memset(epochs->next_write, 0, chip->tms * sizeof *epochs->next_write);
   memset(epochs->next_request, 0, chip->tms * sizeof *epochs->next_request);
   return run_controller(epochs, begin) && !epochs->failed && !has_conflict(epochs);
@@ -276,11 +278,11 @@ static void run_tms(void *context, uint32_t group) {
   const struct trax_epochs *epochs = context;
   const struct trax_chip *chip = epochs->chip;
   const uint32_t first = group * epochs->interleaved, left = chip->tms - first;
-  chip->variant->run_ahead(chip->fast, first, left < epochs->interleaved ? left : epochs->interleaved, epochs->end);
+  chip->variant->run_epoch(chip->fast, first, left < epochs->interleaved ? left : epochs->interleaved, epochs->end);
 }
 
-/* Begins an epoch: whatever waits for memory and is served in the same cycles whatever the TMs request in them is
-   served now, and the epoch ends when what is requested in it might come back. */
+/* Begins an epoch. Starts the transfers that do not depend on the epoch's requests, and sets the end of the epoch to
+   the first cycle in which a request of the epoch may complete. */
 static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) {
   const struct trax_chip *chip = epochs->chip;
   for (uint32_t i = 0; i < chip->tms; i++)
@@ -290,10 +292,10 @@ static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) 
   epochs->writer_count = 0;
   epochs->failed = false;
   epochs->early = true;
-  const uint64_t ahead = trax_memory_run_ahead(&epochs->chip->memory, chip->tm, chip->tms, &chip->machine->space, t,
-                                               until - t < MOST_AHEAD ? until : t + MOST_AHEAD);
+  const uint64_t served = trax_memory_serve_early(&epochs->chip->memory, chip->tm, chip->tms, &chip->machine->space, t,
+                                                  until - t < MOST_EARLY ? until : t + MOST_EARLY);
   epochs->early = false;
-  epochs->end = until - t < ahead - t + epochs->length ? until : ahead + epochs->length;
+  epochs->end = until - t < served - t + epochs->length ? until : served + epochs->length;
 }
 
 bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until) {
@@ -304,7 +306,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   const bool cautious = *t >= epochs->cautious_from && *t < epochs->cautious_until;
   if (cautious || until - *t < LEAST_EPOCH) {
     chip->machine->fast_path.short_epochs += !cautious;
-    epochs->has_snapshot = false; /* what is written in that cycle is not noted */
+    epochs->has_snapshot = false; /* writes outside epochs are not recorded, and so cannot be undone */
     return false;
   }
   if (!epochs->has_snapshot) {
@@ -335,7 +337,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   }
   roll_back(epochs);
   chip->machine->fast_path.conflicts++;
-  epochs->cautious_from = *t; /* the epochs up to this one are the same again */
+  epochs->cautious_from = *t; /* the epochs up to this one will give the same results again */
   epochs->cautious_until = epochs->end + epochs->pause;
   if (epochs->pause < LONGEST_PAUSE)
     epochs->pause *= 2;

@@ -1,11 +1,11 @@
-/* The fast engine on several threads of the host, or on one, whose caches then keep what belongs to a TM. Each TM runs
-   ahead of the others for an epoch of cycles so short that nothing it requests from memory in the epoch can come back
-   in it; what it does to memory meanwhile it keeps to itself (fast/store_buffer.h). At the epoch's end the stores take
-   effect in the order of cycles and TMs, and the controller serves the requests of the epoch cycle by cycle. So
-   everything is as if the TMs had gone from cycle to cycle together, unless one of them has read what another one wrote
-   in the same epoch, or did something that cannot be kept: then all go back to where they were some epochs before, do
-   the epochs up to this one again, which gives the same, and go on from there cycle by cycle until that is past.
- */
+/* Epochs: each TM simulates some cycles alone, so that the TMs can run on several threads of the host. On one thread,
+   too, this is faster, since the host's caches hold the data of one TM at a time. An epoch is so short that no request
+   made in it can complete in it. The TM's stores and requests go to its store buffer (fast/store_buffer.h). At the end
+   of the epoch the stores take effect in the order of cycles and TMs, and the controller serves the requests cycle by
+   cycle. The result is that of simulating the TMs cycle by cycle, unless there is a conflict: a TM has read what
+   another one wrote in the epoch, or has done something that a store buffer cannot hold. Then the chip rolls back to
+   the snapshot, repeats the epochs up to this one with the same results, and simulates the cycles of this one one by
+   one. */
 #ifndef TRAX_FAST_EPOCHS_H
 #define TRAX_FAST_EPOCHS_H
 
@@ -17,16 +17,16 @@
 struct trax_chip;
 struct trax_epochs;
 
-/* Into chip->epochs, if there is something to gain; else that stays NULL. `threads` of the host, 0:
-   trax_host_processors. */
+/* Creates chip->epochs, which stays NULL for one TM, with an observer, and if epochs would be too short. threads: of
+   the host; 0: trax_host_processors. */
 trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error);
 void trax_epochs_destroy(struct trax_epochs *epochs);
 
-/* All cycles before *t are over. Runs an epoch that ends in cycle `until` at the latest, and sets *t to the cycle from
-   which the run goes on: an earlier one if it had to go back. False: the next cycle is to be run by itself. */
+/* Simulates an epoch from cycle *t on that ends in cycle `until` at the latest. Sets *t to the next cycle, which is an
+   earlier one after a roll back. False: the next cycle must be simulated without an epoch. */
 bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until);
 
-/* Never goes back behind the current cycle: somebody has looked at the machine. */
+/* Gives up the snapshot: the chip never rolls back beyond the current cycle, whose state a watch has seen. */
 void trax_epochs_commit(struct trax_epochs *epochs);
 
 #endif

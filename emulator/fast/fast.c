@@ -226,4 +226,4 @@ const struct trax_fast_variant
 #else
     trax_fast_variant
 #endif
-    = {create, destroy, trax_fast_cycle, trax_fast_run_ahead, collect, settle, trax_fast_export, trax_fast_import};
+    = {create, destroy, trax_fast_cycle, trax_fast_run_epoch, collect, settle, trax_fast_export, trax_fast_import};

@@ -1,13 +1,13 @@
-/* The fast engine: the machine of docs/timing.md, and of emulator/reference, to the cycle, the count and the byte.
+/* The fast engine (docs/fast-engine.md has its words): it gives the cycles, counts and bytes of emulator/reference.
 
-   It differs in two ways. Function runs ahead of time: a TP executes a burst of instructions at once, up to the first
-   whose effect or value depends on time, and timing then consumes them one by one (burst.c, head.c). Timing works on
-   masks of a TM's TPs: what will be asked for is noted when an instruction becomes its TP's next one, the head, and
-   stays until it is granted (cycle.c, issue.c).
+   Instructions are executed before their time: a TP executes a burst at once, up to the first instruction whose effect
+   or result depends on time, and the timing of the burst's steps follows one by one (burst.c, head.c). Timing works on
+   masks of a TM's TPs: the resources that an instruction needs are recorded when it becomes its TP's head (cycle.c,
+   issue.c).
 
-   Everything rare is done by tm.c, tp.c and the files of caches and memory: arrivals, misses, requests, faults, traps, and the execution of instructions that
-   must not run ahead, in structures of their own. A TM touches nothing of another one but through blocks.c and
-   the memory controller. */
+   Rare events are simulated one by one in plain structures, by tm.c, tp.c and the files of caches and memory: arrivals,
+   misses, requests, faults, traps, and instructions that execute at issue. A TM accesses data of another TM only
+   through blocks.c and the memory controller. */
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
 
@@ -24,7 +24,7 @@
 #define trax_fast_end_burst TRAX_FAST_NAME(trax_fast_end_burst, TRAX_FAST_VARIANT)
 #define trax_fast_line_arrived TRAX_FAST_NAME(trax_fast_line_arrived, TRAX_FAST_VARIANT)
 #define trax_fast_notify_refusals TRAX_FAST_NAME(trax_fast_notify_refusals, TRAX_FAST_VARIANT)
-#define trax_fast_run_ahead TRAX_FAST_NAME(trax_fast_run_ahead, TRAX_FAST_VARIANT)
+#define trax_fast_run_epoch TRAX_FAST_NAME(trax_fast_run_epoch, TRAX_FAST_VARIANT)
 #define trax_fast_cycle TRAX_FAST_NAME(trax_fast_cycle, TRAX_FAST_VARIANT)
 #define trax_fast_count_log TRAX_FAST_NAME(trax_fast_count_log, TRAX_FAST_VARIANT)
 #define trax_fast_issue TRAX_FAST_NAME(trax_fast_issue, TRAX_FAST_VARIANT)
@@ -43,23 +43,23 @@
 #include "fast/variant.h"
 
 enum {
-  TRAX_BURST = 224,  /* most instructions of a burst; fits in trax_fast_heads.at */
-  TRAX_CHUNK = 32,   /* instructions of the program whose steps are noted at once: those from a multiple of it on */
-  TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* that `resident` knows; the last entry stands for all others */
+  TRAX_BURST = 224,                      /* limit of a burst's instructions; fits in trax_fast_heads.at */
+  TRAX_CHUNK = 32,                       /* instructions of a chunk, which begins at a multiple of it */
+  TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* entries of `resident`; the last one stands for all further lines */
 };
 
-/* The first of the shared units without a place of its own among what a step asks for. */
+/* The first kind of shared units that TRAX_STEP_FURTHER encodes. */
 #define TRAX_FAST_FURTHER ((unsigned)TRAX_SHARED_SPECIAL + 1)
 
-/* An instruction, what its function needs: four to a line of the host's cache. */
+/* What the execution of an instruction needs: four to a line of the host's cache. */
 struct trax_fast_inst {
-  const void *operation; /* where burst.c executes it; for the first of a chunk, where the chunk is noted */
+  const void *operation; /* the label in burst_steps.h that executes it; of a chunk's first, the one that records it */
   int32_t imm;
-  uint8_t op; /* trax_op; TRAX_OP_ILLEGAL where a burst must stop: then only `decoded` knows */
+  uint8_t op; /* trax_op; TRAX_OP_ILLEGAL if a burst must end before it: then only `decoded` has the operation */
   uint8_t rd, ra, rb;
 };
 
-/* What its timing needs. */
+/* What the timing of an instruction needs. */
 struct trax_fast_timing {
   const struct trax_decoded *decoded;
   uint32_t waits; /* mask of registers that must be usable */
@@ -68,45 +68,45 @@ struct trax_fast_timing {
 
 struct trax_fast_section {
   uint32_t begin, bytes;
-  uint32_t first_line;         /* as the cache numbers them */
-  uint16_t line;               /* its index in `resident` */
-  struct trax_fast_inst *inst; /* [bytes / 4 + 1]; the last is outside */
+  uint32_t first_line;         /* the number of its first line in the cache */
+  uint16_t line;               /* the index of that line in `resident` */
+  struct trax_fast_inst *inst; /* [bytes / 4 + 1]; the last one is no text */
 };
 
 struct trax_fast_program {
-  struct trax_fast_section *sections; /* [count], in one array of instructions */
+  struct trax_fast_section *sections; /* [count]; their instructions are in one array */
   size_t count, inst_count;
-  uint32_t lines;              /* TRAX_FAST_LINES: or more */
+  uint32_t lines;              /* lines of instructions; TRAX_FAST_LINES: or more */
   struct trax_fast_inst *inst; /* [inst_count] */
   struct trax_fast_timing *timing; /* [inst_count] */
-  uint16_t *line;              /* [inst_count]: of the program, for `resident` */
-  uint16_t *step;              /* [inst_count + TRAX_CHUNK]: of a step, unless its address says more */
-  uint64_t *lines_ahead;       /* [inst_count]: bit line % 64 of the lines from here to a jump or the chunk's end */
-  struct trax_fast_inst *no_text; /* the last */
+  uint16_t *line;                  /* [inst_count]: the index of its line in `resident` */
+  uint16_t *step;        /* [inst_count + TRAX_CHUNK]: its step, as far as that does not depend on an address */
+  uint64_t *chunk_lines; /* [inst_count]: bit line % 64 of the lines from here to a jump or the chunk's end */
+  struct trax_fast_inst *no_text; /* the last instruction, for every pc that is no text */
 };
 
 struct trax_fast_undo {
-  uint32_t offset, word; /* what a word of local memory was */
+  uint32_t offset, word; /* a word of local memory before a store */
 };
 
 struct trax_fast_tp {
   uint32_t resume_pc;
-  const struct trax_fast_inst *resume; /* where the next burst begins: at resume_pc */
-  uint64_t atomics;                    /* registers that an atomic increment under way will write */
+  const struct trax_fast_inst *resume; /* the first instruction of the next burst, at resume_pc */
+  uint64_t atomics;                    /* mask of registers that atomic increments under way will write */
 
-  /* Of the bursts that are over: how much of them was issued. */
-  uint64_t issued, jumps;
-  uint32_t burst_jumps; /* of the current burst, its last step included */
-  uint64_t burst_lines; /* bit line % 64: in which lines of the program its steps are, and perhaps in more */
+  uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
+  uint32_t burst_jumps;   /* taken jumps of the current burst, that of its last step included */
+  uint64_t burst_lines;   /* bit line % 64: a superset of the lines of the burst's steps */
 
-  /* The steps of the burst, what timing needs of instructions that have been executed; or only the executes_at_issue
-     head. Behind the last one there may be more. */
+  /* The steps of the burst, or the step of a head that executes at issue. The last step may be followed by others that
+     are not part of the burst. */
   _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
-  uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* of the burst: trax_fast_index */
-  uint32_t address[TRAX_BURST];            /* of the loads of global memory, one after the other */
-  uint32_t origin[TRAX_BURST + 1];         /* [segment]: the index of its first instruction minus the number of its step */
+  uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* [step]: the number of its segment */
+  uint32_t address[TRAX_BURST];             /* the addresses of the burst's loads of global memory, in order */
+  uint32_t
+      origin[TRAX_BURST + 1]; /* [segment]: the index of its first instruction minus the number of its first step */
 
-  /* How to get back to the burst's beginning (blocks.c). */
+  /* The state at the beginning of the burst, for a roll back (blocks.c). */
   const struct trax_fast_inst *begin;
   uint32_t undo_count;
   uint32_t reg[TRAX_NUM_REGISTERS + 1];
@@ -117,55 +117,56 @@ struct trax_fast_tm {
   struct trax_tm *tm;
   struct trax_fast *fast;
   struct trax_fast_tp *tp; /* [tps] */
-  /* How often each instruction was executed since that was collected: the sum of this up to it, in its section. */
+  /* The number of executions of each instruction since the latest collect(), as differences: that of instruction i is
+     the sum of [0] to [i]. So a segment costs two additions. */
   int64_t *count_deltas; /* [inst_count + 1] */
   struct trax_fast_heads heads;
   bool wide;                                       /* more than 32 TPs */
-  const uint32_t *address_of[TRAX_MAX_TPS_PER_TM]; /* trax_fast_tp.address; of those that do not exist, TP 0's */
-  /* Registers that may not be usable yet: who writes one sets its bit, unless the result can be used in the next cycle;
-     it goes when the register has been looked at and found usable. trax_tp.usable counts only where it is set. */
+  const uint32_t *address_of[TRAX_MAX_TPS_PER_TM]; /* trax_fast_tp.address; of TPs that do not exist, TP 0's */
+  /* Masks of registers that may not be usable yet: an issue sets the bit of its destination unless the result is usable
+     in the next cycle, and a check that finds the register usable clears it. trax_tp.usable is only valid for registers
+     whose bit is set. */
   uint32_t busy_registers[TRAX_MAX_TPS_PER_TM];
 
   /* Masks of TPs. */
-  uint64_t ready;     /* have an instruction and usable operands and lack a unit, a bank or a place */
-  uint64_t executes_at_issue; /* the head executes at issue */
-  uint64_t no_text;           /* the head cannot be fetched */
+  uint64_t ready; /* holds an instruction with usable operands, which lacks a unit, a bank or a queue place */
+  uint64_t executes_at_issue;
+  uint64_t no_text;   /* the head is no text: its fetch faults */
   uint64_t busy;      /* busy_registers is not 0 */
-  uint64_t uncertain; /* a line of the burst may not be there */
-  uint64_t recheck;   /* hold an instruction since before the run was taken up: its operands are looked at again */
+  uint64_t uncertain; /* a line of the burst may not be resident */
+  uint64_t recheck;   /* held an instruction at the import, whose operands must be checked in the first cycle */
 
-  /* For each bank of the instruction caches, the TPs behind the latest winner. `simple_fetch`: 16 TPs share a cache of
-     at most 16 banks that let one into each; then the TPs of all caches are handled together (heads.h). Else the banks
-     of one cache after another's, each beginning a vector. */
+  /* Round-robin masks of the instruction caches' banks. `simple_fetch`: 16 TPs share a cache, which has at most 16
+     banks of one port; then fetch_rr_masks16 is used, and all caches are arbitrated together (masks.h). Otherwise
+     fetch_rr_masks has `vectors` vectors for each cache. */
   bool simple_fetch;
-  uint32_t vectors; /* of a cache */
+  uint32_t vectors;
   struct trax_fast_banks16 fetch_rr_masks16;
   trax_fast_lanes *fetch_rr_masks;
   uint32_t data_banks, data_bank_bits;
-  bool serial_hits;                     /* a hit of the data cache needs more than counting: latency, or order of use */
-  uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches] */
-  uint64_t *resident_lines;             /* [tm->icaches]: the same, bit by line, of programs of 64 lines; else 0 */
+  bool
+      serial_hits; /* hits of the data cache are served one by one, since they update the scoreboard or the LRU order */
+  uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches]: whether the cache holds each line of the program */
+  uint64_t *resident_lines;             /* [tm->icaches]: the same as bits, for programs of at most 64 lines; else 0 */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 
   struct trax_fast_units fp;      /* adders, multipliers */
-  struct trax_fast_units int_mul; /* integer multipliers, nothing */
+  struct trax_fast_units int_mul; /* integer multipliers; the second kind is not used */
   trax_fast_lanes data_bank_rr_masks[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_fast_refusal_counts refusal_counts;
 
-  /* What took a slow way (machine/fast_path.h): fetches that were looked up, hits of the data cache that were served
-     one by one, instructions that executed at issue. */
-  uint64_t looked_up, single_hits, at_issue;
+  uint64_t looked_up, single_hits, at_issue; /* counters of machine/fast_path.h */
 };
 
-/* What has happened to each small block of global memory during the run (blocks.c). */
+/* The state of a block of global memory in the run (blocks.c). */
 enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN = 2 };
 
 struct trax_fast_blocks {
-  /* [block]: LOADED by someone who ran ahead, or then or at once WRITTEN. Several TMs may note what they have loaded at
-     the same time; what is written is noted when none of them runs. */
+  /* [block]: 0, then LOADED by a burst, then WRITTEN; or WRITTEN at once. Several TMs may set LOADED at the same time.
+     WRITTEN is only set while no TM runs. */
   uint8_t *state;
   size_t bytes;
-  uint32_t input, input_bytes; /* trax_space.input while nobody has written there: all of it counts as loaded */
+  uint32_t input, input_bytes; /* trax_space.input until a first write there: all of it counts as LOADED */
 };
 
 static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, uint32_t address) {
@@ -173,7 +174,7 @@ static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, ui
          address - blocks->input < blocks->input_bytes;
 }
 
-/* Nobody has loaded the block, or everybody has come back. */
+/* Requires that no burst has loaded the block, or that all TPs have rolled back. */
 static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32_t address) {
   blocks->state[address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_WRITTEN;
   if (address - blocks->input < blocks->input_bytes)
@@ -184,16 +185,16 @@ struct trax_fast {
   struct trax_chip *chip;
   struct trax_fast_program program;
   struct trax_fast_tm *tm; /* [tms] */
-  unsigned burst;          /* most instructions of a burst; 1 for an observer, so that results are there at issue */
+  unsigned burst; /* limit of a burst's instructions; 1 with an observer, which must see the state at each issue */
   struct trax_fast_blocks blocks;
 };
 
-/* The index of a step's instruction, in trax_fast_program.inst. */
+/* Returns the index of a step's instruction in trax_fast_program.inst. */
 static inline uint32_t trax_fast_index(const struct trax_fast_tp *ftp, unsigned step) {
   return ftp->origin[ftp->segment[step]] + step;
 }
 
-/* Of the TP's head. */
+/* Returns the index of the TP's head. */
 static inline uint32_t trax_fast_head(const struct trax_fast_tm *ftm, unsigned tp) {
   return trax_fast_index(&ftm->tp[tp], ftm->heads.at[tp]);
 }
@@ -202,15 +203,15 @@ static inline const struct trax_fast_timing *trax_fast_head_timing(const struct 
   return &ftm->fast->program.timing[trax_fast_head(ftm, tp)];
 }
 
-/* In busy_registers. */
+/* Returns the bit of a register in busy_registers. */
 static inline uint32_t trax_fast_register_bit(unsigned rd) {
-  return (uint32_t)((uint64_t)1 << rd); /* 0 of TRAX_NO_REGISTER */
+  return (uint32_t)((uint64_t)1 << rd); /* 0 for TRAX_NO_REGISTER */
 }
 
 /* --- head.c --- */
-/* Finds the next head that must be looked at: it needs a register of busy_registers or, if the TP is among `uncertain`,
-   lies in another line than this one. `fetched`: this one has been looked at and fetched in this cycle; else a head
-   that was to be looked at before stays so, since lines may have gone. */
+/* Sets the next step that must be checked when it becomes the head: one that needs a register of busy_registers or, if
+   the TP is uncertain, is in another line than this head. `fetched`: this head has been checked and fetched in this
+   cycle; otherwise an earlier check stays scheduled, since lines may have been evicted. */
 void trax_fast_schedule_check(struct trax_fast_tm *ftm, unsigned tp, bool fetched);
 
 static inline void trax_fast_set_busy(struct trax_fast_tm *ftm, unsigned tp, unsigned rd) {
@@ -232,44 +233,47 @@ static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_f
 }
 
 /* --- burst.c --- */
-/* Executes instructions from resume on, as steps 0...; returns how many: `limit` at most, and as many if that is less
-   than TRAX_BURST and nothing stops it. */
+/* Executes instructions from `resume` on, as steps from 0 on, and returns their number: at most `limit`; exactly
+   `limit` if that is less than TRAX_BURST and no instruction ends the burst. */
 unsigned trax_fast_burst(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned tp, unsigned limit);
 
-/* Where each trax_op is executed, TRAX_OP_ILLEGAL stops, and, at TRAX_OP_COUNT, where a chunk is noted. */
+/* Returns the labels of all operations, by trax_op; TRAX_OP_ILLEGAL: the end of a burst; TRAX_OP_COUNT: the label that
+   records a chunk. */
 const void *const *trax_fast_operations(void);
 
 /* --- head.c --- */
-/* All steps are used up: the next burst. If nothing can run ahead, the head is executes_at_issue. */
+/* Executes the next burst. If its first instruction cannot be executed before its issue, the head executes at issue. */
 void trax_fast_refill(struct trax_fast_tm *ftm, unsigned tp);
-/* Brings the head to where tm.c and tp.c find it: inst, pc, address. */
+/* Writes the head to the TP's structure, which tm.c and tp.c use: inst, pc, address. */
 void trax_fast_export_head(struct trax_fast_tm *ftm, unsigned tp);
-/* The first `issued` of the `executed` steps of the TP's burst are over, and no others will be. */
+/* Ends the TP's burst of `executed` steps, of which the first `issued` were issued; the others count as not executed.
+ */
 void trax_fast_end_burst(struct trax_fast_tm *ftm, unsigned tp, unsigned executed, unsigned issued);
-/* A line has arrived in an instruction cache, and perhaps another one has gone. */
+/* Updates the resident lines after a line has arrived in an instruction cache, and perhaps evicted another one. */
 void trax_fast_line_arrived(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
 
 /* --- fast.c --- */
-/* Tells an observer who was refused something in the current cycle. */
+/* Notifies an observer of the refusals of the current cycle. */
 void trax_fast_notify_refusals(const struct trax_fast_tm *ftm, const struct trax_fast_refused *refused);
 
 /* --- cycle.c --- */
 void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
-void trax_fast_run_ahead(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
+void trax_fast_run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
 
 /* --- issue.c --- */
-/* Step 5; the heads of the `slow` ones are marked with TRAX_STEP_SLOW. */
+/* Step 5 for TPs with quick heads and TPs with slow heads (TRAX_STEP_SLOW). */
 void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
-/* A store or atomic increment is about to write to a global address. */
+/* To be called before a store or atomic increment writes to a global address: rolls back all TPs if a burst has loaded
+   from its block. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
-/* Every TP goes back to what it has issued, and is executes_at_issue. */
+/* Rolls every TP back to what it has issued; all heads execute at issue then. */
 void trax_fast_roll_back(struct trax_fast *fast);
 
-/* --- transfer.c: trax_fast_variant's functions of these names --- */
+/* --- transfer.c: export_state and import_state of trax_fast_variant --- */
 void trax_fast_export(struct trax_fast *fast);
 void trax_fast_import(struct trax_fast *fast, uint64_t t);
 

@@ -24,16 +24,17 @@ struct trax_icache {
   uint32_t number;
   struct trax_cache_tags tags;
   struct trax_icache_pending *pending; /* [tps], the first pending_count in use */
-  uint64_t evicted; /* the number of the line whose place the latest arrival took, plus 1; 0: the place was empty */
+  uint64_t evicted;                    /* the number of the line that the latest arrival replaced, + 1; 0: none */
 };
 
 bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);
 void trax_icache_destroy(struct trax_icache *icache);
 
-/* The TP's bank has let it look up the line of its pc: it holds its instruction, sleeps, or was refused. */
+/* Looks up the line of the pc of a TP that has won its bank. Then the TP holds its instruction, sleeps until the line's
+   arrival, or has been charged for the full memory queue. */
 void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t);
 
-/* A line arrives in cycle t: all who wait for it hold their instructions. */
+/* Handles the arrival of a line in cycle t: all TPs that wait for it hold their instructions. */
 void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t);
 
 #endif

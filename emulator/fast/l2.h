@@ -5,17 +5,17 @@
 #include "fast/cache_tags.h"
 #include "fast/memory.h"
 
-/* A miss register: a line on its way. */
+/* A miss register, which holds a line on its way. */
 #define TRAX_L2_MSHR_STATE(X, S)                                                                                       \
   X(S, struct trax_request, request, )      /* for the line */                                                         \
   X(S, uint64_t, arrival, )                 /* TRAX_NEVER until its transfer begins */                                 \
-  X(S, struct trax_request_list, waiters, ) /* requests of TMs, as long as the arrival is unknown */
+  X(S, struct trax_request_list, waiters, ) /* requests of TMs that wait for the line, until its arrival is known */
 struct trax_l2_mshr {
   TRAX_L2_MSHR_STATE(TRAX_FIELD, )
 };
 
 #define TRAX_L2_STATE(X, S)                                                                                            \
-  X(S, uint32_t, waiting, )                                     /* requests that wait for banks */                     \
+  X(S, uint32_t, waiting, )                                     /* number of requests that wait for banks */           \
   X(S, uint32_t, used_count, )                                  /* lines on their way */                               \
   X(S, struct trax_request_list, arriving, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */       \
   X(S, uint64_t, next_arrival, )                                /* TRAX_NEVER if none is */
@@ -29,15 +29,15 @@ struct trax_l2 {
   struct trax_waiting *bank; /* [banks] */
   struct trax_l2_mshr *mshr; /* [mshr_limit] */
   uint32_t *line;            /* [mshr_limit]: numbers of the lines on their way, used_count of them, and */
-  uint16_t *used;            /* the miss registers that hold them; behind those, the free ones */
+  uint16_t *used;            /* [mshr_limit]: their miss registers, then the free ones */
 };
 
 trax_status trax_l2_create(struct trax_l2 **l2, const struct trax_config *config, trax_error *error);
-void trax_l2_destroy(struct trax_l2 *l2); /* which may be NULL */
+void trax_l2_destroy(struct trax_l2 *l2); /* l2 may be NULL */
 
 /* The cache's part of step 3 of cycle t. */
 void trax_l2_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t);
-/* The transfer of a line has begun; it arrives in `arrival`. */
+/* Sets the arrival of a line whose transfer has begun. */
 void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,
                          uint64_t arrival);
 

@@ -210,8 +210,8 @@ static bool may_be_overtaken(const struct trax_memory *memory, const struct trax
   return false;
 }
 
-uint64_t trax_memory_run_ahead(struct trax_memory *memory, struct trax_tm *tms, unsigned count,
-                               struct trax_space *space, uint64_t t, uint64_t end) {
+uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tms, unsigned count,
+                                 struct trax_space *space, uint64_t t, uint64_t end) {
   while (memory->keeps_order) {
     const uint64_t free_cycle = memory->channel[0].free_from.cycle; /* the bus frees during it */
     if (free_cycle > t)

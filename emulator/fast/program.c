@@ -76,9 +76,9 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   program->step = calloc(total + TRAX_CHUNK, sizeof *program->step);
   program->timing = malloc(total * sizeof *program->timing);
   program->line = malloc(total * sizeof *program->line);
-  program->lines_ahead = calloc(total + 1, sizeof *program->lines_ahead);
+  program->chunk_lines = calloc(total + 1, sizeof *program->chunk_lines);
   if (!program->sections || !program->inst || !program->timing || !program->line || !program->step ||
-      !program->lines_ahead)
+      !program->chunk_lines)
     return trax_fail(error, "out of memory for %zu instructions", total);
   uint32_t index = 0, lines = 0;
   for (size_t i = 0; i < text->count; i++) {
@@ -99,7 +99,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   predecode(program, trax_text_at(text, 1), index, 0, TRAX_FAST_LINES, true); /* an odd address is never text */
   for (size_t i = total; i-- > 0;) {
     const bool goes_on = (i + 1) % TRAX_CHUNK && program->inst[i].op != TRAX_OP_JAL; /* jalr may have no effect */
-    program->lines_ahead[i] = (uint64_t)1 << program->line[i] % 64 | (goes_on ? program->lines_ahead[i + 1] : 0);
+    program->chunk_lines[i] = (uint64_t)1 << program->line[i] % 64 | (goes_on ? program->chunk_lines[i + 1] : 0);
   }
   return TRAX_OK;
 }
@@ -110,5 +110,5 @@ void trax_fast_program_destroy(struct trax_fast_program *program) {
   free(program->step);
   free(program->timing);
   free(program->line);
-  free(program->lines_ahead);
+  free(program->chunk_lines);
 }

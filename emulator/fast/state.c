@@ -28,7 +28,8 @@ FIELDS(trax_memory, TRAX_MEMORY_STATE);
 FIELDS(trax_l2_mshr, TRAX_L2_MSHR_STATE);
 FIELDS(trax_l2, TRAX_L2_STATE);
 
-/* Statistics have a list of their counters already. What it lacks stands here; the assertions say that this is all. */
+/* The statistics' counters have lists. These rows add the other fields; the assertions check that no field lacks a row.
+ */
 #define ROW(S, TYPE, NAME) {#TYPE, #NAME, offsetof(struct S, NAME), sizeof(((struct S *)0)->NAME)},
 #define TM_ROW(ID, ...) ROW(trax_tm_stats, uint64_t, ID)
 #define MEMORY_ROW(ID, ...) ROW(trax_memory_stats, uint64_t, ID)
@@ -53,19 +54,19 @@ _Static_assert(sizeof(struct trax_memory_stats) == (2 * TRAX_MAX_CHANNELS TRAX_M
 #define COUNT_OF(ARRAY) (sizeof(ARRAY) / sizeof *(ARRAY))
 #define VISIT(...) visitor->visit(visitor->context, &(struct trax_section){__VA_ARGS__})
 
-/* `COUNT` structures. */
+/* Visits an array of structures. */
 #define VISIT_ALL(NAME, POINTER, COUNT)                                                                                \
   VISIT(#NAME, NAME##_fields, COUNT_OF(NAME##_fields), POINTER, sizeof(struct NAME), COUNT)
 
-/* A structure that is only a field of others: its fields are part of their layout. */
+/* Visits no structure, but adds the fields of one that is only a field of others to the layout. */
 #define VISIT_NONE(NAME) VISIT_ALL(NAME, NULL, 0)
 
-/* An array of numbers. */
+/* Visits an array of numbers. */
 #define VISIT_NUMBERS(TYPE, POINTER, COUNT)                                                                            \
   VISIT(#POINTER, &(const struct trax_field){#TYPE, "", 0, sizeof(TYPE)}, 1, 1 ? (POINTER) : (TYPE *)NULL,             \
         sizeof(TYPE), COUNT)
 
-/* What follows from the rest. */
+/* Visits data that follow from the rest: they are part of a snapshot, but not of a checkpoint. */
 #define VISIT_DERIVED(POINTER, COUNT) VISIT(#POINTER, NULL, 0, POINTER, sizeof *(POINTER), COUNT)
 
 static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *tags) {
@@ -100,7 +101,7 @@ static void visit_dcache(const struct visitor *visitor, struct trax_dcache *dcac
 }
 
 static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
-  VISIT_ALL(trax_tm, tm, 1); /* the structures in it follow, since they have lists of their own */
+  VISIT_ALL(trax_tm, tm, 1); /* the structures in it have field lists of their own and are visited below */
   VISIT_ALL(trax_tp, tm->tp, tm->tps);
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     visit_unit(visitor, &tm->unit[i]);
@@ -132,7 +133,8 @@ static void visit_memory(const struct visitor *visitor, struct trax_memory *memo
     visit_l2(visitor, memory->l2);
 }
 
-/* The fast engine's own form of a TM. Its program, and what it knows of blocks of memory, hold for every cycle. */
+/* The fast engine's own form of a TM. The program and the states of blocks are not visited: they stay valid after a
+   roll back. */
 static void visit_fast_tm(const struct visitor *visitor, struct trax_fast_tm *ftm) {
   const struct trax_tm *tm = ftm->tm;
   VISIT_DERIVED(ftm, 1);

@@ -1,6 +1,6 @@
-/* A state that was read (fast/state.h): nothing in it is believed. What is a place in a structure lies in it, what is
-   in a list is in it once, and whoever sleeps will be woken. Registers, local memory, tags and counts may be anything:
-   the program may have made them so. */
+/* Checks a state that was read from a file (fast/state.h), which may be forged: indices must be within their arrays, an
+   element must be in one list at most, and every sleeping TP must have an event that wakes it. Registers, local memory,
+   tags and counts may have any value, since a program could have produced it. */
 #include "fast/state.h"
 
 #include "fast/l2.h"
@@ -10,18 +10,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define UNIT_LATENCIES 65536u     /* cycles: more than those of units and caches together */
-#define MEMORY_LATENCIES 1048576u /* and of everything besides, without the transfers */
-#define MOST_BYTES 4096u          /* of a transfer */
+#define UNIT_LATENCIES 65536u     /* cycles; more than the latencies of units and caches together */
+#define MEMORY_LATENCIES 1048576u /* cycles; more than all latencies together, without the transfers */
+#define MOST_BYTES 4096u          /* limit of a transfer */
 #define LAST_CYCLE ((uint64_t)1 << 62)
 
 struct checker {
   struct trax_chip *chip;
-  uint64_t t, farthest; /* the cycle in which all requests will have completed */
+  uint64_t t, farthest; /* farthest: a cycle in which all requests must have completed */
   char *text;           /* [128] */
   bool failed;
-  /* The requests of all TMs, [tm * depth + place], and the lines of the second-level cache: how often each is in a list
-     of those that wait for a channel or a bank. */
+  /* [tm * depth + place] and [miss register of the second-level cache]: how often each request is in a list of requests
+     that wait for a channel or a bank. */
   uint8_t *listed, *lines_listed;
 };
 
@@ -36,7 +36,7 @@ __attribute__((format(printf, 3, 4))) static bool expect(struct checker *checker
   return false;
 }
 
-/* What a unit or a cache has under way. */
+/* Whether a cycle is in reach of the latencies of units and caches. */
 static bool is_soon(const struct checker *checker, uint64_t cycle) {
   return cycle <= checker->t + UNIT_LATENCIES;
 }
@@ -54,11 +54,11 @@ static void check_arbiters(struct checker *checker, const trax_arbiter *arbiter,
 
 /* --- a TM --- */
 
-/* Requests in the queue by what they are for. */
+/* What the requests in a TM's queue are for. */
 struct wanted {
   uint32_t data_lines, instruction_lines;
   uint16_t writes[TRAX_MAX_TPS_PER_TM], increments[TRAX_MAX_TPS_PER_TM];
-  uint64_t registers[TRAX_MAX_TPS_PER_TM]; /* that a request or a line will make usable, TRAX_NO_REGISTER among them */
+  uint64_t registers[TRAX_MAX_TPS_PER_TM]; /* masks of registers that arrivals will make usable, TRAX_NO_REGISTER too */
 };
 
 static uint32_t find_mshr(const struct trax_dcache *dcache, uint32_t line) {
@@ -191,7 +191,7 @@ static void check_dcache(struct checker *checker, const struct trax_tm *tm, stru
   }
 }
 
-/* Returns those who wait for instructions. */
+/* Returns the TPs that wait for lines of instructions. */
 static uint64_t check_icaches(struct checker *checker, const struct trax_tm *tm, const struct wanted *wanted) {
   uint64_t waiting = 0;
   uint32_t lines = 0;
@@ -217,7 +217,7 @@ static uint64_t check_icaches(struct checker *checker, const struct trax_tm *tm,
   return waiting;
 }
 
-/* Returns those in the wheel. */
+/* Returns the TPs in the wheel. */
 static uint64_t check_wheel(struct checker *checker, const struct trax_tm *tm) {
   uint64_t sleepers = 0;
   for (unsigned slot = 0; slot < TRAX_WHEEL; slot++) {
@@ -308,8 +308,8 @@ static void check_tm(struct checker *checker, struct trax_tm *tm) {
 
 /* --- beyond the TMs --- */
 
-/* Of a list of requests that wait: notes each; returns how many. `lines`: it may have lines of the second-level cache.
- */
+/* Checks a list of waiting requests, marks each, and returns their number. `lines`: requests of the second-level cache
+   are allowed. */
 static uint32_t check_list(struct checker *checker, const struct trax_request_list *list, bool lines,
                            const char *which) {
   const struct trax_memory *memory = &checker->chip->memory;
@@ -337,7 +337,7 @@ static uint32_t check_list(struct checker *checker, const struct trax_request_li
   return count;
 }
 
-/* Returns how many wait. */
+/* Returns the number of waiting requests. */
 static uint32_t check_waiting(struct checker *checker, const struct trax_waiting *waiting, const char *which) {
   uint32_t count = 0;
   check_arbiters(checker, &waiting->arbiter, 1, which);
@@ -388,13 +388,15 @@ static void check_l2(struct checker *checker, const struct trax_l2 *l2) {
   }
 }
 
-/* Whether lines that come have an arrival, those that wait for a channel none, and others are in no list. */
+/* Checks that arriving lines have an arrival, that each used miss register is in one list, and that free ones are in
+ * none.
+ */
 static void check_lines_listed(struct checker *checker, const struct trax_l2 *l2) {
   for (uint32_t i = 0; i < l2->mshr_limit; i++)
     expect(checker, checker->lines_listed[l2->used[i]] == (i < l2->used_count),
            "second-level cache: miss register %u is in no list, or without a line", l2->used[i]);
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;) { /* a list of ids that are known */
+    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;) { /* check_list has checked the ids */
       if (!expect(checker, id >= TRAX_LINE_REQUEST && l2->mshr[id - TRAX_LINE_REQUEST].arrival != TRAX_NEVER,
                   "coming line: request 0x%" PRIx32, id))
         return;
@@ -433,7 +435,7 @@ static void check_memory(struct checker *checker) {
   }
 }
 
-/* When all transfers that are under way or wait will be over, one after the other; of forged sizes some cycle. */
+/* Returns a cycle in which all transfers must be over, if they were made one after the other. */
 static uint64_t farthest_cycle(const struct trax_chip *chip, uint64_t t) {
   const struct trax_memory *memory = &chip->memory;
   uint64_t transfers = memory->l2 ? memory->l2->mshr_limit : 0;

@@ -10,7 +10,7 @@
 struct trax_chip;
 struct trax_fast;
 
-enum { TRAX_FAST_INTERLEAVED = 2 }; /* the most TMs that run_ahead interleaves */
+enum { TRAX_FAST_INTERLEAVED = 2 }; /* the most TMs that run_epoch interleaves */
 
 struct trax_fast_variant {
   /* Creates chip->fast. */
@@ -20,7 +20,7 @@ struct trax_fast_variant {
   void (*cycle)(struct trax_fast *fast, uint32_t tm, uint64_t t);
   /* Simulates an epoch (epochs.h): all cycles before `end` of the `count` TMs from `first` on, at most
      TRAX_FAST_INTERLEAVED. A TM that stops or faults is left at that cycle. */
-  void (*run_ahead)(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
+  void (*run_epoch)(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
   /* Adds the instructions executed since the latest call to the TMs' statistics, with those that have not been issued.
    */
   void (*collect)(struct trax_fast *fast);

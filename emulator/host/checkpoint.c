@@ -1,11 +1,11 @@
-/* A checkpoint's file, all numbers little endian:
+/* The file format of a checkpoint, with all numbers little endian:
 
      struct header
      deflate stream (zlib) of: the state's layout (engine/layout.h); the fields of its sections (machine/section.h);
-     then pages of memory that are not as they were before cycle 0, each with its number in 4 bytes before it
+     then the pages of memory that differ from their contents before cycle 0, each after its number in 4 bytes
 
-   Before cycle 0, memory holds the program and its buffers. So a checkpoint needs both again, and is only taken up by a
-   machine that is the same then: the header has a digest of configuration and memory. */
+   Before cycle 0, memory holds the program and its buffers. So a run can only be resumed with the same program, buffers
+   and configuration: the header has a digest of configuration and memory. */
 #include "host/checkpoint.h"
 
 #include "engine/layout.h"
@@ -21,11 +21,11 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 4, LEVEL = 1, MOST_EXPANSION = 1100 /* of deflate */ };
+enum { PAGE = 4096, VERSION = 4, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
 
 static const char magic[8] = "TRAXckpt";
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file is the host's bytes");
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file has the host's byte order");
 
 struct header {
   char magic[8];
@@ -34,9 +34,9 @@ struct header {
   uint64_t cycle;      /* the next one */
   uint64_t state;      /* bytes */
   uint64_t compressed; /* bytes that follow */
-  uint64_t run[2];     /* digest of what the run began with */
+  uint64_t run[2];     /* digest of configuration, segments, entry and memory before cycle 0 */
   uint64_t layouts;    /* entries */
-  uint64_t body[2];    /* digest of the bytes that follow and of the header, with zero here */
+  uint64_t body[2];    /* digest of the header, with zero here, and of the bytes that follow */
 };
 
 struct trax_checkpoint {
@@ -44,16 +44,16 @@ struct trax_checkpoint {
   struct trax_checkpoint_options options;
   struct trax_watch watch;
   XXH128_hash_t run;
-  uint64_t *pages;  /* [size / PAGE]: hashes of what they held before cycle 0 */
-  uint64_t written; /* the latest one's cycle; TRAX_NEVER: none */
-  /* Of the file to resume from. */
+  uint64_t *pages;  /* [size / PAGE]: hashes of their contents before cycle 0 */
+  uint64_t written; /* the cycle of the latest checkpoint; TRAX_NEVER: none */
+  /* The contents of the file to resume from. */
   struct header header;
   uint8_t *content;
   bool failed;
-  trax_error error; /* if so */
+  trax_error error; /* valid if failed */
 };
 
-/* --- what a run begins with --- */
+/* --- the state before cycle 0 --- */
 
 static bool is_zero(const uint8_t *page) {
   return page[0] == 0 && memcmp(page, page + 1, PAGE - 1) == 0;
@@ -63,7 +63,7 @@ static uint64_t hash_page(const uint8_t *page) {
   return is_zero(page) ? 0 : XXH3_64bits(page, PAGE);
 }
 
-/* Calls visit for the pages that the host may have bytes for, with their numbers. What was never touched is zero. */
+/* Calls visit, with their numbers, for all pages of memory that the host has allocated. All others are zero. */
 static void visit_pages(const struct trax_space *space,
                         void (*visit)(void *context, uint32_t number, const uint8_t *page), void *context) {
   enum { BATCH = 1024, PRESENT = 63, SWAPPED = 62 };
@@ -84,7 +84,7 @@ static void visit_pages(const struct trax_space *space,
     close(map);
 }
 
-static void note_page(void *context, uint32_t number, const uint8_t *page) {
+static void record_page(void *context, uint32_t number, const uint8_t *page) {
   struct trax_checkpoint *checkpoint = context;
   checkpoint->pages[number] = hash_page(page);
 }
@@ -170,7 +170,7 @@ static trax_status write_file(const char *path, const struct header *header, con
   trax_output output;
   if (trax_output_open(&output, path, error) != TRAX_OK)
     return TRAX_ERROR;
-  fwrite(header, sizeof *header, 1, output.file); /* a failure shows again when the file is closed */
+  fwrite(header, sizeof *header, 1, output.file); /* trax_output_commit reports a failure */
   fwrite(body, 1, header->compressed, output.file);
   return trax_output_commit(&output, error);
 }
@@ -181,7 +181,7 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
   trax_run_export(run);
   trax_run_settle(run, t);
   if (run->options->output)
-    fflush(run->options->output); /* it is of the time before */
+    fflush(run->options->output); /* the output so far must not be lost or repeated when the run is resumed */
   struct trax_layout layouts[TRAX_MOST_LAYOUTS];
   struct header header = {.version = VERSION, .cycle = t, .layouts = trax_layout_of(run->engine, run->chip, layouts)};
   add(&content, layouts, header.layouts * sizeof *layouts);
@@ -226,7 +226,7 @@ static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint6
   return TRAX_INTERRUPTED;
 }
 
-/* Whoever stops a run may want to go on with it. */
+/* A run that was interrupted or stopped can be resumed from its last cycle. */
 static void end(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
   if ((status == TRAX_INTERRUPTED || status == TRAX_STUCK) && !checkpoint->failed && checkpoint->written != t)
@@ -239,7 +239,7 @@ static trax_status refuse(const char *path, const char *why, trax_error *error) 
   return trax_fail(error, "%s: %s", path, why);
 }
 
-/* The header, and behind it in input->bytes the compressed bytes, as they were written. */
+/* Reads the header, and the compressed bytes after it into input->bytes. Errors: damaged, or of another version. */
 static trax_status read_file(trax_input *input, struct header *header, trax_error *error) {
   trax_status status = trax_input_read(input, sizeof *header, error);
   if (status != TRAX_OK)
@@ -259,7 +259,7 @@ static trax_status read_file(trax_input *input, struct header *header, trax_erro
   const XXH128_hash_t digest = digest_file(*header, input->bytes + sizeof *header);
   return digest.low64 == header->body[0] && digest.high64 == header->body[1]
              ? TRAX_OK
-             : refuse(input->path, "damaged: its digest is another one", error);
+             : refuse(input->path, "damaged: its digest does not match", error);
 }
 
 static trax_status expand_file(struct trax_checkpoint *checkpoint, const trax_input *input, trax_error *error) {
@@ -269,7 +269,7 @@ static trax_status expand_file(struct trax_checkpoint *checkpoint, const trax_in
     return refuse(path, "a checkpoint of another program, machine, or buffer", error);
   if (header->pages > checkpoint->machine->space.size / PAGE || header->layouts > TRAX_MOST_LAYOUTS ||
       header->state / MOST_EXPANSION > header->compressed)
-    return refuse(path, "damaged: it cannot hold as much as it says", error);
+    return refuse(path, "damaged: it is too short for the sizes in its header", error);
   uLongf size = header->layouts * sizeof(struct trax_layout) + header->state +
                 (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
   const uLongf expected = size;
@@ -313,7 +313,7 @@ static void take_section(void *context, const struct trax_section *section) {
       take(context, (uint8_t *)section->bytes + section->size * i + section->fields[j].offset, section->fields[j].size);
 }
 
-/* Another build's layout is refused, with the section where it begins to differ. */
+/* Refuses the layout of another build, with the first section that differs. */
 static trax_status check_layouts(const struct trax_checkpoint *checkpoint, struct trax_run *run, trax_error *error) {
   struct trax_layout ours[TRAX_MOST_LAYOUTS];
   const size_t count = trax_layout_of(run->engine, run->chip, ours);
@@ -327,7 +327,7 @@ static trax_status check_layouts(const struct trax_checkpoint *checkpoint, struc
   return TRAX_OK;
 }
 
-/* For trax_machine.prepare. */
+/* Restores the state; called by trax_machine.prepare. */
 static trax_status resume(void *context, struct trax_run *run, trax_error *error) {
   struct trax_checkpoint *checkpoint = context;
   const struct header *header = &checkpoint->header;
@@ -335,7 +335,7 @@ static trax_status resume(void *context, struct trax_run *run, trax_error *error
   char wrong[128];
   if (check_layouts(checkpoint, run, error))
     return TRAX_ERROR;
-  trax_run_export(run); /* nothing has run ahead */
+  trax_run_export(run); /* no bursts have been executed before their issue after this */
   run->engine->visit(run->chip, take_section, &reader);
   if (reader.failed || reader.left)
     return refuse(checkpoint->options.resume, "its state is of another size", error);
@@ -374,7 +374,7 @@ trax_status trax_checkpoint_begin(struct trax_checkpoint **result, trax_machine 
   checkpoint->options = *options;
   checkpoint->pages = pages;
   checkpoint->written = TRAX_NEVER;
-  visit_pages(&machine->space, note_page, checkpoint);
+  visit_pages(&machine->space, record_page, checkpoint);
   checkpoint->run = digest_run(checkpoint);
   if (options->resume && read_checkpoint(checkpoint, error)) {
     trax_checkpoint_end(checkpoint, NULL);

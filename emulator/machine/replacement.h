@@ -1,12 +1,13 @@
-/* Replacement policies: which place in its set an arriving line takes (docs/timing.md, "Data cache"). Configurations,
-   their errors and --help-config come from these rows; what a policy does stands in fast/cache_tags.h and, again,
-   in reference/lines.c. */
+/* Replacement policies, which choose the place of an arriving line in its set (docs/timing.md, "Data cache").
+   Configurations, their errors and --help-config follow from these rows. fast/cache_tags.h and reference/lines.c
+   implement each policy independently. */
 #ifndef TRAX_MACHINE_REPLACEMENT_H
 #define TRAX_MACHINE_REPLACEMENT_H
 
 #include <stdbool.h>
 
-/* A row X(...) for each policy: identifier; word; whether it matters which lines are used; the place. */
+/* A row X(...) for each policy: identifier; its word in a configuration; whether it depends on the uses of lines; a
+   description of the place. */
 /* clang-format off */
 #define TRAX_REPLACEMENTS(X)                                                                                                               \
   X(FIFO, "fifo", false, "first in, first out: a pointer of the set shows the place and moves on, modulo the ways")                        \

@@ -1,7 +1,7 @@
-/* The state of an engine, as sections: what a run can go back to, and what a checkpoint has.
+/* The state of an engine as sections, for rollback and checkpoints.
 
-   A structure has one list of the fields that the rest of a run depends on. The list makes the definition of the
-   fields, and the table that a section of such structures points to:
+   A structure has one list of the fields that the rest of a run depends on. The list expands to the definition of the
+   fields and to the table of fields of its sections:
 
      #define TRAX_THING_STATE(X, S) X(S, uint32_t, count, ) X(S, uint64_t, since, [4])
      struct trax_thing { TRAX_THING_STATE(TRAX_FIELD, ) uint32_t size; };
@@ -15,14 +15,14 @@
 #include <stdint.h>
 
 struct trax_field {
-  const char *type, *name; /* as in the source; an element of an array of numbers has no name */
+  const char *type, *name; /* as in the source; the name is "" for an array of numbers */
   size_t offset, size;     /* bytes */
 };
 
 /* An array of structures or numbers. */
 struct trax_section {
-  const char *name;                /* of the structure, or of the pointer to it */
-  const struct trax_field *fields; /* [field_count]: those that a checkpoint has; none of what follows from the rest */
+  const char *name;                /* of the structure, or of the pointer to the numbers */
+  const struct trax_field *fields; /* [field_count]: those that a checkpoint stores; none if the data are derived */
   size_t field_count;
   void *bytes; /* [count][size] */
   size_t size, count;

@@ -86,7 +86,7 @@ static void find_state(const struct trax_chip *chip, struct trax_machine *machin
                                 program->step,
                                 program->timing,
                                 program->line,
-                                program->lines_ahead};
+                                program->chunk_lines};
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
     leave_out(others[i]);
   blocks[block_count++] = (struct block){(uint8_t *)&machine->stats.memory, sizeof machine->stats.memory};
