@@ -185,7 +185,7 @@ static void print(const struct order *order, FILE *out) {
   print_instruction(order, "stored at", order->store_pc, out);
   print_who(order, "by thread", writer, cycle_of(order->store), out);
   if (order->release == NOT_YET)
-    fprintf(out, "  %-*sa `fence w` of thread %u behind its store\n", LABEL, "missing", writer);
+    fprintf(out, "  %-*sa `fence w` of thread %u after its store\n", LABEL, "missing", writer);
   else
     fprintf(out,
             "  %-*sa `fence r` of thread %u since thread %u's `fence w` in cycle %" PRIu64

@@ -21,7 +21,7 @@ struct trax_profile_thread {
 
 static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint32_t context, uint32_t index,
                                              uint32_t *record) {
-  static struct trax_profile_counts nobodys;
+  static struct trax_profile_counts discarded;
   uint32_t *const latest = &profile->latest_of[index];
   if (*latest && profile->records[*latest - 1].context == context) {
     *record = *latest - 1;
@@ -32,7 +32,7 @@ static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint3
                  sizeof *profile->records)) {
     profile->out_of_memory = true;
     *record = UINT32_MAX;
-    return &nobodys;
+    return &discarded;
   }
   if (*record == profile->record_count)
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};

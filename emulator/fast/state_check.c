@@ -103,7 +103,7 @@ static void check_request(struct checker *checker, const struct trax_tm *tm, uin
     wanted->instruction_lines++;
     expect(checker,
            find_pending(&tm->icache[request->icache], request->line) < tm->icache[request->icache].pending_count,
-           "TM %u, request %u: nobody waits for instruction line %" PRIu32, tm->number, place, request->line);
+           "TM %u, request %u: no TP waits for instruction line %" PRIu32, tm->number, place, request->line);
     break;
   case TRAX_REQUEST_DATA_LINE:
     wanted->data_lines++;

@@ -86,7 +86,7 @@ typedef enum trax_cause {
   X(l2_passed, "l2.passed", "requests", "loads past the data cache that found no line in the second-level cache")      \
   X(l2_store_hits, "l2.store_hits", "requests", "writes and atomic increments that updated a line in place")           \
   X(l2_store_misses, "l2.store_misses", "requests", "writes and atomic increments that found no line to update")       \
-  X(l2_refused, "l2.refused", "cycles", "cycles a bank could serve nobody for want of a miss register; sum of all")    \
+  X(l2_refused, "l2.refused", "cycles", "cycles in which a bank refused for want of a miss register; sum of all")      \
   X(l2_served_bytes, "l2.served_bytes", "bytes", "read by the TMs through hits and merged reads")                      \
   X(l2_read_bytes, "l2.read_bytes", "bytes", "lines read into the second-level cache from off-chip memory")
 

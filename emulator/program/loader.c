@@ -109,7 +109,7 @@ static trax_status check_fit(const struct trax_machine *machine, const trax_imag
   const unsigned long long stacks = stacks_bytes(machine, *stack_bytes);
   if (stacks > memory - end)
     return trax_fail(error,
-                     "%s: the threads' stacks take %llu bytes, %u each, but only %llu are free behind the program: "
+                     "%s: the threads' stacks take %llu bytes, %u each, but only %llu are free after the program: "
                      "raise memory.size_mib or lower -mstack-size",
                      path, stacks, *stack_bytes, memory - end);
   return TRAX_OK;

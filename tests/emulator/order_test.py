@@ -55,7 +55,7 @@ def expect_report(what, result, source, missing, loads="loads", stores="loads", 
     check(error.endswith("trax-sim: error: the program relies on more order than the machine promises (--check-order)\n"), what, error)
 
 
-NO_RELEASE = r"missing +a `fence w` of thread 0 behind its store\n"
+NO_RELEASE = r"missing +a `fence w` of thread 0 after its store\n"
 NO_ACQUIRE = r"missing +a `fence r` of thread \d+ since thread 0's `fence w` in cycle \d+; TM 1 may hold the line since cycle \d+\n"
 
 
