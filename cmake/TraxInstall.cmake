@@ -16,8 +16,9 @@ install(FILES ${runtime}/crt0.o ${runtime}/crt0-global-stack.o ${runtime}/libc.a
 
 # The emulator as a library, for CMake and for pkg-config.
 install(TARGETS traxemu traxisa traxbase ARCHIVE DESTINATION lib)
-install(FILES ${PROJECT_SOURCE_DIR}/emulator/include/trax/emulator.h ${PROJECT_SOURCE_DIR}/emulator/base/include/trax/processors.h
-              ${PROJECT_SOURCE_DIR}/emulator/base/include/trax/status.h
+set(headers ${PROJECT_SOURCE_DIR}/emulator/include/trax)
+set(base ${PROJECT_SOURCE_DIR}/emulator/base/include/trax)
+install(FILES ${headers}/emulator.h ${headers}/explain.h ${headers}/manifest.h ${base}/files.h ${base}/processors.h ${base}/status.h
         DESTINATION include/trax)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/traxConfig.cmake DESTINATION lib/cmake/trax)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/traxConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)

@@ -182,7 +182,20 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
   }
 }
 
+/* What every command has: not in the table, since it is for those who package it. */
+static bool show_page(const trax_command *command, const char *name) {
+  if (strcmp(name, "help-man") == 0)
+    trax_command_man(command, stdout);
+  else if (strcmp(name, "help-completion") == 0)
+    trax_command_completion(command, stdout);
+  else
+    return false;
+  return true;
+}
+
 static trax_parsed parse_name(struct parser *parser, const char *text, trax_error *error) {
+  if (show_page(parser->command, text))
+    return TRAX_PARSED_DONE;
   const char *equals = strchr(text, '=');
   const size_t length = equals ? (size_t)(equals - text) : strlen(text);
   const trax_option *option = find_name(parser->command, text, length, error);
@@ -252,7 +265,9 @@ void trax_command_help(const trax_command *command, FILE *out) {
   fputs("\n", out);
   const bool letters = has_letters(command);
   for (const trax_option *row = command->rows; row->name; row++) {
-    if (row->instead)
+    if (row->kind == TRAX_OPTION_HEADING)
+      fprintf(out, "%s%s:\n", row == command->rows ? "" : "\n", row->meaning);
+    if (row->kind == TRAX_OPTION_HEADING || row->instead)
       continue;
     char letter[] = {'-', row->letter, ',', ' ', '\0'};
     const char *between = !row->argument || is_optional(row) ? "" : " ";

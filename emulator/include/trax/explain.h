@@ -10,6 +10,10 @@
 
 #include "trax/emulator.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct trax_explain;
 
 struct trax_explain_options {
@@ -67,4 +71,7 @@ struct trax_item_cost {
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

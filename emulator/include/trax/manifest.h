@@ -6,6 +6,10 @@
 #include "trax/emulator.h"
 #include "trax/files.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define TRAX_MANIFEST_NAME "manifest.json"
 #define TRAX_MANIFEST_PROGRAM "program.elf"
 
@@ -51,4 +55,7 @@ trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *
 /* Loads the program and binds the buffers, if their files have the sizes and hashes that the manifest says. */
 trax_status trax_manifest_load(const trax_manifest *manifest, trax_machine *machine, trax_error *error);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

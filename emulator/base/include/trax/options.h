@@ -26,7 +26,8 @@ typedef enum trax_option_kind {
   TRAX_OPTION_TEXT,     /* a const char *, into the command line */
   TRAX_OPTION_UNSIGNED, /* an unsigned number from least to most, or, if there are choices, the index of one */
   TRAX_OPTION_UNSIGNED64,
-  TRAX_OPTION_SHOW, /* prints, and ends the program: this one by show() */
+  TRAX_OPTION_HEADING, /* no option: its meaning stands above the group of those that follow */
+  TRAX_OPTION_SHOW,    /* prints, and ends the program: this one by show() */
   TRAX_OPTION_SHOW_HELP,
   TRAX_OPTION_SHOW_VERSION
 } trax_option_kind;
@@ -61,6 +62,10 @@ struct trax_option {
       unsigned: TRAX_OPTION_UNSIGNED,                                                                                  \
       uint64_t: TRAX_OPTION_UNSIGNED64)
 
+/* Begins a group of options in --help, the man page and nowhere else. */
+#define TRAX_OPTION_GROUP(title)                                                                                       \
+  { .name = "", .meaning = title, .kind = TRAX_OPTION_HEADING }
+
 #define TRAX_OPTION_HELP(key)                                                                                          \
   { .name = "help", .letter = key, .meaning = "print this, and end", .kind = TRAX_OPTION_SHOW_HELP }
 #define TRAX_OPTION_VERSION                                                                                            \
@@ -87,6 +92,10 @@ typedef enum trax_parsed {
 trax_parsed trax_command_parse(const trax_command *command, void *target, int *count, char **arguments,
                                trax_error *error);
 void trax_command_help(const trax_command *command, FILE *out);
+/* Every command has the options --help-man and --help-completion, too, which print these: its page for man(1), and a
+   script that completes its options in bash. */
+void trax_command_man(const trax_command *command, FILE *out);
+void trax_command_completion(const trax_command *command, FILE *out);
 
 /* Adds the files that the options name to the list. */
 void trax_command_files(const trax_command *command, const void *target, trax_files *files);
