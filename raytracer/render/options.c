@@ -19,10 +19,20 @@ _Static_assert(TRAX_TEXTURE_MAX_LOG2 == 12 && TRAX_SCENE_MAX_DEPTH == 62 && TRAX
 
 /* clang-format off */
 static const trax_option rows[] = {
+    TRAX_OPTION_GROUP("Picture"),
     {"output", 'o', .argument = "FILE", FIELD(output),
      .meaning = "the picture: linear floats for .pfm and .exr, a PNG for .png"},
     {"size", .argument = "WxH", PARSED(take_size, frame),
      .meaning = "its size in pixels, 1x1 to 16384x16384 (default 1280x720)"},
+    {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
+     .meaning = "rays from the eye through every pixel, 1 to 4096 (default 1)"},
+    {"float", FIELD(frame.floats), .meaning = "the program computes linear floats; the picture is made of them here"},
+    {"frames", .argument = "N", NUMBER(frames, 1, 9999),
+     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on"},
+    {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
+     .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
+                "R + 256 G + 65536 B; found natively, with --engine embree by Embree"},
+    TRAX_OPTION_GROUP("View"),
     {"view", .argument = "FILE|NAME", FIELD(view),
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"
                 "without it the whole scene is framed; file:NAME is a camera of a glTF file, file: its\n"
@@ -37,14 +47,8 @@ static const trax_option rows[] = {
     {"orbit", .argument = "A[,E]", PARSED(take_orbit, camera.orbit),
      .meaning = "turns the eye by A degrees around the point that the view looks at, or the middle of the\n"
                 "scene, and raises it by E degrees"},
-    {"frames", .argument = "N", NUMBER(frames, 1, 9999),
-     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on"},
     {"write-view", .argument = "FILE", OUTPUT(write_view, NULL), .meaning = "writes the view as a file"},
-    {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
-     .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
-                "R + 256 G + 65536 B; found natively, with --engine embree by Embree"},
-    {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
-     .meaning = "rays from the eye through every pixel, 1 to 4096 (default 1)"},
+    TRAX_OPTION_GROUP("Meshes"),
     {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import),
      .meaning = "of the meshes: lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or\n"
                 "emit:R,G,B, for the material NAME or for all (repeatable)"},
@@ -65,25 +69,50 @@ static const trax_option rows[] = {
     {"normals", .argument = "WHICH", PARSED(trax_take_normals, build),
      .meaning = "file: --smooth by the meshes' own normals, computed where there are none (default);\n"
                 "smooth: by computed ones; flat: no --smooth"},
+    TRAX_OPTION_GROUP("Shading"),
     {"paths", .argument = "DEPTH", NUMBER(frame.paths, 1, TRAX_RENDER_MAX_DEPTH),
      .meaning = "path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples"},
     {"seed", .argument = "N", NUMBER(frame.seed, 0, UINT32_MAX),
      .meaning = "of the paths' random numbers, 0 to 4294967295 (default 0)"},
-    {"float", FIELD(frame.floats), .meaning = "the program computes linear floats; the picture is made of them here"},
-    {"one-sided", FIELD(frame.one_sided),
-     .meaning = "triangles are seen from the side where they are counterclockwise, and glass from both"},
     {"smooth", FIELD(build.smooth),
      .meaning = "shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
                 "(of a scene file: by the normals in it, made by trax-scene --smooth)"},
+    {"one-sided", FIELD(frame.one_sided),
+     .meaning = "triangles are seen from the side where they are counterclockwise, and glass from both"},
     {"no-shadows", FIELD(frame.shadows), .off = true, .meaning = "the light shines through everything"},
     {"ambient", .argument = "X", PARSED(take_fraction, frame.ambient),
      .meaning = "light everywhere, 0 to 1 (default 0.12)"},
     {"background", .argument = "RRGGBB", PARSED(take_colour, frame.background),
      .meaning = "colour where there is nothing, hexadecimal (default 98a8b8)"},
+    TRAX_OPTION_GROUP("Machine"),
     {"config", .argument = "CHIP|FILE", FIELD(config),
      .meaning = "the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)"},
     {"set", .argument = "KEY=VALUE", .parse = take_setting,
      .meaning = "changes one value of the configuration (trax-sim --help-config lists them)"},
+    {"engine", .argument = "WHICH", FIELD(engine), .choices = engines,
+     .meaning = "fast (default): the emulator; reference: its reference engine, the same cycles, slowly;\n"
+                "native: the same program compiled for this computer; embree: the reference picture"},
+    {"threads", .argument = "N", NUMBER(threads, 1, 4096),
+     .meaning = "host threads of engines fast and native (default: all processors)"},
+    TRAX_OPTION_GROUP("Program"),
+    {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
+     .meaning = "another program for the TPs than the one that comes with trax"},
+    {"no-specialise", FIELD(no_specialise),
+     .meaning = "the program that can render every picture, instead of one compiled for this one"},
+    {"cache", .argument = "DIR", FIELD(cache),
+     .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
+                "or .cache/trax/programs in the home directory)"},
+    {"triangle", .argument = "METHOD", FIELD(frame.method.triangle), .choices = trax_triangle_names,
+     .meaning = "watertight (default) or moller-trumbore, which misses some rays between triangles"},
+    {"queues", .argument = "N", .parse = take_queues,
+     .meaning = "how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
+                "threads then share tiles and the cache's lines"},
+    {"fast-math", FIELD(frame.method.fast_math),
+     .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
+    {"stack", .argument = "N", NUMBER(frame.method.stack, 1, TRAX_SCENE_MAX_DEPTH),
+     .meaning = "compiles the program with N entries on the stack of the traversal, 1 to 62; what it has no\n"
+                "room for it finds again (default: as many as the tree is deep, 8 if deeper than 32)"},
+    TRAX_OPTION_GROUP("What the run took"),
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile, NULL),
      .meaning = "writes thread-cycles by function and by source line"},
@@ -95,11 +124,19 @@ static const trax_option rows[] = {
      .meaning = "the same in numbers: PFM for FILE.pfm, else CSV"},
     {"cost", .argument = "WHAT", PARSED(take_cost, cost),
      .meaning = "what costs: cycles (default), instructions, or one cause (trax-sim --help-stats)"},
-    {"engine", .argument = "WHICH", FIELD(engine), .choices = engines,
-     .meaning = "fast (default): the emulator; reference: its reference engine, the same cycles, slowly;\n"
-                "native: the same program compiled for this computer; embree: the reference picture"},
-    {"threads", .argument = "N", NUMBER(threads, 1, 4096),
-     .meaning = "host threads of engines fast and native (default: all processors)"},
+    {"report", FIELD(report),
+     .meaning = "renders with both programs and prints what each takes; exit status 1 if the pictures\n"
+                "are not the same bit for bit"},
+    {"compare", FIELD(compare),
+     .meaning = "renders the reference and the native twin too and prints the differences;\n"
+                "exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
+                "99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
+                "of the whole picture within 0.2 %)"},
+    {"bench-accuracy", FIELD(bench_accuracy),
+     .meaning = "renders by each method and precision and prints what each costs and how wrong it is;\n"
+                "-o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
+                "so that a run that was stopped goes on"},
+    TRAX_OPTION_GROUP("Sampled simulation"),
     {"sampled", FIELD(sampled),
      .meaning = "simulates only some parts of the picture and estimates the rest, with an interval; the\n"
                 "picture itself is the native twin's"},
@@ -113,38 +150,11 @@ static const trax_option rows[] = {
      .meaning = "pixels of a part (default 2 for each thread, at least 256)"},
     {"sample-warm-up", .argument = "N", NUMBER(sampling.warm_up, 1, 1u << 24),
      .meaning = "pixels before it that are simulated, but not measured (default 4 for each thread)"},
-    {"compare", FIELD(compare),
-     .meaning = "renders the reference and the native twin too and prints the differences;\n"
-                "exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
-                "99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
-                "of the whole picture within 0.2 %)"},
-    {"triangle", .argument = "METHOD", FIELD(frame.method.triangle), .choices = trax_triangle_names,
-     .meaning = "watertight (default) or moller-trumbore, which misses some rays between triangles"},
-    {"queues", .argument = "N", .parse = take_queues,
-     .meaning = "how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
-                "threads then share tiles and the cache's lines"},
-    {"fast-math", FIELD(frame.method.fast_math),
-     .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
-    {"stack", .argument = "N", NUMBER(frame.method.stack, 1, TRAX_SCENE_MAX_DEPTH),
-     .meaning = "compiles the program with N entries on the stack of the traversal, 1 to 62; what it has no\n"
-                "room for it finds again (default: as many as the tree is deep, 8 if deeper than 32)"},
-    {"bench-accuracy", FIELD(bench_accuracy),
-     .meaning = "renders by each method and precision and prints what each costs and how wrong it is;\n"
-                "-o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
-                "so that a run that was stopped goes on"},
-    {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
-     .meaning = "another program for the TPs than the one that comes with trax"},
-    {"no-specialise", FIELD(no_specialise),
-     .meaning = "the program that can render every picture, instead of one compiled for this one"},
-    {"cache", .argument = "DIR", FIELD(cache),
-     .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
-                "or .cache/trax/programs in the home directory)"},
-    {"report", FIELD(report),
-     .meaning = "renders with both programs and prints what each takes; exit status 1 if the pictures\n"
-                "are not the same bit for bit"},
+    TRAX_OPTION_GROUP("Files of the run"),
     {"keep", .argument = "DIR", FIELD(keep),
      .meaning = "keeps what the program reads, and a manifest of it that trax-sim runs"},
     {"prepare", .argument = "DIR", .parse = take_prepare, .meaning = "the same, and renders nothing"},
+    TRAX_OPTION_GROUP("Other"),
     {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
     TRAX_OPTION_HELP('h'),
     TRAX_OPTION_VERSION,

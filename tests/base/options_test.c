@@ -54,6 +54,7 @@ static const trax_option rows[] = {
     {"splits", .argument = "[=FACTOR]", .parse = take_splits, .meaning = "optional"},
     {"point", .argument = "X,Y", .parse = take_point, .offset = offsetof(struct filled, points), .meaning = "parsed"},
     {"input-of-a-long-name", .argument = "FILE", FIELD(input), .file = TRAX_OPTION_INPUT, .meaning = "long"},
+    TRAX_OPTION_GROUP("Others"),
     {"show", .kind = TRAX_OPTION_SHOW, .show = show, .meaning = "prints"},
     TRAX_OPTION_HELP('h'),
     TRAX_OPTION_VERSION,
@@ -189,11 +190,37 @@ static void test_help(void **state) {
                             "      --splits[=FACTOR] optional\n"
                             "      --point X,Y       parsed\n"
                             "      --input-of-a-long-name FILE  long\n"
+                            "\n"
+                            "Others:\n"
                             "      --show            prints\n"
                             "  -h, --help            print this, and end\n"
                             "      --version         print the version, and end\n"
                             "\n"
                             "The end.\n");
+}
+
+static void test_pages(void **state) {
+  (void)state;
+  static const trax_option quoted_rows[] = {
+      {"a-b", 'a', .argument = "X", .meaning = ".dot first,\n'quote, back\\slash"}, {0}};
+  static const trax_command quoted = {
+      .name = "a-tool", .synopsis = "[options]", .description = "Does this: and that.", .rows = quoted_rows};
+  char text[4096] = {0};
+  FILE *out = fmemopen(text, sizeof text, "w");
+  trax_command_man(&quoted, out);
+  fclose(out);
+  assert_non_null(strstr(text, "a\\-tool \\- Does this\n"));
+  assert_non_null(strstr(text, ".TP\n\\fB\\-a\\fR, \\fB\\-\\-a\\-b\\fR \\fIX\\fR\n"
+                               "\\&.dot first,\n\\&'quote, back\\eslash\n"));
+  memset(text, 0, sizeof text);
+  out = fmemopen(text, sizeof text, "w");
+  trax_command_completion(&command, out);
+  fclose(out);
+  assert_non_null(strstr(text, "    --engine) COMPREPLY=($(compgen -W 'quick slow none' -- \"$word\")); return ;;\n"));
+  assert_non_null(strstr(text, "    -o | --output) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n"));
+  assert_non_null(strstr(text, "    --stack) return ;;\n"));
+  assert_null(strstr(text, "former"));
+  assert_null(strstr(text, "Others"));
 }
 
 static void test_files(void **state) {
@@ -220,8 +247,8 @@ static void test_files(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_names),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),   cmocka_unit_test(test_names),
                                      cmocka_unit_test(test_refusals), cmocka_unit_test(test_help),
-                                     cmocka_unit_test(test_files)};
+                                     cmocka_unit_test(test_pages),    cmocka_unit_test(test_files)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
