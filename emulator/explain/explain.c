@@ -1,12 +1,12 @@
 #include "explain/places.h"
-#include "explain/step.h"
+#include "explain/span.h"
 #include "explain/table.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 /* The charges of a thread since its latest issue. */
-struct trax_steps {
+struct trax_open_span {
   struct trax_charge *charges;
   size_t count, capacity;
   uint64_t begin;
@@ -15,41 +15,41 @@ struct trax_steps {
 
 static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
   struct trax_explain *explain = context;
-  struct trax_steps *steps = &explain->steps[tm * explain->machine->config.chip.tps_per_tm + tp];
-  if (steps->count && steps->charges[steps->count - 1].cause == cause) {
-    steps->charges[steps->count - 1].cycles += cycles;
+  struct trax_open_span *open = &explain->open_spans[tm * explain->machine->config.chip.tps_per_tm + tp];
+  if (open->count && open->charges[open->count - 1].cause == cause) {
+    open->charges[open->count - 1].cycles += cycles;
     return;
   }
-  if (!trax_grow((void **)&steps->charges, steps->count, &steps->capacity, sizeof *steps->charges)) {
+  if (!trax_grow((void **)&open->charges, open->count, &open->capacity, sizeof *open->charges)) {
     explain->out_of_memory = true;
     return;
   }
-  steps->charges[steps->count++] = (struct trax_charge){cause, since, cycles};
+  open->charges[open->count++] = (struct trax_charge){cause, since, cycles};
 }
 
-static void notify_step(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
+static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
   const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
-  struct trax_steps *steps = &explain->steps[thread];
-  const uint32_t pc = issue ? issue->pc : steps->pc; /* a debugger may have moved the thread since its latest issue */
+  struct trax_open_span *open = &explain->open_spans[thread];
+  const uint32_t pc = issue ? issue->pc : open->pc; /* a debugger may have moved the thread since its latest issue */
   const uint32_t index = trax_places_index(explain->places, pc);
-  const struct trax_step step = {.tm = tm,
+  const struct trax_span span = {.tm = tm,
                                  .tp = tp,
                                  .thread = thread,
                                  .pc = pc,
-                                 .previous_pc = steps->previous_pc,
-                                 .begin = steps->begin,
-                                 .charges = steps->charges,
-                                 .count = steps->count,
+                                 .previous_pc = open->previous_pc,
+                                 .begin = open->begin,
+                                 .charges = open->charges,
+                                 .count = open->count,
                                  .issue = issue,
                                  .index = index,
                                  .inst = *trax_places_inst(explain->places, index)};
   for (unsigned i = 0; i < explain->reader_count; i++)
-    explain->readers[i].step(explain->readers[i].self, &step);
-  steps->count = 0;
+    explain->readers[i].span(explain->readers[i].self, &span);
+  open->count = 0;
   if (issue) {
-    steps->begin = issue->cycle + 1;
-    steps->previous_pc = issue->pc;
-    steps->pc = issue->next_pc;
+    open->begin = issue->cycle + 1;
+    open->previous_pc = issue->pc;
+    open->pc = issue->next_pc;
   }
 }
 
@@ -71,7 +71,7 @@ static void notify_arrivals(struct trax_explain *explain, uint64_t cycle, uint32
 
 static void add_issue(void *context, const struct trax_issue *issue) {
   notify_arrivals(context, issue->cycle, issue->tm);
-  notify_step(context, issue->tm, issue->tp, issue);
+  notify_span(context, issue->tm, issue->tp, issue);
 }
 
 static void add_arrival(void *context, const struct trax_arrival *arrival) {
@@ -127,12 +127,12 @@ bool trax_explain_wanted(const struct trax_explain_options *options) {
 
 static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
-  explain->steps = calloc(threads, sizeof *explain->steps);
+  explain->open_spans = calloc(threads, sizeof *explain->open_spans);
   explain->places = trax_places_create(explain->machine);
-  if (!explain->steps || !explain->places)
+  if (!explain->open_spans || !explain->places)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
   for (size_t i = 0; i < threads; i++)
-    explain->steps[i].pc = explain->steps[i].previous_pc = explain->machine->entry;
+    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->machine->entry;
   for (unsigned i = 0; i < KINDS; i++)
     if (is_wanted(&explain->options, i)) {
       struct trax_reader *reader = &explain->readers[explain->reader_count];
@@ -191,7 +191,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   trax_status status = TRAX_OK;
   notify_arrivals(explain, UINT64_MAX, 0);
   for (uint32_t thread = 0; explain->reader_count && thread < machine->stats.threads; thread++)
-    notify_step(explain, thread / tps, thread % tps, NULL);
+    notify_span(explain, thread / tps, thread % tps, NULL);
   if (explain->out_of_memory)
     status = trax_fail(error, "out of memory: the explanation of the run is incomplete and not written");
   trax_error reason; /* after a failure the other files are still written; the first failure is reported */
@@ -211,9 +211,9 @@ void trax_explain_discard(struct trax_explain *explain) {
   for (unsigned i = 0; i < explain->reader_count; i++)
     explain->readers[i].destroy(explain->readers[i].self);
   trax_series_destroy(explain);
-  for (uint64_t i = 0; explain->steps && i < explain->machine->stats.threads; i++)
-    free(explain->steps[i].charges);
-  free(explain->steps);
+  for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
+    free(explain->open_spans[i].charges);
+  free(explain->open_spans);
   free(explain->arrivals);
   trax_places_destroy(explain->places);
   free(explain);

@@ -1,5 +1,5 @@
 /* Memory heat: accesses by object, and by 64 bytes of global memory. */
-#include "explain/step.h"
+#include "explain/span.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -116,17 +116,17 @@ static void count(struct heat_counts *counts, unsigned flags, unsigned bytes, un
   }
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct heat *heat = self;
-  const trax_op_info *op = &trax_op_table[step->inst.op];
-  if (!step->issue || !op->access_bytes)
+  const trax_op_info *op = &trax_op_table[span->inst.op];
+  if (!span->issue || !op->access_bytes)
     return;
-  const uint32_t address = step->issue->address;
-  count(&object_at(heat, address)->counts, op->flags, op->access_bytes, step->issue->outcome);
+  const uint32_t address = span->issue->address;
+  count(&object_at(heat, address)->counts, op->flags, op->access_bytes, span->issue->outcome);
   struct heat_counts *line =
       heat->explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
   if (line)
-    count(line, op->flags, op->access_bytes, step->issue->outcome);
+    count(line, op->flags, op->access_bytes, span->issue->outcome);
 }
 
 static void put_counts(FILE *out, const struct heat_counts *counts) {
@@ -202,6 +202,6 @@ trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *r
     destroy(heat);
     return trax_fail(error, "out of memory for the memory heat");
   }
-  *reader = (struct trax_reader){.self = heat, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = heat, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

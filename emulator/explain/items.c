@@ -1,5 +1,5 @@
 /* The cost of each item, and the place of its result. */
-#include "explain/step.h"
+#include "explain/span.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -46,24 +46,24 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
   *thread = (struct item_thread){.begin = end, .until = end, .place = TRAX_NO_PLACE};
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct items *items = self;
-  struct item_thread *thread = &items->threads[step->thread];
-  for (size_t i = 0; i < step->count; i++) {
-    thread->cycles[step->charges[i].cause] += step->charges[i].cycles;
-    thread->until += step->charges[i].cycles;
+  struct item_thread *thread = &items->threads[span->thread];
+  for (size_t i = 0; i < span->count; i++) {
+    thread->cycles[span->charges[i].cause] += span->charges[i].cycles;
+    thread->until += span->charges[i].cycles;
   }
-  if (!step->issue) {
-    end_item(items, step->thread, thread->until, true);
+  if (!span->issue) {
+    end_item(items, span->thread, thread->until, true);
     return;
   }
   thread->cycles[TRAX_CAUSE_ISSUED]++;
   thread->until++;
-  if (step->inst.op == TRAX_OP_TRAP && step->inst.imm == TRAX_TRAP_ITEMS)
-    end_item(items, step->thread, thread->until, false);
-  else if (trax_op_table[step->inst.op].flags & TRAX_IS_STORE &&
-           step->issue->address - items->buffer_begin < items->buffer_bytes)
-    thread->place = (step->issue->address - items->buffer_begin) / items->explain->options.item_bytes;
+  if (span->inst.op == TRAX_OP_TRAP && span->inst.imm == TRAX_TRAP_ITEMS)
+    end_item(items, span->thread, thread->until, false);
+  else if (trax_op_table[span->inst.op].flags & TRAX_IS_STORE &&
+           span->issue->address - items->buffer_begin < items->buffer_bytes)
+    thread->place = (span->issue->address - items->buffer_begin) / items->explain->options.item_bytes;
 }
 
 static trax_status finish(void *self, trax_error *error) {
@@ -81,7 +81,7 @@ static void destroy(void *self) {
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context) {
   for (unsigned i = 0; i < explain->reader_count; i++)
-    if (explain->readers[i].step == add_step) {
+    if (explain->readers[i].span == add_span) {
       struct items *items = explain->readers[i].self;
       items->item = item;
       items->item_context = context;
@@ -127,6 +127,6 @@ trax_status trax_items_create(struct trax_explain *explain, struct trax_reader *
       fprintf(items->output.file, ",%s", trax_cause_names[cause]);
     fputc('\n', items->output.file);
   }
-  *reader = (struct trax_reader){.self = items, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = items, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -2,7 +2,7 @@
    which they were fetched, waited, and were issued. The format is ordered by cycle, so the events are collected and
    sorted at the end. */
 #include "explain/places.h"
-#include "explain/step.h"
+#include "explain/span.h"
 #include "explain/table.h"
 
 #include <inttypes.h>
@@ -64,11 +64,11 @@ static void add_event(struct konata *konata, uint64_t cycle, enum stage stage, b
   *first = false;
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct konata *konata = self;
   const struct trax_explain_options *options = &konata->explain->options;
-  const struct trax_issue *issue = step->issue;
-  if (!issue || !trax_window_has(options, step->tm, step->tp, issue->cycle, issue->cycle + 1))
+  const struct trax_issue *issue = span->issue;
+  if (!issue || !trax_window_has(options, span->tm, span->tp, issue->cycle, issue->cycle + 1))
     return;
   if (!trax_grow((void **)&konata->instructions, konata->instruction_count, &konata->instruction_capacity,
                  sizeof *konata->instructions)) {
@@ -76,15 +76,15 @@ static void add_step(void *self, const struct trax_step *step) {
     return;
   }
   bool first = true;
-  for (size_t i = 0; i < step->count; i++) {
-    const struct trax_charge *charge = &step->charges[i];
+  for (size_t i = 0; i < span->count; i++) {
+    const struct trax_charge *charge = &span->charges[i];
     if (charge->cause != TRAX_CAUSE_BRANCH && charge->since + charge->cycles > options->window_begin)
       add_event(konata, charge->since, stage_of(charge->cause), &first);
   }
   add_event(konata, issue->cycle, EXECUTE, &first);
   add_event(konata, issue->cycle + 1, RETIRE, &first);
   konata->instructions[konata->instruction_count++] = (struct instruction){
-      .pc = issue->pc, .word = issue->word, .result = issue->result, .address = issue->address, .thread = step->thread};
+      .pc = issue->pc, .word = issue->word, .result = issue->result, .address = issue->address, .thread = span->thread};
 }
 
 static int by_cycle(const void *a, const void *b) {
@@ -156,6 +156,6 @@ trax_status trax_konata_create(struct trax_explain *explain, struct trax_reader 
   if (!konata)
     return trax_fail(error, "out of memory");
   konata->explain = explain;
-  *reader = (struct trax_reader){.self = konata, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = konata, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

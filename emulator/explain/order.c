@@ -4,7 +4,7 @@
    value that another thread has stored is right if that thread has executed `fence w` since the store and one of three
    holds: both threads are in one TM; the loading thread has executed `fence r` since that fence; or no thread of its TM
    had loaded the line before that fence. */
-#include "explain/step.h"
+#include "explain/span.h"
 #include "explain/table.h"
 #include "report/backtrace.h"
 
@@ -133,19 +133,19 @@ static void check_load(struct order *order, const struct trax_issue *issue, uint
     *held = moment_of(order, issue);
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct order *order = self;
-  const trax_op_info *op = &trax_op_table[step->inst.op];
-  if (!step->issue || order->found || order->out_of_memory)
+  const trax_op_info *op = &trax_op_table[span->inst.op];
+  if (!span->issue || order->found || order->out_of_memory)
     return;
-  if (step->inst.op == TRAX_OP_FENCE)
-    note_fence(order, step->issue, step->inst.imm);
-  else if (!op->access_bytes || step->issue->address >= TRAX_LOCAL_BASE)
+  if (span->inst.op == TRAX_OP_FENCE)
+    note_fence(order, span->issue, span->inst.imm);
+  else if (!op->access_bytes || span->issue->address >= TRAX_LOCAL_BASE)
     return;
   else if (op->flags & (TRAX_IS_STORE | TRAX_IS_ATOMIC))
-    note_store(order, step->issue, op->access_bytes);
+    note_store(order, span->issue, op->access_bytes);
   else if (!(op->flags & TRAX_IS_NONTEMPORAL))
-    check_load(order, step->issue, op->access_bytes);
+    check_load(order, span->issue, op->access_bytes);
 }
 
 /* --- the report --- */
@@ -233,6 +233,6 @@ trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *
     destroy(order);
     return trax_fail(error, "out of memory for the order of accesses");
   }
-  *reader = (struct trax_reader){.self = order, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = order, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

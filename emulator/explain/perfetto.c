@@ -1,7 +1,7 @@
 /* The window as JSON trace events for Perfetto: TMs are processes. Each TP has two threads, one for the causes of its
    cycles and one for its functions. A cycle is shown as a microsecond. */
 #include "explain/places.h"
-#include "explain/step.h"
+#include "explain/span.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -121,27 +121,27 @@ static void count(struct perfetto *perfetto, const struct trax_issue *issue) {
   perfetto->tms[issue->tm].misses += (issue->outcome & TRAX_OUTCOME_MISS) != 0;
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct perfetto *perfetto = self;
   const struct trax_explain_options *options = &perfetto->explain->options;
-  struct thread *thread = &perfetto->threads[step->thread];
-  if (step->issue)
-    count(perfetto, step->issue);
-  const uint64_t end = step->issue ? step->issue->cycle + 1 : perfetto->explain->machine->stats.cycles;
-  if (!trax_window_has(options, step->tm, step->tp, step->begin, end))
+  struct thread *thread = &perfetto->threads[span->thread];
+  if (span->issue)
+    count(perfetto, span->issue);
+  const uint64_t end = span->issue ? span->issue->cycle + 1 : perfetto->explain->machine->stats.cycles;
+  if (!trax_window_has(options, span->tm, span->tp, span->begin, end))
     return;
-  const bool halts = step->count && step->charges[step->count - 1].cause == TRAX_CAUSE_HALTED;
-  const bool bubble = step->count && step->charges[0].cause == TRAX_CAUSE_BRANCH; /* belongs to the branch before */
-  const uint64_t entered = step->begin + (bubble ? step->charges[0].cycles : 0);
-  if (entered < options->window_end && !(halts && step->count == 1))
-    enter_frames(perfetto, step->tm, step->tp, thread, step->index, clip(options, entered));
-  for (size_t i = 0; i < step->count; i++)
-    add_charge(perfetto, step->tm, step->tp, thread, step->charges[i].cause, step->charges[i].since,
-               step->charges[i].cycles);
-  if (step->issue)
-    add_charge(perfetto, step->tm, step->tp, thread, TRAX_CAUSE_ISSUED, step->issue->cycle, 1);
+  const bool halts = span->count && span->charges[span->count - 1].cause == TRAX_CAUSE_HALTED;
+  const bool bubble = span->count && span->charges[0].cause == TRAX_CAUSE_BRANCH; /* belongs to the branch before */
+  const uint64_t entered = span->begin + (bubble ? span->charges[0].cycles : 0);
+  if (entered < options->window_end && !(halts && span->count == 1))
+    enter_frames(perfetto, span->tm, span->tp, thread, span->index, clip(options, entered));
+  for (size_t i = 0; i < span->count; i++)
+    add_charge(perfetto, span->tm, span->tp, thread, span->charges[i].cause, span->charges[i].since,
+               span->charges[i].cycles);
+  if (span->issue)
+    add_charge(perfetto, span->tm, span->tp, thread, TRAX_CAUSE_ISSUED, span->issue->cycle, 1);
   if (halts)
-    leave_frames(perfetto, step->tm, step->tp, thread, 0, clip(options, step->charges[step->count - 1].since));
+    leave_frames(perfetto, span->tm, span->tp, thread, 0, clip(options, span->charges[span->count - 1].since));
 }
 
 static void put_names(struct perfetto *perfetto) {
@@ -213,6 +213,6 @@ trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reade
           "\"traceEvents\":[",
           explain->machine->config.chip.clock_mhz);
   put_names(perfetto);
-  *reader = (struct trax_reader){.self = perfetto, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = perfetto, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

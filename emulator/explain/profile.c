@@ -85,37 +85,37 @@ static void jump_through_register(const struct trax_profile *profile, struct tra
   thread->context = thread->depth ? thread->calls[thread->depth - 1].context : 0;
 }
 
-static void follow(struct trax_profile *profile, struct trax_profile_thread *thread, const struct trax_step *step,
+static void follow(struct trax_profile *profile, struct trax_profile_thread *thread, const struct trax_span *span,
                    uint32_t index) {
-  const trax_inst inst = step->inst;
+  const trax_inst inst = span->inst;
   if (inst.op == TRAX_OP_JAL || inst.op == TRAX_OP_JALR) {
-    if (inst.rd && step->issue->next_pc != step->pc + 4) /* else a call of a weak function that is not defined */
-      call(profile, thread, index, step->pc + 4);
+    if (inst.rd && span->issue->next_pc != span->pc + 4) /* else a call of a weak function that is not defined */
+      call(profile, thread, index, span->pc + 4);
     else if (!inst.rd && inst.op == TRAX_OP_JALR)
-      jump_through_register(profile, thread, step->issue->next_pc);
+      jump_through_register(profile, thread, span->issue->next_pc);
   } else if (inst.rd == STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
-    thread->stack_pointer = step->issue->result;
+    thread->stack_pointer = span->issue->result;
   }
 }
 
 /* --- the reader --- */
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct trax_profile *profile = self;
-  struct trax_profile_thread *thread = &profile->threads[step->thread];
+  struct trax_profile_thread *thread = &profile->threads[span->thread];
   const struct trax_places *places = profile->explain->places;
-  const uint32_t index = step->index, previous = thread->latest;
+  const uint32_t index = span->index, previous = thread->latest;
   struct trax_profile_counts *counts = NULL; /* created only if it counts something */
-  if (step->issue) {
+  if (span->issue) {
     counts = counts_of(profile, thread->context, index, &thread->latest);
     counts->cycles[TRAX_CAUSE_ISSUED]++;
-    if (step->issue->outcome && trax_op_table[step->inst.op].flags & TRAX_IS_LOAD) {
+    if (span->issue->outcome && trax_op_table[span->inst.op].flags & TRAX_IS_LOAD) {
       counts->loads++;
-      counts->hits += step->issue->outcome & TRAX_OUTCOME_HIT;
+      counts->hits += span->issue->outcome & TRAX_OUTCOME_HIT;
     }
   }
-  for (size_t i = 0; i < step->count; i++) {
-    const struct trax_charge *charge = &step->charges[i];
+  for (size_t i = 0; i < span->count; i++) {
+    const struct trax_charge *charge = &span->charges[i];
     uint32_t record;
     if (charge->cause == TRAX_CAUSE_BRANCH && previous != UINT32_MAX)
       profile->records[previous].counts.cycles[TRAX_CAUSE_BRANCH] += charge->cycles;
@@ -126,8 +126,8 @@ static void add_step(void *self, const struct trax_step *step) {
     else
       counts_of(profile, thread->context, index, &record)->cycles[charge->cause] += charge->cycles;
   }
-  if (step->issue)
-    follow(profile, thread, step, index);
+  if (span->issue)
+    follow(profile, thread, span, index);
 }
 
 static trax_status write_file(const struct trax_profile *profile, const char *path,
@@ -193,6 +193,6 @@ trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader
   profile->contexts[profile->context_count++] = (struct trax_profile_context){0, 0};
   for (uint64_t i = 0; i < threads; i++)
     profile->threads[i].latest = UINT32_MAX;
-  *reader = (struct trax_reader){.self = profile, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = profile, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -3,7 +3,7 @@
 #define TRAX_EXPLAIN_PROFILE_H
 
 #include "explain/places.h"
-#include "explain/step.h"
+#include "explain/span.h"
 #include "explain/table.h"
 
 /* The counts of one instruction in one context, or a sum of such counts. */

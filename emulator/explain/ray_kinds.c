@@ -30,63 +30,63 @@ static uint64_t transfer_bytes(const struct trax_config *config, uint32_t bytes)
   return bytes < config->memory.min_transfer_bytes ? config->memory.min_transfer_bytes : bytes;
 }
 
-static void count_load(struct trax_tm_stats *to, const struct trax_config *config, const struct trax_step *step,
+static void count_load(struct trax_tm_stats *to, const struct trax_config *config, const struct trax_span *span,
                        unsigned flags) {
   if (flags & TRAX_IS_NONTEMPORAL) {
     to->nontemporal_loads++;
     to->nontemporal_read_bytes += transfer_bytes(config, 4);
     return;
   }
-  to->dcache_hits += (step->issue->outcome & TRAX_OUTCOME_HIT) != 0;
-  to->dcache_merged += (step->issue->outcome & TRAX_OUTCOME_MERGED) != 0;
-  if (step->issue->outcome & TRAX_OUTCOME_MISS) {
+  to->dcache_hits += (span->issue->outcome & TRAX_OUTCOME_HIT) != 0;
+  to->dcache_merged += (span->issue->outcome & TRAX_OUTCOME_MERGED) != 0;
+  if (span->issue->outcome & TRAX_OUTCOME_MISS) {
     to->dcache_misses++;
     to->data_read_bytes += config->dcache.line_bytes;
   }
 }
 
-static void count_store(struct trax_tm_stats *to, const struct trax_step *step, unsigned flags) {
-  to->combined_stores += (step->issue->outcome & TRAX_OUTCOME_COMBINED) != 0;
+static void count_store(struct trax_tm_stats *to, const struct trax_span *span, unsigned flags) {
+  to->combined_stores += (span->issue->outcome & TRAX_OUTCOME_COMBINED) != 0;
   if (flags & TRAX_IS_NONTEMPORAL)
     to->nontemporal_stores++;
-  else if (step->issue->outcome & TRAX_OUTCOME_HIT)
+  else if (span->issue->outcome & TRAX_OUTCOME_HIT)
     to->store_hits++;
   else
     to->store_misses++;
 }
 
 static void count_instruction(struct trax_tm_stats *to, const struct trax_config *config,
-                              const struct trax_step *step) {
-  const trax_op_info *info = &trax_op_table[step->inst.op];
+                              const struct trax_span *span) {
+  const trax_op_info *info = &trax_op_table[span->inst.op];
   to->cycles[TRAX_CAUSE_ISSUED]++;
-  to->instructions[step->inst.op]++;
+  to->instructions[span->inst.op]++;
   to->icache_hits++; /* one fetch, for the energy */
-  to->taken_branches += step->issue->next_pc != step->pc + 4;
+  to->taken_branches += span->issue->next_pc != span->pc + 4;
   if (!info->access_bytes)
     return;
-  if (step->issue->address >= TRAX_LOCAL_BASE)
+  if (span->issue->address >= TRAX_LOCAL_BASE)
     ++*(info->flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads);
   else if (info->flags & TRAX_IS_ATOMIC)
     to->atomic_bytes += transfer_bytes(config, config->memory.atomic_bytes);
   else if (info->flags & TRAX_IS_STORE)
-    count_store(to, step, info->flags);
+    count_store(to, span, info->flags);
   else
-    count_load(to, config, step, info->flags);
+    count_load(to, config, span, info->flags);
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_step(void *self, const struct trax_span *span) {
   struct ray_kinds *rays = self;
-  uint8_t *working = &rays->working[step->thread];
-  for (size_t i = 0; i < step->count; i++)
-    rays->kinds[*working].cycles[step->charges[i].cause] += step->charges[i].cycles;
-  if (!step->issue)
+  uint8_t *working = &rays->working[span->thread];
+  for (size_t i = 0; i < span->count; i++)
+    rays->kinds[*working].cycles[span->charges[i].cause] += span->charges[i].cycles;
+  if (!span->issue)
     return;
-  const unsigned kind = trax_counted_kind(step);
+  const unsigned kind = trax_counted_kind(span);
   if (kind != TRAX_NO_RAY)
     *working = (uint8_t)kind;
-  count_instruction(&rays->kinds[*working], &rays->explain->machine->config, step);
-  if (trax_ends_item(step)) {
-    rays->kinds[TRAX_NO_RAY].items += step->issue->result;
+  count_instruction(&rays->kinds[*working], &rays->explain->machine->config, span);
+  if (trax_ends_item(span)) {
+    rays->kinds[TRAX_NO_RAY].items += span->issue->result;
     *working = TRAX_NO_RAY;
   }
 }
@@ -190,6 +190,6 @@ trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_read
     return TRAX_ERROR;
   }
   memset(rays->working, TRAX_NO_RAY, explain->machine->stats.threads);
-  *reader = (struct trax_reader){.self = rays, .step = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = rays, .span = add_step, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -1,5 +1,5 @@
 /* Series: for each interval of cycles, rows of the counters' increases, for the chip and for each TM. */
-#include "explain/step.h"
+#include "explain/span.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

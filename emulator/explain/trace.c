@@ -1,7 +1,7 @@
 /* The instruction trace: a line for each issue in the window. */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "explain/places.h"
-#include "explain/step.h"
+#include "explain/span.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -38,18 +38,18 @@ static void put_outcome(FILE *out, unsigned outcome) {
       fprintf(out, " %s", names[i]);
 }
 
-static void add_step(void *self, const struct trax_step *step) {
+static void add_span(void *self, const struct trax_span *span) {
   struct trace *trace = self;
-  const struct trax_issue *issue = step->issue;
+  const struct trax_issue *issue = span->issue;
   FILE *out = trace->output.file;
-  if (!issue || !trax_window_has(&trace->explain->options, step->tm, step->tp, issue->cycle, issue->cycle + 1))
+  if (!issue || !trax_window_has(&trace->explain->options, span->tm, span->tp, issue->cycle, issue->cycle + 1))
     return;
-  const unsigned flags = trax_op_table[step->inst.op].flags;
-  put_place(trace, issue->cycle, step->tm, step->tp);
-  fprintf(out, "%08x  %s", issue->pc, text_of(trace, step->index, issue->pc, issue->word));
-  if (flags & TRAX_WRITES_RD && step->inst.rd && !(flags & TRAX_IS_ATOMIC))
-    fprintf(out, "  r%u=%08x", step->inst.rd, issue->result);
-  else if (flags & TRAX_IS_STORE || step->inst.op == TRAX_OP_TRAP)
+  const unsigned flags = trax_op_table[span->inst.op].flags;
+  put_place(trace, issue->cycle, span->tm, span->tp);
+  fprintf(out, "%08x  %s", issue->pc, text_of(trace, span->index, issue->pc, issue->word));
+  if (flags & TRAX_WRITES_RD && span->inst.rd && !(flags & TRAX_IS_ATOMIC))
+    fprintf(out, "  r%u=%08x", span->inst.rd, issue->result);
+  else if (flags & TRAX_IS_STORE || span->inst.op == TRAX_OP_TRAP)
     fprintf(out, "  %08x", issue->result);
   if (flags & (TRAX_IS_LOAD | TRAX_IS_STORE))
     fprintf(out, " [%08x]", issue->address);
@@ -98,6 +98,6 @@ trax_status trax_trace_create(struct trax_explain *explain, struct trax_reader *
           "#    cycle thread TM.TP pc     symbol                 word      instruction               result or value, "
           "address, cache, jump\n");
   *reader = (struct trax_reader){
-      .self = trace, .step = add_step, .arrival = add_arrival, .finish = finish, .destroy = destroy};
+      .self = trace, .span = add_span, .arrival = add_arrival, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

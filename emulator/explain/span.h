@@ -1,8 +1,8 @@
-/* Steps and readers. A step is what a thread did from the issue of one instruction to the issue of the next. Readers
-   are called for the steps of all threads in the order of the issues that end them, which does not depend on the
+/* Spans and readers. A span is what a thread did from the issue of one instruction to the issue of the next. Readers
+   are called for the spans of all threads in the order of the issues that end them, which does not depend on the
    engine. */
-#ifndef TRAX_EXPLAIN_STEP_H
-#define TRAX_EXPLAIN_STEP_H
+#ifndef TRAX_EXPLAIN_SPAN_H
+#define TRAX_EXPLAIN_SPAN_H
 
 #include "engine/run.h"
 #include "trax/explain.h"
@@ -16,12 +16,12 @@ struct trax_charge {
   uint64_t since, cycles;
 };
 
-struct trax_step {
+struct trax_span {
   uint32_t tm, tp, thread;
-  uint32_t pc;          /* of the instruction that ends the step */
+  uint32_t pc;          /* of the instruction that ends the span */
   uint32_t index;       /* its index in the places */
   uint32_t previous_pc; /* of the thread's instruction before, to which a branch bubble belongs; pc if there was none */
-  uint64_t begin;       /* the first cycle of the step */
+  uint64_t begin;       /* the first cycle of the span */
   const struct trax_charge *charges;
   size_t count;
   const struct trax_issue *issue; /* NULL: the run ended before the issue, or the thread has halted */
@@ -30,10 +30,10 @@ struct trax_step {
 
 struct trax_reader {
   void *self;
-  void (*step)(void *self, const struct trax_step *step);
-  /* Called in the order of (cycle, TM), before the steps that end with issues of the same cycle and TM; may be NULL. */
+  void (*span)(void *self, const struct trax_span *span);
+  /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM; may be NULL. */
   void (*arrival)(void *self, const struct trax_arrival *arrival);
-  /* Called after the last step: writes the reader's files. */
+  /* Called after the last span: writes the reader's files. */
   trax_status (*finish)(void *self, trax_error *error);
   void (*destroy)(void *self);
 };
@@ -42,14 +42,14 @@ struct trax_explain {
   trax_machine *machine;
   struct trax_explain_options options;
   struct trax_observer observer;
-  struct trax_steps *steps; /* [threads] */
+  struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
   struct trax_places *places;
   struct trax_reader readers[10];
   unsigned reader_count;
   struct trax_arrival *arrivals; /* those of which the readers have not been notified yet */
   size_t arrival_count, arrival_capacity;
   struct trax_watch *series; /* NULL: none */
-  bool out_of_memory;        /* steps or arrivals were lost */
+  bool out_of_memory;        /* spans or arrivals were lost */
 };
 
 /* Whether the window contains a part of the TP's cycles begin <= t < end. */
