@@ -76,13 +76,13 @@ struct trax_fast_section {
 struct trax_fast_program {
   struct trax_fast_section *sections; /* [count]; their instructions are in one array */
   size_t count, inst_count;
-  uint32_t lines;              /* lines of instructions; TRAX_FAST_LINES: or more */
-  struct trax_fast_inst *inst; /* [inst_count] */
+  uint32_t lines;                  /* lines of instructions; TRAX_FAST_LINES: or more */
+  struct trax_fast_inst *inst;     /* [inst_count] */
   struct trax_fast_timing *timing; /* [inst_count] */
   uint16_t *line;                  /* [inst_count]: the index of its line in `resident` */
-  uint16_t *step;        /* [inst_count + TRAX_CHUNK]: its step, as far as that does not depend on an address */
-  uint64_t *chunk_lines; /* [inst_count]: bit line % 64 of the lines from here to a jump or the chunk's end */
-  struct trax_fast_inst *no_text; /* the last instruction, for every pc that is no text */
+  uint16_t *step;                  /* [inst_count + TRAX_CHUNK]: its step, unless an address decides it */
+  uint64_t *chunk_lines;           /* [inst_count]: bit line % 64 of the lines up to a jump or the chunk's end */
+  struct trax_fast_inst *no_text;  /* the last instruction, for every pc that is no text */
 };
 
 struct trax_fast_undo {
@@ -103,8 +103,7 @@ struct trax_fast_tp {
   _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
   uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* [step]: the number of its segment */
   uint32_t address[TRAX_BURST];             /* the addresses of the burst's loads of global memory, in order */
-  uint32_t
-      origin[TRAX_BURST + 1]; /* [segment]: the index of its first instruction minus the number of its first step */
+  uint32_t origin[TRAX_BURST + 1];          /* [segment]: its first instruction's index minus its first step */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */
   const struct trax_fast_inst *begin;
@@ -144,8 +143,7 @@ struct trax_fast_tm {
   struct trax_fast_banks16 fetch_rr_masks16;
   trax_fast_lanes *fetch_rr_masks;
   uint32_t data_banks, data_bank_bits;
-  bool
-      serial_hits; /* hits of the data cache are served one by one, since they update the scoreboard or the LRU order */
+  bool serial_hits; /* data-cache hits are served one by one: they update the scoreboard or the LRU order */
   uint8_t (*resident)[TRAX_FAST_LINES]; /* [tm->icaches]: whether the cache holds each line of the program */
   uint64_t *resident_lines;             /* [tm->icaches]: the same as bits, for programs of at most 64 lines; else 0 */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
