@@ -47,11 +47,11 @@ struct lockstep {
 };
 
 static void end_item(struct lockstep *lockstep, struct recording *thread) {
-  if (!trax_grow((void **)&lockspan->items, lockspan->count, &lockspan->capacity, sizeof *lockspan->items)) {
-    lockspan->out_of_memory = true;
+  if (!trax_grow((void **)&lockstep->items, lockstep->count, &lockstep->capacity, sizeof *lockstep->items)) {
+    lockstep->out_of_memory = true;
     return;
   }
-  lockspan->items[lockspan->count++] = *thread;
+  lockstep->items[lockstep->count++] = *thread;
   *thread = (struct recording){.queue = thread->queue, .number = thread->number, .kind = TRAX_NO_RAY};
 }
 
@@ -63,17 +63,17 @@ static void begin_ray(struct lockstep *lockstep, struct recording *thread, const
   if (thread->kind != TRAX_NO_RAY)
     end_item(lockstep, thread);
   thread->kind = kind;
-  thread->generation = lockspan->generations[span->thread][kind]++;
+  thread->generation = lockstep->generations[span->thread][kind]++;
 }
 
 static void add_span(void *self, const struct trax_span *span) {
   struct lockstep *lockstep = self;
-  struct recording *thread = &lockspan->threads[span->thread];
+  struct recording *thread = &lockstep->threads[span->thread];
   if (!span->issue)
     return; /* instructions after a thread's last item belong to no item */
   if (trax_op_table[span->inst.op].flags & TRAX_IS_ATOMIC)
     thread->queue = span->issue->address;
-  if (lockspan->by_ray) {
+  if (lockstep->by_ray) {
     begin_ray(lockstep, thread, span);
     if (thread->kind == TRAX_NO_RAY)
       return;
@@ -84,18 +84,18 @@ static void add_span(void *self, const struct trax_span *span) {
   } else if (trax_grow((void **)&thread->runs, thread->count, &thread->capacity, sizeof *thread->runs)) {
     thread->runs[thread->count++] = (struct run){span->pc, 1};
   } else {
-    lockspan->out_of_memory = true;
+    lockstep->out_of_memory = true;
   }
   if (trax_ends_item(span)) {
     end_item(lockstep, thread);
-    if (lockspan->by_ray)
-      memset(lockspan->generations[span->thread], 0, sizeof *lockspan->generations);
+    if (lockstep->by_ray)
+      memset(lockstep->generations[span->thread], 0, sizeof *lockstep->generations);
   }
 }
 
 static void arrive(void *self, const struct trax_arrival *arrival) {
   struct lockstep *lockstep = self;
-  lockspan->threads[arrival->tm * lockspan->explain->machine->config.chip.tps_per_tm + arrival->tp].number =
+  lockstep->threads[arrival->tm * lockstep->explain->machine->config.chip.tps_per_tm + arrival->tp].number =
       arrival->value;
 }
 
@@ -189,35 +189,35 @@ static void write_rows(FILE *out, const char *name, const struct recording *item
 
 static trax_status finish(void *self, trax_error *error) {
   struct lockstep *lockstep = self;
-  FILE *out = lockspan->output.file;
-  if (lockspan->out_of_memory)
-    return trax_fail(error, "out of memory for the instructions of %zu items", lockspan->count);
-  if (lockspan->count) /* qsort's array is not to be NULL */
-    qsort(lockspan->items, lockspan->count, sizeof *lockspan->items, lockspan->by_ray ? by_kind : by_number);
-  fprintf(out, "%swidth,warps,instructions,slots,utilisation,longest\n", lockspan->by_ray ? "kind,rays," : "");
-  if (!lockspan->by_ray)
-    write_rows(out, "", lockspan->items, lockspan->count);
-  for (size_t first = 0, end; lockspan->by_ray && first < lockspan->count; first = end) {
-    const unsigned kind = lockspan->items[first].kind;
+  FILE *out = lockstep->output.file;
+  if (lockstep->out_of_memory)
+    return trax_fail(error, "out of memory for the instructions of %zu items", lockstep->count);
+  if (lockstep->count) /* qsort's array is not to be NULL */
+    qsort(lockstep->items, lockstep->count, sizeof *lockstep->items, lockstep->by_ray ? by_kind : by_number);
+  fprintf(out, "%swidth,warps,instructions,slots,utilisation,longest\n", lockstep->by_ray ? "kind,rays," : "");
+  if (!lockstep->by_ray)
+    write_rows(out, "", lockstep->items, lockstep->count);
+  for (size_t first = 0, end; lockstep->by_ray && first < lockstep->count; first = end) {
+    const unsigned kind = lockstep->items[first].kind;
     char name[64];
-    for (end = first; end < lockspan->count && lockspan->items[end].kind == kind;)
+    for (end = first; end < lockstep->count && lockstep->items[end].kind == kind;)
       end++;
     snprintf(name, sizeof name, "%s,%zu,", trax_ray_kind_names[kind], end - first);
-    write_rows(out, name, lockspan->items + first, end - first);
+    write_rows(out, name, lockstep->items + first, end - first);
   }
-  return trax_output_commit(&lockspan->output, error);
+  return trax_output_commit(&lockstep->output, error);
 }
 
 static void destroy(void *self) {
   struct lockstep *lockstep = self;
-  trax_output_discard(&lockspan->output);
-  for (size_t i = 0; i < lockspan->count; i++)
-    free(lockspan->items[i].runs);
-  for (uint64_t i = 0; lockspan->threads && i < lockspan->explain->machine->stats.threads; i++)
-    free(lockspan->threads[i].runs);
-  free(lockspan->items);
-  free(lockspan->generations);
-  free(lockspan->threads);
+  trax_output_discard(&lockstep->output);
+  for (size_t i = 0; i < lockstep->count; i++)
+    free(lockstep->items[i].runs);
+  for (uint64_t i = 0; lockstep->threads && i < lockstep->explain->machine->stats.threads; i++)
+    free(lockstep->threads[i].runs);
+  free(lockstep->items);
+  free(lockstep->generations);
+  free(lockstep->threads);
   free(lockstep);
 }
 
@@ -227,19 +227,19 @@ static trax_status create(struct trax_explain *explain, struct trax_reader *read
   struct lockstep *lockstep = calloc(1, sizeof *lockstep);
   if (!lockstep)
     return trax_fail(error, "out of memory");
-  lockspan->explain = explain;
-  lockspan->by_ray = by_ray;
-  lockspan->threads = calloc(threads, sizeof *lockspan->threads);
-  lockspan->generations = by_ray ? calloc(threads, sizeof *lockspan->generations) : NULL;
-  const bool enough = lockspan->threads && (lockspan->generations || !by_ray);
+  lockstep->explain = explain;
+  lockstep->by_ray = by_ray;
+  lockstep->threads = calloc(threads, sizeof *lockstep->threads);
+  lockstep->generations = by_ray ? calloc(threads, sizeof *lockstep->generations) : NULL;
+  const bool enough = lockstep->threads && (lockstep->generations || !by_ray);
   if (!enough)
     trax_fail(error, "out of memory for the threads");
-  if (!enough || trax_output_open(&lockspan->output, path, error) != TRAX_OK) {
+  if (!enough || trax_output_open(&lockstep->output, path, error) != TRAX_OK) {
     destroy(lockstep);
     return TRAX_ERROR;
   }
   for (uint64_t i = 0; i < threads; i++)
-    lockspan->threads[i].kind = TRAX_NO_RAY;
+    lockstep->threads[i].kind = TRAX_NO_RAY;
   *reader =
       (struct trax_reader){.self = lockstep, .span = add_span, .arrival = arrive, .finish = finish, .destroy = destroy};
   return TRAX_OK;
