@@ -145,7 +145,7 @@ static inline __attribute__((always_inline)) bool trace(const struct ray *ray, b
   unsigned top = 0;
   for (;;) {
     unsigned count = TRAX_SCENE_REF_COUNT(reference);
-    if (__builtin_expect(count == 0, 1)) { /* registers are for this: rays visit more nodes than triangles */
+    if (__builtin_expect(count == 0, 1)) { /* rays visit more nodes than triangles */
       const struct trax_quantised_node *node = (const void *)(bytes + reference);
       int enter0, enter1, nearest = in_units_of_boxes(hit->distance);
       if (hit_box(ray, node->box[0].min, nearest, &enter0)) {

@@ -148,7 +148,7 @@ static inline __attribute__((always_inline)) bool trace(const struct ray *ray, b
   unsigned top = 0;
   for (;;) {
     unsigned count = TRAX_SCENE_REF_COUNT(reference);
-    if (__builtin_expect(count == 0, 1)) { /* registers are for this: rays visit more nodes than triangles */
+    if (__builtin_expect(count == 0, 1)) { /* rays visit more nodes than triangles */
       const struct trax_quantised_node *node = (const void *)(bytes + reference);
       int enter0, enter1, nearest = in_units_of_boxes(hit->distance);
       if (hit_box(ray, node->box[0].min, nearest, &enter0)) {
@@ -286,7 +286,7 @@ int main(void) {
   const struct trax_scene_header *header = scene.data;
   if (header->root == 0 || header->max_depth > TRAX_SCENE_DEFAULT_DEPTH)
     trax_abort("this program needs a scene with triangles, no deeper than its stack (trax-scene --depth)");
-  for (unsigned turn = 0; turn < QUEUES; turn++) { /* whose own queue is empty goes on with the others' */
+  for (unsigned turn = 0; turn < QUEUES; turn++) { /* a thread whose queue is empty goes on with the next */
     unsigned queue = (trax_tm() + turn) % QUEUES, slot, x, y;
     while ((slot = take_slot(frame, queue)) < frame->slot_count) {
       if (!slot_pixel(frame, slot, &x, &y))
