@@ -28,71 +28,67 @@ struct trax_buffer record;
 static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
                                                                    uint32_t layout, struct pixel pixel) {
   struct vector sum = {0, 0, 0};
-  uint32_t sample = 0;
+  for (uint32_t sample = 0;;) {
+    struct place place = NEEDS(run, SAMPLES) ? sample_place(sample) : PIXEL_MIDDLE;
+    struct vector origin = load_vector(run->eye), direction = camera_direction(run, pixel, place);
+    struct hit hit = {FARTHEST_BITS, NULL, 0, 0};
+    const float *colour = NULL;
+    float light = 0, lit = 0;
+    unsigned shadow = 0;
 
-next_sample:
-  HIDE_ORIGIN(pixel.packed); /* or x and y would be kept apart */
-  struct place place = NEEDS(run, SAMPLES) ? sample_place(sample) : PIXEL_MIDDLE;
-  struct vector origin = {run->eye[0], run->eye[1], run->eye[2]}, direction = camera_direction(run, pixel, place);
-  struct hit hit = {FARTHEST_BITS, NULL, 0, 0};
-  const float *colour = NULL;
-  float light = 0, lit = 0;
-  unsigned shadow = 0;
-
-  for (;;) {
-    struct ray ray;
-    prepare_ray(&ray, layout, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, run->box_margin,
-                LAYOUT_GRID(run, layout));
-    HIDE_ORIGIN(shadow); /* or the loop would be unrolled into two copies */
-    bool found =
-        trace_ray(layout, scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
-    LOAD_AGAIN(run);
-    if (shadow) {
-      RECORD_SHADOW(run, pixel, sample, found);
+    for (;;) {
+      struct ray ray;
+      prepare_ray(&ray, layout, origin, direction, run->box_margin, LAYOUT_GRID(run, layout));
+      HIDE_ORIGIN(shadow); /* or the loop's turns are told apart, and registers chosen less well */
+      bool found =
+          trace_ray(layout, scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
+      LOAD_AGAIN(run);
+      if (shadow) {
+        RECORD_SHADOW(run, pixel, sample, found);
+        if (!found)
+          light += lit;
+        break;
+      }
+      RECORD_HIT(run, pixel, sample, &hit);
       if (!found)
+        break;
+
+      struct surface surface;
+      struct light way;
+      struct vector eye = load_vector(run->eye);
+      if (HITS_ARE_EXACT)
+        find_surface_exactly(&surface, &hit, eye, direction);
+      else
+        find_surface(&surface, &hit, eye);
+      struct vector flat = surface.normal;
+      if (NEEDS(run, SMOOTH))
+        smooth_surface(&surface, &hit, run->normals_distance);
+      aim_at_light(&way, &surface, run->light);
+      uint32_t material = NEEDS(run, MATERIALS) ? triangle_material(hit.triangle) : 0;
+      colour = RUN_PALETTE(run)[material].colour;
+      light = ambient_light(run, &surface);
+      if (way.cosine_bits <= 0 || (NEEDS(run, SMOOTH) && float_bits(dot(flat, way.direction)) <= 0))
+        break;
+      lit = run->light_strength * bits_float(way.cosine_bits);
+      if (!NEEDS(run, SHADOWS)) {
         light += lit;
-      break;
+        break;
+      }
+      origin = surface.point, direction = way.direction;
+      hit = (struct hit){way.distance_bits, NULL, 0, 0};
+      shadow = 1;
     }
-    RECORD_HIT(run, pixel, sample, &hit);
-    if (!found)
-      break;
 
-    struct surface surface;
-    struct light way;
-    struct vector eye = {run->eye[0], run->eye[1], run->eye[2]};
-    if (HITS_ARE_EXACT)
-      find_surface_exactly(&surface, &hit, eye, direction);
+    trax_count_rays(1 + shadow);
+    if (!NEEDS(run, SAMPLES))
+      return colour ? shade(colour, light) : run->background;
+    if (colour)
+      add_light(&sum, colour, light);
     else
-      find_surface(&surface, &hit, eye);
-    struct vector flat = surface.normal;
-    if (NEEDS(run, SMOOTH))
-      smooth_surface(&surface, &hit, run->normals_distance);
-    aim_at_light(&way, &surface, run->light);
-    uint32_t material = NEEDS(run, MATERIALS) ? triangle_material(hit.triangle) : 0;
-    colour = RUN_PALETTE(run)[material].colour;
-    light = ambient_light(run, &surface);
-    if (way.cosine_bits <= 0 || (NEEDS(run, SMOOTH) && float_bits(dot(flat, way.direction)) <= 0))
-      break;
-    lit = run->light_strength * bits_float(way.cosine_bits);
-    if (!NEEDS(run, SHADOWS)) {
-      light += lit;
-      break;
-    }
-    origin = surface.point, direction = way.direction;
-    hit = (struct hit){way.distance_bits, NULL, 0, 0};
-    shadow = 1;
+      add_pixel(&sum, run->background);
+    if (++sample == run->samples)
+      return mean_pixel(&sum, run->sample_weight);
   }
-
-  trax_count_rays(1 + shadow);
-  if (!NEEDS(run, SAMPLES))
-    return colour ? shade(colour, light) : run->background;
-  if (colour)
-    add_light(&sum, colour, light);
-  else
-    add_pixel(&sum, run->background);
-  if (++sample < run->samples)
-    goto next_sample;
-  return mean_pixel(&sum, run->sample_weight);
 }
 
 /* The general program has all kinds of pictures, each in a function with a frame of its own; none returns to main,
@@ -119,11 +115,9 @@ static inline __attribute__((always_inline)) NO_RETURN void render_layout(const 
   uint32_t slot, queue = first_queue();
   while (take_slot(run, next_slot, &queue, &slot)) {
     struct pixel pixel;
-    HIDE_ORIGIN(slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
     if (!slot_pixel(run, slot, &pixel))
       continue;
     uint32_t word = render_pixel(run, layout, pixel);
-    HIDE_ORIGIN(pixel.packed);
     ACCESS_SLOT(slot);
     LOAD_AGAIN(run);
     RECORD_PIXEL(run, pixel);
@@ -161,7 +155,6 @@ static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
   uint32_t slot, queue = first_queue();
   while (take_slot(run, next_slot, &queue, &slot)) {
     struct pixel pixel;
-    HIDE_ORIGIN(slot);
     if (!slot_pixel(run, slot, &pixel))
       continue;
     render_path_pixel(run, path, pixel);

@@ -2,6 +2,7 @@
 #ifndef TRAX_DEVICE_RAY_H
 #define TRAX_DEVICE_RAY_H
 
+#include "algebra.h"
 #include "bits.h"
 #include "run.h"
 #include "trax/render_params.h"
@@ -9,9 +10,7 @@
 
 /* For boxes. A plane is at (plane - origin) * inverse, or, if it is a number on a grid, at plane * inverse - origin. */
 struct box_ray {
-  float near_origin_x, near_origin_y, near_origin_z;
-  float far_origin_x, far_origin_y, far_origin_z;
-  float inverse_x, inverse_y, inverse_z;
+  struct vector near_origin, far_origin, inverse;
 };
 
 struct ray {
@@ -33,8 +32,8 @@ static inline float away_from_zero(float component, int32_t least_bits) {
 
 /* What brings a direction of any length but 0 into the range that prepare_ray asks for: a power of two, so distances
    along the scaled direction are those along the direction divided by it. Rays of the ray tracer need none. */
-static inline float direction_scale(float dx, float dy, float dz) {
-  int32_t exponent = larger(larger(magnitude(dx), magnitude(dy)), magnitude(dz)) & 0x7F800000;
+static inline float direction_scale(struct vector direction) {
+  int32_t exponent = greatest_magnitude(direction) & 0x7F800000;
   return bits_float(larger(0x7F000000 - exponent, 0x00800000));
 }
 
@@ -43,7 +42,10 @@ static inline float direction_scale(float dx, float dy, float dz) {
    distances along the ray are in units of 2^64 here, which keeps all of them within the range of floats as long as the
    direction's largest component is within 2^-2 and 2^10 and cells within 2^-44 and 2^6 (trax_normalise). In frames,
    whose planes are up to 2^9 cells apart, the units are 2^72, and the factor has 2^149 by the frame's word. */
-#define PLANE_SCALE 0x1p75f * 0x1p74f
+static inline struct vector plane_scaled(struct vector v) {
+  return times(0x1p74f, times(0x1p75f, v));
+}
+
 #define DISTANCE_EXPONENT(layout) (NODES_HAVE_FRAMES(layout) ? 72 : 64)
 #define DISTANCE_SCALE(layout) (NODES_HAVE_FRAMES(layout) ? 0x1p-72f : 0x1p-64f)
 
@@ -56,62 +58,54 @@ static inline float with_sign_of(float magnitude, float sign) {
   return bits_float(float_bits(magnitude) | (float_bits(sign) & SIGN_BIT));
 }
 
-/* Prepares the ray that starts at (ox, oy, oz); the direction need not have unit length, but its largest component must
-   be within 2^-21 and 2^40, so that the product below neither vanishes nor overflows. grid: of
-   quantised nodes, else NULL. */
-static inline void prepare_ray(struct ray *ray, uint32_t layout, float ox, float oy, float oz, float dx, float dy,
-                               float dz, float box_margin, const struct trax_ray_grid *grid) {
-  int32_t size_x = magnitude(dx), size_y = magnitude(dy), size_z = magnitude(dz);
-  int32_t size = larger(larger(size_x, size_y), size_z);
-  int32_t least = float_bits(bits_float(size) * 0x1p-30f);
-  float cx = away_from_zero(dx, least), cy = away_from_zero(dy, least), cz = away_from_zero(dz, least);
+/* Where a box's near plane is for a component of the direction. */
+static inline uint32_t near_offset(float component, uint32_t far_planes) {
+  uint32_t offset = (uint32_t)(float_bits(component) >> 31) & far_planes;
+  HIDE_ORIGIN(offset); /* else its negative would take a register, too */
+  return offset;
+}
+
+/* Prepares a ray; the direction need not have unit length, but its largest component must be within 2^-21 and 2^40, so
+   that the product below neither vanishes nor overflows. grid: of quantised nodes, else NULL. */
+static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, uint32_t layout, struct vector origin,
+                                                              struct vector direction, float box_margin,
+                                                              const struct trax_ray_grid *grid) {
+  int32_t least = float_bits(bits_float(greatest_magnitude(direction)) * 0x1p-30f);
+  struct vector way = {away_from_zero(direction.x, least), away_from_zero(direction.y, least),
+                       away_from_zero(direction.z, least)};
 
   /* One division for the three reciprocals: the divider is shared by all TPs of a TM. Each is within 5 units of 2^-24,
      relatively. */
-  float xy = cx * cy;
-  float product = 1.0f / (xy * cz);
-  float inverse_x = cy * cz * product, inverse_y = cx * cz * product, inverse_z = xy * product;
+  float xy = way.x * way.y;
+  float product = 1.0f / (xy * way.z);
+  struct vector inverse = {way.y * way.z * product, way.x * way.z * product, xy * product};
 
-  const int far_planes = 3 * NODE_PLANE_BYTES(layout);
-  ray->near_offset_x = float_bits(cx) >> 31 & far_planes;
-  ray->near_offset_y = float_bits(cy) >> 31 & far_planes;
-  ray->near_offset_z = float_bits(cz) >> 31 & far_planes;
-  HIDE_ORIGIN(ray->near_offset_x); /* else their negatives would take registers, too */
-  HIDE_ORIGIN(ray->near_offset_y);
-  HIDE_ORIGIN(ray->near_offset_z);
+  const uint32_t far_planes = 3 * NODE_PLANE_BYTES(layout);
+  ray->near_offset_x = near_offset(way.x, far_planes);
+  ray->near_offset_y = near_offset(way.y, far_planes);
+  ray->near_offset_z = near_offset(way.z, far_planes);
+  struct vector margin = {with_sign_of(box_margin, way.x), with_sign_of(box_margin, way.y),
+                          with_sign_of(box_margin, way.z)};
   if (grid) {
-    float cell_x = grid->cell[0] * DISTANCE_SCALE(layout), cell_y = grid->cell[1] * DISTANCE_SCALE(layout);
-    float cell_z = grid->cell[2] * DISTANCE_SCALE(layout);
-    float from_x = ox - grid->origin[0], from_y = oy - grid->origin[1], from_z = oz - grid->origin[2];
-    float margin_x = with_sign_of(box_margin, cx), margin_y = with_sign_of(box_margin, cy);
-    float margin_z = with_sign_of(box_margin, cz);
-    float step_x = inverse_x * DISTANCE_SCALE(layout), step_y = inverse_y * DISTANCE_SCALE(layout),
-          step_z = inverse_z * DISTANCE_SCALE(layout);
-    ray->box.near_origin_x = (from_x + margin_x) * step_x, ray->box.far_origin_x = (from_x - margin_x) * step_x;
-    ray->box.near_origin_y = (from_y + margin_y) * step_y, ray->box.far_origin_y = (from_y - margin_y) * step_y;
-    ray->box.near_origin_z = (from_z + margin_z) * step_z, ray->box.far_origin_z = (from_z - margin_z) * step_z;
+    struct vector cell = times(DISTANCE_SCALE(layout), load_vector(grid->cell));
+    struct vector step = times(DISTANCE_SCALE(layout), inverse), from = minus(origin, load_vector(grid->origin));
+    ray->box.near_origin = filtered(plus(from, margin), step);
+    ray->box.far_origin = filtered(minus(from, margin), step);
+    ray->box.inverse = filtered(inverse, cell);
     if (NODES_HAVE_FRAMES(layout)) {
-      ray->box.inverse_x = inverse_x * cell_x, ray->box.inverse_y = inverse_y * cell_y;
-      ray->box.inverse_z = inverse_z * cell_z;
-      float bias_x = ray->box.inverse_x * TRAX_FRAME_BIAS, bias_y = ray->box.inverse_y * TRAX_FRAME_BIAS;
-      float bias_z = ray->box.inverse_z * TRAX_FRAME_BIAS;
-      ray->box.near_origin_x += bias_x, ray->box.far_origin_x += bias_x;
-      ray->box.near_origin_y += bias_y, ray->box.far_origin_y += bias_y;
-      ray->box.near_origin_z += bias_z, ray->box.far_origin_z += bias_z;
+      struct vector bias = times(TRAX_FRAME_BIAS, ray->box.inverse);
+      ray->box.near_origin = plus(ray->box.near_origin, bias);
+      ray->box.far_origin = plus(ray->box.far_origin, bias);
     } else {
-      ray->box.inverse_x = inverse_x * cell_x * PLANE_SCALE, ray->box.inverse_y = inverse_y * cell_y * PLANE_SCALE;
-      ray->box.inverse_z = inverse_z * cell_z * PLANE_SCALE;
+      ray->box.inverse = plane_scaled(ray->box.inverse);
     }
   } else {
-    float margin_x = with_sign_of(box_margin, cx), margin_y = with_sign_of(box_margin, cy);
-    float margin_z = with_sign_of(box_margin, cz);
-    ray->box.inverse_x = inverse_x, ray->box.inverse_y = inverse_y, ray->box.inverse_z = inverse_z;
-    ray->box.near_origin_x = ox + margin_x, ray->box.far_origin_x = ox - margin_x;
-    ray->box.near_origin_y = oy + margin_y, ray->box.far_origin_y = oy - margin_y;
-    ray->box.near_origin_z = oz + margin_z, ray->box.far_origin_z = oz - margin_z;
+    ray->box.inverse = inverse;
+    ray->box.near_origin = plus(origin, margin);
+    ray->box.far_origin = minus(origin, margin);
   }
 
-  prepare_triangle_ray(&ray->triangle, ox, oy, oz, dx, dy, dz, inverse_x, inverse_y, inverse_z);
+  prepare_triangle_ray(&ray->triangle, origin, direction, inverse);
 }
 
 #endif

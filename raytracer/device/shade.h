@@ -33,44 +33,32 @@ struct surface {
 static inline __attribute__((always_inline)) void find_surface(struct surface *surface, const struct hit *hit,
                                                                struct vector eye) {
   const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
-  struct vector a = {v0[0], v0[1], v0[2]}, b = {v1[0], v1[1], v1[2]}, c = {v2[0], v2[1], v2[2]};
-  struct vector e = {b.x - a.x, b.y - a.y, b.z - a.z}, f = {c.x - a.x, c.y - a.y, c.z - a.z};
-  struct vector n = {e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
+  struct vector a = load_vector(v0), e = minus(load_vector(v1), a), f = minus(load_vector(v2), a), n = cross(e, f);
 
   /* By a power of two to 1 at most, so that no square below leaves the range of floats; then towards the
      viewer. A needle's normal may vanish in rounding. */
-  struct vector sight = {a.x - eye.x, a.y - eye.y, a.z - eye.z};
-  int32_t size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
+  struct vector sight = minus(a, eye);
+  int32_t size = greatest_magnitude(n);
   if (size == 0) {
     n = sight;
-    size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
+    size = greatest_magnitude(n);
   }
-  int32_t exponent = size & 0x7F800000;
   int32_t away = ~float_bits(dot(n, sight)) & SIGN_BIT;
-  float scale = bits_float((0x7E800000 - exponent) | away);
-  n.x *= scale, n.y *= scale, n.z *= scale;
+  n = times(bits_float((0x7E800000 - (size & 0x7F800000)) | away), n);
 
-  int32_t position = larger(larger(magnitude(a.x), magnitude(a.y)), magnitude(a.z));
-  int32_t edge = larger(larger(larger(magnitude(e.x), magnitude(e.y)), larger(magnitude(e.z), magnitude(f.x))),
-                        larger(magnitude(f.y), magnitude(f.z)));
+  int32_t edge = larger(greatest_magnitude(e), greatest_magnitude(f));
   float inverse_length = trax_rsqrt(dot(n, n));
-  float bound = bits_float(position) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
-  float offset = bound * inverse_length;
+  float bound = bits_float(greatest_magnitude(a)) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
+  struct vector out = times(bound * inverse_length, n);
 
   /* Half as far back along the sight, but not beyond the eye: nothing is in between, so this leads away from every
      surface near by, where the normal in a corner may lead along another wall, or into it. */
-  float weight1 = hit->weight1, weight2 = hit->weight2;
-  struct vector inside = {weight1 * e.x + weight2 * f.x, weight1 * e.y + weight2 * f.y, weight1 * e.z + weight2 * f.z};
-  sight.x += inside.x, sight.y += inside.y, sight.z += inside.z;
-  int32_t far = larger(larger(magnitude(sight.x), magnitude(sight.y)), magnitude(sight.z)) & 0x7F800000;
-  int32_t back_bits = float_bits(bits_float(0x7E800000 - far) * bound);
-  float back = bits_float(back_bits < float_bits(1.0f) ? back_bits : float_bits(1.0f));
-  surface->point.x = a.x + (inside.x + (offset * n.x - back * sight.x));
-  surface->point.y = a.y + (inside.y + (offset * n.y - back * sight.y));
-  surface->point.z = a.z + (inside.z + (offset * n.z - back * sight.z));
-  surface->behind.x = a.x + (inside.x - offset * n.x);
-  surface->behind.y = a.y + (inside.y - offset * n.y);
-  surface->behind.z = a.z + (inside.z - offset * n.z);
+  struct vector inside = plus(times(hit->weight1, e), times(hit->weight2, f));
+  sight = plus(sight, inside);
+  int32_t far = greatest_magnitude(sight) & 0x7F800000;
+  struct vector back = times(at_most(bits_float(0x7E800000 - far) * bound, 1), sight);
+  surface->point = plus(a, plus(inside, minus(out, back)));
+  surface->behind = plus(a, minus(inside, out));
   surface->turned = away != 0;
   surface->normal = n;
   surface->inverse_length = inverse_length;
@@ -118,13 +106,12 @@ static inline __attribute__((always_inline)) void find_surface_exactly(struct su
 static inline __attribute__((always_inline)) void smooth_surface(struct surface *surface, const struct hit *hit,
                                                                  uint32_t normals_distance) {
   const float *n0 = (const float *)(const void *)(hit->triangle + normals_distance), *n1 = n0 + 3, *n2 = n0 + 6;
-  float weight1 = hit->weight1, weight2 = hit->weight2;
-  struct vector n = {n0[0] + (weight1 * (n1[0] - n0[0]) + weight2 * (n2[0] - n0[0])),
-                     n0[1] + (weight1 * (n1[1] - n0[1]) + weight2 * (n2[1] - n0[1])),
-                     n0[2] + (weight1 * (n1[2] - n0[2]) + weight2 * (n2[2] - n0[2]))};
+  struct vector first = load_vector(n0);
+  struct vector n = plus(first, plus(times(hit->weight1, minus(load_vector(n1), first)),
+                                     times(hit->weight2, minus(load_vector(n2), first))));
   int32_t side = float_bits(dot(n, surface->normal)) & SIGN_BIT;
-  n.x = bits_float(float_bits(n.x) ^ side), n.y = bits_float(float_bits(n.y) ^ side);
-  n.z = bits_float(float_bits(n.z) ^ side);
+  n = (struct vector){bits_float(float_bits(n.x) ^ side), bits_float(float_bits(n.y) ^ side),
+                      bits_float(float_bits(n.z) ^ side)};
   surface->normal = n;
   surface->inverse_length = trax_rsqrt(bits_float(larger(float_bits(dot(n, n)), float_bits(0x1p-40f))));
 }
@@ -151,14 +138,14 @@ static inline struct vector scale_way(struct vector way, int32_t *exponent) {
 }
 
 static inline void aim_at_light(struct light *light, const struct surface *surface, const float *position) {
-  struct vector way = {position[0] - surface->point.x, position[1] - surface->point.y, position[2] - surface->point.z};
+  struct vector way = minus(load_vector(position), surface->point);
   int32_t exponent = 0;
   if (HITS_ARE_EXACT)
     way = scale_way(way, &exponent);
   float square = dot(way, way);
   float inverse = trax_rsqrt(square);
   float cosine = dot(surface->normal, way) * surface->inverse_length * inverse;
-  light->direction.x = way.x * inverse, light->direction.y = way.y * inverse, light->direction.z = way.z * inverse;
+  light->direction = times(inverse, way);
   if (HITS_ARE_EXACT) {
     light->distance_bits = float_bits(square * inverse * bits_float(exponent)) - LIGHT_SLACK;
     light->cosine_bits = exponent ? float_bits(cosine) : 0;
@@ -171,8 +158,7 @@ static inline void aim_at_light(struct light *light, const struct surface *surfa
 
 /* What the surface sends back of the light from everywhere; at most 1 together with that of the point light. */
 static inline float ambient_light(const struct trax_render_params *frame, const struct surface *surface) {
-  struct vector fill = {frame->fill[0], frame->fill[1], frame->fill[2]};
-  return frame->ambient + dot(surface->normal, fill) * surface->inverse_length;
+  return frame->ambient + dot(surface->normal, load_vector(frame->fill)) * surface->inverse_length;
 }
 
 /* The square root, and 2^-20 for what is nearly 0 or less: a whole number of pixel values is still 0. */

@@ -24,9 +24,8 @@ static inline uint32_t first_queue(void) {
   return queue;
 }
 
-/* False: there is none left. next: of each queue, how many were taken, and how often someone found it empty. */
-static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t *queue,
-                             uint32_t *slot) {
+static inline bool take_from_queues(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t *queue,
+                                    uint32_t *slot) {
   if (TRAX_QUEUES == 1)
     return (*slot = trax_atomic_inc(next)) < run->slot_count;
   const uint32_t tile_bits = 2 * run->tile_log2_side;
@@ -39,6 +38,15 @@ static inline bool take_slot(const struct trax_render_params *run, unsigned next
     if (*queue == first_queue())
       return false;
   }
+}
+
+/* False: there is none left. next: of each queue, how many were taken, and how often someone found it empty. */
+static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t *queue,
+                             uint32_t *slot) {
+  if (!take_from_queues(run, next, queue, slot))
+    return false;
+  HIDE_ORIGIN(*slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
+  return true;
 }
 
 #endif

@@ -37,6 +37,7 @@ texture_at(const char *scene_bytes, const struct trax_texture *texture, float u,
   int32_t column = floor_of(x), row = floor_of(y);
   float along = x - (float)column, across = y - (float)row;
   struct texel sum = {{0, 0, 0}, 0};
+  KEEP_ROLLED
   for (int32_t tap = 0; tap < 4; tap++) {
     int32_t right = tap & 1, down = tap >> 1;
     uint32_t i = texel_number(column + right, log2_width, flags), j = texel_number(row + down, log2_height, flags);
@@ -45,7 +46,6 @@ texture_at(const char *scene_bytes, const struct trax_texture *texture, float u,
     float red = byte_of(word, 0), green = byte_of(word, 8), blue = byte_of(word, 16);
     sum.colour = plus(sum.colour, times(weight, (struct vector){red * red, green * green, blue * blue}));
     sum.alpha += weight * byte_of(word, 24);
-    HIDE_ORIGIN(tap); /* one copy */
   }
   sum.colour = times(1.0f / 65025, sum.colour);
   sum.alpha *= 1.0f / 255;

@@ -31,40 +31,43 @@ static inline __attribute__((always_inline)) int32_t plane_distance(uint32_t lay
 /* Brings one axis of a ray into a node's frame (scene_format.h, struct trax_quantised8_node). */
 #define ENTER_FRAME(AXIS, NUMBER)                                                                                      \
   do {                                                                                                                 \
-    uint32_t word = load_word(node + (NUMBER) * 4);                                                                    \
-    float first = bits_float((int32_t)word) * way.inverse_##AXIS;                                                      \
-    way.near_origin_##AXIS -= first, way.far_origin_##AXIS -= first;                                                   \
-    way.inverse_##AXIS = bits_float(float_bits(way.inverse_##AXIS) + (int32_t)(word << 23));                           \
+    uint32_t word = load_word(node + (NUMBER)*4);                                                                      \
+    float first = bits_float((int32_t)word) * way.inverse.AXIS;                                                        \
+    way.near_origin.AXIS -= first, way.far_origin.AXIS -= first;                                                       \
+    way.inverse.AXIS = bits_float(float_bits(way.inverse.AXIS) + (int32_t)(word << 23));                               \
   } while (0)
 
-/* Clips the ray's way through a box to the slab between two of its planes, and leaves for `missed` if nothing remains.
-   Distances are compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good
-   as another place, and who leaves before 0 has missed in any case, which is asked at the end. A box is six planes of
-   `plane` bytes each, `box` bytes from the node's beginning, the three least ones first. */
-#define CLIP_TO_SLAB(AXIS, NUMBER, BOX, ENTER, LEAVE, MISSED)                                                          \
-  do {                                                                                                                 \
-    int32_t near_bits = plane_distance(layout, node + ray->near_offset_##AXIS + ((BOX) + (NUMBER) * plane),            \
-                                       way.near_origin_##AXIS, way.inverse_##AXIS);                                    \
-    int32_t far_bits = plane_distance(layout, node - ray->near_offset_##AXIS + ((BOX) + ((NUMBER) + 3) * plane),       \
-                                      way.far_origin_##AXIS, way.inverse_##AXIS);                                      \
-    if ((NUMBER) == 0 || near_bits > ENTER)                                                                            \
-      ENTER = near_bits;                                                                                               \
-    if (far_bits < LEAVE)                                                                                              \
-      LEAVE = far_bits;                                                                                                \
-    if (ENTER > LEAVE)                                                                                                 \
-      goto MISSED;                                                                                                     \
-  } while (0)
+/* Clips the ray's way through a box to the slab between two of its planes. False: nothing of it remains. Distances are
+   compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good as another
+   place, and who leaves before 0 has missed in any case, which is asked at the end. */
+static inline __attribute__((always_inline)) bool clip_to_slab(uint32_t layout, const char *near, const char *far,
+                                                               float near_origin, float far_origin, float inverse,
+                                                               int32_t *enter, int32_t *leave) {
+  int32_t near_bits = plane_distance(layout, near, near_origin, inverse);
+  int32_t far_bits = plane_distance(layout, far, far_origin, inverse);
+  if (near_bits > *enter)
+    *enter = near_bits;
+  if (far_bits < *leave)
+    *leave = far_bits;
+  return *enter <= *leave;
+}
 
-/* Where the ray enters a box, as bits, if it does so before `limit`. */
-#define ENTER_BOX(BOX, ENTER, MISSED)                                                                                  \
-  do {                                                                                                                 \
-    int32_t leave = limit;                                                                                             \
-    CLIP_TO_SLAB(x, 0, BOX, ENTER, leave, MISSED);                                                                     \
-    CLIP_TO_SLAB(y, 1, BOX, ENTER, leave, MISSED);                                                                     \
-    CLIP_TO_SLAB(z, 2, BOX, ENTER, leave, MISSED);                                                                     \
-    if (leave < 0)                                                                                                     \
-      goto MISSED;                                                                                                     \
-  } while (0)
+/* Where the ray enters a box, as bits, if it does so before `limit`. A box is six planes, the three least ones first.
+ */
+static inline __attribute__((always_inline)) bool enter_box(uint32_t layout, const char *box, const struct ray *ray,
+                                                            const struct box_ray *way, int32_t limit, int32_t *enter) {
+  const int plane = NODE_PLANE_BYTES(layout);
+  const char *least = box, *greatest = box + 3 * plane;
+  int32_t leave = limit;
+  *enter = INT32_MIN;
+  return clip_to_slab(layout, least + ray->near_offset_x, greatest - ray->near_offset_x, way->near_origin.x,
+                      way->far_origin.x, way->inverse.x, enter, &leave) &&
+         clip_to_slab(layout, least + plane + ray->near_offset_y, greatest + plane - ray->near_offset_y,
+                      way->near_origin.y, way->far_origin.y, way->inverse.y, enter, &leave) &&
+         clip_to_slab(layout, least + 2 * plane + ray->near_offset_z, greatest + 2 * plane - ray->near_offset_z,
+                      way->near_origin.z, way->far_origin.z, way->inverse.z, enter, &leave) &&
+         leave >= 0;
+}
 
 #define FIRST_BOX(layout) (NODES_HAVE_FRAMES(layout) ? 12 : 0)
 
@@ -83,9 +86,15 @@ static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, co
     ENTER_FRAME(y, 1);
     ENTER_FRAME(z, 2);
   }
-  ENTER_BOX(first_box, enter0, second_only);
-  ENTER_BOX(second_box, enter1, first_only);
-  if (enter0 <= enter1) {
+  if (!enter_box(layout, node + first_box, ray, &way, limit, &enter0)) {
+    if (!enter_box(layout, node + second_box, ray, &way, limit, &enter1))
+      return false;
+    *reference = load_word(node + children + 4);
+    trail_descend(trail, true, true);
+  } else if (!enter_box(layout, node + second_box, ray, &way, limit, &enter1)) {
+    *reference = load_word(node + children);
+    trail_descend(trail, false, true);
+  } else if (enter0 <= enter1) {
     *reference = load_word(node + children);
     stack_push(stack, top, load_word(node + children + 4), enter1);
     trail_descend(trail, false, false);
@@ -95,17 +104,6 @@ static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, co
     trail_descend(trail, true, false);
   }
   return true;
-first_only:
-  *reference = load_word(node + children);
-  trail_descend(trail, false, true);
-  return true;
-second_only:
-  ENTER_BOX(second_box, enter1, neither);
-  *reference = load_word(node + children + 4);
-  trail_descend(trail, true, true);
-  return true;
-neither:
-  return false;
 }
 
 /* Puts the children of a wide node that the ray enters on the stack, the nearest last. */
@@ -123,20 +121,15 @@ visit_wide_node(uint32_t layout, const char *whole, const struct ray *ray, int32
   }
   KEEP_ROLLED
   for (;; node += 12 * plane + 8) {
-    int32_t enter0, enter1;
-    trax_scene_ref first, second;
-    ENTER_BOX(first_box, enter0, first_missed);
-    first = load_word(node + children);
-    if (first == 0)
-      return;
-    stack_insert(bottom, top, first, enter0);
-  first_missed:
-    ENTER_BOX(second_box, enter1, second_missed);
-    second = load_word(node + children + 4);
-    if (second == 0)
-      return;
-    stack_insert(bottom, top, second, enter1);
-  second_missed:
+    for (int child = 0; child < 2; child++) {
+      int32_t enter;
+      if (!enter_box(layout, node + (child ? second_box : first_box), ray, &way, limit, &enter))
+        continue;
+      trax_scene_ref reference = load_word(node + children + 4 * child);
+      if (reference == 0)
+        return;
+      stack_insert(bottom, top, reference, enter);
+    }
     if (node != whole)
       return;
   }
@@ -183,7 +176,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
       ACCESS_NODE(node);
       if (STACK_IS_SHORT)
         trail_make_room(&trail);
-      /* The layout's own code, where it is known at run time only. */
+        /* The layout's own code, where it is known at run time only. */
 #define VISIT(LAYOUT) visit_node(LAYOUT, node, ray, limit, &reference, stack, &top, &trail)
       if (NODES_ARE_WIDE(layout)) {
         if (layout == TRAX_NODES_WIDE)

@@ -11,6 +11,7 @@
 #ifndef TRAX_DEVICE_TRIANGLE_H
 #define TRAX_DEVICE_TRIANGLE_H
 
+#include "algebra.h"
 #include "bits.h"
 #include "exact.h"
 #include "run.h"
@@ -52,7 +53,6 @@ static inline bool comes_first(const char *triangle, const char *other) {
   KEEP_ROLLED
   for (int i = 0; i < 9; i++) {
     uint32_t word = words[i], other_word = others[i];
-    HIDE_ORIGIN(word); /* or it would be a vectorised comparison */
     if (word != other_word)
       return word < other_word;
   }
@@ -91,35 +91,43 @@ accept_hit(const char *triangle, bool any, float scaled, float determinant, floa
    ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
 struct triangle_ray {
   uint32_t offset_u, offset_v, offset_w;
-  float origin_u, origin_v, origin_w;
+  struct vector origin; /* renamed */
   float shear_u, shear_v, scale_w;
 #ifdef HAS_EXACT_RAY
   struct exact_ray ray; /* as it is */
 #endif
 };
 
-/* inverse_ are the reciprocals of the direction's components, of which only the largest one's is used. */
-static inline void prepare_triangle_ray(struct triangle_ray *ray, float ox, float oy, float oz, float dx, float dy,
-                                        float dz, float inverse_x, float inverse_y, float inverse_z) {
-  int32_t size_x = magnitude(dx), size_y = magnitude(dy), size_z = magnitude(dz);
-  int32_t size = larger(larger(size_x, size_y), size_z);
+/* inverse: the reciprocals of the direction's components, of which only the largest one's is used. */
+static inline void prepare_triangle_ray(struct triangle_ray *ray, struct vector origin, struct vector direction,
+                                        struct vector inverse) {
+  int32_t size = greatest_magnitude(direction);
 #ifdef HAS_EXACT_RAY
   if (HITS_ARE_EXACT)
-    ray->ray = (struct exact_ray){{ox, oy, oz}, {dx, dy, dz}};
+    ray->ray = (struct exact_ray){{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}};
 #endif
-  if (size == size_x) {
+  if (size == magnitude(direction.x)) {
     ray->offset_u = 4, ray->offset_v = 8, ray->offset_w = 0;
-    ray->origin_u = oy, ray->origin_v = oz, ray->origin_w = ox;
-    ray->shear_u = dy * inverse_x, ray->shear_v = dz * inverse_x, ray->scale_w = inverse_x;
-  } else if (size == size_y) {
+    ray->origin = (struct vector){origin.y, origin.z, origin.x};
+    ray->shear_u = direction.y * inverse.x, ray->shear_v = direction.z * inverse.x, ray->scale_w = inverse.x;
+  } else if (size == magnitude(direction.y)) {
     ray->offset_u = 8, ray->offset_v = 0, ray->offset_w = 4;
-    ray->origin_u = oz, ray->origin_v = ox, ray->origin_w = oy;
-    ray->shear_u = dz * inverse_y, ray->shear_v = dx * inverse_y, ray->scale_w = inverse_y;
+    ray->origin = (struct vector){origin.z, origin.x, origin.y};
+    ray->shear_u = direction.z * inverse.y, ray->shear_v = direction.x * inverse.y, ray->scale_w = inverse.y;
   } else {
     ray->offset_u = 0, ray->offset_v = 4, ray->offset_w = 8;
-    ray->origin_u = ox, ray->origin_v = oy, ray->origin_w = oz;
-    ray->shear_u = dx * inverse_z, ray->shear_v = dy * inverse_z, ray->scale_w = inverse_z;
+    ray->origin = origin;
+    ray->shear_u = direction.x * inverse.z, ray->shear_v = direction.y * inverse.z, ray->scale_w = inverse.z;
   }
+}
+
+/* A triangle's corner as seen from the ray's origin, renamed and sheared, but not scaled. */
+static inline __attribute__((always_inline)) struct vector sheared_corner(const struct triangle_ray *ray,
+                                                                          const char *triangle, int corner) {
+  float w = load_float(triangle + ray->offset_w + 12 * corner) - ray->origin.z;
+  float u = load_float(triangle + ray->offset_u + 12 * corner) - ray->origin.x - ray->shear_u * w;
+  float v = load_float(triangle + ray->offset_v + 12 * corner) - ray->origin.y - ray->shear_v * w;
+  return (struct vector){u, v, w};
 }
 
 /* Of edge values: not on the same side. Zeros of either sign are on both sides. */
@@ -143,9 +151,9 @@ static inline __attribute__((always_inline)) bool may_hit_triangle(const struct 
   int32_t size = 0, across = 0;
   for (int corner = 0; corner < 3; corner++) {
     float *place = coordinate + 3 * corner;
-    place[0] = load_float(at_u + 12 * corner) - ray->origin_u;
-    place[1] = load_float(at_v + 12 * corner) - ray->origin_v;
-    place[2] = load_float(at_w + 12 * corner) - ray->origin_w;
+    place[0] = load_float(at_u + 12 * corner) - ray->origin.x;
+    place[1] = load_float(at_v + 12 * corner) - ray->origin.y;
+    place[2] = load_float(at_w + 12 * corner) - ray->origin.z;
     size = larger(size, larger(larger(magnitude(place[0]), magnitude(place[1])), magnitude(place[2])));
   }
   float scale = bits_float(0x7F000000 - (size & 0x7F800000));
@@ -195,67 +203,54 @@ static inline __attribute__((always_inline)) bool hit_triangle(const struct tria
                                                                bool any, struct hit *hit) {
   if (HITS_ARE_EXACT)
     return hit_triangle_exactly(ray, triangle, any, hit);
-  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
-  float aw = load_float(at_w) - ray->origin_w;
-  float bw = load_float(at_w + 12) - ray->origin_w;
-  float cw = load_float(at_w + 24) - ray->origin_w;
-  float au = load_float(at_u) - ray->origin_u - ray->shear_u * aw;
-  float av = load_float(at_v) - ray->origin_v - ray->shear_v * aw;
-  float bu = load_float(at_u + 12) - ray->origin_u - ray->shear_u * bw;
-  float bv = load_float(at_v + 12) - ray->origin_v - ray->shear_v * bw;
-  float cu = load_float(at_u + 24) - ray->origin_u - ray->shear_u * cw;
-  float cv = load_float(at_v + 24) - ray->origin_v - ray->shear_v * cw;
-
-  float edge_a = cu * bv - cv * bu;
-  float edge_b = au * cv - av * cu;
+  struct vector b = sheared_corner(ray, triangle, 1), c = sheared_corner(ray, triangle, 2);
+  struct vector a = sheared_corner(ray, triangle, 0);
+  float edge_a = c.x * b.y - c.y * b.x;
+  float edge_b = a.x * c.y - a.y * c.x;
   if (opposite(edge_a, edge_b))
     return false;
-  float edge_c = bu * av - bv * au;
+  float edge_c = b.x * a.y - b.y * a.x;
   if (opposite(edge_a, edge_c) || opposite(edge_b, edge_c))
     return false;
   float determinant = edge_a + edge_b + edge_c;
   if (magnitude(determinant) < LEAST_DETERMINANT_BITS)
     return false;
-  return accept_hit(triangle, any, (edge_a * aw + edge_b * bw + edge_c * cw) * ray->scale_w, determinant, edge_b,
+  return accept_hit(triangle, any, (edge_a * a.z + edge_b * b.z + edge_c * c.z) * ray->scale_w, determinant, edge_b,
                     edge_c, hit);
 }
 
 #elif TRAX_TRIANGLE == TRAX_MOLLER_TRUMBORE
 
 struct triangle_ray {
-  float origin_x, origin_y, origin_z;
-  float direction_x, direction_y, direction_z;
+  struct vector origin, direction;
 };
 
-static inline void prepare_triangle_ray(struct triangle_ray *ray, float ox, float oy, float oz, float dx, float dy,
-                                        float dz, float inverse_x, float inverse_y, float inverse_z) {
-  (void)inverse_x, (void)inverse_y, (void)inverse_z;
-  *ray = (struct triangle_ray){ox, oy, oz, dx, dy, dz};
+static inline void prepare_triangle_ray(struct triangle_ray *ray, struct vector origin, struct vector direction,
+                                        struct vector inverse) {
+  (void)inverse;
+  *ray = (struct triangle_ray){origin, direction};
 }
 
 static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
                                                                bool any, struct hit *hit) {
-  float ax = load_float(triangle), ay = load_float(triangle + 4), az = load_float(triangle + 8);
-  float fx = load_float(triangle + 24) - ax, fy = load_float(triangle + 28) - ay, fz = load_float(triangle + 32) - az;
-  float px = ray->direction_y * fz - ray->direction_z * fy;
-  float py = ray->direction_z * fx - ray->direction_x * fz;
-  float pz = ray->direction_x * fy - ray->direction_y * fx;
-  float ex = load_float(triangle + 12) - ax, ey = load_float(triangle + 16) - ay, ez = load_float(triangle + 20) - az;
-  float determinant = ex * px + ey * py + ez * pz;
+  const float *v0 = (const float *)(const void *)triangle, *v1 = v0 + 3, *v2 = v0 + 6;
+  struct vector a = load_vector(v0), f = minus(load_vector(v2), a), p = cross(ray->direction, f);
+  struct vector e = minus(load_vector(v1), a);
+  float determinant = dot(e, p);
   int32_t size_bits = magnitude(determinant), sign = float_bits(determinant) & SIGN_BIT;
   if (size_bits < LEAST_DETERMINANT_BITS)
     return false;
-  float sx = ray->origin_x - ax, sy = ray->origin_y - ay, sz = ray->origin_z - az;
+  struct vector s = minus(ray->origin, a);
 
   /* 0 <= u <= 1 and 0 <= v <= 1 - u, all times |determinant|; a zero of either sign is inside. */
-  float u = bits_float(float_bits(sx * px + sy * py + sz * pz) ^ sign);
+  float u = bits_float(float_bits(dot(s, p)) ^ sign);
   if ((uint32_t)float_bits(u) > (uint32_t)SIGN_BIT || float_bits(u) > size_bits)
     return false;
-  float qx = sy * ez - sz * ey, qy = sz * ex - sx * ez, qz = sx * ey - sy * ex;
-  float v = bits_float(float_bits(ray->direction_x * qx + ray->direction_y * qy + ray->direction_z * qz) ^ sign);
+  struct vector q = cross(s, e);
+  float v = bits_float(float_bits(dot(ray->direction, q)) ^ sign);
   if ((uint32_t)float_bits(v) > (uint32_t)SIGN_BIT || float_bits(u + v) > size_bits)
     return false;
-  return accept_hit(triangle, any, fx * qx + fy * qy + fz * qz, determinant, bits_float(float_bits(u) ^ sign),
+  return accept_hit(triangle, any, dot(f, q), determinant, bits_float(float_bits(u) ^ sign),
                     bits_float(float_bits(v) ^ sign), hit);
 }
 

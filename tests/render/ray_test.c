@@ -83,8 +83,8 @@ static bool shoot(const struct trax_scene *scene, const float from[3], const flo
   memcpy(grid.origin, scene->grid.origin, sizeof grid.origin);
   memcpy(grid.cell, scene->grid.cell, sizeof grid.cell);
   float margin = 0x1p-16f; /* as frame.c has it for a scene of this size */
-  prepare_ray(&ray, layout, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2], margin,
-              NODES_ON_GRID(layout) ? &grid : NULL);
+  const struct vector origin = load_vector(from);
+  prepare_ray(&ray, layout, origin, minus(load_vector(to), origin), margin, NODES_ON_GRID(layout) ? &grid : NULL);
   *hit = (struct hit){0x7F000000, 0, 0, 0};
   bool nearest = trace_ray(layout, scene->bytes, scene->header->root, &ray, false, hit);
   struct hit any = {0x7F000000, 0, 0, 0};
@@ -196,13 +196,11 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
       to[c] = values[c] + weight1 * (values[3 + c] - values[c]) + weight2 * (values[6 + c] - values[c]);
     }
     struct ray ray;
-    prepare_ray(&ray, TRAX_NODES_BINARY, from[0], from[1], from[2], to[0] - from[0], to[1] - from[1], to[2] - from[2],
-                0, NULL);
+    struct vector eye = load_vector(from), towards = minus(load_vector(to), eye);
+    prepare_ray(&ray, TRAX_NODES_BINARY, eye, towards, 0, NULL);
     if (!hit_triangle(&ray.triangle, (const char *)&triangle, false, &hit))
       continue;
     struct surface surface;
-    struct vector eye = {from[0], from[1], from[2]};
-    struct vector towards = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     if (exact)
       find_surface_exactly(&surface, &hit, eye, towards);
     else
@@ -212,8 +210,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};
     if (dot(way, surface.normal) < 0)
       way.x = -way.x, way.y = -way.y, way.z = -way.z;
-    prepare_ray(&ray, TRAX_NODES_BINARY, surface.point.x, surface.point.y, surface.point.z, way.x, way.y, way.z, 0,
-                NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, surface.point, way, 0, NULL);
     struct hit self = {0x7F000000, 0, 0, 0};
     assert_false(hit_triangle(&ray.triangle, (const char *)&triangle, true, &self));
     tested++;

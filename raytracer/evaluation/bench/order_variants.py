@@ -88,15 +88,15 @@ KIND_OF_RAY = [("traverse.h", "struct trail *trail) {\n  const int plane", "stru
 AXIS = [*KIND_OF_RAY,
         ("traverse.h", "scene_at(scene, reference);\n      ACCESS", "scene_at(scene, reference & ~31u);\n      ACCESS"),
         ("ray.h", "  struct triangle_ray triangle;\n", "  struct triangle_ray triangle;\n  uint32_t signs; /* bit 31: of x, bit 23: of y, bit 15: of z */\n"),
-        ("ray.h", "  HIDE_ORIGIN(ray->near_offset_x);", """  ray->signs = ((uint32_t)float_bits(cx) & 0x80000000u) | ((uint32_t)float_bits(cy) >> 31 << 23) |
-               ((uint32_t)float_bits(cz) >> 31 << 15);
+        ("ray.h", "  ray->near_offset_x = ", """  ray->signs = ((uint32_t)float_bits(way.x) & 0x80000000u) | ((uint32_t)float_bits(way.y) >> 31 << 23) |
+               ((uint32_t)float_bits(way.z) >> 31 << 15);
   HIDE_ORIGIN(ray->signs);
-  HIDE_ORIGIN(ray->near_offset_x);""")]
+  ray->near_offset_x = """)]
 BY_SIGN = "(int32_t)(ray->signs << (*reference & 31)) >= 0"
 
 
 def first_if(condition):
-    return [("traverse.h", "  if (enter0 <= enter1) {", f"  if ({condition}) {{")]
+    return [("traverse.h", "if (enter0 <= enter1) {", f"if ({condition}) {{")]
 
 
 # After a shadow ray that was stopped the next one of the thread first tries what stopped it.

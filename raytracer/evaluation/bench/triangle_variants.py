@@ -125,11 +125,8 @@ def material(address):
 HEADER = "((const struct trax_scene_header *)scene.data)"
 APART = material(f"(const char *)scene.data + {HEADER}->sections[TRAX_SCENE_MATERIALS].offset + "
                  f"(((uint32_t)triangle - {HEADER}->base - {HEADER}->sections[TRAX_SCENE_TRIANGLES].offset) >> 5 << 2)")
-INDEXED = [("triangle.h", "const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;",
-            "const char *const *corner = (const char *const *)(const void *)triangle, *a = corner[0], *b = corner[1], *c = corner[2];"),
-           ("triangle.h", re.compile(r"at_([uvw])\)"), r"a + ray->offset_\1)"),
-           ("triangle.h", re.compile(r"at_([uvw]) \+ 12\)"), r"b + ray->offset_\1)"),
-           ("triangle.h", re.compile(r"at_([uvw]) \+ 24\)"), r"c + ray->offset_\1)"),
+INDEXED = [("triangle.h", "int corner) {\n", "int corner) {\n  const char *at = ((const char *const *)(const void *)triangle)[corner];\n"),
+           ("triangle.h", re.compile(r"triangle \+ ray->offset_([uvw]) \+ 12 \* corner"), r"at + ray->offset_\1"),
            ("triangle.h", "*words = (const uint32_t *)(const void *)triangle, *others = (const uint32_t *)(const void *)other;",
             "*const *words = (const uint32_t *const *)(const void *)triangle, *const *others = (const uint32_t *const *)(const void *)other;"),
            ("triangle.h", "word = words[i], other_word = others[i];", "word = words[i / 3][i % 3], other_word = others[i / 3][i % 3];"),
@@ -137,16 +134,12 @@ INDEXED = [("triangle.h", "const char *at_u = triangle + ray->offset_u, *at_v = 
             "*const *corner = (const float *const *)(const void *)hit->triangle, *v0 = corner[0], *v1 = corner[1], *v2 = corner[2];")]
 MOLLER_TRUMBORE = [("triangle.h", "#define TRAX_TRIANGLE TRAX_WATERTIGHT", "#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE")]
 EDGES = [*MOLLER_TRUMBORE,
-         ("triangle.h", "load_float(triangle + 24) - ax, fy = load_float(triangle + 28) - ay, fz = load_float(triangle + 32) - az;",
-          "load_float(triangle + 24), fy = load_float(triangle + 28), fz = load_float(triangle + 32);"),
-         ("triangle.h", "load_float(triangle + 12) - ax, ey = load_float(triangle + 16) - ay, ez = load_float(triangle + 20) - az;",
-          "load_float(triangle + 12), ey = load_float(triangle + 16), ez = load_float(triangle + 20);"),
-         ("shade.h", "b = {v1[0], v1[1], v1[2]}, c = {v2[0], v2[1], v2[2]};", "e = {v1[0], v1[1], v1[2]}, f = {v2[0], v2[1], v2[2]};"),
-         ("shade.h", "  struct vector e = {b.x - a.x, b.y - a.y, b.z - a.z}, f = {c.x - a.x, c.y - a.y, c.z - a.z};\n", "")]
-TRANSFORM_TEST = """  float height = load_float(triangle) * ray->origin_x + load_float(triangle + 4) * ray->origin_y +
-                 load_float(triangle + 8) * ray->origin_z + load_float(triangle + 12);
-  float determinant = load_float(triangle) * ray->direction_x + load_float(triangle + 4) * ray->direction_y +
-                      load_float(triangle + 8) * ray->direction_z;
+         ("triangle.h", "f = minus(load_vector(v2), a)", "f = load_vector(v2)"),
+         ("triangle.h", "e = minus(load_vector(v1), a)", "e = load_vector(v1)"),
+         ("shade.h", re.compile(r"e = minus\(load_vector\(v1\), a\), f = minus\(load_vector\(v2\), a\)"), "e = load_vector(v1), f = load_vector(v2)")]
+TRANSFORM_TEST = """  const float *row0 = (const float *)(const void *)triangle;
+  float height = dot(load_vector(row0), ray->origin) + row0[3];
+  float determinant = dot(load_vector(row0), ray->direction);
   int32_t size_bits = magnitude(determinant), sign = float_bits(determinant) & SIGN_BIT;
   if (size_bits < LEAST_DETERMINANT_BITS)
     return false;
@@ -156,11 +149,9 @@ TRANSFORM_TEST = """  float height = load_float(triangle) * ray->origin_x + load
     return false;
   float weight[2];
   for (int row = 0; row < 2; row++) {
-    const char *at = triangle + 16 + 16 * row;
-    float start = load_float(at) * ray->origin_x + load_float(at + 4) * ray->origin_y +
-                  load_float(at + 8) * ray->origin_z + load_float(at + 12);
-    float step = load_float(at) * ray->direction_x + load_float(at + 4) * ray->direction_y +
-                 load_float(at + 8) * ray->direction_z;
+    const float *at = row0 + 4 + 4 * row;
+    float start = dot(load_vector(at), ray->origin) + at[3];
+    float step = dot(load_vector(at), ray->direction);
     weight[row] = bits_float(float_bits(start * determinant - height * step) ^ sign);
     if ((uint32_t)float_bits(weight[row]) > (uint32_t)SIGN_BIT || float_bits(weight[row]) > size_bits)
       return false;
@@ -173,7 +164,7 @@ TRANSFORM_TEST = """  float height = load_float(triangle) * ray->origin_x + load
 """
 RECORD = f"{HEADER}->sections[TRAX_SCENE_MATERIALS].offset - {HEADER}->sections[TRAX_SCENE_TRIANGLES].offset"
 TRANSFORMS = [*MOLLER_TRUMBORE, *stride(48), *material(f"triangle + 36 + {RECORD}"),
-              ("triangle.h", re.compile(r"  float ax = load_float\(triangle\), ay.*?\n}\n", re.S), TRANSFORM_TEST),
+              ("triangle.h", re.compile(r"  const float \*v0 = \(const float \*\)\(const void \*\)triangle, \*v1.*?\n}\n", re.S), TRANSFORM_TEST),
               ("shade.h", "(const void *)hit->triangle, *v1", f"(const void *)(hit->triangle + {RECORD}), *v1")]
 
 

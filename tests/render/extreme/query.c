@@ -8,15 +8,13 @@
 static inline void answer_query(const char *scene, const struct query_params *params, const struct query_ray *query,
                                 struct query_answer *answer) {
   const trax_scene_ref root = ((const struct trax_scene_header *)(const void *)scene)->root;
-  struct vector origin = {query->origin[0], query->origin[1], query->origin[2]};
-  float scale = direction_scale(query->direction[0], query->direction[1], query->direction[2]);
-  struct vector direction = {query->direction[0] * scale, query->direction[1] * scale, query->direction[2] * scale};
+  struct vector origin = load_vector(query->origin), direction = load_vector(query->direction);
+  direction = times(direction_scale(direction), direction);
   struct hit hit = {0x7F000000, NULL, 0, 0};
   unsigned shadow = 0;
   for (;;) {
     struct ray ray;
-    prepare_ray(&ray, RUN_LAYOUT(params), origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                params->box_margin, RUN_GRID(params));
+    prepare_ray(&ray, RUN_LAYOUT(params), origin, direction, params->box_margin, RUN_GRID(params));
     HIDE_ORIGIN(shadow); /* one copy of the traversal */
     bool found = trace_ray(RUN_LAYOUT(params), scene, root, &ray, shadow, &hit);
     if (shadow) {

@@ -393,7 +393,7 @@ static void judge(struct row rows[METHODS], const struct prepared *prepared,
   for (uint32_t i = 0; i < judged; i++) {
     const struct query_ray *ray = &prepared->setup.rays[i];
     struct exact_answer answer[METHODS];
-    int exponent = ilogbf(direction_scale(ray->direction[0], ray->direction[1], ray->direction[2]));
+    int exponent = ilogbf(direction_scale(load_vector(ray->direction)));
     for (int m = 0; m < METHODS; m++) {
       const struct query_answer *given = &answers[m][i];
       answer[m] = (struct exact_answer){.triangle = triangle_number(&prepared->scene, given->triangle),
