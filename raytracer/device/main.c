@@ -38,7 +38,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
 
     for (;;) {
       struct ray ray;
-      prepare_ray(&ray, layout, origin, direction, run->box_margin, LAYOUT_GRID(run, layout));
+      prepare_ray(&ray, layout, origin, direction, run->box_margin, &run->grid);
       HIDE_ORIGIN(shadow); /* or the loop's turns are told apart, and registers chosen less well */
       bool found =
           trace_ray(layout, scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);

@@ -296,7 +296,7 @@ static inline void store_radiance(const struct trax_render_params *run, struct p
 PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *path, bool shadow) {
   struct ray ray;
   struct hit hit = {shadow ? path->distance_bits : FARTHEST_BITS, NULL, 0, 0};
-  prepare_ray(&ray, RUN_LAYOUT(run), path->origin, path->direction, run->box_margin, RUN_GRID(run));
+  prepare_ray(&ray, RUN_LAYOUT(run), path->origin, path->direction, run->box_margin, &run->grid);
   bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
                          shadow && !HAS_HOLES(run), &hit);
   trax_count_rays(1);

@@ -4,14 +4,10 @@
 
 #include "algebra.h"
 #include "bits.h"
-#include "run.h"
+#include "nodes_binary.h"
+#include "nodes_quantised8.h"
 #include "trax/render_params.h"
 #include "triangle.h"
-
-/* For boxes. A plane is at (plane - origin) * inverse, or, if it is a number on a grid, at plane * inverse - origin. */
-struct box_ray {
-  struct vector near_origin, far_origin, inverse;
-};
 
 struct ray {
   /* If nodes have frames of their own, still without what these add. */
@@ -37,23 +33,6 @@ static inline float direction_scale(struct vector direction) {
   return bits_float(larger(0x7F000000 - exponent, 0x00800000));
 }
 
-/* A plane's number is used as a float as it is: that is the number times 2^-149, a subnormal, which this machine
-   multiplies like any other. So it takes no instruction to convert, but its reciprocal 2^149 must be in the factors:
-   distances along the ray are in units of 2^64 here, which keeps all of them within the range of floats as long as the
-   direction's largest component is within 2^-2 and 2^10 and cells within 2^-44 and 2^6 (trax_normalise). In frames,
-   whose planes are up to 2^9 cells apart, the units are 2^72, and the factor has 2^149 by the frame's word. */
-static inline struct vector plane_scaled(struct vector v) {
-  return times(0x1p74f, times(0x1p75f, v));
-}
-
-#define DISTANCE_EXPONENT(layout) (NODES_HAVE_FRAMES(layout) ? 72 : 64)
-#define DISTANCE_SCALE(layout) (NODES_HAVE_FRAMES(layout) ? 0x1p-72f : 0x1p-64f)
-
-/* A distance in those units, as bits; what is nearly 0 becomes a little more. */
-static inline int32_t distance_on_grid(uint32_t layout, int32_t distance_bits) {
-  return larger(distance_bits - (DISTANCE_EXPONENT(layout) << 23), 0x00800000);
-}
-
 static inline float with_sign_of(float magnitude, float sign) {
   return bits_float(float_bits(magnitude) | (float_bits(sign) & SIGN_BIT));
 }
@@ -66,7 +45,7 @@ static inline uint32_t near_offset(float component, uint32_t far_planes) {
 }
 
 /* Prepares a ray; the direction need not have unit length, but its largest component must be within 2^-21 and 2^40, so
-   that the product below neither vanishes nor overflows. grid: of quantised nodes, else NULL. */
+   that the product below neither vanishes nor overflows. Binary nodes ask for no grid. */
 static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, uint32_t layout, struct vector origin,
                                                               struct vector direction, float box_margin,
                                                               const struct trax_ray_grid *grid) {
@@ -80,31 +59,18 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   float product = 1.0f / (xy * way.z);
   struct vector inverse = {way.y * way.z * product, way.x * way.z * product, xy * product};
 
-  const uint32_t far_planes = 3 * NODE_PLANE_BYTES(layout);
+  const uint32_t far_planes = 3 * (uint32_t)plane_bytes(layout);
   ray->near_offset_x = near_offset(way.x, far_planes);
   ray->near_offset_y = near_offset(way.y, far_planes);
   ray->near_offset_z = near_offset(way.z, far_planes);
   struct vector margin = {with_sign_of(box_margin, way.x), with_sign_of(box_margin, way.y),
                           with_sign_of(box_margin, way.z)};
-  if (grid) {
-    struct vector cell = times(DISTANCE_SCALE(layout), load_vector(grid->cell));
-    struct vector step = times(DISTANCE_SCALE(layout), inverse), from = minus(origin, load_vector(grid->origin));
-    ray->box.near_origin = filtered(plus(from, margin), step);
-    ray->box.far_origin = filtered(minus(from, margin), step);
-    ray->box.inverse = filtered(inverse, cell);
-    if (NODES_HAVE_FRAMES(layout)) {
-      struct vector bias = times(TRAX_FRAME_BIAS, ray->box.inverse);
-      ray->box.near_origin = plus(ray->box.near_origin, bias);
-      ray->box.far_origin = plus(ray->box.far_origin, bias);
-    } else {
-      ray->box.inverse = plane_scaled(ray->box.inverse);
-    }
-  } else {
-    ray->box.inverse = inverse;
-    ray->box.near_origin = plus(origin, margin);
-    ray->box.far_origin = minus(origin, margin);
-  }
-
+  if (nodes_have_frames(layout))
+    prepare_for_frames(&ray->box, origin, inverse, margin, grid);
+  else if (nodes_are_quantised(layout))
+    prepare_for_quantised(&ray->box, origin, inverse, margin, grid);
+  else
+    prepare_for_binary(&ray->box, origin, inverse, margin);
   prepare_triangle_ray(&ray->triangle, origin, direction, inverse);
 }
 

@@ -42,14 +42,12 @@ extern struct trax_buffer scene, params, image;
 /* path.h, or the paper's workload? */
 #define NEEDS_PATHS(run) ((RUN_FEATURES(run) & TRAX_PATH_FEATURES) != 0)
 
-/* How the scene's nodes are laid out (enum trax_node_layout), and the grid if they are quantised. */
+/* How the scene's nodes are laid out (enum trax_node_layout). */
 #ifdef TRAX_NODE_LAYOUT
 #define RUN_LAYOUT(run) TRAX_NODE_LAYOUT
 #else
 #define RUN_LAYOUT(run) ((run)->node_layout)
 #endif
-#define LAYOUT_GRID(run, layout) (NODES_ON_GRID(layout) ? &(run)->grid : NULL)
-#define RUN_GRID(run) LAYOUT_GRID(run, RUN_LAYOUT(run))
 
 /* Of a general program that is told nothing else; the host has room for a whole stack. */
 #ifndef TRAX_TREE_DEPTH
@@ -64,21 +62,6 @@ extern struct trax_buffer scene, params, image;
 #endif
 
 #define STACK_IS_SHORT (TRAX_STACK_ENTRIES < TRAX_TREE_DEPTH)
-
-/* What a layout is like. The general program of the TPs has only the first two of them, since it is large enough, and
-   one with a short stack has no wide ones. */
-#if defined __trax__ && !defined TRAX_NODE_LAYOUT
-#define PROGRAM_HAS_LAYOUT(layout) ((layout) <= TRAX_NODES_QUANTISED)
-#else
-#define PROGRAM_HAS_LAYOUT(layout) ((layout) < TRAX_NODES_WIDE || !STACK_IS_SHORT)
-#endif
-#define NODES_ARE_WIDE(layout) (PROGRAM_HAS_LAYOUT(TRAX_NODES_WIDE) && (layout) >= TRAX_NODES_WIDE)
-#define NODES_ON_GRID(layout)                                                                                          \
-  ((layout) != TRAX_NODES_BINARY && !(NODES_ARE_WIDE(layout) && (layout) == TRAX_NODES_WIDE))
-#define NODES_HAVE_FRAMES(layout)                                                                                      \
-  (PROGRAM_HAS_LAYOUT(TRAX_NODES_QUANTISED8) &&                                                                        \
-   ((layout) == TRAX_NODES_QUANTISED8 || (layout) == TRAX_NODES_WIDE_QUANTISED8))
-#define NODE_PLANE_BYTES(layout) (NODES_HAVE_FRAMES(layout) ? 1 : NODES_ON_GRID(layout) ? 2 : 4)
 
 #if defined TRAX_SPECIALISED_FEATURES && !defined TRAX_PARAMS_IN_MEMORY
 #define RUN_PARAMS (&trax_constants.params)

@@ -9,6 +9,7 @@
 #ifndef TRAX_DEVICE_STACK_H
 #define TRAX_DEVICE_STACK_H
 
+#include "nodes.h"
 #include "run.h"
 #include "trax/scene_format.h"
 

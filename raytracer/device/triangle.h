@@ -14,6 +14,7 @@
 #include "algebra.h"
 #include "bits.h"
 #include "exact.h"
+#include "nodes.h"
 #include "run.h"
 #include "trax/scene_format.h"
 
@@ -30,10 +31,6 @@ struct hit {
   const char *triangle;   /* struct trax_triangle; NULL: nothing was hit */
   float weight1, weight2; /* barycentric, of v1 and v2 */
 };
-
-static inline float load_float(const char *address) {
-  return *(const float *)(const void *)address;
-}
 
 /* A smaller determinant is taken for zero, or its reciprocal might be infinite. It is twice the triangle's area as seen
    along the ray, in a scene that is 2^-4 wide at least (trax_normalise). */

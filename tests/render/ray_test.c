@@ -84,7 +84,7 @@ static bool shoot(const struct trax_scene *scene, const float from[3], const flo
   memcpy(grid.cell, scene->grid.cell, sizeof grid.cell);
   float margin = 0x1p-16f; /* as frame.c has it for a scene of this size */
   const struct vector origin = load_vector(from);
-  prepare_ray(&ray, layout, origin, minus(load_vector(to), origin), margin, NODES_ON_GRID(layout) ? &grid : NULL);
+  prepare_ray(&ray, layout, origin, minus(load_vector(to), origin), margin, &grid);
   *hit = (struct hit){0x7F000000, 0, 0, 0};
   bool nearest = trace_ray(layout, scene->bytes, scene->header->root, &ray, false, hit);
   struct hit any = {0x7F000000, 0, 0, 0};

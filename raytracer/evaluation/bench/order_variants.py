@@ -83,10 +83,11 @@ def axis_in_reference(scene):
 
 # --- and to the source: file, what is there, what takes its place
 
-KIND_OF_RAY = [("traverse.h", "struct trail *trail) {\n  const int plane", "struct trail *trail, bool any) {\n  const int plane"),
-               ("traverse.h", "&reference, stack, &top, &trail)", "&reference, stack, &top, &trail, any)")]
+KIND_OF_RAY = [("traverse.h", "  struct trail *trail) {", "  struct trail *trail, bool any) {"),
+               ("traverse.h", "stack, top, trail)", "stack, top, trail, any)"),
+               ("traverse.h", "stack, &top, &trail)", "stack, &top, &trail, any)")]
 AXIS = [*KIND_OF_RAY,
-        ("traverse.h", "scene_at(scene, reference);\n      ACCESS", "scene_at(scene, reference & ~31u);\n      ACCESS"),
+        ("traverse.h", "scene_at(scene, *reference);", "scene_at(scene, *reference & ~31u);"),
         ("ray.h", "  struct triangle_ray triangle;\n", "  struct triangle_ray triangle;\n  uint32_t signs; /* bit 31: of x, bit 23: of y, bit 15: of z */\n"),
         ("ray.h", "  ray->near_offset_x = ", """  ray->signs = ((uint32_t)float_bits(way.x) & 0x80000000u) | ((uint32_t)float_bits(way.y) >> 31 << 23) |
                ((uint32_t)float_bits(way.z) >> 31 << 15);
@@ -116,7 +117,7 @@ REMEMBERED = [("path.h", re.compile(r"(trace_ray\([^;]*)\);"), r"\1, NULL);"),
 
 
 def remember(what):
-    return [("traverse.h", "any, hit) && any)\n        return true;", f"any, hit) && any) {{\n        if (last)\n          *last = {what};\n        return true;\n      }}")]
+    return [("traverse.h", "any, hit) && any)\n          return true;", f"any, hit) && any) {{\n        if (last)\n          *last = {what};\n        return true;\n      }}")]
 
 
 ORDERS = [

@@ -14,7 +14,7 @@ static inline void answer_query(const char *scene, const struct query_params *pa
   unsigned shadow = 0;
   for (;;) {
     struct ray ray;
-    prepare_ray(&ray, RUN_LAYOUT(params), origin, direction, params->box_margin, RUN_GRID(params));
+    prepare_ray(&ray, RUN_LAYOUT(params), origin, direction, params->box_margin, &params->grid);
     HIDE_ORIGIN(shadow); /* one copy of the traversal */
     bool found = trace_ray(RUN_LAYOUT(params), scene, root, &ray, shadow, &hit);
     if (shadow) {

@@ -1,0 +1,41 @@
+/* Quantised nodes: planes are numbers of 16 bits on one grid for the whole scene (struct trax_quantised_node).
+
+   A plane's number is used as a float as it is: that is the number times 2^-149, a subnormal, which this machine
+   multiplies like any other. So it takes no instruction to convert, but its reciprocal 2^149 must be in the factors:
+   distances along the ray are in units of 2^64 here, which keeps all of them within the range of floats as long as the
+   direction's largest component is within 2^-2 and 2^10 and cells within 2^-44 and 2^6 (trax_normalise). */
+#ifndef TRAX_DEVICE_NODES_QUANTISED_H
+#define TRAX_DEVICE_NODES_QUANTISED_H
+
+#include "algebra.h"
+#include "nodes.h"
+#include "trax/render_params.h"
+
+#define GRID_EXPONENT 64
+
+/* `unit` is the reciprocal of the unit of distances; the factor of planes is still without 2^149. */
+static inline void prepare_for_grid(struct box_ray *box, struct vector origin, struct vector inverse,
+                                    struct vector margin, const struct trax_ray_grid *grid, float unit) {
+  struct vector cell = times(unit, load_vector(grid->cell)), step = times(unit, inverse);
+  struct vector from = minus(origin, load_vector(grid->origin));
+  box->near_origin = filtered(plus(from, margin), step);
+  box->far_origin = filtered(minus(from, margin), step);
+  box->inverse = filtered(inverse, cell);
+}
+
+static inline void prepare_for_quantised(struct box_ray *box, struct vector origin, struct vector inverse,
+                                         struct vector margin, const struct trax_ray_grid *grid) {
+  prepare_for_grid(box, origin, inverse, margin, grid, 0x1p-64f);
+  box->inverse = times(0x1p74f, times(0x1p75f, box->inverse));
+}
+
+static inline int32_t quantised_plane(const char *plane, float origin, float inverse) {
+  return float_bits(bits_float(*(const uint16_t *)(const void *)plane) * inverse - origin);
+}
+
+/* A distance in units of 2^exponent, as bits; what is nearly 0 becomes a little more. */
+static inline int32_t distance_in_units(int32_t distance_bits, int exponent) {
+  return larger(distance_bits - (exponent << 23), 0x00800000);
+}
+
+#endif
