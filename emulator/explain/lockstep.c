@@ -1,5 +1,5 @@
-/* The issue slots that the run's items, or its rays by kind, would take on a SIMD machine: the instructions of each item
-   or ray are replayed in warps of threads that share one program counter.
+/* The issue slots that the run's items, or its rays by kind, would take on a SIMD machine: the instructions of each
+   item or ray are replayed in warps of threads that share one program counter.
 
    A warp of width W has W items that are consecutive in the order in which the program took them. An item's number is
    the value of the last atomic increment that its thread executed before the item ended. The warp executes the

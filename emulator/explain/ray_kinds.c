@@ -126,9 +126,9 @@ static void write_row(const struct ray_kinds *rays, const char *name, const stru
   const uint64_t bytes = row->data_read_bytes + row->instruction_read_bytes + row->nontemporal_read_bytes +
                          row->written_bytes + row->atomic_bytes;
   fprintf(out, "%s,%" PRIu64 ",%.6f,%" PRIu64 ",%.6f,%" PRIu64 ",%.6f,%.9g,%.9g", name, count,
-          share((double)count * machine->config.chip.clock_mhz * (double)machine->stats.threads, (double)cycles), cycles,
-          share((double)row->cycles[TRAX_CAUSE_ISSUED], (double)cycles), bytes, share((double)bytes, (double)count),
-          joules, share(joules, (double)count));
+          share((double)count * machine->config.chip.clock_mhz * (double)machine->stats.threads, (double)cycles),
+          cycles, share((double)row->cycles[TRAX_CAUSE_ISSUED], (double)cycles), bytes,
+          share((double)bytes, (double)count), joules, share(joules, (double)count));
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
     fprintf(out, ",%" PRIu64, row->cycles[cause]);
 #define COUNT(ID, NAME, UNIT, MEANING)                                                                                 \
