@@ -14,8 +14,7 @@ __attribute__((noinline)) static bool trace(const struct trax_render_params *par
   struct vector direction = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
   struct ray ray;
   struct hit hit = {0x7F000000, NULL, 0, 0};
-  prepare_ray(&ray, TRAX_NODES_BINARY, params->eye[0], params->eye[1], params->eye[2], direction.x, direction.y,
-              direction.z, params->box_margin, NULL);
+  prepare_ray(&ray, TRAX_NODES_BINARY, load_vector(params->eye), direction, params->box_margin, NULL);
   bool any = trace_ray(TRAX_NODES_BINARY, (const char *)&hills, hills.header.root, &ray, false, &hit);
   *found = hit;
   return any;

@@ -16,8 +16,7 @@ struct result kernel_run(void) {
     struct vector direction = camera_direction(params, pixel_at(4 * i + 2, 18 + i), PIXEL_MIDDLE);
     struct ray ray;
     struct hit hit = {0x7F000000, NULL, 0, 0};
-    prepare_ray(&ray, TRAX_NODES_BINARY, params->eye[0], params->eye[1], params->eye[2], direction.x, direction.y,
-                direction.z, params->box_margin, NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, load_vector(params->eye), direction, params->box_margin, NULL);
     const char *triangle = (const char *)hills.triangles, *end = triangle + sizeof hills.triangles;
     do {
       hit_triangle(&ray.triangle, triangle, false, &hit);
