@@ -34,7 +34,9 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
     struct hit hit = {FARTHEST_BITS, NULL, 0, 0};
     const float *colour = NULL;
     float light = 0, lit = 0;
-    unsigned shadow = 0;
+    unsigned shadow = 0; /* the shadow ray, as it is counted */
+    if (MARKS_RAYS(run))
+      trax_count_kinds(TRAX_RAYS(TRAX_RAY_PRIMARY, 1));
 
     for (;;) {
       struct ray ray;
@@ -76,10 +78,13 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
       }
       origin = surface.point, direction = way.direction;
       hit = (struct hit){way.distance_bits, NULL, 0, 0};
-      shadow = 1;
+      shadow = TRAX_RAYS(TRAX_RAY_SHADOW, 1);
+      if (MARKS_RAYS(run))
+        trax_count_kinds(shadow);
     }
 
-    trax_count_rays(1 + shadow);
+    if (!MARKS_RAYS(run))
+      trax_count_kinds(TRAX_RAYS(TRAX_RAY_PRIMARY, 1) + shadow);
     if (!NEEDS(run, SAMPLES))
       return colour ? shade(colour, light) : run->background;
     if (colour)

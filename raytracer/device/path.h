@@ -3,7 +3,8 @@
    remember lies in global memory, unless the local one has room for it beside the traversal's stack.
 
    Without TRAX_FEATURE_PATHS a ray from the eye is followed through mirrors and glass to the first surface that
-   scatters, which every light is asked for and the ambient light added to. Glass reflects or lets through, whichever is
+   scatters, which every light is asked for and the ambient light added to; with TRAX_FEATURE_OCCLUSION that part of it
+   whose rays, cosine-distributed, hit nothing within their reach. Glass reflects or lets through, whichever is
    more; with several samples, each according to its share.
 
    With it, light arrives from lights, emitting triangles and the background over up to max_depth surfaces. At each that
@@ -53,11 +54,12 @@ struct path {
   float density;         /* pi times that of the ray's direction; 0: there was no choice */
   int32_t distance_bits; /* how far a shadow ray goes */
   uint32_t pixel, sample, key;
-  uint32_t depth;       /* surfaces so far */
-  uint32_t lights_left; /* that this surface is still to be lit by */
-  uint32_t holes;       /* that the ray under way has passed, */
-  float travelled;      /* and how far it was to the last of them */
-  uint32_t goes_on;     /* after the shadow rays there is another */
+  uint32_t depth;        /* surfaces so far */
+  uint32_t lights_left;  /* that this surface is still to be lit by */
+  uint32_t ambient_left; /* occlusion rays that it is still to send */
+  uint32_t holes;        /* that the ray under way has passed, */
+  float travelled;       /* and how far it was to the last of them */
+  uint32_t goes_on;      /* the ray after the shadow rays, as it is counted; 0: there is none */
 };
 _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
 
@@ -153,14 +155,25 @@ static inline void choose_direction(const struct trax_render_params *run, struct
   struct vector part = scatter(&path->at, NEEDS(run, GLOSSY) && path->layered, path_point(run, path, DIMENSION_SCATTER),
                                choice.x, &path->next_direction, &path->density);
   struct vector weight = filtered(path->weight, part);
-  path->goes_on = greatest_bits(weight) > 0;
+  uint32_t rays = TRAX_RAYS(NEEDS(run, GLOSSY) && path->layered ? TRAX_RAY_GLOSSY : TRAX_RAY_DIFFUSE, 1);
+  path->goes_on = greatest_bits(weight) > 0 ? rays : 0;
   if (path->depth >= SURE_DEPTH) {
     float chance = at_most(at_least(bits_float(greatest_bits(weight)), 0x1p-10f), 0.95f);
-    path->goes_on &= choice.y < chance;
+    if (!(choice.y < chance))
+      path->goes_on = 0;
     weight = times(1 / chance, weight);
   }
   path->next_weight = weight;
   path->next_origin = path->point;
+}
+
+/* The ambient light that a surface sends back where nothing is near it. */
+static inline struct vector ambient_of(const struct trax_render_params *run, const struct path *path) {
+  float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));
+  struct vector reflectance = path->at.diffuse;
+  if (NEEDS(run, GLOSSY) && path->layered)
+    reflectance = plus(reflectance, path->at.specular);
+  return times(ambient, reflectance);
 }
 
 /* What a surface does that a ray from the eye or from another surface has found. */
@@ -169,6 +182,7 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
                                 struct vector texel) {
   path->goes_on = 0;
   path->lights_left = 0;
+  path->ambient_left = 0;
   bool turned = surface->turned;
   describe_scatterer(run, path, surface, material, hit, texel);
   if (NEEDS(run, EMISSION))
@@ -182,7 +196,7 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
     path->next_origin = surface->point;
     path->next_direction = mirror_direction(&path->at);
     path->density = 0;
-    path->goes_on = 1;
+    path->goes_on = TRAX_RAYS(TRAX_RAY_MIRROR, 1);
     return;
   }
   if (NEEDS(run, REFRACTION) && material->kind == TRAX_MATERIAL_GLASS) {
@@ -193,7 +207,7 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
     if (through)
       path->next_weight = filtered(path->weight, path->at.specular);
     path->density = 0;
-    path->goes_on = 1;
+    path->goes_on = TRAX_RAYS(through ? TRAX_RAY_GLASS : TRAX_RAY_MIRROR, 1);
     return;
   }
   if (NEEDS(run, PATHS)) {
@@ -202,11 +216,29 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
     return;
   }
   path->lights_left = RUN_PATH(run)->light_count;
-  float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));
-  struct vector reflectance = path->at.diffuse;
-  if (NEEDS(run, GLOSSY) && path->layered)
-    reflectance = plus(reflectance, path->at.specular);
-  add_to(&path->light, path->weight, times(ambient, reflectance));
+  if (NEEDS(run, OCCLUSION))
+    path->ambient_left = RUN_PATH(run)->occlusion_rays;
+  else
+    add_to(&path->light, path->weight, ambient_of(run, path));
+}
+
+/* Prepares the next occlusion ray; false if there is none. One that would begin behind its triangle is blocked. */
+static inline bool next_occlusion(const struct trax_render_params *run, struct path *path) {
+  const struct trax_path_params *more = RUN_PATH(run);
+  while (path->ambient_left > 0) {
+    uint32_t number = more->occlusion_rays * (NEEDS(run, SAMPLES) ? path->sample : 0) + --path->ambient_left;
+    path->direction = cosine_direction(
+        path->at.normal, random_point(number, DIMENSION_SCATTER + DIMENSIONS_OF_SURFACE * path->depth, path->key));
+    if (float_bits(dot(path->at.flat, path->direction)) <= 0)
+      continue;
+    path->pending = filtered(path->weight, times(more->occlusion_weight, ambient_of(run, path)));
+    path->origin = path->point;
+    path->target = plus(path->point, times(more->occlusion_reach, path->direction));
+    path->distance_bits = float_bits(more->occlusion_reach);
+    path->holes = 0, path->travelled = 0;
+    return true;
+  }
+  return false;
 }
 
 /* Prepares the next shadow ray; false if there is none, or no need of one. */
@@ -291,24 +323,30 @@ static inline void store_radiance(const struct trax_render_params *run, struct p
   trax_store_nt(to + number, pixel_of(red, green, 255 * root_of_light(at_most(light.z, 1))));
 }
 
+/* A ray is known by how it is counted. Of some only this matters: is something in their way? */
+#define PRIMARY_RAY TRAX_RAYS(TRAX_RAY_PRIMARY, 1)
+#define SHADOW_RAY TRAX_RAYS(TRAX_RAY_SHADOW, 1)
+#define OCCLUSION_RAY TRAX_RAYS(TRAX_RAY_OCCLUSION, 1)
+#define IS_SHADOW(run, rays) (((rays) & (SHADOW_RAY | (NEEDS(run, OCCLUSION) ? OCCLUSION_RAY : 0))) != 0)
+
 /* The ray that path has: what does it hit? A function of its own, as what follows, since no thread has room for the
    frames of both. */
-PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *path, bool shadow) {
+PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *path, uint32_t rays) {
   struct ray ray;
+  bool shadow = IS_SHADOW(run, rays);
+  trax_count_kinds(rays);
   struct hit hit = {shadow ? path->distance_bits : FARTHEST_BITS, NULL, 0, 0};
   prepare_ray(&ray, RUN_LAYOUT(run), path->origin, path->direction, run->box_margin, &run->grid);
   bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
                          shadow && !HAS_HOLES(run), &hit);
-  trax_count_rays(1);
   LOAD_PATH_AGAIN(path);
   path->hit = hit;
   return found;
 }
 
-enum next_ray { RAY_NONE, RAY_ON, RAY_SHADOW };
-
-/* What follows from it; path has the next ray. */
-PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct path *path, bool shadow, bool found) {
+/* What follows from it: the next ray, which path has, as it is counted; 0: there is none. */
+PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *path, uint32_t rays, bool found) {
+  bool shadow = IS_SHADOW(run, rays);
   if (found && (!shadow || HAS_HOLES(run))) {
     const struct hit hit = path->hit;
     const struct trax_device_material *material = hit_material(run, &hit);
@@ -321,7 +359,7 @@ PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct p
     if (NEEDS(run, TEXTURES) && material->texture)
       texel = texture_of_hit(scene.data, material->texture, &hit);
     if (pass_hole(run, path, shadow, &surface, material, &hit, texel.alpha))
-      return shadow ? RAY_SHADOW : RAY_ON;
+      return rays;
     RECORD_SEEN(run, path, shadow, &hit);
     if (!shadow)
       meet_surface(run, path, &surface, material, &hit, texel.colour);
@@ -329,18 +367,21 @@ PATH_STEP enum next_ray after_ray(const struct trax_render_params *run, struct p
     path->light = plus(path->light, path->pending);
   } else if (!found) {
     add_to(&path->light, path->weight, load_vector(RUN_PATH(run)->background));
-    return RAY_NONE;
+    return 0;
   }
   if (next_light(run, path))
-    return RAY_SHADOW;
-  if (!path->goes_on)
-    return RAY_NONE;
+    return SHADOW_RAY;
+  if (NEEDS(run, OCCLUSION) && next_occlusion(run, path))
+    return OCCLUSION_RAY;
+  uint32_t next = path->goes_on;
+  if (!next)
+    return 0;
   path->origin = path->next_origin;
   path->direction = path->next_direction;
   path->weight = path->next_weight;
   path->depth++;
   path->holes = 0, path->travelled = 0;
-  return RAY_ON;
+  return next;
 }
 
 /* True: the pixel has another sample. */
@@ -361,8 +402,8 @@ static inline void render_path_pixel(const struct trax_render_params *run, struc
   path->sample = 0;
   do {
     begin_sample(path, run);
-    for (enum next_ray next = RAY_ON; next != RAY_NONE;)
-      next = after_ray(run, path, next == RAY_SHADOW, follow_ray(run, path, next == RAY_SHADOW));
+    for (uint32_t rays = PRIMARY_RAY; rays != 0;)
+      rays = after_ray(run, path, rays, follow_ray(run, path, rays));
   } while (end_sample(run, path));
 }
 

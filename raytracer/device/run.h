@@ -39,6 +39,13 @@ extern struct trax_buffer scene, params, image;
 #define HITS_ARE_EXACT NEEDS((const struct trax_render_params *)params.data, EXACT)
 #endif
 
+/* Are the rays of the paper's workload counted where they begin? Else a pixel's are counted together, at its end. */
+#ifdef TRAX_SPECIALISED_FEATURES
+#define MARKS_RAYS(run) NEEDS(run, RAY_KINDS)
+#else
+#define MARKS_RAYS(run) 0
+#endif
+
 /* path.h, or the paper's workload? */
 #define NEEDS_PATHS(run) ((RUN_FEATURES(run) & TRAX_PATH_FEATURES) != 0)
 

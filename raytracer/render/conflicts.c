@@ -1,6 +1,9 @@
 /* Which of trax-render's options exclude or need each other. */
 #include "options.h"
 
+/* The sampler's numbers have 16 bits (device/sampler.h). */
+#define MOST_OCCLUSION_POINTS (1u << 16)
+
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -50,6 +53,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
     if (options->frame.method.fast_math)
       return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
+    if (options->frame.mark_rays)
+      return trax_fail(error, "--mark-rays needs the emulator: it is about the program that is compiled for it");
     if (options->frame.method.stack)
       return trax_fail(error, "--stack needs the emulator: it is about the program that is compiled for it");
     if (options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT && options->engine == ENGINE_EMBREE)
@@ -70,6 +75,9 @@ trax_status options_check(const struct options *options, trax_error *error) {
     if (options->report)
       return trax_fail(error, "--report compares with the general program, which %s does not change", name);
   }
+  if (options->frame.mark_rays && (options->no_specialise || options->program))
+    return trax_fail(error, "--mark-rays needs a program compiled for the picture; %s asks for another",
+                     options->program ? "--program" : "--no-specialise");
   if (options->no_specialise && (options->cache || options->report))
     return trax_fail(error, "--cache and --report are about the specialised program; --no-specialise asks for none");
   if (options->program && (options->cache || options->report))
@@ -80,8 +88,17 @@ trax_status options_check(const struct options *options, trax_error *error) {
       (options->stats || options->keep || options->cost_picture || options->cost_values || options->report ||
        options->compare || options->id_picture || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
-  if (options->frame.seed && !options->frame.paths)
-    return trax_fail(error, "--seed is for --paths: nothing else is random");
+  if (options->frame.seed && !options->frame.paths && !options->frame.occlusion)
+    return trax_fail(error, "--seed is for --paths and --occlusion: nothing else is random");
+  if (options->frame.occlusion && options->frame.paths)
+    return trax_fail(error, "--occlusion is about the ambient light, which --paths does without");
+  if (options->frame.occlusion && !options->frame.shadows)
+    return trax_fail(error, "--occlusion and --no-shadows: either something is in the light's way or nothing is");
+  if (options->frame.occlusion * options->frame.samples > MOST_OCCLUSION_POINTS)
+    return trax_fail(error, "--occlusion %u with --samples %u: there are %u points for a pixel at most",
+                     options->frame.occlusion, options->frame.samples, MOST_OCCLUSION_POINTS);
+  if (options->frame.occlusion_reach > 0 && !options->frame.occlusion)
+    return trax_fail(error, "--occlusion-reach without --occlusion");
   if (options->threads && options->engine != ENGINE_NATIVE && options->engine != ENGINE_FAST)
     return trax_fail(error, "--threads is for engines fast and native");
   return TRAX_OK;

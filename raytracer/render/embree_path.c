@@ -321,6 +321,22 @@ static struct double3 lit_at_random(const struct sample *sample, const struct su
   return scaled(sample->path->choices, lit_by(sample, surface, &lights[number], place));
 }
 
+/* The part of the ambient light that the rays towards it, cosine-distributed, do not find blocked. */
+static double open_part(const struct sample *sample, const struct surface *surface) {
+  struct embree_surface diffuse = surface->at;
+  uint32_t open = 0;
+  diffuse.layered = false;
+  for (uint32_t i = 0; i < sample->path->occlusion_rays; i++) {
+    const struct two place =
+        exactly(random_words(sample->path->occlusion_rays * sample->number + i,
+                             DIMENSION_SCATTER + DIMENSIONS_OF_SURFACE * sample->depth, sample->key));
+    struct double3 direction;
+    open += embree_sample(&diffuse, place.x, place.y, 0, &direction) &&
+            light_reaches(sample, surface->point, direction, (double)sample->path->occlusion_reach);
+  }
+  return (double)open / sample->path->occlusion_rays;
+}
+
 static struct double3 lit_by_all(const struct sample *sample, const struct surface *surface) {
   const struct trax_device_light *lights = table(sample, sample->path->lights);
   const struct trax_render_params *params = sample->params;
@@ -328,6 +344,8 @@ static struct double3 lit_by_all(const struct sample *sample, const struct surfa
   if (surface->at.layered)
     albedo = plus_scaled(albedo, 1, surface->at.specular);
   struct double3 sum = scaled((double)params->ambient + dot(surface->at.normal, from(params->fill)), albedo);
+  if (embree_needs(sample->embree, TRAX_FEATURE_OCCLUSION))
+    sum = scaled(open_part(sample, surface), sum);
   for (uint32_t i = 0; i < sample->path->light_count; i++)
     sum = plus_scaled(sum, 1, lit_by(sample, surface, &lights[i], point_for(sample, DIMENSION_LIGHT)));
   return sum;

@@ -167,11 +167,25 @@ uint32_t trax_lighting_bytes(const struct trax_scene *scene, const struct trax_v
   return lay_out(&path, scene->material_count);
 }
 
+static float occlusion_reach(const struct trax_scene_header *header, double part) {
+  double square = 0;
+  for (int i = 0; i < 3; i++) {
+    const double side = (double)header->bounds_max[i] - (double)header->bounds_min[i];
+    square += side > 0 ? side * side : 0;
+  }
+  return (float)((part > 0 ? part : TRAX_DEFAULT_REACH) * sqrt(square));
+}
+
 void trax_lighting_fill(struct trax_render_params *params, const struct trax_scene *scene, const struct trax_view *view,
                         const struct trax_frame_options *options) {
   struct trax_path_params *path = (struct trax_path_params *)(params + 1);
   path->max_depth = options->paths ? options->paths : TRAX_DIRECT_DEPTH + 1;
   path->seed = options->seed;
+  if (options->occlusion) {
+    path->occlusion_rays = options->occlusion;
+    path->occlusion_weight = 1 / (float)options->occlusion;
+    path->occlusion_reach = occlusion_reach(scene->header, options->occlusion_reach);
+  }
   path->light_count = count_lights(view);
   path->emitter_count = count_emitters(scene, options);
   path->choices = path->light_count + (path->emitter_count > 0);

@@ -14,7 +14,9 @@ static const char *const engines[] = {"fast", "reference", "native", "embree", N
 #define OUTPUT(member, endings_) FIELD(member), .file = TRAX_OPTION_OUTPUT, .endings = (endings_)
 
 /* What the table's texts say in numbers. */
-_Static_assert(TRAX_RENDER_MAX_SIDE == 16384 && TRAX_RENDER_MAX_SAMPLES == 4096 && TRAX_RENDER_MAX_DEPTH == 64, "");
+_Static_assert(TRAX_RENDER_MAX_SIDE == 16384 && TRAX_RENDER_MAX_SAMPLES == 4096 && TRAX_RENDER_MAX_DEPTH == 64 &&
+                   TRAX_RENDER_MAX_OCCLUSION == 64,
+               "");
 _Static_assert(TRAX_TEXTURE_MAX_LOG2 == 12 && TRAX_SCENE_MAX_DEPTH == 62 && TRAX_MAX_QUEUES == 64, "");
 
 /* clang-format off */
@@ -72,8 +74,12 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Shading"),
     {"paths", .argument = "DEPTH", NUMBER(frame.paths, 1, TRAX_RENDER_MAX_DEPTH),
      .meaning = "path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples"},
+    {"occlusion", .argument = "N", NUMBER(frame.occlusion, 1, TRAX_RENDER_MAX_OCCLUSION),
+     .meaning = "ambient occlusion: N rays a sample, 1 to 64, ask how much of the ambient light arrives"},
+    {"occlusion-reach", .argument = "X", PARSED(take_share, frame.occlusion_reach),
+     .meaning = "how far they go, above 0 to 1 times the diagonal of the scene's box (default 0.1)"},
     {"seed", .argument = "N", NUMBER(frame.seed, 0, UINT32_MAX),
-     .meaning = "of the paths' random numbers, 0 to 4294967295 (default 0)"},
+     .meaning = "of the random numbers of --paths and --occlusion, 0 to 4294967295 (default 0)"},
     {"smooth", FIELD(build.smooth),
      .meaning = "shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
                 "(of a scene file: by the normals in it, made by trax-scene --smooth)"},
@@ -95,6 +101,9 @@ static const trax_option rows[] = {
     {"threads", .argument = "N", NUMBER(threads, 1, 4096),
      .meaning = "host threads of engines fast and native (default: all processors)"},
     TRAX_OPTION_GROUP("Program"),
+    {"mark-rays", FIELD(frame.mark_rays),
+     .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim's\n"
+                "--ray-kinds (with lights, materials, --paths and the like it does so anyway)"},
     {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
      .meaning = "another program for the TPs than the one that comes with trax"},
     {"no-specialise", FIELD(no_specialise),

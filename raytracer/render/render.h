@@ -46,11 +46,15 @@ struct trax_frame_options {
   bool floats;            /* linear floats as well as pixels */
   bool one_sided;         /* back faces, clockwise as a ray sees them, are not there; those of glass are */
   uint32_t paths;         /* path tracing over so many surfaces, up to TRAX_RENDER_MAX_DEPTH; 0: none */
-  uint32_t seed;          /* of the paths */
+  uint32_t seed;          /* of the paths, and of occlusion rays */
+  uint32_t occlusion;     /* rays for ambient occlusion, up to TRAX_RENDER_MAX_OCCLUSION; 0: none */
+  double occlusion_reach; /* how far they go, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
+  bool mark_rays;         /* the program counts each ray where it begins */
   struct trax_method method;
 };
 
 #define TRAX_DEFAULT_AMBIENT 0.12f
+#define TRAX_DEFAULT_REACH 0.1
 #define TRAX_DEFAULT_BACKGROUND 0xFFB8A898u /* R 0x98, G 0xA8, B 0xB8, A 0xFF */
 
 /* Scales scene and view by a power of two where their coordinates are so large or small that products of three of them

@@ -314,9 +314,12 @@ static trax_status build(const char *root, const struct cache_work *work, const 
 }
 
 /* The general program takes the place of one that cannot be had, unless the method was chosen. */
-static trax_status note_or_error(const struct trax_method *method, bool record, const char *note, trax_error *error) {
+static trax_status note_or_error(const struct trax_frame *frame, bool record, const char *note, trax_error *error) {
+  const struct trax_method *method = &frame->method;
   if (record)
     return trax_fail(error, "there is no program that records: %s", note);
+  if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
+    return trax_fail(error, "--mark-rays: there is no program for it: %s", note);
   if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math && !method->stack)
     return TRAX_OK;
   return trax_fail(error, "%s: there is no program for it: %s",
@@ -341,7 +344,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return trax_fail(error, "--cache: the path is too long");
   if (!options->cache && !trax_program_cache(cache)) {
     snprintf(note, 256, "no place for compiled programs: neither XDG_CACHE_HOME nor HOME is set");
-    return note_or_error(&frame->method, options->record, note, error);
+    return note_or_error(frame, options->record, note, error);
   }
   char *constants = constants_text(frame, options->queues);
   if (!constants)
@@ -379,7 +382,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return status;
   if (status != TRAX_OK) {
     snprintf(note, 256, "%.255s", reason.message);
-    return note_or_error(&frame->method, options->record, note, error);
+    return note_or_error(frame, options->record, note, error);
   }
   memcpy(program->path, elf, sizeof elf);
   program->specialised = true;

@@ -30,7 +30,7 @@ enum trax_feature {
 #define TRAX_PATH_FEATURES                                                                                             \
   (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) |     \
    TRAX_FEATURE_BIT(REFLECTION) | TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) |                            \
-   TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) | TRAX_FEATURE_BIT(FLOATS))
+   TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) | TRAX_FEATURE_BIT(FLOATS) | TRAX_FEATURE_BIT(OCCLUSION))
 
 /* The grid of quantised nodes (struct trax_scene_grid), for rays. */
 struct trax_ray_grid {
@@ -82,6 +82,7 @@ struct trax_palette_entry {
 /* --- more than one light, other materials than Lambert's, paths --- */
 
 #define TRAX_RENDER_MAX_DEPTH 64u /* surfaces on a path */
+#define TRAX_RENDER_MAX_OCCLUSION 64u
 #define TRAX_DIRECT_DEPTH 8u      /* mirrors and glass one behind the other, without TRAX_FEATURE_PATHS */
 #define TRAX_MAX_RADIANCE 0x1p40f /* of a light or a path; more is as much */
 #define TRAX_LEAST_ROUGHNESS 0x1p-7f
@@ -97,7 +98,10 @@ struct trax_path_params {
   uint32_t materials;   /* struct trax_device_material, as the scene numbers them */
   uint32_t lights;      /* struct trax_device_light */
   uint32_t emitters;    /* struct trax_emitter */
-  uint32_t reserved[5]; /* zero */
+  uint32_t occlusion_rays; /* of a sample, for the ambient light; up to TRAX_RENDER_MAX_OCCLUSION */
+  float occlusion_weight;  /* 1 / occlusion_rays */
+  float occlusion_reach;   /* how far they go */
+  uint32_t reserved[2];    /* zero */
 };
 
 /* struct trax_material (scene_format.h), prepared: numbers within what the program computes with. */
