@@ -156,6 +156,38 @@ def test_sweep(evaluation, scratch):
     check(all(one["status"] == "failed" and "bytes, but" in one["error"] for one in evaluation.results("damaged")["runs"]), "failed runs in results.json")
 
 
+def test_rays(evaluation, scratch):
+    """Workloads, of ours and of a file beside the sweep, and what the rays of each kind took."""
+    (scratch / "two.json").write_text('{"name": "two", "render": ["--occlusion", "2"]}')
+    sweep = {"name": "rays", "scenes": SMALL["scenes"], "chips": ["1x32"], "workloads": ["primary-shadow", "two.json", "paths", "glass"], "ray_kinds": True, "lockstep": True,
+             "size": "40x24"}
+    run = evaluation.run(sweep, "rays", "--jobs", "2")
+    check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
+    found = {one["workload"]: one for one in evaluation.results("rays")["runs"]}
+    kinds = {"primary-shadow": {"primary", "shadow"}, "two": {"primary", "shadow", "occlusion"}, "paths": {"primary", "shadow", "diffuse"}, "glass": {"primary", "mirror", "glass"}}
+    check(found.keys() == kinds.keys(), f"workloads {found.keys()}")
+    for name, one in found.items():
+        values, stats = one["values"], one["stats"]
+        seen = {key.split(".")[1] for key, value in values.items() if key.startswith("rays.") and key.endswith(".count") and value}
+        check(seen == kinds[name], f"{name}: kinds {seen}")
+        check(all(values[f"rays.{kind}.count"] == stats["rays_by_kind"][kind] for kind in seen) and values["rays.primary.count"] == 40 * 24, f"{name}: counts")
+        check(abs(sum(value for key, value in values.items() if key.startswith("rays.") and key.endswith(".share")) - 1) < 1e-9, f"{name}: shares of the thread-cycles")
+        for kind in seen:
+            mine = {key.split(".", 2)[2]: value for key, value in values.items() if key.startswith(f"rays.{kind}.")}
+            check(abs(sum(mine[part] for part in ("utilisation", "fetch", "memory", "dcache", "units", "rest")) - 1) < 1e-9 and mine["rest"] >= 0, f"{name} {kind}: {mine}")
+            check(1 / 32 <= mine["lanes.32"] < mine["lanes.4"] < mine["lanes.1"] == 1, f"{name} {kind}: lanes {mine}")
+            check(mine["mrps"] > 0 and mine["energy_per_ray"] > 0 and mine["bytes_per_ray"] >= 0, f"{name} {kind}: {mine}")
+        check("--mark-rays" in one["command"], one["command"])
+    check("--occlusion 2" in found["two"]["command"] and "--material glass:1.5" in found["glass"]["command"], "commands repeat the workload")
+    check("two" in run.stdout and "occlusion" in run.stdout and "32 lanes" in run.stdout, f"the table: {run.stdout}")
+    # The paper's tables are of the paper's workload alone.
+    page = evaluation.scratch / "rays.html"
+    made = subprocess.run([evaluation.program, "report", str(evaluation.scratch / "rays/results.json"), "-o", str(page)], capture_output=True, text=True, timeout=120)
+    check(made.returncode == 0, f"report: {made.stderr}")
+    text = page.read_text()
+    check('id="rays-table"' in text and 'id="rays-lanes"' in text and "of 32 lanes" in text, "the report's section")
+
+
 REFUSED = [
     ('{"name": "x", "chip": "4x32"}', 'unknown key "chip", did you mean "chips"'),
     ('{"name": "x", "chips": "4x33"}', "4x33"),
@@ -173,7 +205,12 @@ REFUSED = [
     ('{"name": "x", "size": "0x10"}', "size: expected"),
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
-    ('{"name": "x", "mode": "quick", "series": 100}', 'mode: series and lockstep need "exact"'),
+    ('{"name": "x", "mode": "quick", "series": 100}', 'mode: series, lockstep, ray_kinds and workloads need "exact"'),
+    ('{"name": "x", "ray_kinds": 1}', "ray_kinds: expected true or false"),
+    ('{"name": "x", "ray_kinds": true, "programs": ["ours", "era"]}', 'programs: workloads and ray_kinds need "ours"'),
+    ('{"name": "x", "workloads": ["fog"]}', 'workloads: "fog" is no workload; allowed are "diffuse", "glass"'),
+    ('{"name": "x", "workloads": ["../none.json"]}', '"../none.json" is no workload'),
+    ('{"name": "x", "workloads": []}', "workloads: expected a list of texts"),
     ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),
     ('{"name": "../x"}', "name: expected letters"),
     ('{"chips": "4x32"}', "name: expected letters"),
@@ -248,6 +285,9 @@ def test_experiments(evaluation, scratch):
     run = subprocess.run([evaluation.program, "--all", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"], capture_output=True, text=True)
     check(run.returncode == 0 and "error" not in run.stderr, f"--all --dry-run: {run.stderr}")
     check(run.stdout.count("forest") > 100 and "conference" not in run.stdout, "the generated forest needs no mesh, the others do")
+    check("occlusion" not in run.stdout, "--all leaves out what the paper has no figure of")
+    run = subprocess.run([evaluation.program, "rays", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"], capture_output=True, text=True)
+    check(run.stdout.count("forest") == 6 * 15, f"rays: every chip with every workload: {run.stdout[-300:]}")
     known = subprocess.run([evaluation.program, "--help"], capture_output=True, text=True).stdout
     check(all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "lockstep")), "--help lists the experiments")
 
@@ -386,13 +426,13 @@ def test_slurm(evaluation, scratch):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=("sweep", "refusals", "names", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
+    parser.add_argument("--only", choices=("sweep", "rays", "refusals", "names", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
     parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch = pathlib.Path(temporary).resolve()
         evaluation = Evaluation(options.bin.resolve(), scratch)
-        wanted = [options.only] if options.only else ["sweep", "refusals", "names", "experiments", "kill", "interrupt", "parallel"]
+        wanted = [options.only] if options.only else ["sweep", "rays", "refusals", "names", "experiments", "kill", "interrupt", "parallel"]
         if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "hosts", "slurm"}:
             evaluation.run(SMALL, "undisturbed", "--jobs", "2")
         for name in wanted:

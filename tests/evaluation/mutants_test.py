@@ -20,7 +20,8 @@ import sys
 import tempfile
 
 GOOD = {"name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2", "scenes": [{"name": "y", "meshes": ["generate:forest"], "view": "forest"}],
-        "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]}, "size": "8x8", "mode": "exact", "series": 100, "lockstep": False}
+        "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]}, "size": "8x8", "mode": "exact", "series": 100, "lockstep": False,
+        "workloads": ["occlusion"], "ray_kinds": True}
 ODD = [None, True, False, 0, -1, 1.5, 1e300, 10 ** 400, "", "x", "..", "/", "\n", "\0", "\ud800", "é" * 5000, [], [[]], [None], ["x"], {}, {"name": 0}, {"": [0]}, [{}],
        {"a": {"b": [1]}}, list(range(300)), [[[[[[[]]]]]]]]
 failures = 0

@@ -9,7 +9,7 @@ from .results import SCENES, number, ratio
 # Styles of page.css. Of programs, each with a mark of its own.
 PAPER = (0, "circle")
 OF_PROGRAM = {"era": (1, "square"), "ours": (2, "dot")}
-_STYLES = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
+STYLES = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
 OTHERS = [(3, "triangle"), (4, "diamond"), (5, "dot"), (6, "square")]
 
 # Causes of docs/emulator.md, together where the same hardware is behind them.
@@ -78,7 +78,7 @@ def _memory(results, paper, program):
         for chip in paper.chips:
             used = results.figure("memory.utilisation", program, scene, chip)
             points.append((paper.threads(chip), None if used is None else 100 * used, f"{scene}, {chip}: {100 * used:.0f} % of 8 GB/s" if used is not None else ""))
-        style, mark = _STYLES[index % len(_STYLES)]
+        style, mark = STYLES[index % len(STYLES)]
         series.append(Series(scene, style, points, mark, line=False))
     return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "of 8 GB/s (%)", series, x_ticks=_threads_axis(paper))
 
@@ -98,7 +98,7 @@ def _error_time(results, paper):
         style, mark = style_of(program, index)
         points = []
         for run in results.runs:
-            published = paper.mrps(run.scene, run.config) if run.program == program and not run.set else None
+            published = paper.mrps(run.scene, run.config) if run.program == program and not run.set and not run.workload else None
             value = ratio(run.get("mrps"), published)
             if value is None or not run.host_seconds:
                 continue
@@ -140,7 +140,7 @@ def _sweep(results, sweep, identity):
     scenes, variants = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 2))
     series = []
     for (scene, program, variant), points in groups.items():
-        style, mark = _STYLES[scenes.index(scene) % len(_STYLES)][0], _STYLES[variants.index(variant) % len(_STYLES)][1]
+        style, mark = STYLES[scenes.index(scene) % len(STYLES)][0], STYLES[variants.index(variant) % len(STYLES)][1]
         label = ", ".join(part for part in (scene, variant, program) if part)
         series.append(Series(label, style, sorted(points), mark, dashed=program == "era"))
     values = sorted({point[0] for one in series for point in one.known()})
@@ -195,8 +195,8 @@ def _lockstep(results):
             share = run.get(f"values.simd_utilisation.{width}")
             points.append((width, None if share is None else 100 * share, f"{run.name()}: {100 * share:.0f} % of {width} lanes" if share is not None else ""))
         if points:
-            style, mark = _STYLES[len(series) % len(_STYLES)]
-            series.append(Series(f"{run.scene}, {run.program}", style, points, mark, dashed=len(series) >= len(_STYLES)))
+            style, mark = STYLES[len(series) % len(STYLES)]
+            series.append(Series(f"{run.scene}, {run.program}", style, points, mark, dashed=len(series) >= len(STYLES)))
     ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
     return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
 

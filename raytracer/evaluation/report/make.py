@@ -14,7 +14,7 @@ import urllib.parse
 
 from trax_eval.util import Problem, check_files
 
-from . import tables
+from . import rays, tables
 from .charts import all_figures
 from .claims import AGREES, DIFFERS, claims, median, table2_deviations
 from .markup import Html, el, join, seconds
@@ -98,7 +98,7 @@ def linker(base, folder):
 def page(results, paper, base, folder, gnuplot="gnuplot"):
     programs = results.programs()
     judged = claims(results, paper, programs)
-    drawn = draw(all_figures(results, paper), gnuplot)
+    drawn = draw(all_figures(results, paper) + rays.figures(results, paper), gnuplot)
     configurations, of_run = tables.configurations(results)
 
     def figures(prefix):
@@ -110,6 +110,9 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
                 ("stalls", "Where the time goes", join([el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")])),
                 ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper), tables.described(results, paper)])),
                 ("error", "Error and run time", join([figures("error-"), tables.sampled(results)]))]
+    if rays.groups(results):
+        text = "What each kind of ray takes, and the share of a SIMD machine's lanes that the same rays use: independent threads use what they issue."
+        sections.append(("rays", "Rays by kind", join([el("p", text), figures("rays-"), rays.kinds_table(results)])))
     if results.series:
         sections.append(("time", "Over time", join([el("p", "Shares of the thread-cycles of each interval; fetch_refused: of the instructions that threads asked their cache for, those that a conflict refused."), figures("series-")])))
     shown = []

@@ -66,6 +66,7 @@ class Run:
 
         self.key, self.scene, self.view = text("key"), text("scene"), text("view")
         self.program, self.config, self.mode = text("program"), text("config"), text("mode", "exact")
+        self.workload = text("workload")  # empty: the paper's
         self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
         self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
         self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table("machine")
@@ -137,7 +138,7 @@ class Run:
 
     def name(self):
         changed = "".join(f", {key} = {value}" for key, value in sorted(self.set.items()))
-        return f"{self.scene}, {self.config}{changed}, {self.program}, {self.mode}"
+        return f"{self.scene}, {self.config}{changed}, {self.workload or self.program}, {self.mode}"
 
 
 class Results:
@@ -162,7 +163,7 @@ class Results:
         self._cells = {}
         for run in self.runs:
             others = {key: value for key, value in run.set.items() if key != "memory.bandwidth_gbps"}
-            if others:
+            if others or run.workload:
                 continue
             bandwidth = number(run.set.get("memory.bandwidth_gbps", 8.0))
             place = (run.program, run.scene, run.config, bandwidth)

@@ -38,9 +38,9 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in 
 QUICK_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of: quick runs choose by it what to simulate
 
 
-def prepare_inputs(out, tools, scene, view, size, program, chip, quick=False, only_look=False):
+def prepare_inputs(out, tools, scene, view, size, program, chip, more=(), quick=False, only_look=False):
     """The files that a program reads for a picture; returns their description, which is part of the job. chip: what of it decides about the program, its TMs
-    and the bytes of an instruction cache; None: nothing does. only_look: nothing is kept."""
+    and the bytes of an instruction cache; None: nothing does. more: options of trax-render. only_look: nothing is kept."""
     scratch = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
@@ -48,6 +48,7 @@ def prepare_inputs(out, tools, scene, view, size, program, chip, quick=False, on
         command += ["--view", view] if view else []
         command += ["--program", tools.era_program()] if program == "era" else []
         command += ["--queues", str(chip[0]), "--set", f"icache.bytes={chip[1]}"] if chip else []
+        command += more
         run = run_tool(command)
         if run.returncode != 0:
             raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
@@ -110,6 +111,7 @@ def make_job(tools, inputs, point):
         "engine": ENGINES[point.mode],
         "series": point.series,
         "lockstep": point.lockstep,
+        "ray_kinds": point.ray_kinds,
     }
 
 
@@ -209,6 +211,9 @@ def command_of(tools, inputs, job, scratch, threads):
         command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
     if job["lockstep"]:
         command += ["--lockstep", f"{scratch}/lockstep.csv"]
+    if job["ray_kinds"]:
+        command += ["--ray-kinds", f"{scratch}/kinds.csv"]
+        command += ["--lockstep-rays", f"{scratch}/lanes.csv"] if job["lockstep"] else []
     return [*command, str(inputs / NAME)]
 
 
@@ -273,6 +278,10 @@ def keep_results(out, key, job, scratch, statistics, host):
     if job["lockstep"]:
         columns, rows = read_csv(pathlib.Path(scratch, "lockstep.csv"))
         result["lockstep"] = [dict(zip(columns, map(float, row))) for row in rows]
+    if job["ray_kinds"]:
+        result["ray_kinds"] = read_kinds(pathlib.Path(scratch, "kinds.csv"))
+        if job["lockstep"]:
+            result["ray_lanes"] = read_kinds(pathlib.Path(scratch, "lanes.csv"))
     write_json(out / "runs" / f"{key}.host.json", host)
     write_json(out / "runs" / f"{key}.json", result)
     (out / "runs" / f"{key}.error").unlink(missing_ok=True)
@@ -287,6 +296,12 @@ def processor():
     except OSError:
         pass
     return platform.machine()
+
+
+def read_kinds(path):
+    """Rows of numbers, but for the kind."""
+    columns, rows = read_csv(path)
+    return [{name: value if name == "kind" else float(value) for name, value in zip(columns, row)} for row in rows]
 
 
 def read_csv(path):

@@ -44,7 +44,7 @@ variable TRAX_SCENES, or else ./scenes).
                         with intervals (trax-render --sampled); pictures of less than 640x360, if --size is not
                         given, have a sixth of their pixels instead, all of which are simulated
       --dry-run         prints the runs that are missing, and ends; imports no scene and writes nothing
-      --all             every experiment, and the report
+      --all             every experiment that is about a figure of the paper, and the report
   -q, --quiet           neither progress nor tables
   -h, --help
       --version
@@ -109,7 +109,7 @@ def parse(arguments):
 def choose(options, data):
     """The sweep files and the folder of scenes that the words name."""
     known = {path.stem: path for path in experiments(data)}
-    files, folder = list(known.values()) if options.all else [], None
+    files, folder = [path for path in known.values() if read_sweep(path).in_all] if options.all else [], None
     for word in options.words:
         if word in known and not options.all:
             files.append(known[word])
@@ -150,17 +150,19 @@ class Planner:
     def inputs(self, sweep, point):
         scene = sweep.scenes[point.scene]
         self.note(f"{point.scene}, {point.size}, {point.program}")
+        workload = sweep.workloads[point.workload]
         machine = point.chip, point.machine()
         ours = point.program == "ours"  # it is made for a machine, as trax-render has it
         options = [*IMPORT_OPTIONS[point.program], *(order_options(self.tools.whole(*machine, "dcache.bytes")) if ours else [])]
-        path = self.once(("scene", tuple(scene["meshes"]), tuple(options)),
-                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, options, self.only_look))
+        path = self.once(("scene", tuple(scene["meshes"]), tuple(options), tuple(workload["scene"])),
+                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, options, workload["scene"], self.only_look))
         if path is None:
             return None
         quick = point.mode == "quick"
         chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if ours else None
-        return self.once((path, scene["view"], point.size, point.program, chip, quick),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, chip, quick, self.only_look))
+        more = (*workload["render"], *(["--mark-rays"] if point.ray_kinds else []))
+        return self.once((path, scene["view"], point.size, point.program, chip, quick, more),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, chip, more, quick, self.only_look))
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""
@@ -168,7 +170,8 @@ class Planner:
             inputs = self.inputs(sweep, point)
             if inputs is None:  # none of its runs has been made
                 machine = self.tools.configuration(point.chip, point.machine())
-                return "-" + hash_value([point.scene, point.program, machine, point.size, point.mode, point.series, point.lockstep]), None
+                return "-" + hash_value([point.scene, point.program, machine, point.size, point.mode, point.series, point.lockstep,
+                                         point.ray_kinds, point.workload]), None
             job = make_job(self.tools, inputs, point)
             return key_of(job) if self.only_look else write_job(self.out, job), None
         except Problem as problem:
@@ -177,7 +180,7 @@ class Planner:
 
 def label(point):
     changes = "".join(f" {key}={value}" for key, value in point.settings)
-    return f"{point.scene} {point.chip}{changes} {point.program} {point.size}"
+    return f"{point.scene} {point.chip}{changes} {point.workload or point.program} {point.size}"
 
 
 def check_machines(sweeps, tools):

@@ -50,10 +50,17 @@ def write_plan(out, sweep, keys, tools):
     for point in sweep.points:
         key, reason = keys[point]
         points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, **machine_of(point, tools),
-                       "preset": machine_of(preset_of(point, tools), tools), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "key": key,
+                       "preset": machine_of(preset_of(point, tools), tools), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "workload": point.workload,
+                       "options": options_of(sweep, point), "key": key,
                        "error": reason})
     write_json(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
                                                        "claim": sweep.claim, "file": sweep.file, "points": points})
+
+
+def options_of(sweep, point):
+    """What trax-render is told of the workload, for meshes."""
+    workload = sweep.workloads[point.workload]
+    return [*workload["scene"], *workload["render"], *(["--mark-rays"] if point.ray_kinds else [])]
 
 
 def repeat_command(point, tools):
@@ -64,6 +71,7 @@ def repeat_command(point, tools):
         words += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
     words += ["--program", tools.era_program()] if point["program"] == "era" else []
     words += ["--sampled"] if point["mode"] == "quick" else []
+    words += point.get("options", [])
     return shlex.join([*words, "--stats", "stats.json", "-o", "picture.png"])
 
 
@@ -91,7 +99,7 @@ def run_of(out, tools, areas, point):
     """What is known of a run, from its files. Its machine has the paper's name, whatever the sweep calls it."""
     point = point | point.get("preset", {})
     run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")}
-    run |= {"experiments": [], "points": [], "status": "missing", "command": repeat_command(point, tools)}
+    run |= {"workload": point.get("workload", ""), "experiments": [], "points": [], "status": "missing", "command": repeat_command(point, tools)}
     found = result_of(out, point["key"]) if point["key"] else None
     error = point["error"] or (error_of(out, point["key"]) if point["key"] else None)
     if found:

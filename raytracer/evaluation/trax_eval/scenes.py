@@ -45,16 +45,17 @@ def order_options(dcache_bytes):
     return [] if lines == PAPERS_LINES else ["--cache-lines", str(lines)]
 
 
-def scene_file(out, tools, directory, name, scene, options, only_look=False):
-    """The scene file of a scene; imported once for the same meshes, options and importer. NAME.trax in the directory comes first. only_look: None if it
-    has not been imported."""
+def scene_file(out, tools, directory, name, scene, options, more=(), only_look=False):
+    """The scene file of a scene; imported once for the same meshes, options and importer. NAME.trax in the directory comes first, unless there
+    are more options, those of a workload. only_look: None if it has not been imported."""
     built = directory / f"{name}.trax"
-    if built.is_file():
+    if built.is_file() and not more:
         return built.resolve()
     meshes = [find_mesh(directory, mesh) for mesh in scene["meshes"]]
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
     if only_look and not any((out / "scenes").glob("*.trax")):
         return None
+    options = [*options, *more]
     key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
     if only_look and not path.exists():

@@ -4,10 +4,12 @@ import dataclasses
 import difflib
 import itertools
 import math
+import pathlib
 import re
 
 from .scenes import CATALOGUE, SETS
 from .util import Problem, TEXT_LIMIT, canonical, read_json
+from .workloads import PAPER, find_workload
 
 CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()  # in the order of Table 2
 # Of each program what its machine has beside what the sweep sets. The era program compares floats as floats; that the adders
@@ -31,6 +33,8 @@ class Point:
     mode: str
     series: int  # cycles of an interval of the time series; 0: none
     lockstep: bool  # what the pixels would take on a SIMD machine
+    ray_kinds: bool = False  # what the rays of each kind took, and with lockstep would take on one
+    workload: str = PAPER
 
     def machine(self):
         """All changes of the chip's configuration; of the same key the sweep's."""
@@ -50,6 +54,8 @@ class Sweep:
     file: str
     scenes: dict  # name -> what CATALOGUE has for it
     points: list
+    workloads: dict  # name -> workloads.read_workload
+    in_all: bool  # one of those that --all runs
     quick: bool  # made for --quick
 
 
@@ -104,6 +110,26 @@ class Reader:
             combinations += itertools.product(*axes)
         return [tuple(combination) for combination in combinations]
 
+    def flag(self, key, default=False):
+        value = self.value.get(key, default)
+        if type(value) is not bool:
+            self.fail(key, f"expected true or false, is {canonical(value)}")
+        return value
+
+    def workloads(self):
+        if "workloads" not in self.value:
+            return {PAPER: {"name": PAPER, "title": "", "render": [], "scene": []}}
+        chosen = {}
+        for name in self.strings("workloads", None):
+            try:
+                workload = find_workload(name, pathlib.Path(self.path).parent)
+            except Problem as problem:
+                self.fail("workloads", str(problem))
+            if workload["name"] in chosen:
+                self.fail("workloads", f'"{workload["name"]}" is there twice')
+            chosen[workload["name"]] = workload
+        return chosen
+
     def scenes(self):
         value = self.value["scenes"]
         chosen = {}
@@ -136,7 +162,8 @@ class Reader:
 
 
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
-KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep")
+KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep",
+        "workloads", "ray_kinds", "all")
 
 
 def parse_size(text):
@@ -170,29 +197,30 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     series = value.get("series", 0)
     if type(series) is not int or not 0 <= series <= 10**9:
         reader.fail("series", f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
-    lockstep = value.get("lockstep", False)
-    if type(lockstep) is not bool:
-        reader.fail("lockstep", f"expected true or false, is {canonical(lockstep)}")
-    if series or lockstep:  # every cycle is needed
+    lockstep, ray_kinds, workloads = reader.flag("lockstep"), reader.flag("ray_kinds"), reader.workloads()
+    if series or lockstep or ray_kinds or list(workloads) != [PAPER]:  # every cycle is needed
         if "mode" in value and chosen_mode != "exact" and not mode:
-            reader.fail("mode", 'series and lockstep need "exact"')
+            reader.fail("mode", 'series, lockstep, ray_kinds and workloads need "exact"')
         chosen_mode = "exact"
-    if mode == "quick" and not size and not lockstep and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
+    if mode == "quick" and not size and not lockstep and not ray_kinds and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
         chosen_mode = "exact"
         chosen_size = "x".join(str(max(1, round(QUICK_SIDE * side))) for side in parse_size(chosen_size))
     scenes = reader.scenes()
     chips = reader.strings("chips", None)
     chips = CHIPS if chips == ["paper"] else chips
-    chosen_programs = reader.strings("programs", list(PROGRAMS), tuple(PROGRAMS))
+    ours_only = ray_kinds or list(workloads) != [PAPER]
+    chosen_programs = reader.strings("programs", ["ours"] if ours_only else list(PROGRAMS), tuple(PROGRAMS))
+    if ours_only and chosen_programs != ["ours"]:
+        reader.fail("programs", 'workloads and ray_kinds need "ours": the era program has the paper\'s rays only, and does not tell where they begin')
     if programs:
         chosen_programs = [program for program in chosen_programs if program in programs]
     settings = reader.settings()
-    runs = len(scenes) * len(chosen_programs) * len(chips) * len(settings)
+    runs = len(scenes) * len(chosen_programs) * len(chips) * len(settings) * len(workloads)
     if runs > MOST_RUNS:
         reader.fail(None, f"it asks for {runs} runs; at most {MOST_RUNS} are allowed")
     points = [
-        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep)
-        for scene, program, chip, settings in itertools.product(scenes, chosen_programs, chips, settings)
+        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload)
+        for workload, scene, program, chip, settings in itertools.product(workloads, scenes, chosen_programs, chips, settings)
     ]
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"),
-                 reader.text("y_per", ""), str(path), scenes, points, mode == "quick")
+                 reader.text("y_per", ""), str(path), scenes, points, workloads, reader.flag("all", True), mode == "quick")

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 from .sweep import CHIPS
 
@@ -215,6 +216,31 @@ def print_lockstep(index, paper, out):
     print_rows(["program", "scene", *(f"{width} wide" for width in widths)], rows, out)
 
 
+RAY_COLUMNS = (("mrps", "MRPS", 3), ("bytes_per_ray", "bytes/ray", 3), ("energy_per_ray", "nJ/ray", 3))
+RAY_SHARES = (("utilisation", "issued"), ("fetch", "fetch"), ("memory", "memory"), ("dcache", "d-cache"), ("units", "units"), ("rest", "other"))
+
+
+def print_rays(index, sweep, out):
+    """Rays by kind: a row for each workload, kind and machine, the mean of its scenes."""
+    groups = {}
+    for run in index.runs:
+        if sweep["name"] in run["experiments"]:
+            for kind in [name.split(".")[1] for name in run["values"] if re.fullmatch(r"rays\.\w+\.count", name)]:
+                if run["values"][f"rays.{kind}.count"]:
+                    groups.setdefault((run["workload"], kind, run["config"], *(f"{key} {json.dumps(value)}" for key, value in run["set"].items())), []).append(run)
+    widths = [width for width in (4, 8, 16, 32) if any(f"rays.{key[1]}.lanes.{width}" in run["values"] for key, runs in groups.items() for run in runs)]
+    out.write(f"{sweep['title']}: means of the scenes; shares are of the kind's thread-cycles; lanes: of a SIMD machine, for the same rays\n{sweep['claim']}\n\n")
+
+    def of(runs, kind, name):
+        return mean([stat(run, f"values.rays.{kind}.{name}") for run in runs])
+
+    rows = []
+    for (workload, kind, *machine), runs in groups.items():
+        rows.append([workload or "paper", kind, " ".join(machine), *(text(of(runs, kind, name), digits) for name, _, digits in RAY_COLUMNS),
+                     *(f"{share:.0%}" if (share := of(runs, kind, name)) is not None else "-" for name in [name for name, _ in RAY_SHARES] + [f"lanes.{width}" for width in widths])])
+    print_rows(["workload", "kind", "chip", *(title for _, title, _ in RAY_COLUMNS), *(title for _, title in RAY_SHARES), *(f"{width} lanes" for width in widths)], rows, out)
+
+
 PRINTERS = {"lockstep": print_lockstep, "table1": print_table1, "table2": print_table2_and_text, "table3": print_table3, "scenes": print_scenes}
 
 
@@ -222,7 +248,9 @@ def print_tables(results, names, paper, out):
     index = Index(results)
     for sweep in results["sweeps"]:
         if sweep["name"] in names:
-            if sweep["name"] in PRINTERS:
+            if any(sweep["name"] in run["experiments"] and any(name.startswith("rays.") for name in run["values"]) for run in index.runs):
+                print_rays(index, sweep, out)
+            elif sweep["name"] in PRINTERS:
                 PRINTERS[sweep["name"]](index, paper, out)
             else:
                 print_sweep(index, sweep, results, out)

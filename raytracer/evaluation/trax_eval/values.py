@@ -68,4 +68,33 @@ def values_of(result, areas):
     for row in result.get("lockstep", []):
         values[f"simd_utilisation.{row['width']:.0f}"] = row["utilisation"]
         values[f"simd_bound.{row['width']:.0f}"] = row["longest"]
+    return values | values_of_rays(result, statistics)
+
+
+# Causes of docs/emulator.md by what is behind them.
+STALLS = {
+    "fetch": ("icache_bank_conflict", "icache_miss"),
+    "memory": ("wait_memory", "memory_queue_full"),
+    "dcache": ("dcache_bank_conflict", "wait_dcache_hit"),
+    "units": ("fp_add_conflict", "fp_mul_conflict", "int_mul_conflict", "special_conflict", "wait_special"),
+}
+
+
+def values_of_rays(result, statistics):
+    """By kind of ray, `none` for what is done for no ray: rays.KIND.count, mrps, bytes_per_ray, energy_per_ray (nJ), share (of the thread-cycles that are not
+    after a thread's end), utilisation, one of STALLS and rest (shares of the kind's thread-cycles), and lanes.WIDTH."""
+    rows = [row for row in result.get("ray_kinds", []) if row["kind"] not in ("all", "rest") and row["thread_cycles"]]
+    lanes = {(row["kind"], int(row["width"])): row["utilisation"] for row in result.get("ray_lanes", [])}
+    live = statistics["thread_cycles"] - statistics["causes"]["halted"]
+    values = {}
+    for row in rows:
+        cycles = row["thread_cycles"] - row["halted"]
+        mine = {"count": row["rays"], "share": ratio(cycles, live), "utilisation": ratio(row["issued"], cycles)}
+        for stall, causes in STALLS.items():
+            mine[stall] = ratio(sum(row[cause] for cause in causes), cycles)
+        mine["rest"] = max(0, 1 - sum(value or 0 for name, value in mine.items() if name in STALLS or name == "utilisation"))
+        if row["rays"]:
+            mine |= {"mrps": row["mrps"], "bytes_per_ray": row["bytes_per_ray"], "energy_per_ray": 1e9 * row["energy_per_ray"]}
+        mine |= {f"lanes.{width}": share for (kind, width), share in lanes.items() if kind == row["kind"]}
+        values |= {f"rays.{row['kind']}.{name}": value for name, value in mine.items()}
     return values
