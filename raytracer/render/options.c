@@ -100,27 +100,6 @@ static const trax_option rows[] = {
                 "native: the same program compiled for this computer; embree: the reference picture"},
     {"threads", .argument = "N", NUMBER(threads, 1, 4096),
      .meaning = "host threads of engines fast and native (default: all processors)"},
-    TRAX_OPTION_GROUP("Program"),
-    {"mark-rays", FIELD(frame.mark_rays),
-     .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim's\n"
-                "--ray-kinds (with lights, materials, --paths and the like it does so anyway)"},
-    {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
-     .meaning = "another program for the TPs than the one that comes with trax"},
-    {"no-specialise", FIELD(no_specialise),
-     .meaning = "the program that can render every picture, instead of one compiled for this one"},
-    {"cache", .argument = "DIR", FIELD(cache),
-     .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
-                "or .cache/trax/programs in the home directory)"},
-    {"triangle", .argument = "METHOD", FIELD(frame.method.triangle), .choices = trax_triangle_names,
-     .meaning = "watertight (default) or moller-trumbore, which misses some rays between triangles"},
-    {"queues", .argument = "N", .parse = take_queues,
-     .meaning = "how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
-                "threads then share tiles and the cache's lines"},
-    {"fast-math", FIELD(frame.method.fast_math),
-     .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
-    {"stack", .argument = "N", NUMBER(frame.method.stack, 1, TRAX_SCENE_MAX_DEPTH),
-     .meaning = "compiles the program with N entries on the stack of the traversal, 1 to 62; what it has no\n"
-                "room for it finds again (default: as many as the tree is deep, 8 if deeper than 32)"},
     TRAX_OPTION_GROUP("What the run took"),
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile, NULL),
@@ -145,6 +124,27 @@ static const trax_option rows[] = {
      .meaning = "renders by each method and precision and prints what each costs and how wrong it is;\n"
                 "-o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
                 "so that a run that was stopped goes on"},
+    TRAX_OPTION_GROUP("Program"),
+    {"mark-rays", FIELD(frame.mark_rays),
+     .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim's\n"
+                "--ray-kinds (with lights, materials, --paths and the like it does so anyway)"},
+    {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
+     .meaning = "another program for the TPs than the one that comes with trax"},
+    {"no-specialise", FIELD(no_specialise),
+     .meaning = "the program that can render every picture, instead of one compiled for this one"},
+    {"cache", .argument = "DIR", FIELD(cache),
+     .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
+                "or .cache/trax/programs in the home directory)"},
+    {"triangle", .argument = "METHOD", FIELD(frame.method.triangle), .choices = trax_triangle_names,
+     .meaning = "watertight (default) or moller-trumbore, which misses some rays between triangles"},
+    {"queues", .argument = "N", .parse = take_queues,
+     .meaning = "how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
+                "threads then share tiles and the cache's lines"},
+    {"fast-math", FIELD(frame.method.fast_math),
+     .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
+    {"stack", .argument = "N", NUMBER(frame.method.stack, 1, TRAX_SCENE_MAX_DEPTH),
+     .meaning = "compiles the program with N entries on the stack of the traversal, 1 to 62; what it has no\n"
+                "room for it finds again (default: as many as the tree is deep, 8 if deeper than 32)"},
     TRAX_OPTION_GROUP("Sampled simulation"),
     {"sampled", FIELD(sampled),
      .meaning = "simulates only some parts of the picture and estimates the rest, with an interval; the\n"
