@@ -61,9 +61,9 @@ static inline trax_scene_ref find_again(uint32_t layout, const char *scene, trax
   return reference;
 }
 
-/* From a node, or to where the trail leads, down to a leaf: the nearer child first, the others are put on the stack.
-   False: on the way there is a node of which the ray enters no child, or a wide one, whose children are all on the
-   stack. The layout's own code is chosen here if it is known at run time only. */
+/* Goes from a node down to a leaf, or stays at one. False: the way ends before, at a node of which the ray enters no
+   child, or at a wide one, whose children are all on the stack. Where the layout is known at run time only its own code
+   is chosen here. */
 static inline __attribute__((always_inline)) bool descend(uint32_t layout, const char *scene, const struct ray *ray,
                                                           int32_t limit, trax_scene_ref *reference,
                                                           struct stack_entry *stack, struct stack_entry **top,
