@@ -200,6 +200,7 @@ REFUSED = [
     ('{"name": "x", "set": {"icache.banks": [4, 0]}}', "icache.banks is 0; allowed are"),
     ('{"name": "x", "set": {"icache.banks": []}}', "set.icache.banks: expected a number"),
     ('{"name": "x", "set": {"icache.banks": "4"}}', "set.icache.banks: expected a number"),
+    ('{"name": "x", "set": {"dcache.replacement": ["lru", "mru"]}}', 'dcache.replacement is "mru"; allowed are fifo, lru'),
     ('{"name": "x", "set": {"icache.banks": 4, "icache.banks": 8}}', '"icache.banks" is there twice'),
     ('{"name": "x", "set": {"memory.bandwidth_gbps": NaN}}', "NaN is no number"),
     ('{"name": "x", "size": "0x10"}', "size: expected"),

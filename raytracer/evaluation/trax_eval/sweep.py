@@ -102,8 +102,8 @@ class Reader:
             axes = []
             for key, values in group.items():
                 values = values if isinstance(values, list) else [values]
-                if not values or not all(isinstance(value, (bool, int, float)) for value in values):
-                    self.fail(f"set.{key}", f"expected a number or a list of numbers, is {canonical(group[key])}")
+                if not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value.isalpha() for value in values):
+                    self.fail(f"set.{key}", f"expected a number, a word or a list of them, is {canonical(group[key])}")
                 axes.append([(key, value) for value in values])
             if len(combinations) + math.prod(map(len, axes)) > MOST_RUNS:
                 self.fail("set", f"more than {MOST_RUNS} combinations")
