@@ -26,7 +26,7 @@ TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fas
 TESTS += [(["timing-beyond-test"], {})]
 TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {}),
           (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {})]
-SECONDS = 120  # of a processor, that a test may take
+SECONDS = 60  # of a processor, that a test may take
 TARGETS = sorted({test[0][0] for test in TESTS})
 
 

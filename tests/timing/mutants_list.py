@@ -237,7 +237,7 @@ MUTANTS = [
      "pc / 8 % config->icache.banks"),
     # The run ends when the bus is idle.
     ("fast/chip.c", "idle_from > *t + 1 ? idle_from : *t + 1;",
-     "*t + 1;"),
+     "idle_from ? *t + 1 : *t + 1;"),
     # What arrives in t is used in t.
     ("fast/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t;",
      "trax_queue_oldest(&tm->queue)->completion < t;"),
