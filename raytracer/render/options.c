@@ -126,8 +126,8 @@ static const trax_option rows[] = {
                 "so that a run that was stopped goes on"},
     TRAX_OPTION_GROUP("Program"),
     {"mark-rays", FIELD(frame.mark_rays),
-     .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim's\n"
-                "--ray-kinds (with lights, materials, --paths and the like it does so anyway)"},
+     .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim --ray-kinds\n"
+                "(with lights, materials, --paths and the like it does so anyway)"},
     {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
      .meaning = "another program for the TPs than the one that comes with trax"},
     {"no-specialise", FIELD(no_specialise),
