@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum {
-  MOST_WORDS = 512,
+  MOST_WORDS = 1024,
   LATENCY = 17,     /* and so about the length of an epoch */
   QUIET = 200,      /* turns of a loop of two instructions */
   AFTERWARDS = 800, /* so many that no state is kept from before when the run ends, which is found cycle by cycle */
@@ -96,6 +96,17 @@ static void add_up(struct program *program) {
   }
   emit(program, S(SW, 6, 11, 0));
 }
+/* And writes a word of local memory of which it reads what was there. */
+static void add_up_locally(struct program *program) {
+  for (unsigned i = 0; i < 60; i++) {
+    emit(program, I(LW, 7, 0, -4));
+    emit(program, R(ADD, 7, 7, 10));
+    emit(program, S(SW, 7, 0, -4));
+    emit(program, I(LW, 5, 10, WORD));
+    emit(program, R(ADD, 7, 7, 5));
+  }
+  emit(program, S(SW, 7, 11, 0));
+}
 static void print(struct program *program) {
   emit(program, I(ADDI, 5, 4, 'a'));
   emit(program, T(5, TRAX_TRAP_PUTC));
@@ -136,6 +147,7 @@ static const struct scenario scenarios[] = {
     {"an increment of what has been loaded ahead", false, {increment, add_up}},
     {"a store of what has been loaded ahead", false, {add_up, store_word}},
     {"a store of what has been loaded ahead by itself and another", false, {add_up, add_up, store_word}},
+    {"a store of what has been loaded ahead between stores to local memory", false, {add_up_locally, store_word}},
     {"output", false, {print, print, print}},
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
@@ -170,7 +182,7 @@ static void write_program(struct program *program, const struct scenario *scenar
       emit(program, S(SW, 0, 10, OTHER));
     emit(program, U(LUI, 4, (int32_t)(numbers[tm] >> 16)));
     emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm] & 0x7FF)));
-    if (scenario->of[tm] == add_up)
+    if (scenario->of[tm] == add_up || scenario->of[tm] == add_up_locally)
       emit_loop(program, QUIET, I(LW, 5, 10, WORD));
     else
       emit_loop(program, QUIET, NOP);

@@ -379,6 +379,8 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
       config = before; /* it does not go with the others */
     }
   }
+  if (config.tp.branch_bubble_cycles % 3 == 2)
+    config.tp.branch_bubble_cycles = 1; /* seldom met by chance, and a case of its own: no step may be taken for quick */
   return config;
 }
 

@@ -342,7 +342,7 @@ MUTANTS = [
      "  if (trax_fast_is_loaded(&fast->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
     ("fast/epochs.c", "for (uint32_t i = epochs->chip->tms; i-- > 0;) {",
-     "for (uint32_t i = 0; i < windows->chip->tms; i++) {"),
+     "for (uint32_t i = 0; i < epochs->chip->tms; i++) {"),
     # Memory is restored.
     ("fast/epochs.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
@@ -350,7 +350,7 @@ MUTANTS = [
     ("fast/state.c", "VISIT_ALL(trax_memory, memory, 1);", "VISIT_ALL(trax_memory, memory, 0);"),
     # Increments are noted as writes.
     ("fast/epochs.c", "epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);",
-     "(void)address; (void)windows;"),
+     "(void)address; (void)epochs;"),
     # Requests are shown in their cycle.
     ("fast/epochs.c", "buffer->requests[*request] <= t; ++*request)",
      "buffer->requests[*request] <= t + 1; ++*request)"),

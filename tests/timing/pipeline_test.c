@@ -170,7 +170,7 @@ static void branches(void **state) {
   CHARGES(&bench, 0, CYCLE0, TRAX_CAUSE_BRANCH, 6);
   bench_end(&bench);
 
-  for (uint32_t bubble = 60; bubble <= 200; bubble++) { /* across the wheel's reach */
+  for (uint32_t bubble = 1; bubble <= 200; bubble++) { /* across the wheel's reach */
     config.tp.branch_bubble_cycles = bubble;
     bench = bench_of(&config, program, 7);
     ISSUES(&bench, 0, 1, bubble + 2, bubble + 3, 2 * bubble + 4);
