@@ -150,6 +150,7 @@ halt
 # OBJ: 58: 9c3ffffc jalr r1, -4(r31)
 # OBJ: 74: a0800005 rdsr r4, cycleh
 # OBJ: 94: a4040005 trap r4, puts
-# OBJ: a0: ac000001 fence r
-# OBJ: a8: ac000003 fence rw
-# OBJ: b0: a8000000 halt
+# OBJ: 98: a4040006 trap r4, kinds
+# OBJ: a4: ac000001 fence r
+# OBJ: ac: ac000003 fence rw
+# OBJ: b4: a8000000 halt

@@ -34,7 +34,7 @@ END
 kept() {
   name=$1
   shift
-  "$bin/trax-render" ground.obj --size 16x9 --samples 4 --config 1x32 "$@" --keep "$name" -o x.png -q 2>err || fail "$name: $(cat err)"
+  "$bin/trax-render" ground.obj --size 16x9 --smooth --config 1x32 "$@" --keep "$name" -o x.png -q 2>err || fail "$name: $(cat err)"
   python3 code.py "$name/program.elf" >"$name/code"
 }
 kept plain
