@@ -59,7 +59,14 @@ def prepare(installation, scenes, scene, program, size, folder):
 
 
 def program_options(folder):
-    """What run.sh says after trax-sim, without the machine: the buffers, and the program."""
+    """The buffers, as options of trax-sim: of the manifest, or of the run.sh that installations before it wrote."""
+    manifest = os.path.join(folder, "manifest.json")
+    if os.path.exists(manifest):
+        with open(manifest, encoding="utf-8") as file:
+            buffers = json.load(file)["buffers"]
+        return [word for buffer in buffers for word in
+                (["--bind", f"{buffer['symbol']}={os.path.join(folder, buffer['file'])}"] if "file" in buffer else
+                 ["--alloc", f"{buffer['symbol']}={buffer['bytes']}"])]
     with open(os.path.join(folder, "run.sh"), encoding="utf-8") as script:
         words = shlex.split(script.read().splitlines()[-1])
     found = []
