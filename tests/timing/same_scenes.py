@@ -26,6 +26,8 @@ JSON_NAMES = {
     "configuration.l2.lru": ("configuration.l2.replacement", {False: "fifo", True: "lru"}),
 }
 CSV_NAMES = {}
+# What only the new one has: paths of the JSON, and names of columns.
+ADDED = re.compile(r"(tms\.\d+\.)?rays_by_kind\.")
 OF_THE_HOST = {"program", "host_seconds", "instructions_per_host_second"}
 
 SCENES = {"conference": ["conference.ply"], "crytek-sponza": ["crytek-sponza.ply"], "dragon": ["dragon.ply", "dragon_box.obj"],
@@ -111,18 +113,26 @@ def mapped(statistics):
     return found
 
 
+def without_added(content, names):
+    """A table without the columns that only the new installation has."""
+    rows = [row.split(b",") for row in content.split(b"\n")]
+    added = {place for place, word in enumerate(rows[0]) if word.decode() not in names and ADDED.match(word.decode())}
+    return b"\n".join(b",".join(cell for place, cell in enumerate(row) if place not in added) for row in rows) if added else content
+
+
 def differences(name, old, new):
     """Of a file: what differs, in words; empty if nothing does."""
     if name == "stats":
         one, other = (flat(json.loads(content)) for content in (old, new))
         one = mapped(one)
-        paths = [path for path in sorted(one.keys() | other.keys()) if path not in OF_THE_HOST]
+        paths = [path for path in sorted(one.keys() | other.keys()) if path not in OF_THE_HOST and not (path not in one and ADDED.match(path))]
         missing = object()
         wrong = [path for path in paths if one.get(path, missing) != other.get(path, missing)]
         return [f"{path}: {one.get(path, 'nothing')}, {other.get(path, 'nothing')}" for path in wrong]
     if name in ("series", "items", "lockstep", "heat", "heat-lines"):
         head, newline, rest = old.partition(b"\n")
-        old = b",".join(CSV_NAMES.get(word.decode(), word.decode()).encode() for word in head.split(b",")) + newline + rest
+        names = [CSV_NAMES.get(word, word) for word in head.decode().split(",")]
+        old, new = ",".join(names).encode() + newline + rest, without_added(new, names)
     if old == new:
         return []
     lines = list(zip(old.split(b"\n"), new.split(b"\n")))
