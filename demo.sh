@@ -37,7 +37,7 @@ case $scene in
     view=() ;;
 esac
 
-"$here/setup.sh"
+"$here/setup.sh" --programs
 mkdir -p "$here/out"
 "$here/build/bin/trax-render" "$mesh" "${view[@]}" --config 4x32 --size 640x360 \
   -o "$here/out/demo.png" --stats "$here/out/demo.json" "$@"

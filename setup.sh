@@ -1,64 +1,97 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing, configures and builds into build/. A second run takes seconds.
-#   ./setup.sh [--quiet]
+#   ./setup.sh             everything, with the tests and what they need
+#   ./setup.sh --programs  what it takes to compile, run and render; ./demo.sh uses it
+#   --quiet                says nothing but errors
 # Works as root and with sudo. JOBS=N sets the number of build jobs (default: all cores).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-quiet=
+quiet='' programs=''
 for argument in "$@"; do
   case $argument in
+    -h|--help) sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     --quiet) quiet=1 ;;
-    *) echo "setup.sh: unknown option '$argument' (only --quiet)" >&2; exit 1 ;;
+    --programs) programs=1 ;;
+    *) echo "setup.sh: unknown option '$argument' (--programs, --quiet, --help)" >&2; exit 1 ;;
   esac
 done
 say() { [ -n "$quiet" ] || echo "setup: $*"; }
 die() { echo "setup.sh: error: $*" >&2; exit 1; }
 
+# A|B is the first that the distribution has: Debian 12, Debian 13.
 packages=(
-  cmake ninja-build make gcc g++ pkg-config python3 git                   # to build; the tutorial applies a patch with git
-  llvm-19 llvm-19-dev llvm-19-tools libclang-19-dev libclang-common-19-dev clang-19 libc++-19-dev
-  libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev        # linker, emulator
-  libassimp-dev libembree-dev libpng-dev libjpeg62-turbo-dev libopenexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
-  libcmocka-dev libmpfr-dev gdb gdb-multiarch                                                     # tests
-  newlib-source                                                          # the mathematical functions of binary64
-  gnuplot-nox                                                            # the evaluation's figures
-  parallel chromium                                                      # tests: runs handed to GNU parallel; the evaluation's page in a browser
-  slurmctld slurmd slurm-client                                          # tests: the same by Slurm; its services do nothing without a configuration
-  csmith libcsmith-dev lib32gcc-12-dev libc6-dev-i386                    # tests: random programs, and a host of 32 bits
-  glmark2-data                                                           # the demo's bunny
-  qemu-user lld-19 gcc-12-source gcc-multilib libclang-rt-19-dev         # longer checks: code quality, gcc's torture, fuzzers
+  cmake ninja-build gcc g++ pkg-config python3                            # to build
+  llvm-19-dev libclang-19-dev libclang-common-19-dev libc++-19-dev
+  libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev         # linker, emulator
+  libassimp-dev libembree-dev libpng-dev libjpeg-dev libopenexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
+  newlib-source                                                           # the mathematical functions of binary64
+  glmark2-data                                                            # the demo's bunny
 )
+test_packages=(
+  make git llvm-19 llvm-19-tools clang-19                                 # the tutorial applies a patch with git
+  libcmocka-dev libmpfr-dev gdb gdb-multiarch
+  gnuplot-nox                                                             # the evaluation's figures
+  parallel chromium                                                       # runs handed to GNU parallel; the evaluation's page in a browser
+  slurmctld slurmd slurm-client                                           # the same by Slurm; its services do nothing without a configuration
+  csmith libcsmith-dev 'lib32gcc-12-dev|lib32gcc-14-dev' libc6-dev-i386   # random programs, and a host of 32 bits
+  qemu-user lld-19 'gcc-12-source|gcc-14-source' gcc-multilib libclang-rt-19-dev  # longer checks: code quality, gcc's torture, fuzzers
+)
+[ -n "$programs" ] || packages+=("${test_packages[@]}")
+
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null || true)" = installed ]; }
+# Those of the given packages that are not installed; of alternatives the one that can be.
+find_missing() {
+  missing=()
+  for names in "$@"; do
+    chosen=
+    for name in ${names//|/ }; do
+      if is_installed "$name"; then chosen=; continue 2; fi
+      if [ -z "$chosen" ] && { [ "$name" = "$names" ] || [ -n "$(apt-cache madison "$name" 2>/dev/null)" ]; }; then chosen=$name; fi
+    done
+    missing+=("${chosen:-${names%%|*}}")
+  done
+}
 
 command -v dpkg-query >/dev/null || die "this script installs Debian packages, and there is no dpkg here; install by hand: ${packages[*]}"
-missing=()
-for package in "${packages[@]}"; do
-  [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || missing+=("$package")
-done
+find_missing "${packages[@]}"
 if [ ${#missing[@]} -gt 0 ]; then
-  say "installing ${#missing[@]} packages: ${missing[*]}"
   if [ "$(id -u)" = 0 ]; then as_root=(); elif command -v sudo >/dev/null; then as_root=(sudo); else
     die "packages are missing and neither root nor sudo is at hand: ${missing[*]}"
   fi
   log=$(mktemp)
   trap 'rm -f "$log"' EXIT
   install() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "$@" >"$log" 2>&1; }
+  begin=$SECONDS
   install update -q || { tail -n 5 "$log" >&2; die "apt-get update failed"; }
+  find_missing "${packages[@]}" # alternatives are known now
+  say "installing ${#missing[@]} packages and what they need: ${missing[*]}"
   install install -q -y --no-install-recommends "${missing[@]}" || { tail -n 15 "$log" >&2; die "apt-get install failed"; }
+  say "$(sed -nE 's/.* ([0-9]+) newly installed.*/\1 packages are new/p; s/^After this operation, (.*) of additional.*/\1/p' "$log" | paste -sd, | sed 's/,/, /g'), in $((SECONDS - begin)) s"
 else
   say "all packages are installed"
 fi
 
-# Configure again only where there is no usable build folder: ninja itself notices changed CMake files.
-if [ ! -f build/build.ninja ]; then
-  say "configuring into build/"
+# Configure again only where there is no usable build folder or tests are wanted for the first time: ninja itself notices changed CMake files.
+configure() {
+  begin=$SECONDS
   mkdir -p build
-  cmake --preset release >build/configure.log 2>&1 || { cat build/configure.log >&2; die "cmake failed"; }
+  cmake --preset release "$@" >build/configure.log 2>&1 || { cat build/configure.log >&2; die "cmake failed"; }
+  say "configured build/, in $((SECONDS - begin)) s"
+}
+if [ ! -f build/build.ninja ]; then
+  if [ -n "$programs" ]; then configure -DTRAX_TESTS=OFF; else configure; fi
+elif [ -z "$programs" ] && grep -q '^TRAX_TESTS:BOOL=OFF' build/CMakeCache.txt; then
+  configure -DTRAX_TESTS=ON
 fi
+
+target=${programs:+programs}
+target=${target:-all}
 say "building (${JOBS:-$(nproc)} jobs)"
+begin=$SECONDS
 if [ -t 1 ] && [ -z "$quiet" ]; then
-  ninja -C build -j "${JOBS:-$(nproc)}"
+  ninja -C build -j "${JOBS:-$(nproc)}" "$target"
 else
-  ninja -C build -j "${JOBS:-$(nproc)}" >build/build.log 2>&1 || { tail -n 60 build/build.log >&2; die "the build failed; all of it is in build/build.log"; }
+  ninja -C build -j "${JOBS:-$(nproc)}" "$target" >build/build.log 2>&1 || { tail -n 60 build/build.log >&2; die "the build failed; all of it is in build/build.log"; }
 fi
-say "done: programs are in build/bin"
+say "done, in $((SECONDS - begin)) s: programs are in build/bin"

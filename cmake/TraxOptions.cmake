@@ -14,6 +14,8 @@ set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON) # Debian's LLVM
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 
+option(TRAX_TESTS "Tests, fuzzers and benchmarks" ON)
+option(TRAX_UNITY "Files that include LLVM's headers are compiled several as one, which takes half of the time from nothing" ON)
 option(TRAX_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 option(TRAX_SANITIZE_THREADS "Thread sanitizer" OFF)
 option(TRAX_FUZZ "libFuzzer's programs of llvm-target/fuzz: needs clang, implies TRAX_SANITIZE" OFF)
