@@ -1,6 +1,6 @@
 """What the paper asserts of its choices, and what the sweeps say: judges of claims.py that return (holds, what was found); None: not known."""
 
-from .results import SCENES, mean, ratio
+from .results import mean, ratio
 
 _NOT_KNOWN = None, "not measured"
 
@@ -8,7 +8,7 @@ _NOT_KNOWN = None, "not measured"
 def swept(results, sweep, program, chip, settings, figure):
     """The mean over the scenes of a figure in a sweep's runs with these settings, or None. Large pictures go before small ones, exact runs before estimates."""
     values = []
-    for scene in SCENES.values():
+    for scene in results.papers:
         runs = [run for run in results.of_sweep(sweep) if (run.program, run.scene, run.config) == (program, scene, chip) and run.done and
                 set(run.set) <= set(settings) and all(run.setting(key) == value for key, value in settings.items())]
         best = max(runs, key=lambda run: (run.size or (0, 0), run.mode == "exact"), default=None)
@@ -34,11 +34,11 @@ def _special(results, paper, program):
 
 def _rarely(results, paper, program):
     shares = []
-    for scene in SCENES.values():
+    for scene in results.papers:
         run = results.cell(program, scene, "4x32")
         shares.append(ratio(run.get("instructions_by_unit.special"), run.get("instructions")) if run else None)
     share = mean(shares)
-    busy = mean(results.figure("special.utilisation", program, scene, "4x32") for scene in SCENES.values())
+    busy = results.mean_of_papers("special.utilisation", program, "4x32")
     return _NOT_KNOWN if share is None or busy is None else (share <= 0.02, f"{100 * share:.2f} % of the instructions; the unit is busy in {100 * busy:.0f} % of the cycles")
 
 
@@ -73,7 +73,7 @@ def _lockstep(results, paper, program):
 def _peak(results, paper, program):
     found = []
     for chip, wanted in (("1x32", 9), ("1x48", 13), ("1x64", 17)):
-        run = next((run for scene in SCENES.values() if (run := results.cell(program, scene, chip)) and run.done), None)
+        run = next((run for scene in results.papers if (run := results.cell(program, scene, chip)) and run.done), None)
         if run is None:
             return _NOT_KNOWN
         keys = ("chip.tps_per_tm", "fpu.tps_per_cluster", "fpu.adders_per_cluster", "fpu.multipliers_per_cluster", "special.units_per_tm")

@@ -4,13 +4,13 @@ import math
 
 from .claims import speedup
 from .plots import Bars, Lines, Series, log_ticks
-from .results import SCENES, number, ratio
+from .results import mean, number, ratio
+from .sweeps import Axes, Value, by_kind
 
-# Styles of page.css. Of programs, each with a mark of its own.
+# Styles of page.css, each with a mark of its own.
 PAPER = (0, "circle")
-OF_PROGRAM = {"era": (1, "square"), "ours": (2, "dot")}
 STYLES = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
-OTHERS = [(3, "triangle"), (4, "diamond"), (5, "dot"), (6, "square")]
+OF_PROGRAMS = [(1, "square"), (2, "dot"), (3, "triangle"), (4, "diamond"), (5, "dot"), (6, "square")]
 
 # Causes of docs/emulator.md, together where the same hardware is behind them.
 CAUSES = [
@@ -26,8 +26,8 @@ CAUSES = [
 ]
 
 
-def style_of(program, index=0):
-    return OF_PROGRAM.get(program, OTHERS[index % len(OTHERS)])
+def style_of(index):
+    return OF_PROGRAMS[index % len(OF_PROGRAMS)]
 
 
 def shares(run):
@@ -48,18 +48,15 @@ def _threads_axis(paper):
     return [(count, str(count)) for count in counts if count in (32, 64, 128, 256, 512)] or [(count, str(count)) for count in counts]
 
 
-OTHER_VIEWS = {"dragon-close": "dragon"}  # of a scene of the paper
-
-
 def _scaling(results, paper, scene):
     series = []
-    same = OTHER_VIEWS.get(scene, scene)
-    if paper.speedup(same, "8x64"):
-        points = [(paper.threads(chip), paper.speedup(same, chip), f"paper, {chip}: {paper.speedup(same, chip):.2f} times, "
-                   f"{paper.mrps(same, chip):.2f} MRPS") for chip in paper.chips]
-        series.append(Series("paper" if same == scene else f"paper, {same}", PAPER[0], points, PAPER[1], line=False))
+    column = results.stands_for.get(scene)
+    if paper.speedup(column, "8x64"):
+        points = [(paper.threads(chip), paper.speedup(column, chip), f"paper, {chip}: {paper.speedup(column, chip):.2f} times, "
+                   f"{paper.mrps(column, chip):.2f} MRPS") for chip in paper.chips]
+        series.append(Series("paper" if results.columns[column] == scene else f"paper, {column}", PAPER[0], points, PAPER[1], line=False))
     for index, program in enumerate(results.programs()):
-        style, mark = style_of(program, index)
+        style, mark = style_of(index)
         points = []
         for chip in paper.chips:
             value, mrps = speedup(results, program, scene, chip), results.figure("mrps", program, scene, chip)
@@ -95,10 +92,10 @@ def _stalls(results, paper, program, scene):
 def _error_time(results, paper):
     series = []
     for index, program in enumerate(results.programs()):
-        style, mark = style_of(program, index)
+        style, mark = style_of(index)
         points = []
         for run in results.runs:
-            published = paper.mrps(run.scene, run.config) if run.program == program and not run.set and not run.workload else None
+            published = results.published(paper, run.scene, run.config) if run.program == program and not run.set and not run.workload else None
             value = ratio(run.get("mrps"), published)
             if value is None or not run.host_seconds:
                 continue
@@ -109,47 +106,46 @@ def _error_time(results, paper):
                  from_zero=False, x_ticks=ticks)
 
 
-def sweep_runs(results, sweep):
-    return results.of_sweep(sweep.get("name"))
-
-
-def sweep_value(run, sweep):
-    name = sweep.get("y") or "mrps"
-    value = run.get(name)
-    return ratio(value, run.get(sweep["y_per"])) if sweep.get("y_per") else value
-
-
-def is_plotted(results, sweep):
-    """A sweep over one value has no plot, and the tables have theirs."""
-    values = {run.setting(str(sweep.get("x") or "")) for run in sweep_runs(results, sweep) if sweep_value(run, sweep) is not None}
-    return len(values) > 1 and not str(sweep.get("name")).startswith("table")
-
-
-def _sweep(results, sweep, identity):
-    key, unit = str(sweep.get("x") or ""), sweep.get("y") or "mrps"
+def sweep_figure(results, paper, sweep, identity):
+    """What a sweep's x and y say: a colour for each scene (of rays by kind: for each kind, means of the scenes), a mark for each of what else differs. None
+    where x has one value. x may be what a table's rows may be, "threads" or a statistic; where it has one value, the variants are the axis."""
+    runs, key = results.of_sweep(sweep.get("name")), str(sweep.get("x") or "threads")
+    kinds = sweep.get("y") in (None, "mrps") and any(run.kinds() for run in runs)
+    value = Value({"name": "kind.mrps" if kinds else sweep.get("y") or "mrps", "per": sweep.get("y_per")})
+    kinds = value.name.startswith("kind.")
+    if kinds:
+        runs = list(by_kind(runs))
+    axes = Axes(results, paper, runs, {**sweep, "x": None})
+    if "variant" in axes.varying and len({run.setting(key) for run in runs}) < 2:
+        key = "variant"
+    others = [axis for axis in axes.varying if axis not in (key, "scene") and not (key == "threads" and axis == "chip")]
+    named = [text for text in axes.order.get(key, []) if isinstance(text, str) and text]
     groups = {}
-    sizes = {run.size for run in sweep_runs(results, sweep)}
-    for run in sweep_runs(results, sweep):
-        x, y = run.setting(key), sweep_value(run, sweep)
-        if x is None or y is None:
-            continue
-        others = ", ".join(f"{name}={value}" for name, value in sorted(run.set.items()) if name != key)
-        variant = ", ".join(part for part in (run.config if key != "threads" else "", others, run.mode if run.mode != "exact" else "", "{}x{}".format(*run.size) if len(sizes) > 1 and run.size else "") if part)
-        groups.setdefault((run.scene, run.program, variant), []).append((x, y, f"{run.name()}: {y:.4g}"))
-    # A colour for each scene, a mark for each chip; lines of the era program are dashed.
-    scenes, variants = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 2))
+    for run in runs:
+        x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.setting(key), value.of(run)
+        if x is not None and y is not None:
+            label = tuple(str(part) if axis in ("program", "chip", "workload", "variant", "kind", "size", "mode") else f"{axis}={part}" for axis, part in zip(others, axes.place(run, others)) if part != "")
+            groups.setdefault(("" if kinds else run.scene, label), []).append((x, y, f"{run.name()}: {y:.4g}"))
+    if kinds:
+        groups = {group: [(x, y, f"{', '.join(group[1])}: {y:.4g}, mean of the scenes") for x in {point[0] for point in points} for y in [mean(point[1] for point in points if point[0] == x)]]
+                  for group, points in groups.items()}
+    values = sorted({point[0] for points in groups.values() for point in points})
+    if len(values) < 2:
+        return None
+    scenes, labels = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 1))
+    several = not kinds and (len(scenes) > 1 or len(labels) == 1)
+    first = results.programs()[:1]
     series = []
-    for (scene, program, variant), points in groups.items():
-        style, mark = STYLES[scenes.index(scene) % len(STYLES)][0], STYLES[variants.index(variant) % len(STYLES)][1]
-        label = ", ".join(part for part in (scene, variant, program) if part)
-        series.append(Series(label, style, sorted(points), mark, dashed=program == "era"))
-    values = sorted({point[0] for one in series for point in one.known()})
-    doubling = len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
-    ticks = [(value, f"{value:g}") for value in values] if len(values) <= 9 else None
-    if any(isinstance(run.set.get(key), bool) for run in sweep_runs(results, sweep)):
-        ticks = [(0, "false"), (1, "true")]
-    per = f" / {sweep['y_per']}" if sweep.get("y_per") else ""
-    return Lines(identity, f"{unit}{per} against {key}", key, unit + per, series, log_x=doubling, base=2, x_ticks=ticks)
+    for (scene, label), points in groups.items():
+        colour, mark = scenes.index(scene) if several else labels.index(label), labels.index(label)
+        # Points of a statistic, as an error against cycles, are no function of it.
+        series.append(Series(", ".join([scene] * (several and not kinds) + [*label]), STYLES[colour % len(STYLES)][0], sorted(points), STYLES[mark % len(STYLES)][1],
+                             line=not named and (key == "threads" or key in axes.order or "." in key and not key.startswith("values.")),
+                             dashed=first != [] and "program" in axes.varying and first[0] not in label))
+    ticks = [(place, text) for place, text in enumerate(named)] or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)
+    doubling = not named and len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
+    unit = value.name + (f" / {value.per}" if value.per else "")
+    return Lines(identity, f"{unit} against {key}", key, unit, series, log_x=doubling, base=2, x_ticks=ticks)
 
 
 def _joined(columns, rows):
@@ -202,20 +198,25 @@ def _lockstep(results):
 
 
 def all_figures(results, paper):
-    figures = [_scaling(results, paper, scene) for scene in _paper_scenes(results)]
-    figures += [_memory(results, paper, program) for program in results.programs()]
+    for scene in _paper_scenes(results):
+        yield _scaling(results, paper, scene)
     for program in results.programs():
-        figures += [_stalls(results, paper, program, scene) for scene in _paper_scenes(results)
-                    if scene in SCENES.values() or any((run.scene, run.program) == (scene, program) for run in results.runs)]
-    figures.append(_error_time(results, paper))
-    figures += [_sweep(results, sweep, f"sweep-{index}") for index, sweep in enumerate(results.sweeps) if is_plotted(results, sweep)]
+        yield _memory(results, paper, program)
+        for scene in _paper_scenes(results):
+            if scene in results.papers or any((run.scene, run.program) == (scene, program) for run in results.runs):
+                yield _stalls(results, paper, program, scene)
+    yield _error_time(results, paper)
+    for index, sweep in enumerate(results.sweeps):
+        figure = sweep_figure(results, paper, sweep, f"sweep-{index}")
+        if figure and not str(sweep.get("name")).startswith("table"):  # those have figures of their own
+            yield figure
     if any(name.startswith("simd_utilisation.") for run in results.runs for name in run.values):
-        figures.append(_lockstep(results))
-    figures += [_over_time(record, f"series-{index}") for index, record in enumerate(results.series)]
-    return figures
+        yield _lockstep(results)
+    for index, record in enumerate(results.series):
+        yield _over_time(record, f"series-{index}")
 
 
 def _paper_scenes(results):
     """Those of the paper, measured or not, and others that have runs on several chips."""
     chips = {scene: {run.config for run in results.runs if run.scene == scene} for scene in results.scenes()}
-    return list(SCENES.values()) + [scene for scene in chips if scene not in SCENES.values() and len(chips[scene]) > 1]
+    return results.papers + [scene for scene in chips if scene not in results.papers and len(chips[scene]) > 1]

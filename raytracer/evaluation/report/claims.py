@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from .assertions import ASSERTIONS
-from .results import SCENES, deviation, mean, number, ratio
+from .results import COLUMNS, deviation, mean, number, ratio
 
 AGREES, DIFFERS, UNKNOWN = "agrees", "differs", "unknown"
 
@@ -22,15 +22,10 @@ def _judged(holds, found):
     return (UNKNOWN, found) if holds is None else (AGREES if holds else DIFFERS, found)
 
 
-def table2_deviations(results, paper, program, scenes=None):
-    """(scene, chip, deviation) of every cell of Table 2 that was measured."""
-    found = []
-    for scene in scenes or SCENES.values():
-        for chip in paper.chips:
-            value = deviation(results.figure("mrps", program, scene, chip), paper.mrps(scene, chip))
-            if value is not None:
-                found.append((scene, chip, value))
-    return found
+def table2_deviations(results, paper, program):
+    """Of every cell of Table 2 that was measured."""
+    found = [deviation(results.figure("mrps", program, scene, chip), paper.mrps(column, chip)) for column, scene in results.columns.items() for chip in paper.chips]
+    return [value for value in found if value is not None]
 
 
 def speedup(results, program, scene, chip):
@@ -62,16 +57,16 @@ def _near(deviations, cells, what):
 
 
 def _within(results, paper, program):
-    return _near([value for _, _, value in table2_deviations(results, paper, program)], len(SCENES) * len(paper.chips), "cells")
+    return _near(table2_deviations(results, paper, program), len(COLUMNS) * len(paper.chips), "cells")
 
 
 def _gflops(results, paper, program):
     ours = {row["name"]: row.get("rt_gflops") for row in paper.table1 if row["name"] in paper.chips}
-    return _near([deviation(mean(results.figure("gflops", program, scene, chip) for scene in SCENES.values()), wanted) for chip, wanted in ours.items()], len(ours), "chips")
+    return _near([deviation(results.mean_of_papers("gflops", program, chip), wanted) for chip, wanted in ours.items()], len(ours), "chips")
 
 
 def _area(results, paper, program):
-    rows = [(results.cell(program, scene, row["name"]), row.get("area_mm2")) for row in paper.table1 if row["name"] in paper.chips for scene in list(SCENES.values())[:1]]
+    rows = [(results.cell(program, scene, row["name"]), row.get("area_mm2")) for row in paper.table1 if row["name"] in paper.chips for scene in results.papers[:1]]
     verdict, found = _near([deviation(run.get("area_mm2") if run else None, wanted) for run, wanted in rows], len(rows), "chips")
     units = [value for run, wanted in rows if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None]
     return verdict, found + (f"; of the sum of units without wires, {100 * median(units):+.0f} %" if units else "")
@@ -81,8 +76,8 @@ def _table3(results, paper, program):
     found = []
     for chip, row in paper.table3.items():
         for bandwidth in (8.0, 16.0):
-            found.append(deviation(results.figure("mrps", program, "dragon", chip, bandwidth), row[f"dragon_{bandwidth:g}gbs_mrps"]))
-            found.append(deviation(mean(results.figure("mrps", program, scene, chip, bandwidth) for scene in SCENES.values()), row[f"average_{bandwidth:g}gbs_mrps"]))
+            found.append(deviation(results.figure("mrps", program, results.columns["dragon"], chip, bandwidth), row[f"dragon_{bandwidth:g}gbs_mrps"]))
+            found.append(deviation(results.mean_of_papers("mrps", program, chip, bandwidth), row[f"average_{bandwidth:g}gbs_mrps"]))
     return _near(found, len(found), "figures")
 
 
@@ -90,7 +85,7 @@ def _bytes(results, paper, program, scene, chip, bandwidth=8.0):
     """Why rates differ where bandwidth binds: what a ray moves, and what it can have moved at the paper's rate."""
     run = results.cell(program, scene, chip, bandwidth)
     moved, used = (ratio(run.get("memory.bytes"), run.get("rays")), run.get("memory.utilisation")) if run else (None, None)
-    published = paper.mrps(scene, chip) if bandwidth == 8.0 else (paper.table3.get(chip) or {}).get(f"dragon_{bandwidth:g}gbs_mrps")
+    published = results.published(paper, scene, chip) if bandwidth == 8.0 else (paper.table3.get(chip) or {}).get(f"dragon_{bandwidth:g}gbs_mrps")
     limit = ratio(1e3 * bandwidth, published)
     if None in (moved, used, limit):
         return ""
@@ -99,11 +94,13 @@ def _bytes(results, paper, program, scene, chip, bandwidth=8.0):
 
 def _scaling(results, paper, program):
     near, known, wanted, worst, by_scene = 0, 0, 0, None, []
-    for scene in ("conference", "crytek-sponza", "forest"):
+    for column, scene in results.columns.items():
+        if column == "dragon":  # it is the next claim's
+            continue
         of_scene = []
         for chip in paper.chips[1:]:
             wanted += 1
-            value = deviation(speedup(results, program, scene, chip), paper.speedup(scene, chip))
+            value = deviation(speedup(results, program, scene, chip), paper.speedup(column, chip))
             if value is None:
                 continue
             known += 1
@@ -117,7 +114,7 @@ def _scaling(results, paper, program):
     found = f"{near} of {known} speed-ups within 10 % ({', '.join(by_scene)})"
     if near < known:
         scene, chip, off = worst
-        one, many = (deviation(results.figure("mrps", program, scene, name), paper.mrps(scene, name)) for name in ("1x32", chip))
+        one, many = (deviation(results.figure("mrps", program, scene, name), results.published(paper, scene, name)) for name in ("1x32", chip))
         reason = _bytes(results, paper, program, scene, chip)
         found += f"; furthest off: {scene} on {chip}, {100 * off:+.0f} %, of rays {100 * one:+.0f} % on 1x32 and {100 * many:+.0f} % there" + (f": {reason}" if reason else "")
     if known < wanted:
@@ -134,22 +131,24 @@ def _largest_gain(results, paper, program, scene):
     return chip, gain, len(known) == len(chips)
 
 
-def _close(text):
-    """What the other of the dragon's two views has."""
-    return f"; dragon-close.view: {text}"
+def _views(results):
+    """The dragon, and the scene that is another view of it, or None."""
+    dragon = results.columns["dragon"]
+    return dragon, next((scene for scene, column in results.stands_for.items() if column == "dragon" and scene != dragon), None)
 
 
 def _saturation(results, paper, program):
-    chip, gain, whole = _largest_gain(results, paper, program, "dragon")
+    dragon, other_view = _views(results)
+    chip, gain, whole = _largest_gain(results, paper, program, dragon)
     if gain is None:
         return UNKNOWN, "not measured"
     found = f"{chip} has {gain:.2f} times the rays of 4x32"
     if gain > 1.10:
-        reason = _bytes(results, paper, program, "dragon", "4x32")
+        reason = _bytes(results, paper, program, dragon, "4x32")
         found += f", on which memory does not bind yet: {reason}" if reason else ""
-    other = _largest_gain(results, paper, program, "dragon-close")
+    other = _largest_gain(results, paper, program, other_view)
     if other[1] is not None:
-        found += _close(f"{other[1]:.2f} times on {other[0]}")
+        found += f"; {other_view}: {other[1]:.2f} times on {other[0]}"
     return _judged(gain <= 1.10 if whole or gain > 1.10 else None, found)
 
 
@@ -157,30 +156,31 @@ def _bandwidth(results, paper, program):
     def gain(scene):
         return ratio(results.figure("mrps", program, scene, "8x32", 16.0), results.figure("mrps", program, scene, "8x32"))
 
-    value, other = gain("dragon"), gain("dragon-close")
+    dragon, other_view = _views(results)
+    value, other = gain(dragon), gain(other_view)
     if value is None:
         return UNKNOWN, "not measured"
     found = f"{value:.2f} times"
     if value < 1.6:
-        reason = _bytes(results, paper, program, "dragon", "8x32", 16.0)
+        reason = _bytes(results, paper, program, dragon, "8x32", 16.0)
         found += f"; at 16 GB/s memory does not bind: {reason}" if reason else ""
-    return _judged(value >= 1.6, found + (_close(f"{other:.2f} times") if other is not None else ""))
+    return _judged(value >= 1.6, found + (f"; {other_view}: {other:.2f} times" if other is not None else ""))
 
 
 def _mrtp(results, paper, program):
-    gain = ratio(results.figure("mrps", program, "dragon", "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
+    gain = ratio(results.figure("mrps", program, results.columns["dragon"], "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
     published = ratio(paper.mrps("dragon", "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
     return (UNKNOWN, "not measured") if gain is None else _judged(abs(gain / published - 1) <= 0.10, f"{gain:.1f} times")
 
 
 def _frames(results, paper, program):
-    run = results.cell(program, "dragon", "4x32")
+    run = results.cell(program, results.columns["dragon"], "4x32")
     value = run.frames_per_second() if run else None
     return (UNKNOWN, "not measured") if value is None else _judged(abs(value / 3.4 - 1) <= 0.10, f"{value:.1f} frames/s")
 
 
 def _power(results, paper, program):
-    value = mean(results.figure("energy.average_power", program, scene, "4x32") for scene in SCENES.values())
+    value = results.mean_of_papers("energy.average_power", program, "4x32")
     return (UNKNOWN, "not measured") if value is None else _judged(abs(value / 4 - 1) <= 0.25, f"{value:.1f} W, dynamic only")
 
 
@@ -188,7 +188,7 @@ def _flops(results, paper, program):
     def per_ray(scene):
         return ratio(results.figure("flops", program, scene, "4x32"), results.figure("rays", program, scene, "4x32"))
 
-    value = mean(per_ray(scene) for scene in SCENES.values())
+    value = mean(per_ray(scene) for scene in results.papers)
     published = 1e3 * 9.3 / 7.14
     return (UNKNOWN, "not measured") if value is None else _judged(abs(value / published - 1) <= 0.10, f"{value:,.0f}")
 

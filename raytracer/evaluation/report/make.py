@@ -17,19 +17,20 @@ from trax_eval.util import Problem, check_files
 from . import rays, tables
 from .charts import all_figures
 from .claims import AGREES, DIFFERS, claims, median, table2_deviations
-from .markup import Html, el, join, seconds
+from .markup import Html, el, join, table
 from .plots import PlotError, draw, marks
-from .results import SCENES, Paper, ResultsError, read_results
+from .results import Paper, ResultsError, number, read_results
+from .table import seconds
 
 HERE = pathlib.Path(__file__).resolve().parent
-SHORT = {"tables": "Tables", "stalls": "Time", "units": "Hardware", "error": "Error and run time"}  # in the page's head
+SHORT = {"tables": "Tables", "rays": "Rays by kind", "stalls": "Time", "units": "Hardware", "error": "Error and run time"}  # in the page's head
 
 
 def summary(results, paper, judged):
     """In plain words: what was measured, and what agrees."""
     done, failed = [run for run in results.runs if run.done], [run for run in results.runs if run.status == "failed"]
     sentences = [f"{len(done)} of {len(results.runs)} runs are there" + (f", {len(failed)} failed." if failed else ".")]
-    cells = {run.size for program in results.programs() for scene in SCENES.values() for chip in paper.chips if (run := results.cell(program, scene, chip)) and run.done and run.size}
+    cells = {run.size for program in results.programs() for scene in results.papers for chip in paper.chips if (run := results.cell(program, scene, chip)) and run.done and run.size}
     others = {run.size for run in done if run.size} - cells
 
     def named(sizes):
@@ -45,16 +46,13 @@ def summary(results, paper, judged):
         sentences.append(f"They took {seconds(sum(times))} of the host.")
     items = [el("p", " ".join(sentences))]
     for program in results.programs():
-        what = {"era": "The era program (binary BVH, Möller and Trumbore's test: as near to the paper's as its text allows)", "ours": "Our program"}
-        deviations = [value for _, _, value in table2_deviations(results, paper, program)]
+        deviations = table2_deviations(results, paper, program)
         said, not_said = (sum(claim.verdicts[program][0] == verdict for claim in judged) for verdict in (AGREES, DIFFERS))
-        text = [el("b", what.get(program, f"Program “{program}”")), ": "]
+        text = [el("b", f"{program}: {title}" if (title := results.title("programs", program)) != program else f"Program “{program}”"), ": "]
         if deviations:
             middle = median(deviations)
             text.append(f"in the middle of {len(deviations)} cells of Table 2 it has {100 * abs(middle):.0f} % {'more' if middle >= 0 else 'fewer'} rays per second than the paper. ")
-        own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
-        if own:
-            text.append(f"Its chips are the paper's, with {own}. ")
+        text.append(tables.own_machine(results, program))
         text.append(f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; not known: {len(judged) - said - not_said}.")
         items.append(el("p", *text))
     return join(items)
@@ -88,46 +86,78 @@ def pictures(results, base):
 
 def linker(base, folder):
     """Links to the runs' files, from where the page is to be."""
-    def link(path, text):
-        if not path:
-            return None
-        return el("a", text, href=urllib.parse.quote(os.path.relpath(base / path, folder).replace(os.sep, "/")))
+    def link(path):
+        return urllib.parse.quote(os.path.relpath(base / path, folder).replace(os.sep, "/")) if path else ""
     return link
+
+
+def flat(value, prefix=""):
+    """The keys of a configuration, dotted."""
+    for key, inner in value.items():
+        if isinstance(inner, dict):
+            yield from flat(inner, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", inner
+
+
+def configurations(results):
+    """The distinct configurations, and for each run the number of its own."""
+    numbers, of_run, listed = {}, {}, []
+    for run in results.runs:
+        configuration = run.stats.get("configuration")
+        if not isinstance(configuration, dict):
+            continue
+        items = tuple((key, repr(value) if number(value) is None else f"{value:g}" if isinstance(value, float) else str(value)) for key, value in flat(configuration))
+        if items not in numbers:
+            numbers[items] = len(numbers) + 1
+            listed.append((numbers[items], dict(items), run.config))
+        of_run[run.index] = numbers[items]
+    if not listed:
+        return el("p", "No run says what its configuration was.", class_="missing"), of_run
+    first = listed[0][1]
+    blocks = []
+    for place, items, chip in listed:
+        other = [f"{key} = {value}" for key, value in items.items() if first.get(key) != value]
+        summary = "every key" if place == 1 else "C1 but for " + ", ".join(other)
+        body = el("dl", *(join([el("dt", key), el("dd", value)]) for key, value in items.items()), class_="keys")
+        blocks.append(el("details", el("summary", el("b", f"C{place}"), f" ({chip}): {summary}"), body, id=f"configuration-{place}"))
+    return join(blocks), of_run
 
 
 def page(results, paper, base, folder, gnuplot="gnuplot"):
     programs = results.programs()
     judged = claims(results, paper, programs)
-    drawn = draw(all_figures(results, paper) + rays.figures(results, paper), gnuplot)
-    configurations, of_run = tables.configurations(results)
+    drawn = draw([*all_figures(results, paper), *rays.figures(results, paper)], gnuplot)
+    listed, of_run = configurations(results)
 
     def figures(prefix):
         return el("div", *(shown for identity, shown in drawn.items() if identity.startswith(prefix)), class_="figures")
 
-    sections = [("summary", "Summary", join([summary(results, paper, judged), tables.claims_table(judged, programs) if programs else None])),
-                ("tables", "The paper's tables", join([tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs), tables.table3(results, paper)])),
-                ("scaling", "Scaling", join([el("p", "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."), figures("scaling-")])),
-                ("stalls", "Where the time goes", join([el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")])),
-                ("units", "Hardware and bandwidth", join([figures("memory-"), tables.hardware(results, paper), tables.described(results, paper)])),
-                ("error", "Error and run time", join([figures("error-"), tables.sampled(results)]))]
+    estimates = tables.sampled(results)
+    sections = [("summary", "Summary", [summary(results, paper, judged), table(tables.claims_table(judged, programs)) if programs else None]),
+                ("tables", "The paper's tables", map(table, [tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs), tables.table3(results, paper)])),
+                ("scaling", "Scaling", [el("p", "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."), figures("scaling-"),
+                                        el("details", el("summary", "As tables"), *(table(make(results, paper, program)) for make in (tables.speedups, tables.table1_scenes) for program in programs))]),
+                ("stalls", "Where the time goes", [el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")]),
+                ("units", "Hardware and bandwidth", [figures("memory-"), table(tables.hardware(results, paper)), table(tables.described(results, paper))]),
+                ("error", "Error and run time", [figures("error-"), table(estimates) if estimates else None])]
     if rays.groups(results):
-        text = "What each kind of ray takes, and the share of a SIMD machine's lanes that the same rays use: independent threads use what they issue."
-        sections.append(("rays", "Rays by kind", join([el("p", text), figures("rays-"), rays.kinds_table(results)])))
+        sections.insert(2, ("rays", "What MIMD gains as rays lose coherence", [el("p", rays.EXPLAINED), figures("rays-"), table(rays.gain_table(results)),
+                                                                           el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))]))
     if results.series:
-        sections.append(("time", "Over time", join([el("p", "Shares of the thread-cycles of each interval; fetch_refused: of the instructions that threads asked their cache for, those that a conflict refused."), figures("series-")])))
+        text = "Shares of the thread-cycles of each interval; fetch_refused: of the instructions that threads asked their cache for, those that a conflict refused."
+        sections.append(("time", "Over time", [el("p", text), figures("series-")]))
     shown = []
     for index, sweep in enumerate(results.sweeps):
         if sweep.get("name") in ("table1", "table2", "table3"):
             continue  # they are above
-        parts = [el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")),
-                 el("p", str(sweep["claim"])) if sweep.get("claim") else None, drawn.get("lockstep" if sweep.get("name") == "lockstep" else f"sweep-{index}"),
-                 el("details", el("summary", "Every run of it"), tables.sweep_table(results, sweep, f"table-sweep-{index}"))]
+        parts = [el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")), el("p", str(sweep["claim"])) if sweep.get("claim") else None,
+                 drawn.get("lockstep" if sweep.get("name") == "lockstep" else f"sweep-{index}"), el("details", el("summary", "As a table"), *(table(made, f"sweep-{index}-") for made in tables.of_sweep(results, paper, sweep)))]
         shown.append(el("section", *(part for part in parts if part is not None), class_="sweep"))
     if shown:
-        sections.append(("sweeps", "Sweeps", el("div", *shown, class_="sweeps")))
-    sections += [("pictures", "Pictures", pictures(results, base)),
-                 ("all-runs", "Runs", tables.run_table(results, paper, linker(base, folder), of_run)),
-                 ("configurations", "Configurations", configurations)]
+        sections.append(("sweeps", "Sweeps", [el("div", *shown, class_="sweeps")]))
+    sections += [("pictures", "Pictures", [pictures(results, base)]), ("all-runs", "Runs", [table(tables.run_table(results, paper, linker(base, folder), of_run))]),
+                 ("configurations", "Configurations", [listed])]
 
     about = [el("code", results.text("command") or "trax-eval"), f"trax {results.text('trax')}" if results.text("trax") else None, results.text("created") or None]
     host = results.document.get("host")
@@ -140,7 +170,7 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
                                   el("p", join([part for part in about if part], " · "), class_="about"),
                                   el("nav", *(el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections),
                                      el("button", "Light or dark", type="button", id="theme"))),
-              el("main", *(el("section", el("h2", title), content, id=identity) for identity, title, content in sections)), el("script", Html(script)))
+              el("main", *(el("section", el("h2", title), join(content), id=identity) for identity, title, content in sections)), el("script", Html(script)))
     return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"
 
 

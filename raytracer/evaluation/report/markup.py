@@ -31,72 +31,32 @@ def el(name, /, *content, **attributes):
 MISSING = Html('<span class="missing" title="not measured">–</span>')
 
 
-def figure(value, digits=3):
-    """A number for reading: so many significant digits, thousands apart, a true minus."""
-    if value is None:
-        return MISSING
-    if value == int(value) and abs(value) < 10 ** 15:
-        text = f"{value:,.0f}"
-    elif abs(value) >= 10 ** digits:
-        text = f"{value:,.0f}"
-    elif abs(value) < 1e-4:
-        text = f"{value:.{digits - 1}e}"
-    else:
-        text = f"{value:.{digits}g}"
-        if "e" in text:
-            text = f"{value:,.0f}"
-        whole = text.lstrip("-").split(".")
-        if digits > len(text.replace(".", "").lstrip("-0")) and abs(value) < 10 ** (digits - 1):  # 4.9 beside 4.94: 4.90
-            text = f"{value:.{digits - len(whole[0]) if whole[0] != '0' else digits}f}"
-    return Html(text.replace("-", "−"))
+def _cell(cell, numeric):
+    """Of a Table: numbers have a true minus, and what was not measured is shown as that."""
+    def figures(text):
+        return text.replace("-", "−") if numeric else text
+
+    shown = el("span", "–", class_="missing", title=cell.title or "not measured") if cell.shown is None else figures(cell.shown)
+    if cell.link and cell.shown is not None:
+        shown = el("a", shown, href=cell.link, title=cell.title or None)
+    elif cell.identity:
+        shown = el("span", shown, id=cell.identity, class_=cell.style, title=cell.title)
+    elif "code" in cell.style.split() and cell.shown is not None:
+        shown = el("code", shown)
+    parts = [shown or None, *(el("a", text, href=address) for text, address in cell.links)]
+    style = " ".join(part for part in ("n" if numeric else "", "" if cell.identity else cell.style) if part)
+    return el("td", join(parts, " "), el("small", figures(cell.below)) if cell.below else None, class_=style or None,
+              data_value=None if cell.value is None else repr(float(cell.value) if not isinstance(cell.value, str) else cell.value))
 
 
-def published(value):
-    """As the paper has it: no digit more, and none less."""
-    return MISSING if value is None else Html(escape(getattr(value, "text", f"{value:g}")))
+SHADES = "Below a figure: its deviation from the paper's. Green: within 10 %; blue: above, deep blue by more than half; orange: below, deep orange by more than half."
 
 
-def percent(value, signed=False, digits=0):
-    if value is None:
-        return MISSING
-    text = f"{100 * value:{'+' if signed else ''},.{digits}f}"
-    if not text.strip("+-0."):
-        text = text.lstrip("+-")
-    return Html(text.replace("-", "−") + "\u00a0%")
-
-
-def seconds(value):
-    if value is None:
-        return MISSING
-    for unit, size, least in (("h", 3600, 7200), ("min", 60, 120), ("s", 1, 0.1)):
-        if value >= least:
-            return Html(f"{value / size:.1f}\u00a0{unit}")
-    return Html(f"{1000 * value:.0f}\u00a0ms")
-
-
-def cell(shown, value=None, **attributes):
-    """A table's cell; value is what it is sorted by, and a cell of a number without one is missing."""
-    return el("td", shown, data_value=None if value is None else repr(float(value) if isinstance(value, float) else value), **attributes)
-
-
-def number_cell(value, shown=None, below=None, **attributes):
-    content = figure(value) if shown is None else shown
-    if below is not None:
-        content = join([content, el("small", below)])
-    attributes["class_"] = ("n " + attributes.get("class_", "")).strip()
-    return cell(content, value, **attributes)
-
-
-def table(identity, caption, head, rows, foot=None, note=None):
-    """A sortable table. head: (text, kind) with kind "n" for numbers, "t" for text, None if it is not to be sorted by."""
-    columns = []
-    for label, kind in head:
-        if kind:
-            columns.append(el("th", el("button", label, type="button"), scope="col", class_=kind, aria_sort="none"))
-        else:
-            columns.append(el("th", label, scope="col"))
-    parts = [el("caption", caption), el("thead", el("tr", *columns)), el("tbody", *(el("tr", *row) for row in rows))]
-    if foot:
-        parts.append(el("tfoot", *(el("tr", *row) for row in foot)))
-    shown = el("div", el("table", *parts, id=identity), class_="scroll", tabindex="0", role="region", aria_label=caption)
+def table(made, prefix=""):
+    """A sortable table of a Table; prefix: of its id."""
+    columns = [el("th", el("button", label, type="button"), scope="col", class_=kind, aria_sort="none") if kind else el("th", label, scope="col") for label, kind in made.columns]
+    parts = [el("caption", made.title), el("thead", el("tr", *columns)), el("tbody", *(el("tr", *(_cell(cell, kind == "n") for cell, (_, kind) in zip(row, made.columns))) for row in made.rows))]
+    shown = el("div", el("table", *parts, id=prefix + made.identity), class_="scroll", tabindex="0", role="region", aria_label=made.title)
+    shaded = any(cell.style.startswith(("near", "high", "low")) for row in made.rows for cell in row)
+    note = " ".join(text for text in (made.note, SHADES if shaded else "") if text)
     return join([shown, el("p", note, class_="note") if note else None])

@@ -91,6 +91,27 @@ class Lines:
         return lines + ["plot " + ", ".join(plots)]
 
 
+    def text(self, width=72, height=16):
+        """The marks on a grid of letters, for the command's output."""
+        drawn = [series for series in self.series if self._drawn(series)]
+        place = {True: math.log, False: float}[self.log_x]
+        points = [(letter, place(x), y) for letter, series in zip(_LETTERS, drawn) for x, y, _ in self._drawn(series)]
+        (left, right), (low, high) = ((min(values), max(values)) for values in zip(*(point[1:] for point in points)))
+        low = 0 if self.from_zero and low >= 0 else low
+        grid = [[" "] * width for _ in range(height)]
+        for letter, x, y in points:
+            column, row = (round((value - first) / ((last - first) or 1) * (cells - 1)) for value, first, last, cells in ((x, left, right, width), (y, low, high, height)))
+            grid[height - 1 - row][column] = letter if grid[height - 1 - row][column] in (" ", letter) else "+"
+        edges = {0: f"{high:.4g}", height - 1: f"{low:.4g}"}
+        names = [f"{text}" for _, text in self.x_ticks or []] or [f"{point:.4g}" for point in sorted({point[0] for series in drawn for point in self._drawn(series)})]
+        lines = [self.title, ""] + [f"{edges.get(row, ''):>10} |{''.join(cells).rstrip()}" for row, cells in enumerate(grid)]
+        lines += [" " * 11 + "+" + "-" * width, f"{'':12}{names[0]}{names[-1]:>{max(1, width - len(names[0]))}}   {self.x}"]
+        return "\n".join(lines + [f"{'':12}{letter}  {series.label}" for letter, series in zip(_LETTERS, drawn)] + ([f"{'':12}+  several"] if any("+" in row for row in grid) else []))
+
+
+_LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+
+
 class Bars:
     """Horizontal bars in parts. bars: (name, [(style, length, what to say of it)]), from the top; parts without a length are missing."""
 
@@ -219,6 +240,36 @@ def draw(figures, program="gnuplot"):
         if figure.empty():
             drawn[figure.identity] = _framed(figure, el("p", "Nothing was measured.", class_="missing"))
     return drawn
+
+
+# The page's colours (page.css) that figures use, for a picture that stands alone; it follows the reader's light or dark.
+_COLOURS = {0: ("#1c1c1a", "#ecece6"), 1: ("#0072b2", "#56b4e9"), 2: ("#c85200", "#f08a4b"), 3: ("#007f5f", "#4cc9a0"), 4: ("#a3568a", "#d79ac2"), 5: ("#8a6d00", "#e0c040"),
+            6: ("#3d7f9f", "#8fc7de"), 7: ("#a8a8a0", "#6b6b65"), 10: ("#2a9d74",) * 2, 11: ("#7cc0ea",) * 2, 12: ("#0072b2", "#2a8fd0"), 13: ("#c85200", "#d5642a"), 14: ("#e69f00",) * 2,
+            15: ("#e8d44d",) * 2, 16: ("#b877a0", "#c58ab0"), 17: ("#8a7a6a", "#9a8a7a"), 18: ("#d4d4ce", "#4a4a46")}
+
+
+def standalone(figure, program="gnuplot"):
+    """A file of SVG: the figure as in the page, with its key below and no titles of marks."""
+    with tempfile.TemporaryDirectory() as folder:
+        _run_gnuplot([figure], folder, program)
+        elements = _elements(xml.etree.ElementTree.parse(os.path.join(folder, "0.svg")).getroot(), figure.tips())
+    elements = [re.sub(r"<title>.*?</title>| tabindex=\"0\"", "", element) for element in elements if not element.startswith("<circle")]
+    for place, (style, mark, label) in enumerate(figure.marks()):
+        where = f"translate({14 + 150 * (place % 3)},{figure.height + 12 + 18 * (place // 3)})"
+        elements.append(el("g", el("use", href=f"#mark{MARKS[mark][0] - 1}", transform="scale(4.5)", class_=f"s{style}", stroke_width="0.4"), el("text", label, x="10", y="4"), transform=where))
+    height = figure.height + 12 + 18 * -(-len(figure.marks()) // 3)
+
+    def rules(place):
+        used = {int(style) for style in re.findall(r'class="s(\d+)"', "".join(elements))}
+        colours = "".join(f".s{style}{{color:{_COLOURS[style][place]}}}" for style in sorted(used))
+        ink, line, ground = (("#5f5f59", "#d9d9d3", "#ffffff"), ("#a3a39b", "#3a3a37", "#171716"))[place]
+        return f"svg{{background:{ground}}}text{{fill:{ink}}}.axis{{stroke:{ink}}}.grid{{stroke:{line}}}{colours}"
+
+    style = ("text{font:12px sans-serif}path{fill:none;stroke-width:2}path.axis{stroke-width:1}path.grid{stroke-width:.6}path[class^=s]{stroke:currentColor}polygon{fill:currentColor}"
+             + rules(0) + "@media (prefers-color-scheme:dark){" + rules(1) + "}")
+    shapes = marks().split("<defs>")[1].split("</defs>")[0]
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">\n<style>{style}</style>\n<defs>{shapes}</defs>\n'
+            + "\n".join("".join(elements[place:place + 12]) for place in range(0, len(elements), 12)) + "\n</svg>\n")
 
 
 def _framed(figure, content):

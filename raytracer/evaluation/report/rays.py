@@ -1,91 +1,163 @@
 """Rays by kind: what MIMD gains as rays lose coherence. Of runs with the values rays.KIND.*, which sweeps with `ray_kinds` have."""
 
 from .charts import STYLES
-from .markup import cell, number_cell, percent, table
-from .plots import Lines, Series
-from .results import mean
+from .plots import Bars, Lines, Series
+from .results import mean, ratio
+from .table import Cell, Table, figure, number, percent, share, words
 
-KINDS = ("primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other")
 WIDTHS = (4, 8, 16, 32)
-SHARES = ("utilisation", "fetch", "memory", "dcache", "units", "rest")
+# Of a kind's thread-cycles, as page.css has the causes of all threads.
+SHARES = [(10, "issued", "utilisation"), (11, "instruction fetch", "fetch"), (12, "data-cache banks and hits", "dcache"), (13, "off-chip memory", "memory"), (14, "shared units", "units"),
+          (17, "other waits", "rest")]
 
 
-def groups(results):
-    """{(workload, kind, chip, settings): runs}: all scenes of a machine; what a mean is made of has every scene that the others have."""
-    found = {}
-    for run in results.runs:
-        for kind in KINDS:
-            if run.done and run.get(f"values.rays.{kind}.count"):
-                found.setdefault((run.workload, kind, run.config, tuple(sorted(run.set.items())), run.size), []).append(run)
-    return found
+EXPLAINED = ("Rays that leave a surface in many directions have less and less in common. A SIMD machine makes one step for all its lanes, so lanes whose rays do not need it are lost; "
+             "a machine of independent threads loses none to that, but each thread waits for instructions, memory and shared units by itself. Of the same rays: the lanes that a SIMD machine would "
+             "use, and the thread-cycles in which this machine issues.")
 
 
-def of(runs, kind, name):
-    return mean(run.get(f"values.rays.{kind}.{name}") for run in runs)
+class Group:
+    """One kind of ray of a workload, on one machine: the runs of all scenes."""
+
+    def __init__(self, workload, kind, chip, settings, size, program):
+        self.workload, self.kind, self.chip, self.settings, self.size, self.program, self.runs = workload, kind, chip, settings, size, program, []
+
+    def of(self, name):
+        return mean(run.get(f"values.rays.{self.kind}.{name}") for run in self.runs)
+
+    @property
+    def label(self):
+        return f"{self.kind} ({self.workload})" if self.workload not in ("", self.kind) else self.kind
+
+
+def groups(results, lanes=False):
+    """All kinds on all machines, or on those of which a SIMD machine's lanes are known. A scene whose run is not there makes the mean of its group missing."""
+    runs = [run for run in results.runs if not lanes or any(".lanes." in name for name in run.values) or not run.done]
+    found, kinds = {}, {}
+    for run in runs:
+        kinds.setdefault((run.program, run.workload), {}).update(dict.fromkeys(run.kinds()))
+    for run in runs:
+        for kind in run.kinds() if run.done else kinds[run.program, run.workload]:
+            place = run.workload, kind, run.config, tuple(sorted(run.set.items())), run.size, run.program
+            found.setdefault(place, Group(*place)).runs.append(run)
+    return list(found.values())
+
+
+def chosen(found):
+    """A group for each line of a figure: each kind of the first workload that has it; of a workload without a kind of its own, its last."""
+    by_workload, seen, lines = {}, set(), []
+    for group in found:
+        by_workload.setdefault((group.program, group.workload), {})[group.kind] = group.label
+    for (program, workload), kinds in by_workload.items():
+        new = [kind for kind in kinds if kind not in seen] or list(kinds)[-1:]
+        seen.update(new)
+        lines += [(program, workload, kind) for kind in new]
+    return lines
+
+
+def with_lanes(results):
+    """Groups whose runs tell a SIMD machine's lanes, of the lines of figures; the most coherent first."""
+    found = groups(results, True)
+    lines = chosen(found)
+    groups_of_lines = {}
+    for group in found:
+        if (group.program, group.workload, group.kind) in lines and group.of("lanes.32") is not None:
+            groups_of_lines.setdefault((group.program, group.workload, group.kind), group)
+    return sorted(groups_of_lines.values(), key=lambda group: -group.of("lanes.32"))
+
+
+def gain_table(results):
+    """What a machine of independent threads does for each ray of a SIMD machine with as many lanes, if lanes were all that differs."""
+    columns = [("kind of ray", "t"), ("workload", "t"), ("chip", "t")] + [(f"{width} lanes in use", "n") for width in WIDTHS] + [(f"MIMD over {width} lanes", "n") for width in WIDTHS]
+    columns += [("MIMD issues", "n"), ("MRPS", "n"), ("bytes/ray", "n"), ("nJ/ray", "n")]
+    rows = []
+    for group in with_lanes(results):
+        lanes = [group.of(f"lanes.{width}") for width in WIDTHS]
+        rows.append([words(group.kind), words(group.workload), words(group.chip), *(share(value) for value in lanes), *(_times(value) for value in lanes),
+                     share(group.of("utilisation")), *(figure(group.of(name)) for name in ("mrps", "bytes_per_ray", "energy_per_ray"))])
+    return Table("rays-gain", "What MIMD gains as rays lose coherence", columns, rows,
+                 "The most coherent rays first; means of the scenes. Each kind is shown of the first workload that has it; the table of all is below. Lanes in use: the share of a SIMD machine's lanes that the same "
+                 "rays use, in full warps of one kind and generation, with memory that takes no time (docs/emulator.md, --lockstep-rays). MIMD over lanes: 1 over that share, how many times the work a thread of "
+                 "its own for each lane does, if divergence is all that is lost. MIMD issues: the share of the kind's thread-cycles in which an instruction issues here, with all waits for caches, units and memory.")
+
+
+def _times(lanes):
+    times = ratio(1, lanes)
+    return Cell(None if times is None else f"{number(times, 2)}\u00a0×", times)
 
 
 def kinds_table(results):
     """A row for each workload, kind of ray and machine: the mean of the scenes."""
-    head = [("workload", "t"), ("kind", "t"), ("chip", "t"), ("scenes", "n"), ("rays", "n"), ("MRPS", "n"), ("bytes/ray", "n"), ("nJ/ray", "n")]
-    head += [(name, "n") for name in ("issued", "instruction fetch", "memory", "data cache", "units", "other")] + [(f"{width} lanes", "n") for width in WIDTHS]
+    columns = [("workload", "t"), ("kind", "t"), ("program", "t"), ("chip", "t"), ("scenes", "n"), ("rays", "n"), ("MRPS", "n"), ("bytes/ray", "n"), ("nJ/ray", "n")]
+    columns += [(name, "n") for _, name, _ in SHARES] + [(f"{width} lanes", "n") for width in WIDTHS]
     rows = []
-    for (workload, kind, chip, settings, _), runs in groups(results).items():
-        name = ", ".join([chip, *(f"{key} = {value}" for key, value in settings)])
-        row = [cell(workload, workload), cell(kind, kind), cell(name, name), number_cell(len(runs)), number_cell(sum(run.get(f"values.rays.{kind}.count") for run in runs))]
-        row += [number_cell(of(runs, kind, figure_name)) for figure_name in ("mrps", "bytes_per_ray", "energy_per_ray")]
-        for share in (*SHARES, *(f"lanes.{width}" for width in WIDTHS)):
-            value = of(runs, kind, share)
-            row.append(number_cell(value, shown=percent(value)))
-        rows.append(row)
-    note = ("Means of the scenes. MRPS: the kind's rays by its own share of the thread-cycles. Issued to other: shares of these thread-cycles. Lanes: the share of a SIMD machine's lanes "
-            "that the same rays use, in full warps of one kind and generation, with memory that takes no time (docs/emulator.md, --lockstep-rays).")
-    return table("rays-table", "Rays by kind", head, rows, note=note)
+    for group in groups(results):
+        name = ", ".join([group.chip, *(f"{key} = {value}" for key, value in group.settings)])
+        counts = [run.get(f"values.rays.{group.kind}.count") for run in group.runs]
+        rows.append([words(group.workload), words(group.kind), words(group.program), words(name), figure(len(group.runs)), figure(None if None in counts else sum(counts)),
+                     *(figure(group.of(name)) for name in ("mrps", "bytes_per_ray", "energy_per_ray")),
+                     *(share(group.of(name)) for name in (*(name for *_, name in SHARES), *(f"lanes.{width}" for width in WIDTHS)))])
+    return Table("rays-table", "Every kind of ray on every machine", columns, rows,
+                 "Means of the scenes. MRPS: the kind's rays by its own share of the thread-cycles. Issued to other waits: shares of these thread-cycles.").without_empty()
 
 
-def _variants(results):
-    """(workload, kind) in the order of the runs, each with a style of its own."""
-    named = list(dict.fromkeys((workload, kind) for workload, kind, *_ in groups(results)))
-    return {pair: STYLES[index % len(STYLES)] for index, pair in enumerate(named)}
-
-
-def _label(workload, kind):
-    return f"{kind} ({workload})" if workload else kind
-
-
-def lanes(results):
-    styles, series = _variants(results), []
-    for (workload, kind, chip, _, _), runs in groups(results).items():
-        points = [(width, of(runs, kind, f"lanes.{width}")) for width in (1, 2, *WIDTHS, 64)]
-        points = [(width, None if share is None else 100 * share, f"{_label(workload, kind)}: {100 * share:.0f} % of {width} lanes" if share is not None else "") for width, share in points]
-        if any(share is not None for _, share, _ in points):
-            style, mark = styles[workload, kind]
-            series.append(Series(_label(workload, kind), style, points, mark, dashed=list(styles).index((workload, kind)) >= len(STYLES)))
-    return Lines("rays-lanes", "SIMD: lanes in use by kind of ray", "lanes", "lanes in use (%)", series, log_x=True, base=2, x_ticks=[(2 ** power, str(2 ** power)) for power in range(7)])
-
-
-def against_chips(results, paper, identity, title, unit, name, scale=1):
-    """A line for each kind over the threads of the paper's chips."""
-    styles, lines = _variants(results), {}
-    for (workload, kind, chip, settings, size), runs in groups(results).items():
-        if chip in paper.chips and not settings:
-            value = of(runs, kind, name)
-            if value is not None:
-                lines.setdefault((workload, kind, size), []).append((paper.threads(chip), scale * value, f"{_label(workload, kind)}, {chip}: {scale * value:.3g}"))
+def _lanes(found):
+    """Lanes in use over kinds of rays, a line for each width, and what the threads of the emulated chip issue."""
+    kinds = [group.kind for group in found]
+    ticks = [(place, group.kind if kinds.count(group.kind) == 1 else group.workload) for place, group in enumerate(found)]
     series = []
-    for (workload, kind, _), points in lines.items():
-        style, mark = styles[workload, kind]
+    for index, width in enumerate(WIDTHS):
+        style, mark = STYLES[index % len(STYLES)]
+        points = [(place, value and 100 * value, f"{group.label}: {percent(value)} of {width} lanes" if value else "") for place, group in enumerate(found) for value in [group.of(f"lanes.{width}")]]
+        series.append(Series(f"SIMD, {width} lanes", style, points, mark))
+    points = [(place, value and 100 * value, f"{group.label}: {percent(value)} of the thread-cycles issue on {group.chip}") for place, group in enumerate(found) for value in [group.of("utilisation")]]
+    series.append(Series("MIMD: issued, all waits counted", 0, points, "circle", dashed=True))
+    return Lines("rays-lanes", "In use, as rays lose coherence", "rays, the most coherent first", "lanes or issue slots in use (%)", series, x_ticks=ticks)
+
+
+def _gain(found):
+    ticks = [(width, str(width)) for width in (1, *WIDTHS)]
+    series = []
+    for index, group in enumerate(found):
+        style, mark = STYLES[index % len(STYLES)]
+        points = [(1, 1.0, f"{group.label}: 1 lane wastes none")]
+        points += [(width, ratio(1, group.of(f"lanes.{width}")), f"{group.label}: {1 / value:.1f} times the work of {width} lanes" if (value := group.of(f"lanes.{width}")) else "") for width in WIDTHS]
+        series.append(Series(group.label, style, points, mark, dashed=index >= len(STYLES)))
+    return Lines("rays-gain-plot", "MIMD over SIMD, if lanes are all that differs", "lanes of the SIMD machine", "times the work", series, log_x=True, base=2, x_ticks=ticks)
+
+
+def _stalls(found):
+    bars = [(group.label, [(style, value, f"{group.label}: {label} {percent(value, digits=1)}") for style, label, name in SHARES if (value := group.of(name)) and value > 1e-4]) for group in found]
+    return Bars("rays-stalls", f"Where the rays' thread-cycles went: {found[0].chip}", "share of the kind's thread-cycles", bars, [(style, label) for style, label, _ in SHARES])
+
+
+def _against_chips(found, paper, identity, title, unit, name, scale=1):
+    """A line for each kind over the threads of the paper's chips."""
+    styles = {line: STYLES[index % len(STYLES)] for index, line in enumerate(chosen(found))}
+    lines = {}
+    for group in found:
+        line = group.program, group.workload, group.kind
+        if group.chip in paper.chips and not group.settings and line in styles and (value := group.of(name)) is not None:
+            lines.setdefault((line, group.size), []).append((paper.threads(group.chip), scale * value, f"{group.label}, {group.chip}: {number(scale * value)}", group.label))
+    series = []
+    for (line, _), points in lines.items():
+        style, mark = styles[line]
         if len(points) > 1:
-            series.append(Series(_label(workload, kind), style, sorted(points), mark, line=False))
+            series.append(Series(points[0][3], style, sorted(point[:3] for point in points), mark, line=False))
     return Lines(identity, title, "threads", unit, series, x_ticks=[(threads, str(threads)) for threads in (32, 64, 128, 256, 512)])
 
 
 def figures(results, paper):
-    if not groups(results):
-        return []
-    return [lanes(results),
-            against_chips(results, paper, "rays-issued", "MIMD: thread-cycles that issue, by kind of ray", "issued (%)", "utilisation", 100),
-            against_chips(results, paper, "rays-fetch", "Thread-cycles that wait for instructions, by kind of ray", "instruction fetch (%)", "fetch", 100),
-            against_chips(results, paper, "rays-mrps", "Rays by kind", "million rays per second", "mrps"),
-            against_chips(results, paper, "rays-bytes", "Bytes a ray, by kind", "bytes a ray", "bytes_per_ray"),
-            against_chips(results, paper, "rays-energy", "Energy a ray, by kind", "nJ a ray", "energy_per_ray")]
+    known = with_lanes(results)
+    if known:
+        yield _lanes(known)
+        yield _gain(known)
+        yield _stalls(known)
+    for identity, title, unit, name, scale in _OVER_CHIPS if any(run.kinds() for run in results.runs) else ():
+        yield _against_chips(groups(results), paper, identity, title, unit, name, scale)
 
+
+_OVER_CHIPS = [("rays-mrps", "Rays by kind", "million rays per second", "mrps", 1), ("rays-issued", "MIMD: thread-cycles that issue, by kind of ray", "issued (%)", "utilisation", 100),
+               ("rays-fetch", "Thread-cycles that wait for instructions, by kind of ray", "instruction fetch (%)", "fetch", 100),
+               ("rays-memory", "Thread-cycles that wait for memory, by kind of ray", "memory (%)", "memory", 100), ("rays-bytes", "Bytes a ray, by kind", "bytes a ray", "bytes_per_ray", 1),
+               ("rays-energy", "Energy a ray, by kind", "nJ a ray", "energy_per_ray", 1)]

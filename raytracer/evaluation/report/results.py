@@ -7,11 +7,10 @@ import json
 import math
 import pathlib
 
+HERE = pathlib.Path(__file__).resolve().parent
 FORMAT = "trax-eval-results"
 FILE_LIMIT = 1 << 28  # bytes; those of all experiments are a hundredth
-PROGRAMS = ("era", "ours")
-# The paper's scenes: its column of Table 2, and the scene that is rendered here.
-SCENES = {"conference": "conference", "crytek": "crytek-sponza", "dragon": "dragon", "fairy": "forest"}
+COLUMNS = ("conference", "crytek", "dragon", "fairy")  # of the paper's Table 2
 
 
 class ResultsError(Exception):
@@ -45,6 +44,9 @@ def mean(values):
     return None if not values or None in values else sum(values) / len(values)
 
 
+ASKED = {}  # index of a run: names of what get() was asked for; docs.py keeps that alone
+
+
 class Run:
     """One job. get("memory.bytes") looks in its statistics, get("values.x") in what an experiment computed."""
 
@@ -67,6 +69,7 @@ class Run:
         self.key, self.scene, self.view = text("key"), text("scene"), text("view")
         self.program, self.config, self.mode = text("program"), text("config"), text("mode", "exact")
         self.workload = text("workload")  # empty: the paper's
+        self.variant = text("variant")
         self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
         self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
         self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table("machine")
@@ -91,6 +94,7 @@ class Run:
     def get(self, name):
         if not self.done:
             return None
+        ASKED.setdefault(self.index, set()).add(name)
         if name.startswith("values."):
             return number(self.values.get(name[len("values."):]))
         value = self.stats
@@ -102,20 +106,37 @@ class Run:
         """The configuration's value of a key, true and false as 1 and 0, or the number of threads."""
         if name == "threads":
             return self.get("threads")
-        value = self.set.get(name)
-        if value is None:
-            section, _, key = name.partition(".")
-            value = self.stats.get("configuration")
-            for part in (section, key):
-                value = value.get(part) if isinstance(value, dict) else None
+        value = self.set.get(name, self.configured(name))
         return float(value) if isinstance(value, bool) else number(value)
+
+    def kinds(self):
+        """Of rays, of which the run has any."""
+        found = [name.split(".")[1] for name in self.values if name.startswith("rays.") and name.endswith(".count")] if self.done else []
+        return [kind for kind in found if self.get(f"values.rays.{kind}.count")]
+
+    def axis(self, name):
+        """What a sweep's table can have a row or a column for, as it is."""
+        if name in ("program", "scene", "chip", "variant", "workload", "mode", "size"):
+            value = getattr(self, "config" if name == "chip" else name)
+            return value and "{}x{}".format(*value) if name == "size" else value
+        if name in self.set or name == "threads":
+            return self.set.get(name, self.get(name))
+        return self.configured(name)
+
+    def configured(self, name):
+        """The configuration's value of a key, as it is."""
+        ASKED.setdefault(self.index, set()).add("configuration." + name)
+        value = self.stats.get("configuration")
+        for part in name.split(".", 1):
+            value = value.get(part) if isinstance(value, dict) else None
+        return value
 
     def within(self, experiment):
         """The run by each name that a sweep has for its machine."""
         for point in self.points:
             if point.get("experiment") == experiment:
                 named = copy.copy(self)
-                named.config, named.set = point["config"], point["set"]
+                named.config, named.set, named.variant = point["config"], point["set"], str(point.get("variant") or "")
                 yield named
 
     def interval(self):
@@ -138,26 +159,42 @@ class Run:
 
     def name(self):
         changed = "".join(f", {key} = {value}" for key, value in sorted(self.set.items()))
-        return f"{self.scene}, {self.config}{changed}, {self.workload or self.program}, {self.mode}"
+        return ", ".join(part for part in (self.scene, self.config + changed, self.program, self.workload, self.variant, self.mode) if part)
+
+
+def upgrade(document):
+    """Version 1 had no titles; what of the paper its scenes stand for was known here."""
+    papers = {"conference": "conference", "crytek-sponza": "crytek", "dragon": "dragon", "forest": "fairy", "dragon-close": "dragon"}
+    runs = [run for run in document.get("runs") or [] if isinstance(run, dict)]
+
+    def named(key, order=()):
+        return sorted({run[key] for run in runs if isinstance(run.get(key), str)}, key=lambda name: (order.index(name) if name in order else len(order), name))
+
+    return {**document, "version": 2, "programs": [{"name": name} for name in named("program")],
+            "scenes": [{"name": name, "paper": papers.get(name)} for name in named("scene", list(papers))]}
 
 
 class Results:
-    def __init__(self, document):
+    def __init__(self, document, runs=None):
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise ResultsError(f"is not a file of results: \"format\" is not \"{FORMAT}\"")
-        if document.get("version") != 1:
-            raise ResultsError(f"\"version\" is {document.get('version')!r}; this report reads version 1")
-        for key in ("runs", "sweeps", "series"):
+        if document.get("version") not in (1, 2):
+            raise ResultsError(f"\"version\" is {document.get('version')!r}; this report reads versions 1 and 2")
+        for key in ("runs", "sweeps", "series", "programs", "scenes", "workloads"):
             if not isinstance(document.get(key), (list, type(None))):
                 raise ResultsError(f"\"{key}\" is not a list")
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
                     raise ResultsError(f"{key}[{index}] is not an object")
-        self.document = document
-        self.runs = [Run(record, index) for index, record in enumerate(document.get("runs") or [])]
+        self.document = document = upgrade(document) if document["version"] == 1 else document
+        self.runs = [Run(record, index) for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
         self.sweeps = document.get("sweeps") or []
         self.series = document.get("series") or []
         self.by_key = {run.key: run for run in self.runs}
+        # The column of the paper's Table 2 that a scene is compared with; of each column the first such scene, or a name that no run has.
+        self.stands_for = {entry.get("name"): entry["paper"] for entry in document.get("scenes") or [] if entry.get("paper") in COLUMNS}
+        self.columns = {column: next((scene for scene, paper in self.stands_for.items() if paper == column), column) for column in COLUMNS}
+        self.papers = list(self.columns.values())
         # The plain cells: the chip as the paper has it, or with another bandwidth. A finished run goes before any other, a larger
         # picture before a smaller one, and an exact run before a sampled one.
         self._cells = {}
@@ -189,10 +226,32 @@ class Results:
         run = self.cell(program, scene, chip, bandwidth)
         return run.get(name) if run else None
 
+    def only(self, sweep):
+        """The same with the runs alone that a sweep asks for."""
+        return Results(self.document, [run for run in self.runs if sweep in run.experiments])
+
+    def named(self, kind):
+        """Of "programs", "scenes", "workloads": what is known of each that has runs, by name, in the order of the file."""
+        known = {entry["name"]: entry for entry in self.document.get(kind) or [] if isinstance(entry.get("name"), str)}
+        present = dict.fromkeys(getattr(run, kind[:-1]) for run in self.runs)
+        return {name: known.get(name, {}) for name in [*(name for name in known if name in present), *(name for name in present if name and name not in known)]}
+
+    def title(self, kind, name):
+        title = self.named(kind).get(name, {}).get("title")
+        return title if isinstance(title, str) and title else name
+
+    def mean_of_papers(self, name, program, chip, bandwidth=8.0):
+        return mean(self.figure(name, program, scene, chip, bandwidth) for scene in self.papers)
+
     def programs(self):
-        """Those that have runs, the era's first."""
-        present = {run.program for run in self.runs}
-        return [name for name in PROGRAMS if name in present] + sorted(present - set(PROGRAMS) - {""})
+        return list(self.named("programs"))
+
+    def scenes(self):
+        return list(self.named("scenes"))
+
+    def published(self, paper, scene, chip):
+        """The paper's rate for what a scene stands for, or None."""
+        return paper.mrps(self.stands_for.get(scene), chip)
 
     def machine(self, program):
         """What all machines of a program have besides their chip and what was set for single runs: (key, value)."""
@@ -203,10 +262,6 @@ class Results:
                 value = run.machine.get(key)
                 seen.setdefault(key, set()).add(str(value).lower() if isinstance(value, bool) else None if value is None else str(value))
         return sorted((key, *values) for key, values in seen.items() if len(values) == 1 and None not in values)
-
-    def scenes(self):
-        present = {run.scene for run in self.runs}
-        return [name for name in SCENES.values() if name in present] + sorted(present - set(SCENES.values()) - {""})
 
 
 def read_results(path):
@@ -276,11 +331,10 @@ class Paper:
         row = self.table2[chip]
         return int(row["tms"] * row["tps_per_tm"])
 
-    def mrps(self, scene, chip):
-        """Of the scene by our name of it; "average" is the paper's own average."""
-        column = next((name for name, ours in SCENES.items() if ours == scene), scene)
+    def mrps(self, column, chip):
+        """Of Table 2; "average" is the paper's own average."""
         row = self.table2.get(chip)
-        return row.get(column + "_mrps") if row else None
+        return row.get(f"{column}_mrps") if row else None
 
-    def speedup(self, scene, chip):
-        return ratio(self.mrps(scene, chip), self.mrps(scene, "1x32"))
+    def speedup(self, column, chip):
+        return ratio(self.mrps(column, chip), self.mrps(column, "1x32"))

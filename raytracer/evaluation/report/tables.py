@@ -1,14 +1,16 @@
-"""The report's tables."""
+"""The tables of the paper, and those that all results have. Each is a Table (table.py), for the page, the command's output and docs."""
 
-from .charts import CAUSES, shares, sweep_runs, sweep_value
-from .claims import AGREES, DIFFERS
-from .markup import Html, MISSING, cell, el, figure, join, number_cell, percent, published, seconds, table
-from .results import SCENES, deviation, mean, number, ratio
+from .charts import CAUSES, shares, sweep_figure
+from .claims import AGREES, DIFFERS, UNKNOWN, speedup
+from .results import deviation, mean, ratio
+from .sweeps import interval_text
+from .sweeps import tables as any_tables
+from .table import EMPTY, Cell, Table, duration, figure, number, percent, seconds, share, words
 
-_VERDICTS = {AGREES: ("yes", "✓ agrees"), DIFFERS: ("no", "✗ differs"), "unknown": ("open", "? not known")}
+_VERDICTS = {AGREES: ("✓ agrees", "verdict yes"), DIFFERS: ("✗ differs", "verdict no"), UNKNOWN: ("? not known", "verdict open")}
 
 
-def shade(value):
+def _shade(value):
     """The class of a deviation: how far off, and to which side."""
     if value is None:
         return ""
@@ -16,115 +18,158 @@ def shade(value):
     return "near" if size <= 0.10 else ("high" if value > 0 else "low") + ("2" if size > 0.5 else "1")
 
 
-SHADES = "Below a figure: its deviation from the paper's. Green: within 10 %; blue: above, deep blue by more than half; orange: below, deep orange by more than half."
+
+def published(value):
+    """As the paper has it: no digit more, and none less."""
+    return Cell(None if value is None else getattr(value, "text", f"{value:g}"), value, style="paper")
 
 
-def paper_cell(value):
-    return number_cell(value, published(value), class_="paper")
+def compared(value, wanted, digits=3, more="", **others):
+    """A figure, beside it how far from the paper's it is."""
+    off = deviation(value, wanted)
+    below = " ".join(part for part in (percent(off, signed=True), more) if part)
+    return figure(value, digits, below=below, style=_shade(off), **others)
 
 
-def compared(ours, wanted):
-    """A cell: the figure, below it how far from the paper's it is."""
-    off = deviation(ours, wanted)
-    return number_cell(ours, below=None if off is None else percent(off, signed=True), class_=shade(off))
+def measured(run, wanted):
+    """The rays per second of a run as compared, with what a sampled run is sure of, and a link to the run."""
+    if run is None:
+        return Cell(None)
+    if not run.done:
+        return Cell("failed" if run.status == "failed" else None, title=run.error or "not run", style="missing")
+    title = f"{run.name()}: {run.get('cycles') or 0:,.0f} cycles, {seconds(run.host_seconds) or '?'} of the host"
+    return compared(run.get("mrps"), wanted, 4, interval_text(run), link=f"#run-{run.index}", title=title)
 
 
 def claims_table(claims, programs):
-    head = [("claim", "t"), ("paper", None)] + [(program, "t") for program in programs] + [("how it is judged", None)]
+    columns = [("claim", "t"), ("paper", None)] + [(program, "t") for program in programs] + [("how it is judged", None)]
     rows = []
     for claim in claims:
-        row = [cell(claim.title, claim.title), cell(claim.paper)]
+        row = [words(claim.title), Cell(claim.paper)]
         for program in programs:
             verdict, found = claim.verdicts[program]
-            kind, text = _VERDICTS[verdict]
-            row.append(cell(join([el("span", text, class_="verdict " + kind), el("small", found)]), verdict))
-        rows.append(row + [cell(claim.rule, class_="rule")])
-    return table("claims", "What the paper says, and what was measured", head, rows)
+            text, style = _VERDICTS[verdict]
+            row.append(Cell(text, verdict, found, style))
+        rows.append(row + [Cell(claim.rule, style="rule")])
+    return Table("claims", "What the paper says, and what was measured", columns, rows)
 
 
-def _figures_of(results, program, chip, name):
-    return mean(results.figure(name, program, scene, chip) for scene in SCENES.values())
+def own_machine(results, program):
+    own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
+    return f"The chips are the paper's, with {own}. " if own else ""
 
 
 def table1(results, paper):
     programs = results.programs()
-    head = [("chip", "t"), ("threads", "n"), ("area (mm²), paper", "n"), ("area (mm²), fit", "n"), ("peak GFLOPS, paper", "n"), ("peak GFLOPS, here", "n"),
-            ("RT GFLOPS, paper", "n")] + [(f"RT GFLOPS, {program}", "n") for program in programs]
-    units = {run.config: run.get("values.area_units") for run in results.runs if run.done and not run.set and "area_units" in run.values}
-    if units:
-        head.insert(4, ("area (mm²), sum of units", "n"))
+    columns = [("chip", "t"), ("threads", "n"), ("area (mm²), paper", "n"), ("fit", "n"), *((f"sum of units, {program}", "n") for program in programs), ("peak GFLOPS, paper", "n"), ("here", "n"), ("RT GFLOPS, paper", "n")]
+    columns += [(f"RT GFLOPS, {program}", "n") for program in programs]
     rows = []
     for row in paper.table1:
-        chip, ours = row["name"], row["name"] in paper.table2
-        threads = paper.threads(chip) if ours else None
-        one = next((run for run in results.runs if run.config == chip and run.done and not run.set), None) if ours else None
-        cells = [cell(chip, threads), number_cell(threads, shown=None if threads else Html("")), paper_cell(row.get("area_mm2")),
-                 compared(one.get("area_mm2") if one else None, row.get("area_mm2")) if ours else cell("")]
-        if units:
-            cells.append(compared(units.get(chip), row.get("area_mm2")) if ours else cell(""))
-        cells += [paper_cell(row.get("peak_gflops")), compared(one.get("peak_gflops") if one else None, row.get("peak_gflops")) if ours else cell(""),
-                  paper_cell(row.get("rt_gflops"))]
-        cells += [compared(_figures_of(results, program, chip, "gflops"), row.get("rt_gflops")) if ours else cell("") for program in programs]
+        chip, wanted = row["name"], row.get("rt_gflops")
+        if chip not in paper.table2:
+            rows.append([words(chip), EMPTY, published(row.get("area_mm2")), *([EMPTY] * (1 + len(programs))), published(row.get("peak_gflops")), EMPTY, published(wanted) if wanted else EMPTY] + [EMPTY] * (len(columns) - 7 - len(programs)))
+            continue
+        one = next((run for run in results.runs if run.config == chip and run.done and not run.set), None)
+
+        def of(name):
+            return one.get(name) if one else None
+
+        cells = [Cell(chip, paper.threads(chip)), figure(paper.threads(chip)), published(row.get("area_mm2")), compared(of("area_mm2"), row.get("area_mm2")),
+                 *(compared(results.figure("values.area_units", program, results.papers[0], chip), row.get("area_mm2")) for program in programs), published(row.get("peak_gflops")), compared(of("peak_gflops"), row.get("peak_gflops")), published(wanted)]
+        cells += [compared(results.mean_of_papers("gflops", program, chip), wanted) for program in programs]
         rows.append(cells)
-    return table("table1", "Table 1: area and floating-point operations per second", head, rows,
-                 note="RT GFLOPS are the mean of the four scenes, and missing if one of them is. "
-                      f"The other accelerators' figures are those that the paper quotes. {SHADES}")
+    return Table("table1", "Table 1: area and floating-point operations per second", columns, rows,
+                 f"RT GFLOPS are the mean of the four scenes, and missing if one of them is. The other accelerators' figures are those that the paper quotes.")
+
+
+def table1_scenes(results, paper, program):
+    """What the mean of Table 1 is made of, and how much of the time the units are in use."""
+    columns = [("chip", "t"), ("threads", "n"), ("RT GFLOPS, paper", "n"), (program, "n"), *((scene, "n") for scene in results.papers), *((unit, "n") for unit in ("adders", "multipliers", "FPDIV/iSQRT"))]
+    rows = []
+    for row in paper.table1:
+        chip = row["name"]
+        if chip in paper.table2:
+            rows.append([Cell(chip, paper.threads(chip)), figure(paper.threads(chip)), published(row.get("rt_gflops")), compared(results.mean_of_papers("gflops", program, chip), row.get("rt_gflops")),
+                         *(figure(results.figure("gflops", program, scene, chip)) for scene in results.papers),
+                         *(share(results.mean_of_papers(f"{unit}.utilisation", program, chip)) for unit in ("fp_add", "fp_mul", "special"))])
+    return Table(f"table1-{program}", f"RT GFLOPS by scene, {results.title('programs', program)}", columns, rows, "Units: the share of their cycles in which they are in use, mean of the scenes.")
 
 
 def table2(results, paper, program):
-    names = list(SCENES)
-    head = [("chip", "t"), ("threads", "n")]
-    for name in names:
-        head += [(f"{name}, paper", "n"), (f"{SCENES[name] if name == 'fairy' else name}, {program}", "n")]
-    head += [("average, paper", "n"), (f"average, {program}", "n")]
+    columns = [("chip", "t"), ("threads", "n")]
+    for column, scene in [*results.columns.items(), ("average", "average")]:
+        columns += [(f"{column}, paper", "n"), (f"{scene}, {program}", "n")]
+    columns += [("simulated", "n"), ("host", "n")]
     rows = []
     for chip in paper.chips:
-        row = [cell(chip, paper.threads(chip)), number_cell(paper.threads(chip))]
-        for name in names:
-            run = results.cell(program, SCENES[name], chip)
-            wanted = paper.table2[chip].get(name + "_mrps")
-            row += [paper_cell(wanted), measured(run, "mrps", wanted)]
-        average = mean(results.figure("mrps", program, scene, chip) for scene in SCENES.values())
-        row += [paper_cell(paper.table2[chip].get("average_mrps")), compared(average, paper.table2[chip].get("average_mrps"))]
+        row = [Cell(chip, paper.threads(chip)), figure(paper.threads(chip))]
+        runs = [results.cell(program, scene, chip) for scene in results.papers]
+        for column, run in zip(results.columns, runs):
+            row += [published(paper.mrps(column, chip)), measured(run, paper.mrps(column, chip))]
+        wanted = paper.mrps("average", chip)
+        row += [published(wanted), compared(mean(run.get("mrps") if run else None for run in runs), wanted)]
+        done = [run for run in runs if run and run.done]
+        row += [duration(sum(run.get("seconds") or 0 for run in done) or None), duration(sum(run.host_seconds or 0 for run in done) or None)]
         rows.append(row)
-    times = [run.host_seconds for chip in paper.chips for scene in SCENES.values() if (run := results.cell(program, scene, chip)) and run.host_seconds]
-    own = ", ".join(f"{key} = {value}" for key, value in results.machine(program))
-    note = (f"The chips are the paper's, with {own}. " if own else "") + "Million rays per second. The fairy scene is not to be had; the generated forest stands in for it."
-    note += " " + SHADES
+    note = own_machine(results, program) + "Million rays per second. The fairy scene is not to be had; the generated forest stands in for it."
+    times = [run.host_seconds for chip in paper.chips for scene in results.papers if (run := results.cell(program, scene, chip)) and run.host_seconds]
     if times:
         note += f" The cells took {seconds(sum(times))} of the host together."
-    return table(f"table2-{program}", f"Table 2, program “{program}”: million rays per second", head, rows, note=note)
+    return Table(f"table2-{program}", f"Table 2, {results.title('programs', program)}: million rays per second", columns, rows, note)
 
 
-def measured(run, name, wanted):
-    """As compared, with what a sampled run is sure of, and a link to the run."""
-    if run is None:
-        return number_cell(None)
-    if not run.done:
-        return cell(el("span", "failed" if run.status == "failed" else "–", class_="missing", title=run.error or "not run"))
-    interval = run.interval() if name == "mrps" else None
-    more = Html(f"[{figure(interval[0])}, {figure(interval[1])}]") if interval else None
-    off = deviation(run.get(name), wanted)
-    below = join([part for part in (percent(off, signed=True) if off is not None else None, more) if part is not None], " ")
-    title = f"{run.name()}: {run.get('cycles') or 0:,.0f} cycles, {seconds(run.host_seconds) if run.host_seconds else '?'} of the host"
-    return cell(join([el("a", figure(run.get(name)), href=f"#run-{run.index}", title=title), el("small", below) if below else None]), run.get(name),
-                class_=("n " + shade(off)).strip())
+def speedups(results, paper, program):
+    """From 1x32, which tells of the machine whatever the program's speed is."""
+    columns = [("chip", "t"), ("threads", "n")]
+    for column, scene in results.columns.items():
+        columns += [(f"{column}, paper", "n"), (f"{scene}, {program}", "n")]
+    rows = []
+    for chip in paper.chips[1:]:
+        row = [Cell(chip, paper.threads(chip)), figure(paper.threads(chip))]
+        for column, scene in results.columns.items():
+            wanted = paper.speedup(column, chip)
+            row += [figure(wanted, style="paper"), compared(speedup(results, program, scene, chip), wanted)]
+        rows.append(row)
+    return Table(f"speedup-{program}", f"Speed-up from 1x32, {results.title('programs', program)}", columns, rows)
+
+
+def of_the_text(results, paper):
+    """Figures of the paper that are in its text: the dragon's on 4x32, and means of the scenes there."""
+    rows, published_at = [], paper.published.get
+    for program in results.programs():
+        dragon = results.columns["dragon"]
+        run = results.cell(program, dragon, "4x32")
+        for title, value, name in (
+            ("dragon on 4x32 against MRTP scaled to 500 MHz, times", ratio(results.figure("mrps", program, dragon, "4x32"), published_at("mrtp_mrps_scaled")), "mrtp_speedup"),
+            ("dragon on 4x32, frames of 1280x720 per second", run.frames_per_second() if run else None, "frames_per_second"),
+            ("power of 4x32, W, mean of the scenes (a lower bound: docs/emulator.md, Energy)", results.mean_of_papers("energy.average_power", program, "4x32"), "power_4x32_w"),
+            ("adds and multiplies per ray, mean of the scenes", results.mean_of_papers("values.flops_per_ray", program, "4x32"), "flops_per_ray"),
+        ):
+            rows.append([words(program), words(title), published(published_at(name)), compared(value, published_at(name))])
+    return Table("of-the-text", "Figures of the paper's text", [("program", "t"), ("figure", "t"), ("paper", "n"), ("here", "n")], rows)
 
 
 def table3(results, paper):
-    head = [("chip", "t"), ("threads", "n"), ("bandwidth (GB/s)", "n"), ("dragon, paper", "n")] + [(f"dragon, {p}", "n") for p in results.programs()]
-    head += [("average, paper", "n")] + [(f"average, {p}", "n") for p in results.programs()]
+    programs = results.programs()
+    columns = [("chip", "t"), ("threads", "n")]
+    for what in ("dragon", "average"):
+        for measure in (f"{what}, 8 GB/s", f"{what}, 16 GB/s", f"{what}, gain"):
+            columns += [(f"{measure}, {name}", "n") for name in ("paper", *programs)]
     rows = []
     for chip, wanted in paper.table3.items():
-        for bandwidth in (8.0, 16.0):
-            row = [cell(chip, paper.threads(chip)), number_cell(paper.threads(chip)), number_cell(bandwidth, shown=Html(f"{bandwidth:g}"))]
-            of_dragon, of_average = (wanted.get(f"{what}_{bandwidth:g}gbs_mrps") for what in ("dragon", "average"))
-            row.append(paper_cell(of_dragon))
-            row += [measured(results.cell(p, "dragon", chip, bandwidth), "mrps", of_dragon) for p in results.programs()]
-            row.append(paper_cell(of_average))
-            row += [compared(mean(results.figure("mrps", p, scene, chip, bandwidth) for scene in SCENES.values()), of_average) for p in results.programs()]
-            rows.append(row)
-    return table("table3", "Table 3: 8 and 16 GB/s, million rays per second", head, rows, note=SHADES)
+        row = [Cell(chip, paper.threads(chip)), figure(paper.threads(chip))]
+        for what in ("dragon", "average"):
+            rates = []  # at both bandwidths: the paper's and those of the programs
+            for bandwidth in (8.0, 16.0):
+                papers = wanted.get(f"{what}_{bandwidth:g}gbs_mrps")
+                scenes = [results.columns["dragon"]] if what == "dragon" else results.papers
+                rates.append([papers, *(mean(results.figure("mrps", program, scene, chip, bandwidth) for scene in scenes) for program in programs)])
+                links = [results.cell(program, scenes[0], chip, bandwidth) if what == "dragon" else None for program in programs]
+                row += [published(papers), *(measured(run, papers) if run else compared(value, papers, 4) for run, value in zip(links, rates[-1][1:]))]
+            gain, *gains = (ratio(after, before) for before, after in zip(*rates))
+            row += [figure(gain, style="paper"), *(compared(value, gain) for value in gains)]
+        rows.append(row)
+    return Table("table3", "Table 3: 8 and 16 GB/s, million rays per second", columns, rows)
 
 
 # What section 3 says of the machine, and where the configuration has it.
@@ -142,142 +187,104 @@ _DESCRIBED = [
 
 def described(results, paper):
     """The machine of the text beside the configurations of the runs of its chips, but for what a sweep set."""
-    head = [("the text", "t"), ("says", "t"), ("key", "t"), ("the runs have", "n"), ("", "t")]
     runs = [run for run in results.runs if run.done and run.config in paper.table2]
     rows = []
     for what, says, key, wanted in _DESCRIBED:
         values = sorted({value for run in runs if key not in run.set and (value := run.setting(key)) is not None})
-        verdict = AGREES if values == [wanted] else DIFFERS if values else "unknown"
-        kind, text = _VERDICTS[verdict]
-        rows.append([cell(what, what), cell(says, says), cell(el("code", key), key), cell(", ".join(f"{value:g}" for value in values) or MISSING, values[0] if values else None, class_="n"),
-                     cell(el("span", text, class_="verdict " + kind), verdict)])
-    return table("described", "The machine as section 3 describes it", head, rows,
-                 note="32 registers and 512 bytes of local memory are the instruction set's (docs/isa.md) and cannot be configured. What the text leaves open is in docs/timing.md.")
+        verdict = AGREES if values == [wanted] else DIFFERS if values else UNKNOWN
+        text, style = _VERDICTS[verdict]
+        rows.append([words(what), words(says), words(key, style="code"), Cell(", ".join(f"{value:g}" for value in values) or None, values[0] if values else None), Cell(text, verdict, style=style)])
+    return Table("described", "The machine as section 3 describes it", [("the text", "t"), ("says", "t"), ("key", "t"), ("the runs have", "n"), ("", "t")], rows,
+                 "32 registers and 512 bytes of local memory are the instruction set's (docs/isa.md) and cannot be configured. What the text leaves open is in docs/timing.md.")
 
 
 def hardware(results, paper):
     """What each chip's hardware did, a row for each run of a cell."""
-    head = [("program", "t"), ("scene", "t"), ("chip", "t"), ("adders", "n"), ("multipliers", "n"), ("FPDIV/iSQRT", "n"), ("issue", "n"), ("data-cache hits", "n"),
-            ("bank conflicts, instructions", "n"), ("bandwidth", "n"), ("bytes a ray", "n"), ("binds", "t"), ("power (W)", "n")]
+    columns = [("program", "t"), ("scene", "t"), ("chip", "t"), ("adders", "n"), ("multipliers", "n"), ("FPDIV/iSQRT", "n"), ("issue", "n"), ("data-cache hits", "n"),
+               ("bank conflicts, instructions", "n"), ("bandwidth", "n"), ("bytes a ray", "n"), ("binds", "t"), ("power (W)", "n")]
     rows = []
     for program in results.programs():
         for scene in results.scenes():
             for chip in paper.chips:
                 run = results.cell(program, scene, chip)
-                if not run or not run.done:
-                    continue
-                used = run.get("memory.utilisation")
-                conflicts = ratio(run.get("causes.icache_bank_conflict"), run.get("thread_cycles"))
-                row = [cell(program, program), cell(scene, scene), cell(chip, paper.threads(chip))]
-                row += [number_cell(value, percent(value)) for value in (run.get("fp_add.utilisation"), run.get("fp_mul.utilisation"),
-                        run.get("special.utilisation"), run.get("issue.utilisation"), run.get("dcache.hit_rate"))]
-                row += [number_cell(conflicts, percent(conflicts, digits=1)), number_cell(used, percent(used)),
-                        number_cell(ratio(run.get("memory.bytes"), run.get("rays"))),
-                        cell(MISSING if used is None else _binds(run, used), None if used is None else _binds(run, used)),
-                        number_cell(run.get("energy.average_power"))]
-                rows.append(row)
-    return table("hardware", "Utilisation, bytes a ray, and what binds", head, rows,
-                 note="Binds: the bandwidth where 95 % of it is in use; else, of the hardware that threads share, that for which they waited longest, if it cost more than "
-                      "a tenth of the thread-cycles.")
+                if run and run.done:
+                    rows.append([words(program), words(scene), Cell(chip, paper.threads(chip)),
+                                 *(share(run.get(name)) for name in ("fp_add.utilisation", "fp_mul.utilisation", "special.utilisation", "issue.utilisation", "dcache.hit_rate")),
+                                 share(ratio(run.get("causes.icache_bank_conflict"), run.get("thread_cycles")), 1), share(run.get("memory.utilisation")),
+                                 figure(ratio(run.get("memory.bytes"), run.get("rays"))), _binds(run), figure(run.get("energy.average_power"))])
+    return Table("hardware", "Utilisation, bytes a ray, and what binds", columns, rows,
+                 "Binds: the bandwidth where 95 % of it is in use; else, of the hardware that threads share, that for which they waited longest, if it cost more than "
+                 "a tenth of the thread-cycles.")
 
 
-def _binds(run, used):
-    if used >= 0.95:
-        return "bandwidth"
-    parts = [(share, label) for (style, label, _), (_, share, _) in zip(CAUSES, shares(run) or []) if style not in (10, 18) and share]
-    share, label = max(parts, default=(0, ""))
-    return label if share > 0.10 else "nothing"
+def _binds(run):
+    used = run.get("memory.utilisation")
+    if used is None:
+        return Cell(None)
+    parts = [(part, label) for (style, label, _), (_, part, _) in zip(CAUSES, shares(run) or []) if style not in (10, 18) and part]
+    longest, label = max(parts, default=(0, ""))
+    return words("bandwidth" if used >= 0.95 else label if longest > 0.10 else "nothing")
 
 
 def sampled(results):
     """Each sampled or quick run beside the exact run of the same job, where there is one."""
-    exact = {(run.program, run.scene, run.config, run.size, tuple(sorted(map(str, run.set.items())))): run for run in results.runs if run.done and run.mode == "exact"}
-    head = [("mode", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"), ("inside", "t"),
-            ("host, estimate", "n"), ("host, exact", "n")]
+    def job(run):
+        return run.program, run.scene, run.config, run.size, tuple(sorted(map(str, run.set.items())))
+
+    exact = {job(run): run for run in results.runs if run.done and run.mode == "exact"}
+    columns = [("mode", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"),
+               ("inside", "t"), ("host, estimate", "n"), ("host, exact", "n")]
     rows, inside, known = [], 0, 0
     for run in results.runs:
         if not run.done or run.mode == "exact":
             continue
-        true = exact.get((run.program, run.scene, run.config, run.size, tuple(sorted(map(str, run.set.items())))))
+        true = exact.get(job(run))
         value, interval = true.get("mrps") if true else None, run.interval()
         holds = None if value is None or interval is None else interval[0] <= value <= interval[1]
         known += holds is not None
         inside += bool(holds)
         error = deviation(run.get("mrps"), value)
-        bandwidth = run.setting("memory.bandwidth_gbps")
-        rows.append([cell(run.mode, run.mode), cell(run.program, run.program), cell(run.scene, run.scene), cell(run.config, run.get("threads")), number_cell(bandwidth), number_cell(run.get("mrps")),
-                     cell(Html(f"{figure(interval[0])} to {figure(interval[1])}") if interval else MISSING, class_="n"), number_cell(value),
-                     number_cell(error, percent(error, signed=True, digits=1)), cell(MISSING if holds is None else ("yes" if holds else "no"), None if holds is None else str(holds)),
-                     number_cell(run.host_seconds, seconds(run.host_seconds)), number_cell(true.host_seconds if true else None, seconds(true.host_seconds if true else None))])
-    if not rows:
-        return None
-    return table("sampled", "Estimates and their intervals", head, rows, note=f"The interval held the exact figure in {inside} of {known} cases where it is known.")
-
-
-def sweep_table(results, sweep, identity):
-    key = str(sweep.get("x") or "")
-    head = [("scene", "t"), ("program", "t"), ("chip", "t"), (key, "n"), ("other settings", "t"), (str(sweep.get("y") or "mrps") + (f" / {sweep['y_per']}" if sweep.get("y_per") else ""), "n"),
-            ("cycles", "n"), ("host", "n")]
-    rows = []
-    for run in sweep_runs(results, sweep):
-        x, others = run.setting(key), ", ".join(f"{name} = {value}" for name, value in sorted(run.set.items()) if name != key)
-        rows.append([cell(el("a", run.scene, href=f"#run-{run.index}"), run.scene), cell(run.program, run.program), cell(run.config, run.get("threads")),
-                     number_cell(x), cell(others, others), number_cell(sweep_value(run, sweep), figure(sweep_value(run, sweep), 4)),
-                     number_cell(run.get("cycles")), number_cell(run.host_seconds, seconds(run.host_seconds))])
-    return table(identity, str(sweep.get("title") or sweep.get("name") or "sweep") + ": every run", head, rows)
+        rows.append([words(run.mode), words(run.program), words(run.scene), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
+                     Cell(f"{number(interval[0])} to {number(interval[1])}" if interval else None), figure(value), Cell(percent(error, signed=True, digits=1), error),
+                     Cell(None if holds is None else "yes" if holds else "no", None if holds is None else str(holds)), duration(run.host_seconds), duration(true.host_seconds if true else None)])
+    return Table("sampled", "Estimates and their intervals", columns, rows, f"The interval held the exact figure in {inside} of {known} cases where it is known.") if rows else None
 
 
 def run_table(results, paper, link, configurations):
-    head = [("run", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("size", "n"), ("mode", "t"), ("status", "t"), ("MRPS", "n"), ("against the paper", "n"),
-            ("cycles", "n"), ("simulated", "n"), ("host", "n"), ("configuration", None), ("files", None), ("command", None)]
+    columns = [("run", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("size", "n"), ("mode", "t"), ("status", "t"), ("MRPS", "n"), ("against the paper", "n"),
+               ("cycles", "n"), ("simulated", "n"), ("host", "n"), ("configuration", None), ("files", None), ("command", None)]
     rows = []
     for run in results.runs:
-        off = deviation(run.get("mrps"), paper.mrps(run.scene, run.config) if not run.set else None)
-        size = f"{run.size[0]}x{run.size[1]}" if run.size else MISSING
+        off = deviation(run.get("mrps"), results.published(paper, run.scene, run.config) if not run.set else None)
         changed = ", ".join(f"{key} = {value}" for key, value in sorted(run.set.items()))
-        place = configurations.get(run.index)
-        files = join([link(run.json, "JSON"), link(run.csv, "CSV"), link(run.picture, "picture")], " ")
-        simulated = run.get("seconds")
-        status = run.status if not run.error else join([run.status, el("small", run.error)])
-        rows.append([cell(el("span", run.key[:10] or str(run.index), id=f"run-{run.index}", class_="key-of-run", title=run.key), run.key), cell(run.program, run.program), cell(run.scene, run.scene),
-                     cell(run.config, run.get("threads")), cell(size, run.size[0] * run.size[1] if run.size else None, class_="n"), cell(run.mode, run.mode),
-                     cell(status, run.status, class_="" if run.done else "bad"), number_cell(run.get("mrps")), number_cell(off, percent(off, signed=True)),
-                     number_cell(run.get("cycles"), figure(run.get("cycles"), 12)), number_cell(simulated, Html(f"{1e3 * simulated:.2f} ms") if simulated is not None else None),
-                     number_cell(run.host_seconds, seconds(run.host_seconds)),
-                     cell(join([changed or None, el("a", f"C{place}", href=f"#configuration-{place}") if place else None], " ")), cell(files),
-                     cell(el("code", run.command) if run.command else MISSING, class_="command")])
-    return table("runs", "Every run", head, rows)
+        place, simulated = configurations.get(run.index), run.get("seconds")
+        files = [(text, address) for text, path in (("JSON", run.json), ("CSV", run.csv), ("picture", run.picture)) if (address := link(path))]
+        rows.append([Cell(run.key[:10] or str(run.index), run.key, identity=f"run-{run.index}", title=run.key, style="key-of-run"), words(run.program), words(run.scene),
+                     Cell(run.config, run.get("threads")), Cell(run.axis("size"), run.size[0] * run.size[1] if run.size else None), words(run.mode),
+                     Cell(run.status, run.status, run.error, "" if run.done else "bad"), figure(run.get("mrps")), Cell(percent(off, signed=True), off),
+                     figure(run.get("cycles"), 12), Cell(f"{1e3 * simulated:.2f} ms" if simulated is not None else None, simulated), duration(run.host_seconds),
+                     Cell(changed, links=[(f"C{place}", f"#configuration-{place}")] if place else []), Cell("", links=files),
+                     Cell(run.command or None, style="command code")])
+    return Table("runs", "Every run", columns, rows)
 
 
-def flat(value, prefix=""):
-    """The keys of a configuration, dotted."""
-    for key, inner in value.items():
-        if isinstance(inner, dict):
-            yield from flat(inner, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}", inner
+def of_sweep(results, paper, sweep):
+    """A sweep's tables, of its own runs alone: the paper's for the sweeps that repeat its tables."""
+    name = sweep.get("name")
+    if name in ("table1", "table2", "table3"):
+        only = results.only(name)
+        made = {"table1": lambda: [table1(only, paper), *(table1_scenes(only, paper, program) for program in only.programs())], "table3": lambda: [table3(only, paper)],
+                "table2": lambda: [*(make(only, paper, program) for make in (table2, speedups) for program in only.programs()), of_the_text(only, paper)]}[name]()
+        return [table.measured() for table in made] + (any_tables(results, paper, sweep) if sweep.get("table") else [])
+    return any_tables(results, paper, sweep)
 
 
-def configurations(results):
-    """The distinct configurations, and for each run the number of its own."""
-    numbers, of_run, listed = {}, {}, []
-    for run in results.runs:
-        configuration = run.stats.get("configuration")
-        if not isinstance(configuration, dict):
-            continue
-        items = tuple((key, repr(value) if number(value) is None else f"{value:g}" if isinstance(value, float) else str(value)) for key, value in flat(configuration))
-        if items not in numbers:
-            numbers[items] = len(numbers) + 1
-            listed.append((numbers[items], dict(items), run.config))
-        of_run[run.index] = numbers[items]
-    if not listed:
-        return el("p", "No run says what its configuration was.", class_="missing"), of_run
-    first = listed[0][1]
-    blocks = []
-    for place, items, chip in listed:
-        other = [f"{key} = {value}" for key, value in items.items() if first.get(key) != value]
-        summary = "every key" if place == 1 else "C1 but for " + ", ".join(other)
-        body = el("dl", *(join([el("dt", key), el("dd", value)]) for key, value in items.items()), class_="keys")
-        blocks.append(el("details", el("summary", el("b", f"C{place}"), f" ({chip}): {summary}"), body, id=f"configuration-{place}"))
-    return join(blocks), of_run
-
+def print_tables(results, paper, names, out):
+    """The command's output: of each sweep its tables."""
+    for sweep in results.sweeps:
+        if sweep.get("name") in names:
+            for place, table in enumerate(of_sweep(results, paper, sweep)):
+                table.title += f"\n{sweep['claim']}" if sweep.get("claim") and place == 0 else ""
+                out.write(table.without_empty().text())
+            figure = sweep_figure(results, paper, sweep, "")
+            out.write(figure.text() + "\n\n" if figure else "")

@@ -8,13 +8,15 @@ import signal
 import sys
 import time
 
+from report import docs, make
+from report.results import Paper, Results
+from report.tables import print_tables
+
 from . import runners
 from .jobs import clean_scratch, is_done, key_of, make_job, prepare_inputs, write_job
-from .paper import Paper
 from .results import collect, plan_file, write_plan
 from .scenes import IMPORT_OPTIONS, order_options, scene_file
 from .sweep import MODES, PROGRAMS, parse_size, read_sweep
-from .tables import print_tables
 from .tools import Tools
 from .util import Problem, check_files, hash_value
 from .values import Areas
@@ -23,6 +25,7 @@ HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
        trax-eval [OPTION...] --all [SCENES]
        trax-eval report RESULTS.json -o PAGE.html
+       trax-eval docs [--check] [RESULTS.json...] PAGE.md...
 
 Repeats what the paper measured, and shows our figures beside the paper's. Finished runs are kept: the same
 command makes only what is missing, whenever and however the one before it ended.
@@ -221,17 +224,10 @@ def evaluate(options, tools, data, command):
     failed = runners.run_all(out, tools, labels, options)
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
-        print_tables(results, [sweep.name for sweep in sweeps], Paper(data / "paper"), sys.stdout)
+        print_tables(Results(results), Paper(data / "paper"), [sweep.name for sweep in sweeps], sys.stdout)
         print(f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; {out / 'results.json'}")
-    unreported = options.all and make_report([str(out / "results.json"), "-o", str(out / "report.html")], data)
+    unreported = options.all and make.main([str(out / "results.json"), "-o", str(out / "report.html")])
     return 1 if failed or without or unreported else 0
-
-
-def make_report(arguments, data):
-    sys.path.insert(0, str(data))
-    from report import make
-
-    return make.main(arguments)
 
 
 def run_one_job(arguments, tools):
@@ -265,7 +261,9 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["job"]:
         return run_one_job(arguments[1:], tools)
     if arguments[:1] == ["report"]:
-        return make_report(arguments[1:], data)
+        return make.main(arguments[1:])
+    if arguments[:1] == ["docs"]:
+        return docs.main(arguments[1:])
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 

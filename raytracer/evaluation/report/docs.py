@@ -1,0 +1,241 @@
+"""trax-eval docs: the tables and plots of the pages of docs, written from files of results.
+
+    trax-eval docs [RESULTS.json...] PAGE.md...
+    trax-eval docs --check PAGE.md...
+
+What stands in a page between `<!-- trax-eval NAME: begin -->` and `<!-- trax-eval NAME: end -->` is the table of that name, or with `plot NAME` the plot, an SVG
+file beside the page. Names are those of the report's tables and of sweeps; a sweep's plot has the sweep's name. The figures are those of PAGE.json (another file if
+the page has `<!-- trax-eval data: FILE -->`), which holds what the tables need and nothing else. RESULTS.json replaces the sweeps that it has in that file. Pages
+that share a file are given together. --check writes nothing, and ends with status 1 if a block or a plot is not what the file gives."""
+
+import argparse
+import itertools
+import json
+import pathlib
+import re
+import sys
+
+from trax_eval.util import Problem, check_files, write_file
+
+from . import rays, tables
+from .charts import all_figures, sweep_figure
+from .claims import claims
+from .plots import PlotError, standalone
+from .results import ASKED, HERE, Paper, Results, ResultsError, read_results
+
+MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
+ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")
+DATA = re.compile(r"<!-- trax-eval data: (\S+) -->")
+DIGITS = 7  # of what is no whole number
+
+
+class Page:
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        try:
+            self.text = self.path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise ResultsError(f"{path}: cannot be read: {error}") from None
+        found = DATA.search(self.text)
+        self.data = self.path.parent / found[1] if found else self.path.with_suffix(".json")
+        self.names = [match[1] for match in MARK.finditer(self.text)]
+        marks = [match[1] for match in ANY.finditer(self.text)]
+        for name in marks:
+            if self.names.count(name) != 1 or marks.count(name) != 2:
+                raise ResultsError(f"{path}: the block \"{name}\" is to begin and end once")
+        if not self.names:
+            raise ResultsError(f"{path}: has no block (<!-- trax-eval NAME: begin --> and end)")
+
+
+class Builder:
+    """Tables and plots by name. Each is made with what it asked its runs for, by the runs' places."""
+
+    def __init__(self, results, paper):
+        self.results, self.paper, self.asked, self.plots = results, paper, {}, {}
+        self.known = {}
+        for sweep in results.sweeps:
+            self.add(lambda sweep=sweep: tables.of_sweep(results, paper, sweep), sweep)
+        for make in (lambda: [tables.claims_table(claims(results, paper, results.programs()), results.programs())], lambda: [tables.described(results, paper)],
+                     lambda: [tables.hardware(results, paper)], lambda: [rays.gain_table(results)], lambda: [rays.kinds_table(results)]):
+            self.add(make, None)
+
+    def add(self, make, sweep):
+        ASKED.clear()
+        for table in make():
+            self.known[table.identity] = table, sweep, ASKED.copy()
+
+    def plot(self, name):
+        for sweep in self.results.sweeps:
+            if sweep.get("name") == name:
+                ASKED.clear()
+                figure = sweep_figure(self.results, self.paper, sweep, name)
+                if figure:
+                    return figure, sweep, ASKED.copy()
+        ASKED.clear()
+        for figure in itertools.chain(rays.figures(self.results, self.paper), all_figures(self.results, self.paper)):
+            if figure.identity == name and not figure.empty():
+                return figure, None, ASKED.copy()
+            ASKED.clear()
+        raise ResultsError(f"there is no plot \"{name}\"")
+
+    def found(self, name):
+        if name.startswith("plot "):
+            return self.plot(name.removeprefix("plot "))
+        if name not in self.known:
+            raise ResultsError(f"there is no table \"{name}\"; there are {', '.join(self.known)}")
+        return self.known[name]
+
+    def sweeps_of(self, sweep, asked):
+        """Names of the sweeps that the runs come from: as few as have them all."""
+        left, names = [set(self.results.runs[index].experiments) for index in asked if self.results.runs[index].experiments], []
+        while left and not sweep:
+            names.append(max(sorted(set().union(*left)), key=lambda name: sum(name in some for some in left)))
+            left = [some for some in left if names[-1] not in some]
+        return [sweep["name"]] if sweep else names
+
+    def origin(self, sweep, asked):
+        """What made the figures: the command, the size of the pictures, the version and the day."""
+        runs = [run for run in self.results.runs if run.index in asked and run.done]
+        sources = self.results.document.get("sources") or [{}]
+        sizes = sorted({run.size for run in runs if run.size}, reverse=True)
+        made = sorted({(str(source.get("trax") or "of an unknown version"), str(source.get("created") or "")[:10]) for run in runs for source in [sources[run.record.get("source", 0)]]})
+        return (f"`trax-eval {' '.join(self.sweeps_of(sweep, asked))} SCENES`" + (f" at {', '.join('{}x{}'.format(*size) for size in sizes)}" if sizes else "")
+                + "; measured with " + ", ".join(f"trax {version}" + (f" ({day})" if day else "") for version, day in made))
+
+    def block(self, page, name, files):
+        """The block's text; a plot's bytes go into files."""
+        made, sweep, asked = self.found(name)
+        origin = self.origin(sweep, asked)
+        if not name.startswith("plot "):
+            return f"{origin}:\n\n{made.without_empty().markdown()}"
+        path = page.path.parent / f"{page.path.stem}-{made.identity}.svg"
+        files[path] = standalone(made)
+        return f"![{made.title}]({path.name})\n\n{origin}.\n"
+
+
+def _digits(value):
+    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+
+
+def _kept(run, names, source):
+    """Of a run's record what says which run it is, and the figures of these names."""
+    record = run.record
+    kept = {name: record[name] for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status", "experiments") if record.get(name) or name == "set"}
+    if any((point["config"], point["set"]) != (run.config, run.set) for point in run.points):
+        kept["points"] = [{name: point[name] for name in ("experiment", "config", "set")} for point in run.points]
+    for name in sorted(names):
+        place, value = kept.setdefault("stats", {}), record.get("stats") or {}
+        if name.startswith("values."):
+            place, value, parts = kept.setdefault("values", {}), record.get("values") or {}, [name.removeprefix("values.")]
+        else:
+            parts = name.split(".")
+        for part in parts[:-1]:
+            place, value = place.setdefault(part, {}), value.get(part) if isinstance(value, dict) else None
+        value = value.get(parts[-1]) if isinstance(value, dict) else None
+        if value is not None and not isinstance(value, dict):
+            place[parts[-1]] = _digits(value)
+    return {**kept, "source": source}
+
+
+def merged(old, new):
+    """One document with the sweeps of both; those of the new one take the place of the old one's."""
+    names = {sweep.get("name") for sweep in new.get("sweeps") or []}
+    sources, runs = [*old.get("sources", [])], []
+    for run in old.get("runs", []):
+        left = [name for name in run.get("experiments", []) if name not in names]
+        if left:
+            points = [point for point in run.get("points", []) if point["experiment"] in left]
+            runs.append({**run, "experiments": left, **({"points": points} if points else {})})
+    shift = len(sources)
+    sources += new.get("sources") or [{name: new.get(name) for name in ("trax", "created", "command")}]
+    runs += [{**run, "source": run.get("source", 0) + shift} for run in new.get("runs") or []]
+    both = {}
+    for kind in ("programs", "scenes", "workloads", "sweeps"):
+        entries = {entry.get("name"): entry for document in (old, new) for entry in document.get(kind) or []}
+        both[kind] = list(entries.values())
+    return {"format": "trax-eval-results", "version": 2, "sources": sources, **both, "runs": runs}
+
+
+def compact(document, pages, paper):
+    """What the pages' blocks need of it, a run in a line."""
+    results = Results(document)
+    builder = Builder(results, paper)
+    needed, sweeps = {}, set()
+    for page in pages:
+        for name in page.names:
+            _, sweep, asked = builder.found(name)
+            for index, names in asked.items():
+                needed.setdefault(index, set()).update(names)
+            sweeps.update(builder.sweeps_of(sweep, asked))
+    runs = []
+    for run in results.runs:
+        if sweeps & set(run.experiments) and (run.index in needed or not run.done):
+            kept = _kept(run, needed.get(run.index, ()), run.record.get("source", 0))
+            kept["experiments"] = [name for name in run.experiments if name in sweeps]
+            if "points" in kept:
+                kept["points"] = [point for point in kept["points"] if point["experiment"] in sweeps]
+            runs.append(kept)
+    used = sorted({run["source"] for run in runs})
+    for run in runs:
+        run["source"] = used.index(run["source"])
+    names = {kind: set(results.named(kind)) for kind in ("programs", "scenes", "workloads")}
+    lists = {kind: [entry for entry in document.get(kind) or [] if entry.get("name") in names[kind]] for kind in names}
+    lists["sweeps"] = [{key: value for key, value in sweep.items() if key != "file" and value not in (None, "")} for sweep in results.sweeps if sweep["name"] in sweeps]
+    lines = ['{"format": "trax-eval-results", "version": 2']
+    for key, entries in {"sources": [document["sources"][index] for index in used], **lists, "runs": runs}.items():
+        lines.append(f'"{key}": [\n' + ",\n".join(json.dumps(entry, ensure_ascii=False, separators=(",", ":")) for entry in entries) + "\n]")
+    return ",\n".join(lines) + "}\n"
+
+
+def write_pages(pages, paper, check):
+    """The pages' blocks from their files of results; what differs if check, else they are written."""
+    stale, builders = [], {}
+    for page in pages:
+        if page.data not in builders:
+            builders[page.data] = Builder(read_results(page.data), paper)
+        builder, files = builders[page.data], {}
+
+        def replaced(match):
+            text = builder.block(page, match[1], files)
+            if check and text != match[2]:
+                stale.append(f"{page.path}: the block \"{match[1]}\" is not what {page.data} gives; trax-eval docs {page.path} writes it")
+            return f"<!-- trax-eval {match[1]}: begin -->\n{text}<!-- trax-eval {match[1]}: end -->"
+
+        text = MARK.sub(replaced, page.text)
+        for path, figure in files.items():
+            if not check:
+                write_file(path, figure)
+            elif not path.exists() or path.read_text(encoding="utf-8") != figure:
+                stale.append(f"{path}: is not what {page.data} gives; trax-eval docs {page.path} writes it")
+        if not check and text != page.text:
+            write_file(page.path, text)
+    return stale
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="+", metavar="RESULTS.json or PAGE.md")
+    parser.add_argument("--check", action="store_true", help="write nothing; status 1 if a block is not what the file gives")
+    options = parser.parse_args(arguments)
+    try:
+        wrong = [name for name in options.files if not name.endswith((".json", ".md"))]
+        if wrong:
+            raise ResultsError(f"{wrong[0]}: expected RESULTS.json or PAGE.md")
+        sources, paper = [name for name in options.files if name.endswith(".json")], Paper(HERE.parent / "paper")
+        pages = [Page(name) for name in options.files if name.endswith(".md")]
+        if not pages or options.check and sources:
+            raise ResultsError("no page was named" if not pages else "--check takes pages only")
+        check_files(sources, [page.path for page in pages])
+        if sources:
+            for data in dict.fromkeys(page.data for page in pages):
+                document = read_results(data).document if data.exists() else {}
+                for name in sources:
+                    document = merged(document, read_results(name).document)
+                write_file(data, compact(document, [page for page in pages if page.data == data], paper))
+        stale = write_pages(pages, paper, options.check)
+    except (Problem, ResultsError, PlotError) as error:
+        print(f"trax-eval docs: error: {error}", file=sys.stderr)
+        return 1
+    for text in stale:
+        print(f"trax-eval docs: {text}", file=sys.stderr)
+    return 1 if stale else 0

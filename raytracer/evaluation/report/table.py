@@ -1,0 +1,104 @@
+"""A table as data, built once: text for the command's output, Markdown for the pages of docs. markup.py writes it as HTML."""
+
+import textwrap
+
+
+def number(value, digits=3):
+    """A number for reading: so many significant digits, thousands apart; None if there is none."""
+    if value is None:
+        return None
+    if value == int(value) and abs(value) < 10 ** 15 or abs(value) >= 10 ** digits:
+        return f"{value:,.0f}"
+    if abs(value) < 1e-4:
+        return f"{value:.{digits - 1}e}"
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        return f"{value:,.0f}"
+    whole = text.lstrip("-").split(".")[0]
+    if digits > len(text.replace(".", "").lstrip("-0")):  # 4.9 beside 4.94: 4.90
+        return f"{value:.{digits - len(whole) if whole != '0' else digits}f}"
+    return text
+
+
+def percent(value, signed=False, digits=0):
+    if value is None:
+        return None
+    text = f"{100 * value:{'+' if signed else ''},.{digits}f}"
+    return (text if text.strip("+-0.") else text.lstrip("+-")) + "\u00a0%"
+
+
+def seconds(value):
+    if value is None:
+        return None
+    for unit, size, least in (("h", 3600, 7200), ("min", 60, 120), ("s", 1, 0.1)):
+        if value >= least:
+            return f"{number(value / size)}\u00a0{unit}"
+    return f"{1000 * value:.0f}\u00a0ms"
+
+
+class Cell:
+    """shown: the text, None if nothing was measured; value: what the page sorts by; below: what stands beside it, smaller; links: (text, address);
+    style, title, link, identity: of the page alone."""
+
+    def __init__(self, shown, value=None, below="", style="", title="", link="", links=(), identity=""):
+        self.value = float(value) if isinstance(value, int) and abs(value) < 1 << 53 else value
+        self.shown, self.below, self.style = shown, below, style
+        self.title, self.link, self.links, self.identity = title, link, links, identity
+
+
+def words(text, **more):
+    return Cell(str(text), str(text), **more)
+
+
+def figure(value, digits=3, **more):
+    return Cell(number(value, digits), value, **more)
+
+
+def share(value, digits=0, **more):
+    return Cell(percent(value, digits=digits), value, **more)
+
+
+def duration(value):
+    return Cell(seconds(value), value)
+
+
+EMPTY = Cell("")
+
+
+class Table:
+    """columns: (title, kind), kind "n" for numbers, "t" for text, None where the page does not sort. rows: lists of cells."""
+
+    def __init__(self, identity, title, columns, rows, note=""):
+        self.identity, self.title, self.columns, self.rows, self.note = identity, title, columns, rows, note
+
+    def measured(self):
+        """Without the rows of which nothing was measured that could be."""
+        def is_there(cell):
+            return cell.value is not None and cell.style != "paper"
+
+        return Table(self.identity, self.title, self.columns, [row for row in self.rows if any(map(is_there, row[2:])) or all(cell.shown is not None for cell in row)], self.note)
+
+    def without_empty(self):
+        """Without the columns in which nothing was measured."""
+        kept = [place for place in range(len(self.columns)) if any(row[place].shown for row in self.rows)]
+        return Table(self.identity, self.title, [self.columns[place] for place in kept], [[row[place] for place in kept] for row in self.rows], self.note)
+
+    def lines(self, padded):
+        """Of Markdown; padded: to be read as it stands."""
+
+        def plain(cell):
+            text = "-" if cell.shown is None else " ".join([cell.shown, *(text for text, _ in cell.links)])
+            return (f"{text} ({cell.below})" if cell.below else text).replace("\u00a0", " ").replace("\n", " ").replace("|", "\\|")
+
+        rows = [[title.replace("|", "\\|") for title, _ in self.columns], *([plain(cell) for cell in row] for row in self.rows)]
+        widths = [max(len(row[place]) for row in rows) if padded else 0 for place in range(len(self.columns))]
+        numeric = [kind == "n" for _, kind in self.columns]
+        shown = ["| " + " | ".join(text.rjust(width) if right else text.ljust(width) for text, width, right in zip(row, widths, numeric)) + " |" for row in rows]
+        rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|" if padded else "|" + " --- |" * len(widths)
+        return [shown[0], rule, *shown[1:]]
+
+    def text(self):
+        return "\n".join([self.title, "", *self.lines(True), *(["", textwrap.fill(self.note, 120)] if self.note else []), "", ""])
+
+    def markdown(self):
+        return "\n".join([*self.lines(False), ""])
