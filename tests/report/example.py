@@ -108,6 +108,35 @@ def assertions():
     return runs
 
 
+def stranger():
+    """Version 2, as another researcher's sweep gives it: a program, scene and chip of their own, variants, kinds of rays, and tables that the sweep describes."""
+    runs = []
+    for scene_index, scene in enumerate(("cube", "dragon")):
+        for chip_index, chip in enumerate(("tiny", "4x32")):
+            for variant, rate in (("as it is", 10.0), ("sorted", 12.5)):
+                made = run("beam", scene, "4x32", experiments=("tracing",), value=rate * (1 + chip_index) / (1 + scene_index))
+                made.update(config=chip, variant=variant, workload="fog", machine={}, set={"trax-render --queues": 3} if variant == "sorted" else {}, picture=None)
+                made["points"] = [{"experiment": "tracing", "variant": variant, "config": chip, "set": made["set"], "machine": {}}]
+                made["values"] = {"rays.none.count": 0}
+                for place, kind in enumerate(("shadow", "primary")):
+                    made["values"] |= {f"rays.{kind}.{name}": value for name, value in
+                                       {"count": 100, "mrps": rate * (2 - place), "bytes_per_ray": 64 * (1 + place), "energy_per_ray": 3.5, "utilisation": 0.5, "fetch": 0.2, "memory": 0.2, "dcache": 0.05,
+                                        "units": 0.05, "rest": 0, **{f"lanes.{width}": (0.9 - 0.2 * place) / width ** 0.5 for width in (4, 8, 16, 32)}}.items()}
+                runs.append(made)
+    table = [{"rows": ["chip", "variant"], "columns": "scene", "relative": {"variant": "as it is"}},
+             {"id": "by-kind", "title": "Kinds", "rows": "kind", "each": "chip", "mean": "scene", "where": {"variant": "sorted"}, "values": ["kind.mrps", "kind.lanes.32"]}]
+    made = document(runs, [{"name": "tracing", "title": "Beams", "claim": "They are fast.", "x": "threads", "y": "mrps", "reference": "as it is", "variants": ["as it is", "sorted"], "table": table},
+                           {"name": "plain", "x": "variant", "y": "values.bytes_per_ray"}])
+    for place, record in enumerate(runs):
+        record["key"] = f"beam-{place}"
+        record["experiments"].append("plain")
+        record["points"].append({**record["points"][0], "experiment": "plain"})
+        record["values"]["bytes_per_ray"] = 100 + place
+    made.update(version=2, programs=[{"name": "beam", "title": "Beams of a stranger"}], scenes=[{"name": "cube", "title": "A cube", "paper": None}, {"name": "dragon", "title": "Dragon", "paper": "dragon"}],
+                workloads=[{"name": "fog", "title": "Fog"}])
+    return made
+
+
 def partial():
     """Some cells, some that failed, some that are not there yet; members that are null or absent."""
     runs = [run("ours", "conference", chip) for chip in CHIPS[:6]] + [run("ours", "dragon", "1x32")]

@@ -263,6 +263,23 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(sum(tag == "img" for tag, key, _ in page.attributes if key == "src"), 6)
         self.assertIn("forest.png: No such file", self.text)
 
+    def test_rays(self):
+        """What MIMD gains: kinds of rays by their coherence, of a program, scene and chip that the report does not know."""
+        page = self.make(example.stranger())
+        gain = page.tables["rays-gain"]
+        place = {cell[0]: index for index, cell in enumerate(gain["head"][0])}
+        self.assertEqual([row[0][0] for row in gain["rows"]], ["shadow", "primary"])
+        for row, share in zip(gain["rows"], (0.9, 0.7)):
+            for width in (4, 8, 16, 32):
+                self.assertAlmostEqual(float(row[place[f"{width} lanes in use"]][1]), share / width ** 0.5)
+                self.assertAlmostEqual(float(row[place[f"MIMD over {width} lanes"]][1]), width ** 0.5 / share)
+        self.assertEqual(len(page.figures["rays-lanes"]), 2 * 5)
+        self.assertEqual(len(page.figures["rays-gain-plot"]), 2 * 5)
+        self.assertEqual(len(page.figures["rays-stalls"]), 2 * 5)
+        self.assertEqual([row[:2] for row in page.tables["sweep-0-by-kind-tiny"]["rows"]], [[("primary", "'primary'"), ("12.5", "12.5")], [("shadow", "'shadow'"), ("25.0", "25.0")]])
+        self.assertIn("<b>beam: Beams of a stranger</b>", self.text)
+        self.assertEqual(len(page.identities), len(set(page.identities)))
+
     def test_same_bytes(self):
         self.make(example.complete())
         first = self.text

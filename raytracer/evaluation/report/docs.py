@@ -15,7 +15,7 @@ import pathlib
 import re
 import sys
 
-from trax_eval.util import Problem, check_files, write_file
+from trax_eval.util import Problem, check_files, read_json, write_file
 
 from . import rays, tables
 from .charts import all_figures, sweep_figure
@@ -26,7 +26,7 @@ from .results import ASKED, HERE, Paper, Results, ResultsError, read_results
 MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
 ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")
 DATA = re.compile(r"<!-- trax-eval data: (\S+) -->")
-DIGITS = 7  # of what is no whole number
+DIGITS = 6  # of what is no whole number
 
 
 class Page:
@@ -54,15 +54,18 @@ class Builder:
         self.results, self.paper, self.asked, self.plots = results, paper, {}, {}
         self.known = {}
         for sweep in results.sweeps:
-            self.add(lambda sweep=sweep: tables.of_sweep(results, paper, sweep), sweep)
-        for make in (lambda: [tables.claims_table(claims(results, paper, results.programs()), results.programs())], lambda: [tables.described(results, paper)],
-                     lambda: [tables.hardware(results, paper)], lambda: [rays.gain_table(results)], lambda: [rays.kinds_table(results)]):
-            self.add(make, None)
+            ASKED.clear()
+            makers = tables.makers(results, paper, sweep)
+            self.add(makers, sweep, ASKED.copy())
+        self.add([lambda: tables.claims_table(claims(results, paper, results.programs()), results.programs()), lambda: tables.described(results, paper),
+                  lambda: tables.hardware(results, paper), lambda: rays.gain_table(results), lambda: rays.kinds_table(results)], None, {})
 
-    def add(self, make, sweep):
-        ASKED.clear()
-        for table in make():
-            self.known[table.identity] = table, sweep, ASKED.copy()
+    def add(self, makers, sweep, before):
+        """before: what was asked for to know which tables there are; each needs it of its own runs."""
+        for make in makers:
+            ASKED.clear()
+            table = make()
+            self.known[table.identity] = table, sweep, {index: names | before.get(index, set()) for index, names in ASKED.items()}
 
     def plot(self, name):
         for sweep in self.results.sweeps:
@@ -110,7 +113,7 @@ class Builder:
             return f"{origin}:\n\n{made.without_empty().markdown()}"
         path = page.path.parent / f"{page.path.stem}-{made.identity}.svg"
         files[path] = standalone(made)
-        return f"![{made.title}]({path.name})\n\n{origin}.\n"
+        return f"**{made.title}.** {origin}:\n\n![{made.title}]({path.name})\n"
 
 
 def _digits(value):
@@ -118,36 +121,57 @@ def _digits(value):
 
 
 def _kept(run, names, source):
-    """Of a run's record what says which run it is, and the figures of these names."""
+    """Of a run's record what says which run it is, and the figures of these names, flat: stats.mrps, values.area_units."""
     record = run.record
-    kept = {name: record[name] for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status", "experiments") if record.get(name) or name == "set"}
-    if any((point["config"], point["set"]) != (run.config, run.set) for point in run.points):
-        kept["points"] = [{name: point[name] for name in ("experiment", "config", "set")} for point in run.points]
+    kept = {name: record[name] for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status") if record.get(name)}
+    if any((point["config"], point["set"], point.get("variant", run.variant)) != (run.config, run.set, run.variant) for point in run.points):
+        kept["points"] = [{name: point.get(name, "") for name in ("experiment", "variant", "config", "set")} for point in run.points]
     for name in sorted(names):
-        place, value = kept.setdefault("stats", {}), record.get("stats") or {}
-        if name.startswith("values."):
-            place, value, parts = kept.setdefault("values", {}), record.get("values") or {}, [name.removeprefix("values.")]
-        else:
-            parts = name.split(".")
-        for part in parts[:-1]:
-            place, value = place.setdefault(part, {}), value.get(part) if isinstance(value, dict) else None
-        value = value.get(parts[-1]) if isinstance(value, dict) else None
-        if value is not None and not isinstance(value, dict):
-            place[parts[-1]] = _digits(value)
+        part, path = ("values", [name.removeprefix("values.")]) if name.startswith("values.") else ("stats", name.split("."))
+        value = record.get(part)
+        for key in path:
+            value = value.get(key) if isinstance(value, dict) else None
+        if value is not None and not isinstance(value, dict) and (value or not name.endswith(".count")):
+            kept[f"{part}.{'.'.join(path)}"] = _digits(value)
     return {**kept, "source": source}
 
 
+def read_data(path):
+    """A page's file of results: its runs stand as tables, each with the names of its columns."""
+    document, runs = read_json(path), []
+    try:
+        for table in document["tables"]:
+            for row in table["runs"]:
+                run = {"experiments": table["experiments"], "stats": {}, "values": {}}
+                for name, value in zip(table["names"], row, strict=True):
+                    if value is None:
+                        continue
+                    part, _, rest = name.partition(".")
+                    path_of = [part, *([rest] if part == "values" else rest.split(".") if rest else [])]
+                    place = run
+                    for key in path_of[:-1]:
+                        place = place.setdefault(key, {})
+                    place[path_of[-1]] = value
+                runs.append(run)
+        return {**{name: value for name, value in document.items() if name != "tables"}, "runs": runs}
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise ResultsError(f"{path}: is no file that trax-eval docs wrote: {error!r}") from None
+
+
 def merged(old, new):
-    """One document with the sweeps of both; those of the new one take the place of the old one's."""
-    names = {sweep.get("name") for sweep in new.get("sweeps") or []}
+    """One document with the sweeps of both. The new one's runs take the place of those of the same sweep, program, workload, size and mode."""
+    def places(run):
+        return {(name, run.get("program"), run.get("workload") or "", str(run.get("size")), run.get("mode")): name for name in run.get("experiments") or []}
+
+    taken = {place for run in new.get("runs") or [] for place in places(run)}
     sources, runs = [*old.get("sources", [])], []
     for run in old.get("runs", []):
-        left = [name for name in run.get("experiments", []) if name not in names]
+        left = [name for place, name in places(run).items() if place not in taken]
         if left:
             points = [point for point in run.get("points", []) if point["experiment"] in left]
             runs.append({**run, "experiments": left, **({"points": points} if points else {})})
     shift = len(sources)
-    sources += new.get("sources") or [{name: new.get(name) for name in ("trax", "created", "command")}]
+    sources += new.get("sources") or [new]
     runs += [{**run, "source": run.get("source", 0) + shift} for run in new.get("runs") or []]
     both = {}
     for kind in ("programs", "scenes", "workloads", "sweeps"):
@@ -167,24 +191,37 @@ def compact(document, pages, paper):
             for index, names in asked.items():
                 needed.setdefault(index, set()).update(names)
             sweeps.update(builder.sweeps_of(sweep, asked))
-    runs = []
+    runs, measured = [], {(run.program, run.workload, run.experiments[0]) for run in results.runs if run.index in needed and run.experiments}
     for run in results.runs:
-        if sweeps & set(run.experiments) and (run.index in needed or not run.done):
+        if sweeps & set(run.experiments) and (run.index in needed or not run.done and (run.program, run.workload, run.experiments[0]) in measured):
             kept = _kept(run, needed.get(run.index, ()), run.record.get("source", 0))
-            kept["experiments"] = [name for name in run.experiments if name in sweeps]
             if "points" in kept:
                 kept["points"] = [point for point in kept["points"] if point["experiment"] in sweeps]
-            runs.append(kept)
-    used = sorted({run["source"] for run in runs})
-    for run in runs:
-        run["source"] = used.index(run["source"])
+            runs.append(([name for name in run.experiments if name in sweeps], kept))
+    sources, grouped = [], {}
+    for experiments, kept in runs:
+        source = {name: document["sources"][kept["source"]].get(name) for name in ("trax", "created")}
+        sources += [] if source in sources else [source]
+        kept["source"] = sources.index(source)
+        grouped.setdefault(tuple(experiments), []).append(kept)
     names = {kind: set(results.named(kind)) for kind in ("programs", "scenes", "workloads")}
-    lists = {kind: [entry for entry in document.get(kind) or [] if entry.get("name") in names[kind]] for kind in names}
-    lists["sweeps"] = [{key: value for key, value in sweep.items() if key != "file" and value not in (None, "")} for sweep in results.sweeps if sweep["name"] in sweeps]
-    lines = ['{"format": "trax-eval-results", "version": 2']
-    for key, entries in {"sources": [document["sources"][index] for index in used], **lists, "runs": runs}.items():
-        lines.append(f'"{key}": [\n' + ",\n".join(json.dumps(entry, ensure_ascii=False, separators=(",", ":")) for entry in entries) + "\n]")
-    return ",\n".join(lines) + "}\n"
+    lists = {"sources": sources,
+             **{kind: [entry for entry in document.get(kind) or [] if entry.get("name") in names[kind]] for kind in names},
+             "sweeps": [{key: value for key, value in sweep.items() if key != "file" and value not in (None, "", [])} for sweep in results.sweeps if sweep["name"] in sweeps]}
+
+    def text(value):
+        return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+
+    def listed(entries):
+        return "[\n" + ",\n".join(entries) + "\n]"
+
+    parts = [f'"{key}": {listed(map(text, entries))}' for key, entries in lists.items()]
+    groups = []
+    for experiments, rows in grouped.items():
+        columns = list(dict.fromkeys(name for kept in rows for name in kept))
+        groups.append(f'{{"experiments":{text(experiments)},\n"names":{text(columns)},\n"runs":{listed(text([kept.get(name) for name in columns]) for kept in rows)}}}')
+    parts.append(f'"tables": {listed(groups)}')
+    return '{"format": "trax-eval-results", "version": 2,\n' + ",\n".join(parts) + "}\n"
 
 
 def write_pages(pages, paper, check):
@@ -192,7 +229,7 @@ def write_pages(pages, paper, check):
     stale, builders = [], {}
     for page in pages:
         if page.data not in builders:
-            builders[page.data] = Builder(read_results(page.data), paper)
+            builders[page.data] = Builder(Results(read_data(page.data)), paper)
         builder, files = builders[page.data], {}
 
         def replaced(match):
@@ -228,7 +265,7 @@ def main(arguments=None):
         check_files(sources, [page.path for page in pages])
         if sources:
             for data in dict.fromkeys(page.data for page in pages):
-                document = read_results(data).document if data.exists() else {}
+                document = read_data(data) if data.exists() else {}
                 for name in sources:
                     document = merged(document, read_results(name).document)
                 write_file(data, compact(document, [page for page in pages if page.data == data], paper))
@@ -239,3 +276,7 @@ def main(arguments=None):
     for text in stale:
         print(f"trax-eval docs: {text}", file=sys.stderr)
     return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -254,10 +254,11 @@ def standalone(figure, program="gnuplot"):
         _run_gnuplot([figure], folder, program)
         elements = _elements(xml.etree.ElementTree.parse(os.path.join(folder, "0.svg")).getroot(), figure.tips())
     elements = [re.sub(r"<title>.*?</title>| tabindex=\"0\"", "", element) for element in elements if not element.startswith("<circle")]
+    across = 3 if all(len(label) <= 20 for *_, label in figure.marks()) else 2
     for place, (style, mark, label) in enumerate(figure.marks()):
-        where = f"translate({14 + 150 * (place % 3)},{figure.height + 12 + 18 * (place // 3)})"
+        where = f"translate({14 + 450 // across * (place % across)},{figure.height + 12 + 18 * (place // across)})"
         elements.append(el("g", el("use", href=f"#mark{MARKS[mark][0] - 1}", transform="scale(4.5)", class_=f"s{style}", stroke_width="0.4"), el("text", label, x="10", y="4"), transform=where))
-    height = figure.height + 12 + 18 * -(-len(figure.marks()) // 3)
+    height = figure.height + 12 + 18 * -(-len(figure.marks()) // across)
 
     def rules(place):
         used = {int(style) for style in re.findall(r'class="s(\d+)"', "".join(elements))}
@@ -265,7 +266,7 @@ def standalone(figure, program="gnuplot"):
         ink, line, ground = (("#5f5f59", "#d9d9d3", "#ffffff"), ("#a3a39b", "#3a3a37", "#171716"))[place]
         return f"svg{{background:{ground}}}text{{fill:{ink}}}.axis{{stroke:{ink}}}.grid{{stroke:{line}}}{colours}"
 
-    style = ("text{font:12px sans-serif}path{fill:none;stroke-width:2}path.axis{stroke-width:1}path.grid{stroke-width:.6}path[class^=s]{stroke:currentColor}polygon{fill:currentColor}"
+    style = ("text{font:12px sans-serif}path{fill:none;stroke-width:2}g path{fill:currentColor;stroke:none}path.axis{stroke-width:1}path.grid{stroke-width:.6}path[class^=s]{stroke:currentColor}polygon{fill:currentColor}"
              + rules(0) + "@media (prefers-color-scheme:dark){" + rules(1) + "}")
     shapes = marks().split("<defs>")[1].split("</defs>")[0]
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">\n<style>{style}</style>\n<defs>{shapes}</defs>\n'

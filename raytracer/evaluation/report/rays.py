@@ -6,6 +6,7 @@ from .results import mean, ratio
 from .table import Cell, Table, figure, number, percent, share, words
 
 WIDTHS = (4, 8, 16, 32)
+LINES = [*STYLES, (0, "dot")]  # styles of kinds
 # Of a kind's thread-cycles, as page.css has the causes of all threads.
 SHARES = [(10, "issued", "utilisation"), (11, "instruction fetch", "fetch"), (12, "data-cache banks and hits", "dcache"), (13, "off-chip memory", "memory"), (14, "shared units", "units"),
           (17, "other waits", "rest")]
@@ -119,10 +120,10 @@ def _gain(found):
     ticks = [(width, str(width)) for width in (1, *WIDTHS)]
     series = []
     for index, group in enumerate(found):
-        style, mark = STYLES[index % len(STYLES)]
+        style, mark = LINES[index % len(LINES)]
         points = [(1, 1.0, f"{group.label}: 1 lane wastes none")]
         points += [(width, ratio(1, group.of(f"lanes.{width}")), f"{group.label}: {1 / value:.1f} times the work of {width} lanes" if (value := group.of(f"lanes.{width}")) else "") for width in WIDTHS]
-        series.append(Series(group.label, style, points, mark, dashed=index >= len(STYLES)))
+        series.append(Series(group.label, style, points, mark, dashed=index >= len(LINES)))
     return Lines("rays-gain-plot", "MIMD over SIMD, if lanes are all that differs", "lanes of the SIMD machine", "times the work", series, log_x=True, base=2, x_ticks=ticks)
 
 
@@ -133,7 +134,7 @@ def _stalls(found):
 
 def _against_chips(found, paper, identity, title, unit, name, scale=1):
     """A line for each kind over the threads of the paper's chips."""
-    styles = {line: STYLES[index % len(STYLES)] for index, line in enumerate(chosen(found))}
+    styles = {line: LINES[index % len(LINES)] for index, line in enumerate(chosen(found))}
     lines = {}
     for group in found:
         line = group.program, group.workload, group.kind

@@ -10,6 +10,7 @@ import pathlib
 HERE = pathlib.Path(__file__).resolve().parent
 FORMAT = "trax-eval-results"
 FILE_LIMIT = 1 << 28  # bytes; those of all experiments are a hundredth
+KINDS = ("primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other")  # of rays, in this order
 COLUMNS = ("conference", "crytek", "dragon", "fairy")  # of the paper's Table 2
 
 
@@ -18,14 +19,13 @@ class ResultsError(Exception):
 
 
 def number(value):
-    """value as a finite float, or None."""
+    """value as a finite number, whole ones as they are, or None."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return None
     try:
-        value = float(value)
+        return value if math.isfinite(float(value)) else None
     except OverflowError:
         return None
-    return value if math.isfinite(value) else None
 
 
 def ratio(a, b):
@@ -80,7 +80,7 @@ class Run:
         if not isinstance(experiments, list):
             raise ResultsError(f"runs[{index}].experiments is not a list")
         self.experiments = [name for name in experiments if isinstance(name, str)]
-        self.points = record.get("points") or [{"experiment": name, "config": self.config, "set": self.set} for name in self.experiments]
+        self.points = record.get("points") or [{"experiment": name, "config": self.config, "set": self.set, "variant": self.variant} for name in self.experiments]
         if not isinstance(self.points, list):
             raise ResultsError(f"runs[{index}].points is not a list")
         for place, point in enumerate(self.points):
@@ -112,6 +112,7 @@ class Run:
     def kinds(self):
         """Of rays, of which the run has any."""
         found = [name.split(".")[1] for name in self.values if name.startswith("rays.") and name.endswith(".count")] if self.done else []
+        found.sort(key=lambda kind: (KINDS.index(kind) if kind in KINDS else len(KINDS), kind))
         return [kind for kind in found if self.get(f"values.rays.{kind}.count")]
 
     def axis(self, name):

@@ -1,6 +1,7 @@
 """The tables of any sweep: as its file's member `table` says, or else a row for everything in which its runs differ (../README.md, "Tables")."""
 
 import copy
+import functools
 import itertools
 
 from .results import ResultsError, deviation, mean, number, ratio
@@ -103,6 +104,8 @@ class Axes:
             values = list(dict.fromkeys(self.value(run, key) for run in runs))
             if all(number(value) is not None for value in values):
                 values.sort()
+            elif key == "size":
+                values.sort(key=lambda value: [int(side) for side in value.split("x")] if value else [])
             elif key in known:
                 values.sort(key=lambda value: known[key].index(value) if value in known[key] else len(known[key]))
             self.order[key] = values
@@ -169,15 +172,16 @@ def _build(results, paper, sweep, spec, runs, identity, title):
             cells.append(cell(row, column, value))
             if value.paper:
                 wanted = results.published(paper, *next(((run.scene, run.config) for run in groups.get((row, column), [])), ("", "")))
-                cells += [figure(wanted, style="paper"), share(deviation(found(row, column, value), wanted))]
+                off = deviation(found(row, column, value), wanted)
+                cells += [figure(wanted, style="paper"), Cell(percent(off, signed=True, digits=1), off)]
         hosts = {run.index: run.host_seconds or 0 for column in column_places for run in groups.get((row, column), [])}
         body.append(cells + [duration(sum(hosts.values()) or None)])
     notes = ([f"Means over {' and '.join(mean_over)}."] if mean_over else []) + ([f"Relative to {', '.join(f'{key} {value}' for key, value in reference.items())}."] if reference else [])
     return Table(identity, title, [*head, ("host", "n")], body, " ".join(notes))
 
 
-def tables(results, paper, sweep):
-    """The sweep's tables. Without a description: a row for all that differs, a column for each scene; by kind of ray where runs have that."""
+def makers(results, paper, sweep):
+    """What makes the sweep's tables, a function each. Without a description: a row for all that differs, a column for each scene; by kind of ray where runs have that."""
     name = str(sweep.get("name") or "sweep")
     runs = results.of_sweep(sweep.get("name"))
     kinds = any(run.kinds() for run in runs)
@@ -201,5 +205,5 @@ def tables(results, paper, sweep):
             some = [run for run in chosen if axes.place(run, each) == part]
             identity = "-".join([spec.get("id") or (name if place == 0 else f"{name}-{place + 1}"), *map(str, part)])
             title = ", ".join([spec.get("title") or str(sweep.get("title") or name), *map(str, part)])
-            made.append(_build(results, paper, sweep, spec, some, identity, title))
+            made.append(functools.partial(_build, results, paper, sweep, spec, some, identity, title))
     return made

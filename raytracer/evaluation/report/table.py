@@ -4,10 +4,10 @@ import textwrap
 
 
 def number(value, digits=3):
-    """A number for reading: so many significant digits, thousands apart; None if there is none."""
+    """A number for reading: so many significant digits, thousands apart, whole numbers as they are; None if there is none."""
     if value is None:
         return None
-    if value == int(value) and abs(value) < 10 ** 15 or abs(value) >= 10 ** digits:
+    if isinstance(value, int) or abs(value) >= 10 ** digits or value == 0:
         return f"{value:,.0f}"
     if abs(value) < 1e-4:
         return f"{value:.{digits - 1}e}"

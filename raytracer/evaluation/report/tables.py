@@ -4,7 +4,7 @@ from .charts import CAUSES, shares, sweep_figure
 from .claims import AGREES, DIFFERS, UNKNOWN, speedup
 from .results import deviation, mean, ratio
 from .sweeps import interval_text
-from .sweeps import tables as any_tables
+from .sweeps import makers as any_makers
 from .table import EMPTY, Cell, Table, duration, figure, number, percent, seconds, share, words
 
 _VERDICTS = {AGREES: ("✓ agrees", "verdict yes"), DIFFERS: ("✗ differs", "verdict no"), UNKNOWN: ("? not known", "verdict open")}
@@ -268,15 +268,19 @@ def run_table(results, paper, link, configurations):
     return Table("runs", "Every run", columns, rows)
 
 
-def of_sweep(results, paper, sweep):
-    """A sweep's tables, of its own runs alone: the paper's for the sweeps that repeat its tables."""
+def makers(results, paper, sweep):
+    """What makes a sweep's tables, of its own runs alone: the paper's for the sweeps that repeat its tables."""
     name = sweep.get("name")
-    if name in ("table1", "table2", "table3"):
-        only = results.only(name)
-        made = {"table1": lambda: [table1(only, paper), *(table1_scenes(only, paper, program) for program in only.programs())], "table3": lambda: [table3(only, paper)],
-                "table2": lambda: [*(make(only, paper, program) for make in (table2, speedups) for program in only.programs()), of_the_text(only, paper)]}[name]()
-        return [table.measured() for table in made] + (any_tables(results, paper, sweep) if sweep.get("table") else [])
-    return any_tables(results, paper, sweep)
+    only, made = results.only(name), []
+    for make in {"table1": (table1,), "table2": (of_the_text,), "table3": (table3,)}.get(name, ()):
+        made.append(lambda make=make: make(only, paper).measured())
+    for make in {"table1": (table1_scenes,), "table2": (table2, speedups)}.get(name, ()):
+        made += [lambda make=make, program=program: make(only, paper, program).measured() for program in only.programs()]
+    return made + (any_makers(results, paper, sweep) if sweep.get("table") or not made else [])
+
+
+def of_sweep(results, paper, sweep):
+    return [make() for make in makers(results, paper, sweep)]
 
 
 def print_tables(results, paper, names, out):

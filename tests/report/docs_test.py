@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""One reader of results: docs_test.py REPORT_FOLDER. The same tables as text, as HTML and in pages of docs; that `trax-eval docs --check` notices what is stale;
+that sweeps of strangers are shown as they say."""
+
+import contextlib
+import io
+import json
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+import example
+
+FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(FOLDER))
+
+from report import docs, markup, tables  # noqa: E402
+from report.results import Paper, Results, ResultsError  # noqa: E402
+
+PAPER = Paper(FOLDER / "paper")
+NAMES = ("table2-era", "fpu-sharing", "plot fpu-sharing", "claims")
+
+
+def page_of(*names):
+    return "Before.\n" + "".join(f"<!-- trax-eval {name}: begin -->\n<!-- trax-eval {name}: end -->\nBetween.\n" for name in names)
+
+
+def rows_of(text):
+    """The cells of the tables of Markdown in a text."""
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|") and not re.fullmatch(r"[|\- ]+", line)]
+
+
+class DocsTest(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        self.page, self.data = self.folder / "page.md", self.folder / "page.json"
+
+    def results(self, document, name="results"):
+        path = self.folder / f"{name}.json"
+        path.write_text(json.dumps(document))
+        return path
+
+    def docs(self, *arguments):
+        """(status, what it said)"""
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            status = docs.main([str(argument) for argument in arguments])
+        return status, errors.getvalue()
+
+    def write(self, *names):
+        self.page.write_text(page_of(*names))
+        self.assertEqual(self.docs(self.results(example.complete()), self.page), (0, ""))
+
+    def test_blocks(self):
+        self.write(*NAMES)
+        text = self.page.read_text()
+        block = docs.MARK.search(text)[2]
+        self.assertIn("`trax-eval table2 SCENES` at 1280x720; measured with trax 0.1.0 (2026-01-01):", block)
+        rows = {row[0]: row for row in rows_of(block)}
+        for chip in example.CHIPS:
+            ours = example.mrps("era", "conference", chip)
+            self.assertAlmostEqual(float(rows[chip][3].split()[0]), ours, delta=0.001 * ours)
+        self.assertEqual(text.count("Between."), len(NAMES))
+        svg = (self.folder / "page-fpu-sharing.svg").read_text()
+        self.assertIn("![mrps against fpu.tps_per_cluster](page-fpu-sharing.svg)", text)
+        self.assertLess(svg.count("\n"), 40)
+        self.assertNotIn("<title>", svg)
+        self.assertEqual(self.docs("--check", self.page), (0, ""))
+        before = {path.name: path.read_bytes() for path in self.folder.iterdir()}
+        self.assertEqual(self.docs(self.page), (0, ""))
+        self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, before)
+
+    def test_stale(self):
+        self.write(*NAMES)
+        svg = self.folder / "page-fpu-sharing.svg"
+        good = {path: path.read_text() for path in (self.page, self.data, svg)}
+        sixth = re.search(r"\| 4x32 \|[^\n]*", good[self.page])[0]
+        measured = f"{example.mrps('era', 'conference', '4x32'):.6g}"
+        changes = [(self.page, sixth, sixth.replace("9.80", "9.81"), "table2-era"), (self.page, "Before.", "After.", None), (self.page, "| 4x32 |", "| 4x33 |", "table2-era"),
+                   (self.data, measured, "99.9", "table2-era"), (svg, "<path", "<path id='x'", "page-fpu-sharing.svg"), (self.page, "](page-fpu", "](page-FPU", "plot fpu-sharing")]
+        for path, before, after, name in changes:
+            path.write_text(good[path].replace(before, after, 1))
+            status, said = self.docs("--check", self.page)
+            self.assertEqual(status, 0 if name is None else 1, (before, after, said))
+            if name:
+                self.assertNotEqual(path.read_text(), good[path], before)
+                self.assertIn(name, said)
+                self.assertEqual({other: other.read_text() for other in good if other != path}, {other: text for other, text in good.items() if other != path})
+            path.write_text(good[path])
+        svg.unlink()
+        self.assertEqual(self.docs("--check", self.page)[0], 1)
+        self.page.write_text(good[self.page].replace("| 4x32 |", "| 4x33 |", 1))
+        self.assertEqual(self.docs(self.page), (0, ""))
+        self.assertEqual({path: path.read_text() for path in good}, good)
+
+    def test_data(self):
+        """A page's file has the figures that its blocks need, and takes in others' sweeps."""
+        self.write("fpu-sharing")
+        text = self.data.read_text()
+        self.assertIn("fpu-sharing", text)
+        for other in ("table3", "compare-units", "energy", "command", "host"):
+            self.assertNotIn(other, text)
+        self.write("fpu-sharing", "table2-era")
+        first = self.page.read_text()
+        other = example.complete()
+        other["created"] = "2026-02-02T00:00:00Z"
+        other["runs"] = [run for run in other["runs"] if "fpu-sharing" in run["experiments"]]
+        for run in other["runs"]:
+            run["stats"]["mrps"] = 77.7
+        self.assertEqual(self.docs(self.results(other, "other"), self.page), (0, ""))
+        blocks = {match[1]: match[2] for match in docs.MARK.finditer(self.page.read_text())}
+        self.assertEqual(blocks["table2-era"], {match[1]: match[2] for match in docs.MARK.finditer(first)}["table2-era"])
+        self.assertEqual({cell for row in rows_of(blocks["fpu-sharing"])[1:] for cell in row[1:]}, {"77.7"})
+        self.assertIn("trax 0.1.0 (2026-02-02)", blocks["fpu-sharing"])
+
+    def test_wrong(self):
+        results = self.results(example.complete())
+        for text, message in (("", "has no block"), (page_of("table2-era") * 2, "is to begin and end once"), ("<!-- trax-eval a: begin -->\n", "is to begin and end once"),
+                              (page_of("no-such"), "there is no table \"no-such\""), (page_of("plot no-such"), "there is no plot \"no-such\"")):
+            self.page.write_text(text)
+            status, said = self.docs(results, self.page)
+            self.assertEqual((status, said.count("\n"), self.page.read_text(), self.data.exists()), (1, 1, text, False), said)
+            self.assertIn(message, said)
+        self.page.write_text(page_of("table2-era"))
+        for data in ("{", "[]", "{}", '{"tables": 3}', '{"format": "trax-eval-results", "version": 2, "tables": [{"experiments": [], "names": ["a"], "runs": [[1, 2]]}]}',
+                     '{"format": "trax-eval-results", "version": 2, "tables": [{"experiments": [], "names": ["set.x"], "runs": [[1]]}]}'):
+            self.data.write_text(data)
+            for words in (["--check"], []):
+                status, said = self.docs(*words, self.page)
+                self.assertEqual((status, said.count("\n"), self.page.read_text()), (1, 1, page_of("table2-era")), (data, said))
+        self.assertEqual(self.docs("--check", results, self.page)[0], 1)
+        self.assertEqual(self.docs(results)[0], 1)
+        self.assertEqual(self.docs(self.folder / "page.txt")[0], 1)
+
+    def test_stranger(self):
+        """What a sweep of somebody else says of its tables stands in all three, with the same figures, and each has a plot."""
+        results = Results(example.stranger())
+        out = io.StringIO()
+        tables.print_tables(results, PAPER, ["tracing", "plain"], out)
+        text = out.getvalue()
+        self.page.write_text(page_of("tracing", "by-kind-tiny", "by-kind-4x32", "plain", "plot tracing", "plot plain"))
+        self.assertEqual(self.docs(self.results(example.stranger()), self.page), (0, ""))
+        rows = rows_of(self.page.read_text())
+        self.assertEqual(rows[:5], [["chip", "variant", "cube", "dragon"], ["4x32", "as it is", "20.0 (0.0 %)", "10.0 (0.0 %)"], ["4x32", "sorted", "25.0 (+25.0 %)", "12.5 (+25.0 %)"],
+                                    ["tiny", "as it is", "10.0 (0.0 %)", "5.00 (0.0 %)"], ["tiny", "sorted", "12.5 (+25.0 %)", "6.25 (+25.0 %)"]])
+        self.assertEqual(rows[5:8], [["kind", "MRPS", "32 lanes"], ["primary", "12.5", "12 %"], ["shadow", "25.0", "16 %"]])
+        # The command's text has the host's time besides; the page has the same cells.
+        self.assertEqual([row[:4] for row in rows_of(text)[:5]], rows[:5])
+        shown = {table.identity: re.sub(r"<small>([^<]*)</small>", r" (\1)", markup.table(table)) for sweep in results.sweeps for table in tables.of_sweep(results, PAPER, sweep)}
+        self.assertEqual(list(shown), ["tracing", "by-kind-4x32", "by-kind-tiny", "plain"])
+        for name, place in (("tracing", 0), ("by-kind-tiny", 5)):
+            cells = [re.sub(r"<[^>]*>", "", cell).replace("\u00a0", " ") for cell in re.findall(r"<td.*?</td>", shown[name])]
+            for row in rows[place + 1:place + 3]:
+                for cell in row:
+                    self.assertIn(cell, cells)
+        for plot in ("kind.mrps against variant", "values.bytes_per_ray against variant"):
+            self.assertIn(plot, text)
+        for name in ("tracing", "plain"):
+            self.assertTrue((self.folder / f"page-{name}.svg").exists())
+        self.assertIn("Beams: MRPS (beam, fog, 1280x720, exact)\nThey are fast.\n", text)
+
+    def test_descriptions(self):
+        for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), (3, "expected an object"),
+                               ([{"id": "a"}, {"id": "a"}], "the same id")):
+            made = example.stranger()
+            made["sweeps"][0]["table"] = table
+            with self.assertRaisesRegex(ResultsError, message):
+                list(tables.of_sweep(Results(made), PAPER, made["sweeps"][0]))
+
+    def test_missing(self):
+        """A mean with a run that is not there is not a mean of the others."""
+        made = example.stranger()
+        made["runs"][7].update(status="failed", error="x", stats=None, values=None)
+        self.page.write_text(page_of("by-kind-4x32", "by-kind-tiny"))
+        self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
+        rows = rows_of(self.page.read_text())
+        self.assertEqual(rows[:1] + rows[1:3], [["kind"], ["primary"], ["shadow"]])
+        self.assertEqual(rows[4], ["primary", "12.5", "12 %"])
+
+    def test_programs_are_not_named(self):
+        for path in (FOLDER / "report").glob("*.py"):
+            self.assertNotRegex(path.read_text(), r"\b(ours|era)\"|\"(ours|era)\b", path.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
