@@ -49,8 +49,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
     if (options->choose_queues)
       return trax_fail(error, "--queues needs the emulator: other engines have no TMs");
-    if (options->cache || options->report || options->no_specialise)
-      return trax_fail(error, "--cache, --report and --no-specialise need the emulator");
+    if (options->source || options->cache || options->report || options->no_specialise)
+      return trax_fail(error, "--source, --cache, --report and --no-specialise need the emulator");
     if (options->frame.method.fast_math)
       return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
     if (options->frame.mark_rays)
@@ -78,6 +78,11 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->frame.mark_rays && (options->no_specialise || options->program))
     return trax_fail(error, "--mark-rays needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
+  if (options->source && (options->no_specialise || options->program))
+    return trax_fail(error, "--source needs a program compiled for the picture; %s asks for another",
+                     options->program ? "--program" : "--no-specialise");
+  if (options->source && options->sampled)
+    return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
   if (options->no_specialise && (options->cache || options->report))
     return trax_fail(error, "--cache and --report are about the specialised program; --no-specialise asks for none");
   if (options->program && (options->cache || options->report))

@@ -70,6 +70,7 @@ static trax_status find_program(struct trax_program *program, const struct optio
     return general_program(program, options, frame, error);
   char root[TRAX_PATH_SIZE], note[256] = "";
   struct trax_specialise_options specialise = {.root = root,
+                                               .source = options->source,
                                                .cache = options->cache,
                                                .icache_bytes = chosen->icache_bytes,
                                                .queues = chosen->queues,

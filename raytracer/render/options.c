@@ -132,6 +132,9 @@ static const trax_option rows[] = {
      .meaning = "another program for the TPs than the one that comes with trax"},
     {"no-specialise", FIELD(no_specialise),
      .meaning = "the program that can render every picture, instead of one compiled for this one"},
+    {"source", .argument = "DIR", FIELD(source),
+     .meaning = "compiles the source in DIR, with its main.c, instead of the program that comes with trax;\n"
+                "to change a copy of lib/trax/raytracer"},
     {"cache", .argument = "DIR", FIELD(cache),
      .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
                 "or .cache/trax/programs in the home directory)"},

@@ -39,8 +39,9 @@ struct options {
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
   const char *stats, *keep, *program;
-  const char *cache; /* of specialised programs; NULL: the user's */
-  const char *cost;  /* what --cost-picture and --cost-values show */
+  const char *source; /* of specialised programs; NULL: the installation's */
+  const char *cache;  /* of specialised programs; NULL: the user's */
+  const char *cost;   /* what --cost-picture and --cost-values show */
   const char *cost_picture, *cost_values;
   struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */

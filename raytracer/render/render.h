@@ -106,6 +106,7 @@ struct trax_program {
 
 struct trax_specialise_options {
   const char *root;              /* where trax is installed: bin, lib/trax */
+  const char *source;            /* the device program's source; NULL: the installation's */
   const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */

@@ -42,6 +42,7 @@ static const char *const ingredients[] = {
     "lib/trax/libgcc.a", "lib/trax/libm.a", "lib/trax/include/trax.h",
 };
 static const char *const source_folders[] = {"lib/trax/raytracer", "lib/trax/raytracer/trax"};
+static const char *const folders_of_a_source[] = {".", "trax"}; /* that takes the place of the installation's */
 
 /* --- the constants --- */
 
@@ -152,8 +153,8 @@ static void hash_library(XXH3_state_t *state, const char *path) {
 /* Another number whenever programs are compiled in other ways from the same ingredients. */
 #define WAYS_TO_COMPILE "3"
 
-static trax_status make_key(char key[33], const char *root, const char *constants, const char *const *chosen,
-                            size_t chosen_count, uint32_t icache_bytes, trax_error *error) {
+static trax_status make_key(char key[33], const char *root, const char *source, const char *constants,
+                            const char *const *chosen, size_t chosen_count, uint32_t icache_bytes, trax_error *error) {
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
@@ -163,7 +164,8 @@ static trax_status make_key(char key[33], const char *root, const char *constant
   for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients && status == TRAX_OK; i++)
     status = hash_file(state, root, ingredients[i], error);
   for (size_t i = 0; i < sizeof source_folders / sizeof *source_folders && status == TRAX_OK; i++)
-    status = hash_folder(state, root, source_folders[i], error);
+    status = source ? hash_folder(state, source, folders_of_a_source[i], error)
+                    : hash_folder(state, root, source_folders[i], error);
   hash_library(state, TRAX_LLVM_LIBRARY);
   for (size_t i = 0; i < chosen_count; i++)
     XXH3_128bits_update(state, chosen[i], strlen(chosen[i]) + 1);
@@ -201,21 +203,23 @@ struct places {
 };
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
-static trax_status compile(const char *root, const struct cache_work *work, const char *const *chosen,
-                           size_t chosen_count, const struct places *places, const volatile int *interrupt,
-                           trax_error *error) {
-  char maps[2][2 * TRAX_PATH_SIZE + 32];
+static trax_status compile(const char *root, const char *folder, const struct cache_work *work,
+                           const char *const *chosen, size_t chosen_count, const struct places *places,
+                           const volatile int *interrupt, trax_error *error) {
+  char maps[3][2 * TRAX_PATH_SIZE + 32];
   char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
-  if (!join_path(clang, root, "bin/clang", "") || !join_path(include, root, "lib/trax/raytracer", "") ||
-      !join_path(source, root, "lib/trax/raytracer/main.c", ""))
-    return trax_fail(error, "%s: the path is too long", root);
+  if (!join_path(clang, root, "bin/clang", "") ||
+      !join_path(include, folder ? folder : root, folder ? "." : "lib/trax/raytracer", "") ||
+      !join_path(source, include, "main.c", ""))
+    return trax_fail(error, "%s: the path is too long", folder ? folder : root);
   /* The program shall not depend on the name of a folder that is soon gone. */
   const int cache = (int)(strrchr(work->folder, '/') - work->folder);
   for (int i = 0; i < 2; i++) { /* relative to the compilation's folder, it has a dot in front */
     const char *dot = i ? "./" : "";
     snprintf(maps[i], sizeof maps[i], "-fdebug-prefix-map=%s%s=%s%.*s", dot, work->folder, dot, cache, work->folder);
   }
-  const char *arguments[MOST_FLAGS + 20], **next = arguments;
+  snprintf(maps[2], sizeof maps[2], "-fdebug-prefix-map=%s=source", include);
+  const char *arguments[MOST_FLAGS + 21], **next = arguments;
   *next++ = clang;
   for (size_t i = 0; i < chosen_count; i++)
     *next++ = chosen[i];
@@ -233,6 +237,8 @@ static trax_status compile(const char *root, const struct cache_work *work, cons
   }
   *next++ = maps[0];
   *next++ = maps[1];
+  if (folder)
+    *next++ = maps[2];
   *next++ = "-include";
   *next++ = work->header;
   *next++ = source;
@@ -289,7 +295,7 @@ static bool fits_cache(const char *program, uint32_t icache_bytes) {
 
 /* The first of the ways for which there is stack enough. What is larger than the instruction cache, but for paths,
    which are anyway, is compiled for less code. */
-static trax_status build(const char *root, const struct cache_work *work, const char *const *chosen,
+static trax_status build(const char *root, const char *source, const struct cache_work *work, const char *const *chosen,
                          size_t chosen_count, uint32_t features, uint32_t icache_bytes, const volatile int *interrupt,
                          trax_error *error) {
   static const struct places ways[] = {{.paths_local = true},
@@ -302,22 +308,25 @@ static trax_status build(const char *root, const struct cache_work *work, const 
   trax_status status = TRAX_ERROR;
   for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {
     struct places way = ways[i];
-    status = compile(root, work, chosen, chosen_count, &way, interrupt, error);
+    status = compile(root, source, work, chosen, chosen_count, &way, interrupt, error);
     if (status != TRAX_OK || paths || fits_cache(work->program, icache_bytes))
       continue;
     way.small = true;
-    status = compile(root, work, chosen, chosen_count, &way, interrupt, error);
+    status = compile(root, source, work, chosen, chosen_count, &way, interrupt, error);
     if (status == TRAX_ERROR)
-      status = compile(root, work, chosen, chosen_count, &ways[i], interrupt, error);
+      status = compile(root, source, work, chosen, chosen_count, &ways[i], interrupt, error);
   }
   return status;
 }
 
 /* The general program takes the place of one that cannot be had, unless the method was chosen. */
-static trax_status note_or_error(const struct trax_frame *frame, bool record, const char *note, trax_error *error) {
+static trax_status note_or_error(const struct trax_frame *frame, const struct trax_specialise_options *options,
+                                 const char *note, trax_error *error) {
   const struct trax_method *method = &frame->method;
-  if (record)
+  if (options->record)
     return trax_fail(error, "there is no program that records: %s", note);
+  if (options->source)
+    return trax_fail(error, "--source: there is no program of it: %s", note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
     return trax_fail(error, "--mark-rays: there is no program for it: %s", note);
   if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math && !method->stack)
@@ -344,12 +353,13 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return trax_fail(error, "--cache: the path is too long");
   if (!options->cache && !trax_program_cache(cache)) {
     snprintf(note, 256, "no place for compiled programs: neither XDG_CACHE_HOME nor HOME is set");
-    return note_or_error(frame, options->record, note, error);
+    return note_or_error(frame, options, note, error);
   }
   char *constants = constants_text(frame, options->queues);
   if (!constants)
     return trax_fail(error, "out of memory");
-  trax_status status = make_key(key, options->root, constants, chosen, chosen_count, icache_bytes, &reason);
+  trax_status status =
+      make_key(key, options->root, options->source, constants, chosen, chosen_count, icache_bytes, &reason);
   if (status == TRAX_OK && !cache_make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
@@ -366,8 +376,8 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     if (status == TRAX_OK) {
       status = trax_write_file(work.header, constants, strlen(constants), &reason);
       if (status == TRAX_OK)
-        status = build(options->root, &work, chosen, chosen_count, frame->params->features, icache_bytes,
-                       options->interrupt, &reason);
+        status = build(options->root, options->source, &work, chosen, chosen_count, frame->params->features,
+                       icache_bytes, options->interrupt, &reason);
       if (status == TRAX_OK)
         status = cache_commit(&work, cache, key, options->transient, &reason);
       cache_end(&work);
@@ -382,7 +392,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     return status;
   if (status != TRAX_OK) {
     snprintf(note, 256, "%.255s", reason.message);
-    return note_or_error(frame, options->record, note, error);
+    return note_or_error(frame, options, note, error);
   }
   memcpy(program->path, elf, sizeof elf);
   program->specialised = true;
