@@ -6,9 +6,10 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "raytracer/evaluation"))
-from trax_eval.scenes import CATALOGUE, find_mesh  # noqa: E402
+from trax_eval.scenes import find_mesh, find_scenes  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
 
+CATALOGUE = {name: find_scenes(name, ".")[0] for name in ("conference", "crytek-sponza", "dragon", "forest", "sibenik")}
 # Name, which is the view's, too, and meshes.
 SCENES = [(name, CATALOGUE[name]["meshes"]) for name in ("conference", "crytek-sponza", "dragon", "sibenik", "forest")]
 

@@ -22,9 +22,10 @@ import struct
 import subprocess
 import tempfile
 import time
-import zlib
 
-from .manifest import NAME, read_manifest
+from .manifest import NAME, read_manifest, seal
+from .pictures import png
+from .programs import convert
 from .tools import run_tool
 from .util import Problem, hash_bytes, hash_file, hash_value, read_json, write_file, write_json
 
@@ -35,27 +36,33 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in 
 # --- inputs
 
 
+COUNTERS = "counters"  # the buffer of a program that counts
 QUICK_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of: quick runs choose by it what to simulate
 
 
-def prepare_inputs(out, tools, scene, view, size, program, chip, more=(), quick=False, only_look=False):
-    """The files that a program reads for a picture; returns their description, which is part of the job. chip: what of it decides about the program, its TMs
-    and the bytes of an instruction cache; None: nothing does. more: options of trax-render. only_look: nothing is kept."""
+def prepare_inputs(out, tools, scene, view, size, program, built, chip, more=(), quick=False, only_look=False):
+    """The files that a program reads for a picture; returns their description, which is part of the job. built: options of trax-render that name the
+    program. chip: what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does. more: options of trax-render.
+    only_look: nothing is kept."""
     scratch = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
         command += ["--write-view", f"{scratch}/picture.view"] if quick else []
         command += ["--view", view] if view else []
-        command += ["--program", tools.era_program()] if program == "era" else []
+        command += built
         command += ["--queues", str(chip[0]), "--set", f"icache.bytes={chip[1]}"] if chip else []
         command += more
         run = run_tool(command)
         if run.returncode != 0:
             raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
+        if program.convert:
+            convert(program, scratch)
+        if program.convert or program.counters:
+            seal_inputs(program, scratch)
         description = description_of(read_manifest(scratch))
         if quick:
             shutil.copyfile(scene, pathlib.Path(scratch, "whole.trax"))
-            description["quick"] = [program, *([file, hash_file(pathlib.Path(scratch, file))] for file in QUICK_FILES)]
+            description["quick"] = {"options": list(more), "program": not program.specialised, "files": {file: hash_file(pathlib.Path(scratch, file)) for file in QUICK_FILES}}
         place = out / "inputs" / hash_value(description)
         if not only_look and not place.exists():
             (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
@@ -71,6 +78,15 @@ def prepare_inputs(out, tools, scene, view, size, program, chip, more=(), quick=
         return description
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def seal_inputs(program, folder):
+    """The manifest of files that the program's converter may have changed, with the buffer of its counters."""
+    more = [{"symbol": COUNTERS, "bytes": 4 * len(program.counters), "output": f"{COUNTERS}.raw"}] if program.counters else []
+    try:
+        seal(folder, more)
+    except (OSError, ValueError, TypeError, KeyError) as error:
+        raise Problem(f"{program.file}: convert: the manifest or a file of it cannot be read any more: {error}") from None
 
 
 def description_of(manifest):
@@ -103,11 +119,12 @@ def simulator(engine):
 
 
 def make_job(tools, inputs, point):
-    return {
+    more = {name: value for name, value in (("counters", point.program.counters), ("error", point.error), ("hits", point.hits)) if value}
+    return more | {
         "format": FORMAT,
         "emulator": tools.hash(simulator(ENGINES[point.mode])),
         "inputs": inputs,
-        "configuration": tools.configuration(point.chip, point.machine()),
+        "configuration": tools.configuration(point.chip_file, point.machine()),
         "engine": ENGINES[point.mode],
         "series": point.series,
         "lockstep": point.lockstep,
@@ -179,26 +196,13 @@ def clean_scratch(out):
 # --- runs
 
 
-def png(picture, pixels):
-    """What a manifest describes so, R, G, B, A bytes, row by row, as a PNG (RFC 2083)."""
-    width, height = picture["width"], picture["height"]
-    if picture["layout"] != "rgba uint8":
-        raise Problem(f"the picture is of {picture['layout']}, not of bytes")
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = b"".join(b"\0" + pixels[4 * width * row : 4 * width * (row + 1)] for row in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
-
-
 def quick_command(tools, inputs, job, scratch, threads):
     """trax-render on what the job's inputs were made of: some parts of the picture."""
     size = "{width}x{height}".format_map(job["inputs"]["picture"])
     command = [tools.path("trax-render"), str(inputs / "whole.trax"), "--view", str(inputs / "picture.view"), "--size", size, "--config",
                f"{scratch}/machine.cfg", "--sampled", "--threads", str(threads), "--quiet", "--stats", f"{scratch}/stats.json", "-o", f"{scratch}/image.png"]
-    return command + (["--program", str(inputs / "program.elf")] if job["inputs"]["quick"][0] == "era" else [])
+    quick = job["inputs"]["quick"]
+    return [*command, *quick["options"], *(["--program", str(inputs / "program.elf")] if quick["program"] else [])]
 
 
 def command_of(tools, inputs, job, scratch, threads):
@@ -207,6 +211,8 @@ def command_of(tools, inputs, job, scratch, threads):
         return quick_command(tools, inputs, job, scratch, threads)
     command = [tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats", f"{scratch}/stats.json"]
     command += ["--dump", f"{job['inputs']['picture']['buffer']}={scratch}/image.raw", "--host-threads", str(threads)]
+    if job.get("counters"):
+        command += ["--dump", f"{COUNTERS}={scratch}/counters.raw"]
     if job["series"]:
         command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
     if job["lockstep"]:
@@ -219,10 +225,10 @@ def command_of(tools, inputs, job, scratch, threads):
 
 def check_inputs(job, inputs):
     """What the manifest names is checked by trax-sim."""
-    quick = job["inputs"].get("quick", [None])[1:]
+    quick = job["inputs"].get("quick", {}).get("files", {})
     expected = {name: value for name, value in job["inputs"].items() if name != "quick"}
     damaged = [] if description_of(read_manifest(inputs)) == expected else [NAME]
-    for file in damaged + [file for file, expected in quick if hash_file(inputs / file) != expected]:
+    for file in damaged + [file for file, known in quick.items() if hash_file(inputs / file) != known]:
         raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
 
 
@@ -275,6 +281,9 @@ def keep_results(out, key, job, scratch, statistics, host):
     if job["series"]:
         write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
     result = {"key": key, "job": job, "picture": picture, "statistics": statistics}
+    if job.get("counters"):
+        words = pathlib.Path(scratch, "counters.raw").read_bytes()
+        result["counters"] = dict(zip(job["counters"], struct.unpack(f"<{len(job['counters'])}I", words)))
     if job["lockstep"]:
         columns, rows = read_csv(pathlib.Path(scratch, "lockstep.csv"))
         result["lockstep"] = [dict(zip(columns, map(float, row))) for row in rows]

@@ -6,6 +6,7 @@ import pathlib
 import shlex
 import signal
 import sys
+import tempfile
 import time
 
 from report import docs, make
@@ -13,10 +14,12 @@ from report.results import Paper, Results
 from report.tables import print_tables
 
 from . import runners
+from .fields import installed
 from .jobs import clean_scratch, is_done, key_of, make_job, prepare_inputs, write_job
+from .programs import Program, build, find_programs
 from .results import collect, plan_file, write_plan
-from .scenes import IMPORT_OPTIONS, order_options, scene_file
-from .sweep import MODES, PROGRAMS, parse_size, read_sweep
+from .scenes import order_options, scene_file
+from .sweep import MODES, option_of, option_words, parse_size, read_sweep
 from .tools import Tools
 from .util import Problem, check_files, hash_value
 from .values import Areas
@@ -36,7 +39,8 @@ variable TRAX_SCENES, or else ./scenes).
 
 %s
   -o, --output DIR      the folder of results (default: out/eval)
-      --program NAME    ours, era, or both with a comma between (default: both)
+      --program NAMES   those of a sweep's programs, with commas between (default: all); a file NAME.json takes the place
+                        of the sweep's
       --size WxH        of the pictures (default: what the sweep says, 1280x720)
       --runner WHICH    local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's
       --jobs N          runs at the same time on this host (default: its processors)
@@ -84,7 +88,7 @@ def parse(arguments):
     parser = Parser(prog="trax-eval", add_help=False, allow_abbrev=False)
     parser.add_argument("words", nargs="*")
     parser.add_argument("-o", "--output", default="out/eval", type=path_argument)
-    parser.add_argument("--program", default=",".join(PROGRAMS))
+    parser.add_argument("--program")
     parser.add_argument("--size")
     parser.add_argument("--mode", choices=MODES)
     parser.add_argument("--quick", dest="mode", action="store_const", const="quick")
@@ -96,10 +100,7 @@ def parse(arguments):
     parser.add_argument("--all", action="store_true")
     parser.add_argument("-q", "--quiet", action="store_true")
     options = parser.parse_intermixed_args(arguments)
-    options.programs = options.program.split(",")
-    for program in options.programs:
-        if program not in PROGRAMS:
-            raise Problem(f"--program {program}: allowed are {' and '.join(PROGRAMS)}")
+    options.programs = None if options.program is None else [find_programs(name, ".", False)[0] if name.endswith(".json") else name for name in options.program.split(",")]
     if options.size is not None and not parse_size(options.size):
         raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
     if not 1 <= options.jobs <= 4096:
@@ -127,11 +128,19 @@ def choose(options, data):
     return files, folder or pathlib.Path(os.environ.get("TRAX_SCENES", "scenes"))
 
 
-class Planner:
-    """From points to keys of jobs. Scenes are imported and inputs prepared once each."""
+def check_programs(options, sweeps):
+    """Names of --program are those of programs that come with trax, or that a sweep has."""
+    known = dict.fromkeys([*installed("programs"), *(program.name for sweep in sweeps for program in sweep.programs)])
+    for program in options.programs or ():
+        if not isinstance(program, Program) and program not in known:
+            raise Problem(f'--program {program}: allowed are {", ".join(known)}, and files NAME.json')
 
-    def __init__(self, out, tools, folder, quiet, only_look):
-        self.out, self.tools, self.folder, self.quiet, self.only_look = out, tools, folder, quiet, only_look
+
+class Planner:
+    """From points to keys of jobs. Programs are built, scenes imported and inputs prepared once each."""
+
+    def __init__(self, out, tools, folder, quiet, only_look, scratch):
+        self.out, self.tools, self.folder, self.quiet, self.only_look, self.scratch = out, tools, folder, quiet, only_look, scratch
         self.made = {}
 
     def once(self, what, function):
@@ -150,31 +159,40 @@ class Planner:
         if not self.quiet and sys.stderr.isatty():
             print(f"\r\033[Ktrax-eval: {text}\r", end="", file=sys.stderr, flush=True)
 
+    def program(self, program):
+        """Options of trax-render."""
+
+        def make():
+            self.note(f"{program.name}: compiling")
+            return build(self.tools, program, tempfile.mkdtemp(dir=self.scratch))
+
+        return self.once(("program", program), make)
+
     def inputs(self, sweep, point):
-        scene = sweep.scenes[point.scene]
-        self.note(f"{point.scene}, {point.size}, {point.program}")
-        workload = sweep.workloads[point.workload]
-        machine = point.chip, point.machine()
-        ours = point.program == "ours"  # it is made for a machine, as trax-render has it
-        options = [*IMPORT_OPTIONS[point.program], *(order_options(self.tools.whole(*machine, "dcache.bytes")) if ours else [])]
-        path = self.once(("scene", tuple(scene["meshes"]), tuple(options), tuple(workload["scene"])),
-                         lambda: scene_file(self.out, self.tools, self.folder, point.scene, scene, options, workload["scene"], self.only_look))
+        scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
+        machine = point.chip_file, point.machine()
+        imported, rendered = (tuple(point.options(tool, workload)) for tool in ("trax-scene", "trax-render"))
+        own = bool(workload["scene"]) or any(option_of(key) and option_of(key)[0] == "trax-scene" for key, _ in point.settings)
+        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if program.specialised else []  # it is made for a machine, as trax-render has it
+        path = self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), imported, tuple(order), own),
+                         lambda: scene_file(self.out, self.tools, self.folder, scene, [*order, *imported], own, self.only_look))
         if path is None:
             return None
         quick = point.mode == "quick"
-        chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if ours else None
-        more = (*workload["render"], *(["--mark-rays"] if point.ray_kinds else []))
-        return self.once((path, scene["view"], point.size, point.program, chip, quick, more),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, point.program, chip, more, quick, self.only_look))
+        chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if program.specialised else None
+        built = self.program(program)
+        self.note(f"{point.scene}, {point.size}, {program.name}")
+        return self.once((path, scene["view"], point.size, program, chip, quick, rendered),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, program, built, chip, rendered, quick, self.only_look))
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""
         try:
             inputs = self.inputs(sweep, point)
             if inputs is None:  # none of its runs has been made
-                machine = self.tools.configuration(point.chip, point.machine())
-                return "-" + hash_value([point.scene, point.program, machine, point.size, point.mode, point.series, point.lockstep,
-                                         point.ray_kinds, point.workload]), None
+                machine = self.tools.configuration(point.chip_file, point.machine())
+                return "-" + hash_value([point.scene, point.program.file, machine, point.size, point.mode, point.series, point.lockstep, point.ray_kinds, point.workload,
+                                         [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits]), None
             job = make_job(self.tools, inputs, point)
             return key_of(job) if self.only_look else write_job(self.out, job), None
         except Problem as problem:
@@ -183,23 +201,38 @@ class Planner:
 
 def label(point):
     changes = "".join(f" {key}={value}" for key, value in point.settings)
-    return f"{point.scene} {point.chip}{changes} {point.workload or point.program} {point.size}"
+    return f"{point.scene} {point.chip}{f' ({point.variant})' if point.variant else changes} {point.workload or point.program.name} {point.size}"
 
 
 def check_machines(sweeps, tools):
-    """A wrong key or value of the configuration is the sweep's mistake, and ends the command before anything is written."""
+    """A wrong key or value of the configuration, or an option that its program refuses, is the sweep's mistake, and ends the command before anything is written."""
+
+    def check(place, tool, words):
+        if words and (said := tools.refused(tool, tuple(words))):
+            raise Problem(f"{place}: {said}")
+
     for sweep in sweeps:
         for point in sweep.points:
+            for key, value in point.settings:
+                if option := option_of(key):
+                    check(f"{sweep.file}: set.{key}", option[0], option_words(option[1], value))
             try:
-                tools.configuration(point.chip, point.machine())
+                tools.configuration(point.chip_file, point.machine())
             except Problem as problem:
                 raise Problem(f"{sweep.file}: {problem}") from None
+        for program in sweep.programs:
+            check(f"{program.file}: scene", "trax-scene", program.scene)
+            check(f"{program.file}: render", "trax-render", program.render)
+        for workload in sweep.workloads.values():
+            check(f"{workload['file']}: scene", "trax-scene", workload["scene"])
+            check(f"{workload['file']}: render", "trax-render", workload["render"])
 
 
 def evaluate(options, tools, data, command):
     begin = time.monotonic()
     files, folder = choose(options, data)
     sweeps = [read_sweep(path, size=options.size, mode=options.mode, programs=options.programs) for path in files]
+    check_programs(options, sweeps)
     check_machines(sweeps, tools)
     check_files(files, [*(plan_file(options.output, sweep) for sweep in sweeps), options.output / "results.json", options.output / "report.html"])
     out = options.output.resolve()
@@ -208,13 +241,14 @@ def evaluate(options, tools, data, command):
     if not options.dry_run:
         out.mkdir(parents=True, exist_ok=True)
         clean_scratch(out)
-    planner = Planner(out, tools, folder, options.quiet, options.dry_run)
     plans, labels, without = [], {}, 0
-    for sweep in sweeps:
-        keys = {point: planner.key(sweep, point) for point in sweep.points}
-        plans.append((sweep, keys))
-        labels |= {key: label(point) for point, (key, _) in keys.items() if key}
-        without += sum(key is None for key, _ in keys.values())
+    with tempfile.TemporaryDirectory(prefix="trax-eval.") as scratch:
+        planner = Planner(out, tools, folder, options.quiet, options.dry_run, scratch)
+        for sweep in sweeps:
+            keys = {point: planner.key(sweep, point) for point in sweep.points}
+            plans.append((sweep, keys))
+            labels |= {key: label(point) for point, (key, _) in keys.items() if key}
+            without += sum(key is None for key, _ in keys.values())
     if options.dry_run:
         missing = [f"{'(new)' if key.startswith('-') else key} {name}" for key, name in labels.items() if not is_done(out, key)]
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))

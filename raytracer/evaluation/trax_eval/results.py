@@ -6,11 +6,14 @@ import os
 import shlex
 
 from .jobs import error_of, read_csv, result_of
-from .sweep import CHIPS, PROGRAMS
-from .util import Problem, read_json, write_json
+from .pictures import pixels_that_differ
+from .scenes import order_options
+from .sweep import CHIPS, option_of
+from .util import Problem, hash_value, read_json, write_json
 from .values import ratio, values_of
 
-FORMAT, VERSION = "trax-eval-results", 1
+FORMAT, VERSION = "trax-eval-results", 2
+CATALOGUES = ("programs", "scenes", "workloads")
 LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity")  # of the statistics: the run's own file has them
 SERIES_ROWS, SERIES_BEGIN = 2000, 500
 SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict", "wait_memory", "halted")
@@ -20,18 +23,20 @@ def effective(point, tools):
     """Without settings that are what the machine has anyway, so that equal machines are called equal."""
     kept = []
     for pair in point.settings:
-        rest = tuple(other for other in point.machine() if other[0] != pair[0])
-        base = tuple(other for other in PROGRAMS[point.program] if other[0] == pair[0])
-        if tools.configuration(point.chip, rest + base) != tools.configuration(point.chip, rest + (pair,)):
-            kept.append(pair)
+        if not option_of(pair[0]):
+            rest = tuple(other for other in point.machine() if other[0] != pair[0])
+            base = tuple(other for other in point.program.settings if other[0] == pair[0])
+            if tools.configuration(point.chip_file, rest + base) == tools.configuration(point.chip_file, rest + (pair,)):
+                continue
+        kept.append(pair)
     return dict(kept)
 
 
 def preset_of(point, tools):
     """The point by the name that the paper's tables have for its machine, or as it is: 1x32 with chip.tps_per_tm=48 is 1x48."""
-    name = "x".join(map(str, tools.shape(point.chip, point.machine())))
-    other = dataclasses.replace(point, chip=name, settings=tuple(pair for pair in point.settings if pair[0] not in ("chip.tms", "chip.tps_per_tm")))
-    same = name in CHIPS and tools.configuration(name, other.machine()) == tools.configuration(point.chip, point.machine())
+    name = "x".join(map(str, tools.shape(point.chip_file, point.machine())))
+    other = dataclasses.replace(point, chip=name, config="", settings=tuple(pair for pair in point.settings if pair[0] not in ("chip.tms", "chip.tps_per_tm")))
+    same = name in CHIPS and tools.configuration(name, other.machine()) == tools.configuration(point.chip_file, point.machine())
     return other if same else point
 
 
@@ -44,35 +49,53 @@ def plan_file(out, sweep):
     return out / "sweeps" / ".".join([sweep.name, *sorted(modes), "json"])  # exact runs stay in the results beside estimates of the same sweep
 
 
+def references(sweep, keys):
+    """Point -> key of the run whose picture its own is compared with: that of the sweep's reference, otherwise as alike as there is."""
+    found = {}
+    for point in sweep.points if sweep.reference else ():
+        same = [other for other in sweep.points if sweep.reference in (other.variant, other.program.name) and (other.scene, other.workload) == (point.scene, point.workload)]
+        if same:
+            found[point] = keys[max(same, key=lambda other: (other.chip == point.chip, len(set(other.settings) & set(point.settings)), other.program is point.program))][0]
+    return found
+
+
 def write_plan(out, sweep, keys, tools):
     """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the reason why there is none."""
-    points = []
+    points, compared = [], references(sweep, keys)
     for point in sweep.points:
         key, reason = keys[point]
-        points.append({"scene": point.scene, "view": sweep.scenes[point.scene]["view"], "program": point.program, **machine_of(point, tools),
+        scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
+        order = order_options(tools.whole(point.chip_file, point.machine(), "dcache.bytes")) if point.program.specialised else []
+        imported = point.options("trax-scene", workload)
+        points.append({"scene": point.scene, "view": scene["view"], "program": point.program.name, **machine_of(point, tools),
                        "preset": machine_of(preset_of(point, tools), tools), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "workload": point.workload,
-                       "options": options_of(sweep, point), "key": key,
-                       "error": reason})
-    write_json(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
-                                                       "claim": sweep.claim, "file": sweep.file, "points": points})
+                       "variant": point.variant, "chip_file": point.chip_file, "import": [*order, *imported] if imported else [],
+                       "options": point.options("trax-render", workload), "elf": None if point.program.specialised else str(point.program.source),
+                       "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason})
+    used = {point.workload for point in sweep.points}
+    write_json(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None, "claim": sweep.claim,
+                                       "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference, "table": sweep.table,
+                                       "programs": [{"name": program.name, "title": program.title} for program in sweep.programs],
+                                       "scenes": [{name: scene[name] for name in ("name", "title", "licence", "paper")} for scene in sweep.scenes.values()],
+                                       "workloads": [{name: workload[name] for name in ("name", "title")} for name, workload in sweep.workloads.items() if name and name in used],
+                                       "points": points})
 
 
-def options_of(sweep, point):
-    """What trax-render is told of the workload, for meshes."""
-    workload = sweep.workloads[point.workload]
-    return [*workload["scene"], *workload["render"], *(["--mark-rays"] if point.ray_kinds else [])]
-
-
-def repeat_command(point, tools):
-    """The command that makes this run alone."""
-    words = ["trax-render", "SCENE", "--size", "x".join(map(str, point["size"])), "--config", point["config"]]
+def repeat_command(point, result):
+    """The command that makes this run alone; of a program that is compiled or changed, from the inputs that were made."""
+    machine = ["--config", point.get("chip_file", point["config"])]
+    for name, value in point["machine"].items():
+        machine += ["--set", f"{name}={str(value).lower() if isinstance(value, bool) else value}"]
+    if not point.get("plain", True):
+        return shlex.join(["trax-sim", f"inputs/{hash_value(result['job']['inputs'])}/manifest.json", *machine, "--stats", "stats.json"]) if result else ""
+    imported = ["trax-scene", *point.get("import", []), "MESHES", "-o", "scene.trax"]
+    words = ["trax-render", "scene.trax" if point.get("import") else "SCENE", "--size", "x".join(map(str, point["size"])), *machine]
     words += ["--view", point["view"]] if point["view"] else []
-    for key, value in point["machine"].items():
-        words += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
-    words += ["--program", tools.era_program()] if point["program"] == "era" else []
+    words += ["--program", point["elf"]] if point.get("elf") else []
     words += ["--sampled"] if point["mode"] == "quick" else []
     words += point.get("options", [])
-    return shlex.join([*words, "--stats", "stats.json", "-o", "picture.png"])
+    render = shlex.join([*words, "--stats", "stats.json", "-o", "picture.png"])
+    return f"{shlex.join(imported)} && {render}" if point.get("import") else render
 
 
 def thin_series(path, threads):
@@ -95,12 +118,26 @@ def thin_series(path, threads):
     return ["cycle", "fetch_refused", *chosen], result
 
 
+def compared(out, result, reference):
+    """How many pixels differ from those of the run with the key `reference`."""
+    other = result_of(out, reference) if reference else None
+    if not other or not result["picture"] or not other[0]["picture"]:
+        return {}
+    return {"picture.pixels_that_differ": pixels_that_differ(*(out / "pictures" / f"{one['picture']}.png" for one in (result, other[0])))}
+
+
+def catalogue(plans, kind):
+    """What the plans say of programs, scenes or workloads, each once."""
+    return list({one["name"]: one for plan in reversed(plans) for one in reversed(plan.get(kind, []))}.values())[::-1]
+
+
 def run_of(out, tools, areas, point):
     """What is known of a run, from its files. Its machine has the paper's name, whatever the sweep calls it."""
     point = point | point.get("preset", {})
     run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")}
-    run |= {"workload": point.get("workload", ""), "experiments": [], "points": [], "status": "missing", "command": repeat_command(point, tools)}
     found = result_of(out, point["key"]) if point["key"] else None
+    run |= {"workload": point.get("workload", ""), "variant": point.get("variant", ""), "experiments": [], "points": [], "status": "missing",
+            "command": repeat_command(point, found and found[0])}
     error = point["error"] or (error_of(out, point["key"]) if point["key"] else None)
     if found:
         result, host = found
@@ -108,7 +145,7 @@ def run_of(out, tools, areas, point):
         series = out / "runs" / f"{point['key']}.csv"
         run |= {"status": "done", "json": f"runs/{point['key']}.json", "csv": f"runs/{series.name}" if series.exists() else None,
                 "picture": f"pictures/{result['picture']}.png" if result["picture"] else None, "host_seconds": host.get("host_seconds"), "host": host or None,
-                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(result, areas)}
+                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(result, areas) | compared(out, result, point.get("reference"))}
     elif error:
         run |= {"status": "failed", "error": error}
     return run
@@ -116,18 +153,19 @@ def run_of(out, tools, areas, point):
 
 def collect(out, tools, areas, command, seconds):
     """Writes results.json from the sweeps and runs of the folder, and returns its value."""
-    runs, sweeps, series = {}, [], []
+    runs, sweeps, series, plans = {}, [], [], []
     for path in sorted((out / "sweeps").glob("[!.]*.json")):
         plan = read_json(path)
         if not isinstance(plan, dict) or not isinstance(plan.get("points"), list):
             raise Problem(f"{path}: trax-eval has not written this; -o is to be a folder of its own")
         if not any(sweep["name"] == plan["name"] for sweep in sweeps):
-            sweeps.append({name: value for name, value in plan.items() if name != "points"})
+            sweeps.append({name: value for name, value in plan.items() if name not in ("points", *CATALOGUES)})
+        plans.append(plan)
         for number, point in enumerate(plan["points"]):
             label = point["key"] or f"{plan['name']}-{number}"
             if label not in runs:
                 runs[label] = run_of(out, tools, areas, point)
-            run, named = runs[label], {"experiment": plan["name"], **{name: point[name] for name in ("config", "set", "machine")}}
+            run, named = runs[label], {"experiment": plan["name"], "variant": point.get("variant", ""), **{name: point[name] for name in ("config", "set", "machine")}}
             if plan["name"] not in run["experiments"]:
                 run["experiments"].append(plan["name"])
             if named not in run["points"]:
@@ -139,6 +177,7 @@ def collect(out, tools, areas, command, seconds):
                            "columns": columns, "rows": rows})
     value = {"format": FORMAT, "version": VERSION, "trax": tools.version(), "command": command,
              "created": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
-             "host": {"processors": os.cpu_count()}, "host_seconds": round(seconds, 1), "runs": list(runs.values()), "sweeps": sweeps, "series": series}
+             "host": {"processors": os.cpu_count()}, "host_seconds": round(seconds, 1), "runs": list(runs.values()), "sweeps": sweeps, "series": series,
+             **{kind: catalogue(plans, kind) for kind in CATALOGUES}}
     write_json(out / "results.json", value)
     return value

@@ -1,26 +1,51 @@
-"""The scenes that sweeps may name, and how their scene files are made."""
+"""Scenes: a file each in ../scenes, or beside a sweep, and how their scene files are made."""
 
 import os
 import pathlib
 
+from .fields import Fields, find_file, read_fields, unknown
 from .tools import run_tool
 from .util import Problem, hash_file, hash_value
 
-# The paper's four, in the order of Table 2, and one more. Meshes are in the directory of scenes, also as .xz.
-CATALOGUE = {
-    "conference": {"meshes": ["conference.ply"], "view": "conference"},
-    "crytek-sponza": {"meshes": ["crytek-sponza.ply"], "view": "crytek-sponza"},
-    "dragon": {"meshes": ["dragon.ply", "dragon_box.obj"], "view": "dragon"},
-    "forest": {"meshes": ["generate:forest"], "view": "forest"},  # stands in for the fairy forest, which is not to be had
-    "sibenik": {"meshes": ["sibenik.ply"], "view": "sibenik"},
-}
-SETS = {"paper": ["conference", "crytek-sponza", "dragon", "forest"]}
+KEYS = ("name", "title", "meshes", "view", "licence", "paper")
+INLINE_KEYS = ("name", "title", "meshes", "view")
+SET_KEYS = ("name", "title", "scenes")
 
 
-def find_mesh(directory, name):
+def scene_of(fields, folder):
+    """folder: where its files are looked for first."""
+    name, meshes, view = fields.name(), fields.value.get("meshes"), fields.value.get("view")
+    if not isinstance(meshes, list) or not meshes or not all(isinstance(mesh, str) for mesh in meshes):
+        fields.fail("meshes", "expected a list of files")
+    if view is not None and not isinstance(view, str):
+        fields.fail("view", "expected a file or the name of one that comes with trax")
+    if view is not None and pathlib.Path(folder, view).is_file():
+        view = str(pathlib.Path(folder, view).resolve())
+    return {"name": name, "title": fields.text("title", name), "meshes": meshes, "view": view, "folder": str(folder), "licence": fields.text("licence", ""),
+            "paper": fields.text("paper", "")}
+
+
+def inline_scene(path, value):
+    """A scene that a sweep has within itself."""
+    return scene_of(Fields(f"{path}: scenes", value, INLINE_KEYS), pathlib.Path(path).parent)
+
+
+def find_scenes(name, beside, sets=True):
+    """Those of a name: one, or those of a set of scenes. beside: the folder that relative names of files begin in."""
+    path = find_file("scenes", name, beside)
+    if not path:
+        raise unknown("scenes", name, "scene")
+    if not sets or "scenes" not in read_fields(path, (*KEYS, "scenes")).value:
+        return [scene_of(read_fields(path, KEYS), path.parent)]
+    members = read_fields(path, SET_KEYS).strings("scenes", None)
+    return [scene for member in members for scene in find_scenes(member, path.parent, False)]
+
+
+def find_mesh(directory, name, beside=None):
+    """In the folder `beside`, or in that of scenes, where it may be packed."""
     if name.startswith("generate:"):
         return name
-    for candidate in (directory / name, directory / (name + ".xz")):
+    for candidate in (*([pathlib.Path(beside, name)] if beside else []), directory / name, directory / (name + ".xz")):
         if candidate.is_file():
             return str(candidate.resolve())
     raise Problem(f"{directory}: neither {name} nor {name}.xz is there; README.md says where the scenes are to be had")
@@ -32,10 +57,6 @@ def neighbours(mesh):
     return [(entry.name, entry.stat().st_size, entry.stat().st_mtime_ns) for entry in sorted(os.scandir(folder), key=lambda one: one.name) if entry.is_file()]
 
 
-# What trax-scene is told for a program; the era program's boxes are those of the triangles, not of a grid, and no triangle is split.
-IMPORT_OPTIONS = {"ours": [], "era": ["--nodes", "binary", "--splits=1", "--passes", "0"]}
-
-
 PAPERS_LINES = 256  # of the data cache, what trax-scene takes by itself
 
 
@@ -45,17 +66,17 @@ def order_options(dcache_bytes):
     return [] if lines == PAPERS_LINES else ["--cache-lines", str(lines)]
 
 
-def scene_file(out, tools, directory, name, scene, options, more=(), only_look=False):
-    """The scene file of a scene; imported once for the same meshes, options and importer. NAME.trax in the directory comes first, unless there
-    are more options, those of a workload. only_look: None if it has not been imported."""
+def scene_file(out, tools, directory, scene, options, own, only_look=False):
+    """The scene file of a scene; imported once for the same meshes, options and importer. NAME.trax in the directory comes first, unless there are
+    options of its own, those of a workload or a sweep. only_look: None if it has not been imported."""
+    name = scene["name"]
     built = directory / f"{name}.trax"
-    if built.is_file() and not more:
+    if built.is_file() and not own:
         return built.resolve()
-    meshes = [find_mesh(directory, mesh) for mesh in scene["meshes"]]
+    meshes = [find_mesh(directory, mesh, scene["folder"]) for mesh in scene["meshes"]]
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
     if only_look and not any((out / "scenes").glob("*.trax")):
         return None
-    options = [*options, *more]
     key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
     if only_look and not path.exists():

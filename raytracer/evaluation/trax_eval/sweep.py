@@ -1,24 +1,53 @@
 """Sweep files: which keys take which values, on which scenes, by which programs. The format is in ../README.md."""
 
 import dataclasses
-import difflib
 import itertools
 import math
 import pathlib
 import re
 
-from .scenes import CATALOGUE, SETS
+from .fields import Fields, quoted
+from .programs import Program, find_programs
+from .scenes import find_scenes, inline_scene
 from .util import Problem, TEXT_LIMIT, canonical, read_json
-from .workloads import PAPER, find_workload
+from .workloads import PAPER, find_workload, no_workload
 
 CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()  # in the order of Table 2
-# Of each program what its machine has beside what the sweep sets. The era program compares floats as floats; that the adders
-# did that too cannot be, with the paper's figures (docs/evaluation.md, "The era program").
-PROGRAMS = {"ours": (), "era": (("fpu.compare_units", True),)}
+PAPERS_PROGRAMS = "paper"  # the set that a sweep has which names no programs
 MODES = ("exact", "quick")
 # Of pictures with fewer pixels than this so many slots must be simulated that little is saved (docs/sampling.md): --quick makes them smaller instead,
 # by so much that all experiments take less than ten minutes on two cores.
 QUICK_PIXELS, QUICK_SIDE = 640 * 360, 0.4
+MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
+KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep",
+        "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
+# Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps.
+TOOLS = {"trax-scene": ("output", "check", "stats", "stats-json", "quiet", "help", "version"),
+         "trax-render": ("output", "size", "frames", "id-picture", "write-view", "config", "set", "engine", "threads", "stats", "profile", "profile-folded", "cost-picture",
+                         "cost-values", "cost", "compare", "source", "program", "cache", "sampled", "keep", "prepare", "quiet", "help", "version")}
+VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
+
+
+def option_of(key):
+    """(program, name) of a key of `set` that is an option, else None."""
+    match = re.fullmatch(r"([\w-]+) --([\w-]+)", key)
+    return match.groups() if match else None
+
+
+def option_words(name, value):
+    """An option as it is given; false leaves it out."""
+    return [] if value is False else [f"--{name}"] if value is True else [f"--{name}={value}"]
+
+
+def without_option(words, name):
+    """Without the option and its values."""
+    kept, dropped = [], False
+    for word in words:
+        if word.startswith("--"):
+            dropped = word.split("=")[0] == f"--{name}"
+        if not dropped:
+            kept.append(word)
+    return kept
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,7 +55,7 @@ class Point:
     """One run that a sweep asks for, before anything is known of the bytes that it works on."""
 
     scene: str
-    program: str
+    program: Program
     chip: str
     settings: tuple  # of (key, value)
     size: str
@@ -35,10 +64,27 @@ class Point:
     lockstep: bool  # what the pixels would take on a SIMD machine
     ray_kinds: bool = False  # what the rays of each kind took, and with lockstep would take on one
     workload: str = PAPER
+    config: str = ""  # the chip for trax-sim, if its name is not
+    variant: str = ""
+    error: bool = False  # how far the picture is off
+    hits: bool = False  # which triangles it shows
+
+    @property
+    def chip_file(self):
+        return self.config or self.chip
 
     def machine(self):
         """All changes of the chip's configuration; of the same key the sweep's."""
-        return tuple({**dict(PROGRAMS[self.program]), **dict(self.settings)}.items())
+        return tuple({**dict(self.program.settings), **{key: value for key, value in self.settings if not option_of(key)}}.items())
+
+    def options(self, tool, workload):
+        """What trax-scene or trax-render is given: the program's options, the workload's, and the sweep's in place of both."""
+        words = [*(self.program.scene if tool == "trax-scene" else self.program.render), *workload["scene" if tool == "trax-scene" else "render"]]
+        words += ["--mark-rays"] if tool == "trax-render" and self.ray_kinds and self.program.specialised else []
+        for key, value in self.settings:
+            if (option := option_of(key)) and option[0] == tool:
+                words = [*without_option(words, option[1]), *option_words(option[1], value)]
+        return words
 
 
 @dataclasses.dataclass
@@ -52,118 +98,118 @@ class Sweep:
     y: str
     y_per: str
     file: str
-    scenes: dict  # name -> what CATALOGUE has for it
+    scenes: dict  # name -> scenes.scene_of
+    programs: list  # of Program
     points: list
     workloads: dict  # name -> workloads.read_workload
+    variants: list  # their names
+    reference: str  # the variant or program whose pictures the others' are compared with
+    table: dict | None  # what its table shows, for the report
     in_all: bool  # one of those that --all runs
     quick: bool  # made for --quick
 
 
-def quoted(names):
-    return ", ".join(f'"{name}"' for name in names)
+class Reader(Fields):
+    """One sweep file."""
 
+    @property
+    def folder(self):
+        return pathlib.Path(self.path).parent
 
-class Reader:
-    """One sweep file; what is wrong with it is reported with the file's name and the key."""
+    def found(self, key, find, name):
+        """What a file beside the sweep or of the installation says; `find` looks for it."""
+        try:
+            return find(name, self.folder)
+        except Problem as problem:
+            self.fail(key, str(problem))
 
-    def __init__(self, path, value):
-        self.path, self.value = path, value
+    def axis(self, place, key, values):
+        values = values if isinstance(values, list) else [values]
+        option = option_of(key)
+        if option:
+            tool, name = option
+            if tool not in TOOLS:
+                self.fail(place, f'"{tool}" is no program whose options can be set; {quoted(TOOLS)} are')
+            taken = next((taken for taken in TOOLS[tool] if taken.startswith(name)), None)
+            if taken:
+                self.fail(place, f"--{taken} is what trax-eval says itself")
+            if not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value for value in values):
+                self.fail(place, f"expected a text, a number, true (given), false (left out) or a list of them, is {canonical(values)}")
+        elif not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value.isalpha() for value in values):
+            self.fail(place, f"expected a number, a word or a list of them, is {canonical(values)}")
+        return [(key, value) for value in values]
 
-    def fail(self, key, message):
-        raise Problem(f"{self.path}: {key}: {message}" if key else f"{self.path}: {message}")
-
-    def text(self, key, default):
-        value = self.value.get(key, default)
-        if not isinstance(value, str):
-            self.fail(key, f"expected a text, is {canonical(value)}")
-        return value
-
-    def strings(self, key, default, allowed=None):
-        value = self.value.get(key, default)
-        if isinstance(value, str):
-            value = [value]
-        if not isinstance(value, list) or not value or not all(isinstance(item, str) for item in value):
-            self.fail(key, f"expected a list of texts, is {canonical(value)}")
-        for item in value:
-            if allowed and item not in allowed:
-                self.fail(key, f'"{item}" is unknown; allowed are {quoted(allowed)}')
-        if len(set(value)) != len(value):
-            self.fail(key, "the same value is there twice")
-        return value
-
-    def settings(self):
-        """Every combination of the values: a list of tuples of (key, value)."""
+    def variants(self):
+        """Every combination of the values: a list of (variant, its program or None, tuple of (key, value))."""
         groups = self.value.get("set", {})
         groups = groups if isinstance(groups, list) else [groups]
-        combinations = []
+        combinations, names = [], []
         for group in groups or [{}]:
             if not isinstance(group, dict):
                 self.fail("set", f"expected an object of keys and values, is {canonical(group)}")
-            axes = []
-            for key, values in group.items():
-                values = values if isinstance(values, list) else [values]
-                if not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value.isalpha() for value in values):
-                    self.fail(f"set.{key}", f"expected a number, a word or a list of them, is {canonical(group[key])}")
-                axes.append([(key, value) for value in values])
+            name, program = group.get("name", ""), group.get("program")
+            if "name" in group and (not isinstance(name, str) or not re.fullmatch(r"[^\n|]{1,100}", name)):
+                self.fail("set", f"name: expected a text of at most 100 characters, without |, is {canonical(name)}")
+            if name and name in names:
+                self.fail("set", f'the variant "{name}" is there twice')
+            names.append(name)
+            if program is not None:
+                if not isinstance(program, str):
+                    self.fail("set.program", f"expected the name of a program or NAME.json, is {canonical(program)}")
+                program, *others = self.found("set.program", find_programs, program)
+                if others:
+                    self.fail("set.program", "is a set of programs; a variant has one")
+            axes = [self.axis(f"set.{key}", key, values) for key, values in group.items() if key not in VARIANT_KEYS]
             if len(combinations) + math.prod(map(len, axes)) > MOST_RUNS:
                 self.fail("set", f"more than {MOST_RUNS} combinations")
-            combinations += itertools.product(*axes)
-        return [tuple(combination) for combination in combinations]
-
-    def flag(self, key, default=False):
-        value = self.value.get(key, default)
-        if type(value) is not bool:
-            self.fail(key, f"expected true or false, is {canonical(value)}")
-        return value
+            combinations += [(name, program, settings) for settings in itertools.product(*axes)]
+        return combinations
 
     def workloads(self):
         if "workloads" not in self.value:
-            return {PAPER: {"name": PAPER, "title": "", "render": [], "scene": []}}
+            return {PAPER: no_workload()}
         chosen = {}
         for name in self.strings("workloads", None):
-            try:
-                workload = find_workload(name, pathlib.Path(self.path).parent)
-            except Problem as problem:
-                self.fail("workloads", str(problem))
+            workload = self.found("workloads", find_workload, name)
             if workload["name"] in chosen:
                 self.fail("workloads", f'"{workload["name"]}" is there twice')
             chosen[workload["name"]] = workload
         return chosen
+
+    def programs(self, rays):
+        """rays: those alone that take workloads and tell where rays begin."""
+        given = self.strings("programs", PAPERS_PROGRAMS)
+        chosen = {}
+        for name in given:
+            for program in self.found("programs", find_programs, name):
+                if chosen.setdefault(program.name, program) is not program:
+                    self.fail("programs", f'"{program.name}" is there twice')
+        if "programs" not in self.value and rays:
+            return [program for program in chosen.values() if program.rays]
+        return list(chosen.values())
 
     def scenes(self):
         value = self.value["scenes"]
         chosen = {}
         for item in value if isinstance(value, list) else [value]:
             if isinstance(item, dict):
-                for key in item:
-                    if key not in ("name", "meshes", "view"):
-                        self.fail("scenes", f'unknown key "{key}"; allowed are "name", "meshes", "view"')
-                name, meshes, view = item.get("name"), item.get("meshes"), item.get("view")
-                if not isinstance(name, str) or not re.fullmatch(r"[\w.+-]+", name):
-                    self.fail("scenes", "name: expected letters, digits and . + - _")
-                if not isinstance(meshes, list) or not meshes or not all(isinstance(mesh, str) for mesh in meshes):
-                    self.fail("scenes", f"{name}: meshes: expected a list of files")
-                if view is not None and not isinstance(view, str):
-                    self.fail("scenes", f"{name}: view: expected a file or the name of one that comes with trax")
-                new = {name: {"meshes": meshes, "view": view}}
-            elif isinstance(item, str) and item in SETS:
-                new = {name: CATALOGUE[name] for name in SETS[item]}
-            elif isinstance(item, str) and item in CATALOGUE:
-                new = {item: CATALOGUE[item]}
+                new = [inline_scene(self.path, item)]
+            elif isinstance(item, str):
+                new = self.found("scenes", find_scenes, item)
             else:
-                self.fail("scenes", f"{canonical(item)} is unknown; allowed are {quoted([*SETS, *CATALOGUE])}, and objects with name, meshes, view")
-            for name in new:
-                if name in chosen:
-                    self.fail("scenes", f'"{name}" is there twice')
-            chosen.update(new)
+                self.fail("scenes", f"expected names of scenes and objects with name, meshes, view, is {canonical(item)}")
+            for scene in new:
+                if scene["name"] in chosen:
+                    self.fail("scenes", f'"{scene["name"]}" is there twice')
+                chosen[scene["name"]] = scene
         if not chosen:
             self.fail("scenes", "is empty")
         return chosen
 
-
-MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
-KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep",
-        "workloads", "ray_kinds", "all")
+    def chips(self):
+        """Name to what trax-sim --config is given; files beside the sweep come first."""
+        names = self.strings("chips", None)
+        return {name: str((self.folder / name).resolve()) if self.folder.joinpath(name).is_file() else "" for name in (CHIPS if names == ["paper"] else names)}
 
 
 def parse_size(text):
@@ -174,19 +220,11 @@ def parse_size(text):
 
 
 def read_sweep(path, *, size=None, mode=None, programs=None):
-    """The sweep in a file. size, mode and programs: what the command line says instead of the file. With the mode "quick" a small picture, whose size
-    the command line does not say, has a sixth of its pixels, and is simulated exactly."""
-    value = read_json(path, TEXT_LIMIT)
-    reader = Reader(path, value)
-    if not isinstance(value, dict):
-        reader.fail(None, "expected an object")
-    for key in value:
-        if key not in KEYS:
-            near = difflib.get_close_matches(key, KEYS, 1)
-            reader.fail(None, f'unknown key "{key}"' + (f', did you mean "{near[0]}"?' if near else "") + f" Allowed are {quoted(KEYS)}")
-    name = reader.text("name", "")
-    if not re.fullmatch(r"[\w.+-]+", name):
-        reader.fail("name", "expected letters, digits and . + - _")
+    """The sweep in a file. size, mode and programs: what the command line says instead of the file; programs are names, and Programs that take the
+    place of the sweep's. With the mode "quick" a small picture, whose size the command line does not say, has a sixth of its pixels, and is simulated exactly."""
+    reader = Reader(path, read_json(path, TEXT_LIMIT), KEYS)
+    value = reader.value
+    name = reader.name()
     missing = [key for key in ("scenes", "chips") if key not in value]
     if missing:
         reader.fail(None, f"it is no sweep without {' and '.join(map(quoted, ([key] for key in missing)))}: what is rendered, and on which chips")
@@ -198,29 +236,41 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     if type(series) is not int or not 0 <= series <= 10**9:
         reader.fail("series", f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
     lockstep, ray_kinds, workloads = reader.flag("lockstep"), reader.flag("ray_kinds"), reader.workloads()
-    if series or lockstep or ray_kinds or list(workloads) != [PAPER]:  # every cycle is needed
+    error, hits = reader.flag("error"), reader.flag("hits")
+    rays = ray_kinds or list(workloads) != [PAPER]
+    chosen_programs, variants = reader.programs(rays), reader.variants()
+    if programs is not None:
+        own = [program for program in programs if isinstance(program, Program)]
+        chosen_programs = own + [program for program in chosen_programs if program.name in programs]
+        variants = [(label, program, settings) for label, program, settings in variants if not program or program.name in programs]
+    used = list(dict.fromkeys([*chosen_programs, *(program for _, program, _ in variants if program)]))
+    if rays and (unfit := [program for program in used if not program.rays]):
+        reader.fail("programs", f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they take workloads, and tell where rays begin')
+    options = any(option_of(key) for _, _, settings in variants for key, _ in settings)
+    if series or lockstep or rays or error or hits or options or not all(program.plain for program in used):  # every cycle is needed, or the run is not trax-render's own
         if "mode" in value and chosen_mode != "exact" and not mode:
-            reader.fail("mode", 'series, lockstep, ray_kinds and workloads need "exact"')
+            reader.fail("mode", 'series, lockstep, ray_kinds, workloads, error, hits, options in "set" and programs that are compiled or converted need "exact"')
         chosen_mode = "exact"
     if mode == "quick" and not size and not lockstep and not ray_kinds and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
         chosen_mode = "exact"
         chosen_size = "x".join(str(max(1, round(QUICK_SIDE * side))) for side in parse_size(chosen_size))
-    scenes = reader.scenes()
-    chips = reader.strings("chips", None)
-    chips = CHIPS if chips == ["paper"] else chips
-    ours_only = ray_kinds or list(workloads) != [PAPER]
-    chosen_programs = reader.strings("programs", ["ours"] if ours_only else list(PROGRAMS), tuple(PROGRAMS))
-    if ours_only and chosen_programs != ["ours"]:
-        reader.fail("programs", 'workloads and ray_kinds need "ours": the era program has the paper\'s rays only, and does not tell where they begin')
-    if programs:
-        chosen_programs = [program for program in chosen_programs if program in programs]
-    settings = reader.settings()
-    runs = len(scenes) * len(chosen_programs) * len(chips) * len(settings) * len(workloads)
+    scenes, chips = reader.scenes(), reader.chips()
+    groups = {program: [variant for variant in variants if not variant[1]] for program in chosen_programs}
+    for variant in variants:
+        if variant[1]:  # it has a program of its own
+            groups.setdefault(variant[1], []).append(variant)
+    runs = len(scenes) * len(chips) * len(workloads) * sum(map(len, groups.values()))
     if runs > MOST_RUNS:
         reader.fail(None, f"it asks for {runs} runs; at most {MOST_RUNS} are allowed")
     points = [
-        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload)
-        for workload, scene, program, chip, settings in itertools.product(workloads, scenes, chosen_programs, chips, settings)
+        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload, chips[chip], variant, error, hits)
+        for workload, scene, (program, some) in itertools.product(workloads, scenes, groups.items()) for chip, (variant, _, settings) in itertools.product(chips, some)
     ]
-    return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"),
-                 reader.text("y_per", ""), str(path), scenes, points, workloads, reader.flag("all", True), mode == "quick")
+    reference, named = reader.text("reference", ""), list(dict.fromkeys([*(variant[0] for variant in variants if variant[0]), *(program.name for program in used)]))
+    if reference and programs is None and reference not in named:
+        reader.fail("reference", f'"{reference}" is neither a variant nor a program of this sweep; {quoted(named)} are')
+    table = value.get("table")
+    if table is not None and not isinstance(table, dict):
+        reader.fail("table", f"expected an object, is {canonical(table)}")
+    return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"), reader.text("y_per", ""), str(path),
+                 scenes, used, points, workloads, [variant[0] for variant in variants if variant[0]], reference, table, reader.flag("all", True), mode == "quick")

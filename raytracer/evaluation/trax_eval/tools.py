@@ -8,9 +8,9 @@ import subprocess
 from .util import Problem, hash_file
 
 
-def run_tool(command):
-    """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not finished."""
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace")
+def run_tool(command, **where):
+    """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not finished. where: cwd, env."""
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
     try:
         out, errors = process.communicate()
     except BaseException:
@@ -37,8 +37,13 @@ class Tools:
     def version(self):
         return subprocess.run([self.path("trax-sim"), "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
 
-    def era_program(self):
-        return str(self.folder.parent / "lib/trax/trax-era.elf")
+    @functools.lru_cache(maxsize=None)
+    def refused(self, name, words):
+        """What a program of ours says of options (a tuple), None if it takes them or is not there. Which of them exclude each other is not asked."""
+        if not (self.folder / name).is_file():
+            return None
+        run = run_tool([self.path(name), *words, "--help"])
+        return None if run.returncode == 0 else run.stderr.strip().removeprefix(f"{name}: error: ") or f"{name} ended with status {run.returncode}"
 
     @functools.lru_cache(maxsize=None)
     def configuration(self, chip, settings):

@@ -68,6 +68,7 @@ def values_of(result, areas):
     for row in result.get("lockstep", []):
         values[f"simd_utilisation.{row['width']:.0f}"] = row["utilisation"]
         values[f"simd_bound.{row['width']:.0f}"] = row["longest"]
+    values |= {f"counters.{name}": value for name, value in result.get("counters", {}).items()}
     return values | values_of_rays(result, statistics)
 
 
