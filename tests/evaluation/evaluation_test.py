@@ -188,7 +188,55 @@ def test_rays(evaluation, scratch):
     check('id="rays-table"' in text and 'id="rays-lanes"' in text and "of 32 lanes" in text, "the report's section")
 
 
+def test_options(evaluation, scratch):
+    """Options of trax-scene and trax-render as keys, variants with programs of their own, and pictures beside that of a reference."""
+    sweep = dict(SMALL, series=0, chips="1x32", reference="as it is", set=[
+        {"name": "as it is"}, {"name": "small leaves", "trax-scene --leaf": 1}, {"name": "other program", "program": "era"}, {"name": "by hand", "trax-render --queues": 4},
+        {"name": "dim", "trax-render --ambient": 0.05, "trax-render --no-shadows": [True, False]}, {"name": "slow", "memory.bandwidth_gbps": 4, "trax-scene --splits": False}])
+    run = evaluation.run(sweep, "options", "--jobs", "2")
+    check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
+    results = evaluation.results("options")
+    runs = {(one["variant"], one["set"].get("trax-render --no-shadows")): one for one in results["runs"]}
+    names = ["as it is", "small leaves", "other program", "by hand", "dim", "dim", "slow"]
+    check(sorted(name for name, _ in runs) == sorted(names), f"variants {list(runs)}")
+    check([one["variants"] for one in results["sweeps"]] == [list(dict.fromkeys(names))] and results["sweeps"][0]["reference"] == "as it is", f"sweeps {results['sweeps']}")
+    check([program["name"] for program in results["programs"]] == ["ours", "era"] and all(program["title"] for program in results["programs"]), f"programs {results['programs']}")
+    check([scene["name"] for scene in results["scenes"]] == ["bunny"] and results["version"] == 2, "scenes and version")
+    plain = runs["as it is", None]
+    differ = {key: one["values"]["picture.pixels_that_differ"] for key, one in runs.items()}
+    check(all(differ[key, None] == 0 for key in ("as it is", "small leaves", "by hand", "slow")), f"pixels that differ: {differ}")
+    check(differ["dim", True] >= 100 and differ["dim", False] >= 100 and 0 <= differ["other program", None] < 100, f"pixels that differ: {differ}")
+    check(runs["dim", True]["stats"]["rays"] < runs["dim", False]["stats"]["rays"] == plain["stats"]["rays"], "rays without shadows")
+    check(runs["small leaves", None]["stats"]["cycles"] != plain["stats"]["cycles"] != runs["by hand", None]["stats"]["cycles"], "the options change nothing")
+    check(runs["other program", None]["program"] == "era" and runs["other program", None]["machine"] == {"fpu.compare_units": True}, "a variant's program")
+    check(runs["slow", None]["machine"] == {"memory.bandwidth_gbps": 4} and runs["slow", None]["stats"]["configuration"]["memory"]["bandwidth_gbps"] == 4 and plain["set"] == {},
+          "keys of the machine")
+    check("trax-scene --leaf=1 MESHES -o scene.trax && trax-render scene.trax" in runs["small leaves", None]["command"] and "--ambient=0.05" in runs["dim", True]["command"],
+          "commands repeat the options")
+    run = evaluation.run(sweep, "options", "--variant", "dim", "--scene", "bunny", "--chip", "1x32", "--dry-run")
+    check(run.stdout == "0 of 3 runs are missing\n", f"--variant, which keeps the reference, --scene, --chip: {run.stdout}{run.stderr}")
+    run = evaluation.run(sweep, "options", "--quick", "--dry-run")
+    check(run.stdout.count(" 16x10\n") == 7, f"--quick makes the pictures smaller: {run.stdout}{run.stderr}")
+
+
 REFUSED = [
+    ('{"name": "x", "set": {"trax-scene --leafs": 4}}', "set.trax-scene --leafs: unknown option --leafs; did you mean --leaf?"),
+    ('{"name": "x", "set": {"trax-scene --leaf": [4, 9]}}', "set.trax-scene --leaf: --leaf: '9' is not a whole number from 1 to 7"),
+    ('{"name": "x", "set": {"trax-render --ambient": "much"}}', "set.trax-render --ambient: --ambient: 'much'"),
+    ('{"name": "x", "set": {"trax-render --smooth": "yes"}}', "--smooth takes no value"),
+    ('{"name": "x", "set": {"trax-render --siz": "9x9"}}', "set.trax-render --siz: --size is what trax-eval says itself"),
+    ('{"name": "x", "set": {"trax-sim --engine": "fast"}}', 'set.trax-sim --engine: "trax-sim" is no program whose options can be set; "trax-scene", "trax-render" are'),
+    ('{"name": "x", "set": {"trax-scene --leaf": [[1]]}}', "expected a text, a number, true (given), false (left out)"),
+    ('{"name": "x", "set": [{"name": "a"}, {"name": "a", "icache.banks": 4}]}', 'set: the variant "a" is there twice'),
+    ('{"name": "x", "set": [{"name": ""}]}', "set: name: expected a text of at most 100"),
+    ('{"name": "x", "set": [{"name": "a", "program": "theirs"}]}', 'set.program: "theirs" is no program; allowed are "era"'),
+    ('{"name": "x", "set": [{"name": "a", "program": "paper"}]}', "set.program: is a set of programs; a variant has one"),
+    ('{"name": "x", "set": [{"name": "a", "program": 1}]}', "set.program: expected the name"),
+    ('{"name": "x", "set": [{"name": "a"}], "reference": "b"}', 'reference: "b" is neither a variant nor a program of this sweep; "a", "ours", "era" are'),
+    ('{"name": "x", "table": 1}', "table: expected an object or a list of objects"),
+    ('{"name": "x", "error": 1}', "error: expected true or false"),
+    ('{"name": "x", "mode": "quick", "set": {"trax-scene --leaf": 1}}', "mode: series, lockstep"),
+    ('{"name": "x", "programs": ["ours", "paper"]}', 'programs: "ours" is there twice'),
     ('{"name": "x", "chip": "4x32"}', 'unknown key "chip", did you mean "chips"'),
     ('{"name": "x", "chips": "4x33"}', "4x33"),
     ('{"name": "x", "chips": []}', "chips: expected a list of texts"),
@@ -238,7 +286,9 @@ def test_refusals(evaluation, scratch):
         check(message in run.stderr and "sweep.json" in run.stderr, f"{text[:60]}: {run.stderr.strip()!r} has not {message!r}")
     for words, message in (([], "no experiment"), (["table9"], '"table9" is neither an experiment'), (["table2", "--size", "1"], "--size 1: expected"),
                            (["table2", "--program", "x"], "--program x: allowed"), (["table2", "--jobs", "0"], "--jobs 0"), (["--nonsense"], "--nonsense"),
-                           (["table2", "--hosts", "a"], "--hosts is for"), (["table2", "--runner", "pbs"], "invalid choice"), (["no.json"], "no.json: No such")):
+                           (["table2", "--hosts", "a"], "--hosts is for"), (["table2", "--scene", "x"], "--scene x: the sweep has conference; crytek-sponza"),
+                           (["era-choices", "--variant", "x"], "--variant x: the sweep has as chosen; "), (["table2", "--chip", ""], "--chip: the value is empty"),
+                           (["table2", "--program", "none.json"], '"none.json" is no program'), (["new-sweep"], "expected one file"), (["table2", "--runner", "pbs"], "invalid choice"), (["no.json"], "no.json: No such")):
         run = subprocess.run([evaluation.program, *words, "-o", scratch / "refused"], capture_output=True, text=True)
         check(run.returncode == 1 and message in run.stderr and "Traceback" not in run.stderr, f"{words}: {run.stderr.strip()!r} has not {message!r}")
     check(not list((scratch / "refused").rglob("*.json")), "what was refused left files")
@@ -427,13 +477,13 @@ def test_slurm(evaluation, scratch):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=("sweep", "rays", "refusals", "names", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
+    parser.add_argument("--only", choices=("sweep", "rays", "options", "refusals", "names", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
     parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch = pathlib.Path(temporary).resolve()
         evaluation = Evaluation(options.bin.resolve(), scratch)
-        wanted = [options.only] if options.only else ["sweep", "rays", "refusals", "names", "experiments", "kill", "interrupt", "parallel"]
+        wanted = [options.only] if options.only else ["sweep", "rays", "options", "refusals", "names", "experiments", "kill", "interrupt", "parallel"]
         if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "hosts", "slurm"}:
             evaluation.run(SMALL, "undisturbed", "--jobs", "2")
         for name in wanted:

@@ -16,10 +16,11 @@ from report.tables import print_tables
 from . import runners
 from .fields import installed
 from .jobs import clean_scratch, is_done, key_of, make_job, prepare_inputs, write_job
+from .new_sweep import new_sweep
 from .programs import Program, build, find_programs
 from .results import collect, plan_file, write_plan
 from .scenes import order_options, scene_file
-from .sweep import MODES, option_of, option_words, parse_size, read_sweep
+from .sweep import CHIPS, MODES, option_of, option_words, parse_size, read_sweep
 from .tools import Tools
 from .util import Problem, check_files, hash_value
 from .values import Areas
@@ -29,18 +30,21 @@ usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
        trax-eval [OPTION...] --all [SCENES]
        trax-eval report RESULTS.json -o PAGE.html
        trax-eval docs [--check] [RESULTS.json...] PAGE.md...
+       trax-eval new-sweep NAME.json
 
 Repeats what the paper measured, and shows our figures beside the paper's. Finished runs are kept: the same
 command makes only what is missing, whenever and however the one before it ended.
 
-EXPERIMENT is one of those below, or a sweep file of your own (NAME.json; the format is in README.md of
-lib/trax/evaluation). SCENES is the folder with the scenes' meshes, or scene files NAME.trax (default: the
+EXPERIMENT is one of those below, or a sweep file of your own (NAME.json; new-sweep asks and writes one, README.md
+of lib/trax/evaluation has the format). SCENES is the folder with the scenes' meshes, or scene files NAME.trax (default: the
 variable TRAX_SCENES, or else ./scenes).
 
 %s
   -o, --output DIR      the folder of results (default: out/eval)
       --program NAMES   those of a sweep's programs, with commas between (default: all); a file NAME.json takes the place
                         of the sweep's
+      --scene NAMES     those of a sweep's scenes; --variant NAMES: those of its variants, with semicolons between
+      --chip NAMES      instead of the sweep's: presets, files
       --size WxH        of the pictures (default: what the sweep says, 1280x720)
       --runner WHICH    local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's
       --jobs N          runs at the same time on this host (default: its processors)
@@ -51,7 +55,8 @@ variable TRAX_SCENES, or else ./scenes).
                         with intervals (trax-render --sampled); pictures of less than 640x360, if --size is not
                         given, have a sixth of their pixels instead, all of which are simulated
       --dry-run         prints the runs that are missing, and ends; imports no scene and writes nothing
-      --all             every experiment that is about a figure of the paper, and the report
+      --report          writes the page, too: report.html in the folder of results
+      --all             every experiment that is about a figure of the paper, and the page
   -q, --quiet           neither progress nor tables
   -h, --help
       --version
@@ -89,6 +94,9 @@ def parse(arguments):
     parser.add_argument("words", nargs="*")
     parser.add_argument("-o", "--output", default="out/eval", type=path_argument)
     parser.add_argument("--program")
+    parser.add_argument("--scene")
+    parser.add_argument("--variant")
+    parser.add_argument("--chip")
     parser.add_argument("--size")
     parser.add_argument("--mode", choices=MODES)
     parser.add_argument("--quick", dest="mode", action="store_const", const="quick")
@@ -97,10 +105,16 @@ def parse(arguments):
     parser.add_argument("--hosts")
     parser.add_argument("--slurm-options", default="")
     parser.add_argument("--dry-run", action="store_true")
+    parser.add_argument("--report", action="store_true")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("-q", "--quiet", action="store_true")
     options = parser.parse_intermixed_args(arguments)
     options.programs = None if options.program is None else [find_programs(name, ".", False)[0] if name.endswith(".json") else name for name in options.program.split(",")]
+    for name, mark in (("scene", ","), ("variant", ";"), ("chip", ",")):
+        given = getattr(options, name)
+        setattr(options, name, None if given is None else [word.strip() for word in given.split(mark)])
+        if given is not None and not all(getattr(options, name)):
+            raise Problem(f"--{name}: the value is empty")
     if options.size is not None and not parse_size(options.size):
         raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
     if not 1 <= options.jobs <= 4096:
@@ -128,12 +142,16 @@ def choose(options, data):
     return files, folder or pathlib.Path(os.environ.get("TRAX_SCENES", "scenes"))
 
 
-def check_programs(options, sweeps):
-    """Names of --program are those of programs that come with trax, or that a sweep has."""
+def check_names(options, sweeps):
+    """Names of --program are those of programs that come with trax, or that a sweep has; other names are those of a sweep."""
     known = dict.fromkeys([*installed("programs"), *(program.name for sweep in sweeps for program in sweep.programs)])
     for program in options.programs or ():
         if not isinstance(program, Program) and program not in known:
             raise Problem(f'--program {program}: allowed are {", ".join(known)}, and files NAME.json')
+    for option, given, known in (("scene", options.scene, [scene for sweep in sweeps for scene in sweep.scenes]), ("variant", options.variant, [name for sweep in sweeps for name in sweep.variants])):
+        for name in given or ():
+            if name not in known:
+                raise Problem(f'--{option} {name}: the sweep has {"; ".join(dict.fromkeys(known)) or "none"}')
 
 
 class Planner:
@@ -201,7 +219,7 @@ class Planner:
 
 def label(point):
     changes = "".join(f" {key}={value}" for key, value in point.settings)
-    return f"{point.scene} {point.chip}{f' ({point.variant})' if point.variant else changes} {point.workload or point.program.name} {point.size}"
+    return f"{point.scene} {point.chip}{f' ({point.variant})' if point.variant else changes} {point.program.name}{f' {point.workload}' if point.workload else ''} {point.size}"
 
 
 def check_machines(sweeps, tools):
@@ -211,15 +229,20 @@ def check_machines(sweeps, tools):
         if words and (said := tools.refused(tool, tuple(words))):
             raise Problem(f"{place}: {said}")
 
+    def machine(place, chip, settings):
+        try:
+            tools.configuration(chip, settings)
+        except Problem as problem:
+            raise Problem(f"{place}: {problem}") from None
+
     for sweep in sweeps:
+        for program in sweep.programs:
+            machine(f"{program.file}: set", CHIPS[0], program.settings)
         for point in sweep.points:
             for key, value in point.settings:
                 if option := option_of(key):
                     check(f"{sweep.file}: set.{key}", option[0], option_words(option[1], value))
-            try:
-                tools.configuration(point.chip_file, point.machine())
-            except Problem as problem:
-                raise Problem(f"{sweep.file}: {problem}") from None
+            machine(sweep.file, point.chip_file, point.machine())
         for program in sweep.programs:
             check(f"{program.file}: scene", "trax-scene", program.scene)
             check(f"{program.file}: render", "trax-render", program.render)
@@ -231,8 +254,10 @@ def check_machines(sweeps, tools):
 def evaluate(options, tools, data, command):
     begin = time.monotonic()
     files, folder = choose(options, data)
-    sweeps = [read_sweep(path, size=options.size, mode=options.mode, programs=options.programs) for path in files]
-    check_programs(options, sweeps)
+    whole = [read_sweep(path, size=options.size, mode=options.mode, programs=options.programs) for path in files]
+    check_names(options, whole)
+    sweeps = whole if (options.scene, options.variant, options.chip) == (None, None, None) else [
+        read_sweep(path, size=options.size, mode=options.mode, programs=options.programs, chips=options.chip, only_scenes=options.scene, only_variants=options.variant) for path in files]
     check_machines(sweeps, tools)
     check_files(files, [*(plan_file(options.output, sweep) for sweep in sweeps), options.output / "results.json", options.output / "report.html"])
     out = options.output.resolve()
@@ -260,7 +285,7 @@ def evaluate(options, tools, data, command):
     if not options.quiet:
         print_tables(Results(results), Paper(data / "paper"), [sweep.name for sweep in sweeps], sys.stdout)
         print(f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; {out / 'results.json'}")
-    unreported = options.all and make.main([str(out / "results.json"), "-o", str(out / "report.html")])
+    unreported = (options.all or options.report) and make.main([str(out / "results.json"), "-o", str(out / "report.html")])
     return 1 if failed or without or unreported else 0
 
 
@@ -298,6 +323,10 @@ def dispatch(arguments, tools, data):
         return make.main(arguments[1:])
     if arguments[:1] == ["docs"]:
         return docs.main(arguments[1:])
+    if arguments[:1] == ["new-sweep"]:
+        if len(arguments) != 2:
+            raise Problem("new-sweep: expected one file, NAME.json")
+        return new_sweep(arguments[1], lambda sweeps: check_machines(sweeps, tools), sys.stdout)
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 

@@ -13,7 +13,7 @@ from .fields import INSTALLED, find_file, read_fields, unknown
 from .tools import run_tool
 from .util import Problem, canonical
 
-KEYS = ("name", "title", "program", "source", "flags", "patch", "scene", "render", "set", "convert", "counters", "rays")
+KEYS = ("name", "title", "like", "program", "source", "flags", "patch", "scene", "render", "set", "convert", "counters", "rays")
 SET_KEYS = ("name", "title", "programs")
 SPECIALISED = "specialised"  # trax-render makes it for scene, view and chip
 DEVICE = "raytracer"  # its source, in the installation
@@ -56,17 +56,32 @@ def check_settings(fields):
     return tuple(value.items())
 
 
+def read_members(path, seen=()):
+    """The file's members and, under `like`, those of another program that it does not have: (Fields, the folder of the file that says each)."""
+    path = pathlib.Path(path).resolve()
+    fields = read_fields(path, KEYS)
+    folders = dict.fromkeys(fields.value, path.parent)
+    if "like" in fields.value:
+        base = find_file("programs", fields.text("like", ""), path.parent)
+        if not base or base.resolve() in (path, *seen):
+            fields.fail("like", f'"{fields.value["like"]}" is no other program')
+        others, other_folders = read_members(base, (path, *seen))
+        fields.value = {key: value for key, value in others.value.items() if key not in ("name", "title")} | fields.value
+        folders = other_folders | folders
+    return fields, folders
+
+
 @functools.lru_cache(maxsize=None)
 def read_program(path):
-    fields = read_fields(path, KEYS)
-    name, beside = fields.name(), pathlib.Path(path).resolve().parent
+    fields, folders = read_members(path)
+    name = fields.name()
 
     def place(key, text):
-        """Beside the file, or of the installation."""
-        for candidate in (beside / text, INSTALLED / text):
+        """Beside the file that says it, or of the installation."""
+        for candidate in (folders[key] / text, INSTALLED / text):
             if candidate.exists():
                 return candidate
-        fields.fail(key, f"{text} is neither in {beside} nor in {INSTALLED}")
+        fields.fail(key, f"{text} is neither in {folders[key]} nor in {INSTALLED}")
 
     program = fields.text("program", "")
     if program != SPECIALISED and not re.fullmatch(r".+\.(elf|c)", program):
@@ -88,7 +103,7 @@ def read_program(path):
     if len(counters) > MOST_COUNTERS or len(set(counters)) != len(counters) or not all(re.fullmatch(r"[\w.]+", counter) for counter in counters):
         fields.fail("counters", f"expected at most {MOST_COUNTERS} names of letters, digits, . and _, none of them twice")
     options = {key: fields.words(key, "the options and their values") for key in ("scene", "render")}
-    convert = [str(beside / word) if (beside / word).is_file() else word for word in fields.words("convert", "a command and its arguments")]
+    convert = [str(folders["convert"] / word) if (folders["convert"] / word).is_file() else word for word in fields.words("convert", "a command and its arguments")]
     return Program(name, fields.text("title", name), str(path), program, source, flags, patches, options["scene"], options["render"], check_settings(fields), convert, counters,
                    fields.flag("rays"))
 

@@ -104,7 +104,7 @@ class Sweep:
     workloads: dict  # name -> workloads.read_workload
     variants: list  # their names
     reference: str  # the variant or program whose pictures the others' are compared with
-    table: dict | None  # what its table shows, for the report
+    table: dict | list | None  # what its tables show, for the report
     in_all: bool  # one of those that --all runs
     quick: bool  # made for --quick
 
@@ -182,8 +182,9 @@ class Reader(Fields):
         chosen = {}
         for name in given:
             for program in self.found("programs", find_programs, name):
-                if chosen.setdefault(program.name, program) is not program:
+                if program.name in chosen:
                     self.fail("programs", f'"{program.name}" is there twice')
+                chosen[program.name] = program
         if "programs" not in self.value and rays:
             return [program for program in chosen.values() if program.rays]
         return list(chosen.values())
@@ -219,9 +220,9 @@ def parse_size(text):
     return size if 0 < max(size) <= 16384 else None
 
 
-def read_sweep(path, *, size=None, mode=None, programs=None):
-    """The sweep in a file. size, mode and programs: what the command line says instead of the file; programs are names, and Programs that take the
-    place of the sweep's. With the mode "quick" a small picture, whose size the command line does not say, has a sixth of its pixels, and is simulated exactly."""
+def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_scenes=None, only_variants=None):
+    """The sweep in a file. size, mode, programs and chips: what the command line says instead of the file; programs are names, and Programs that take the
+    place of the sweep's. only_scenes, only_variants: the others are left out, but for the reference. With the mode "quick" a small picture, whose size the command line does not say, has a sixth of its pixels, and is simulated exactly."""
     reader = Reader(path, read_json(path, TEXT_LIMIT), KEYS)
     value = reader.value
     name = reader.name()
@@ -239,6 +240,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     error, hits = reader.flag("error"), reader.flag("hits")
     rays = ray_kinds or list(workloads) != [PAPER]
     chosen_programs, variants = reader.programs(rays), reader.variants()
+    reference, named = reader.text("reference", ""), list(dict.fromkeys(variant[0] for variant in variants if variant[0]))
+    if only_variants is not None:
+        variants = [variant for variant in variants if variant[0] in (*only_variants, *([reference] if reference else []))]
     if programs is not None:
         own = [program for program in programs if isinstance(program, Program)]
         chosen_programs = own + [program for program in chosen_programs if program.name in programs]
@@ -254,7 +258,8 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
     if mode == "quick" and not size and not lockstep and not ray_kinds and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
         chosen_mode = "exact"
         chosen_size = "x".join(str(max(1, round(QUICK_SIDE * side))) for side in parse_size(chosen_size))
-    scenes, chips = reader.scenes(), reader.chips()
+    scenes = {name: scene for name, scene in reader.scenes().items() if only_scenes is None or name in only_scenes}
+    chips = reader.chips() if chips is None else {chip: "" for chip in chips}
     groups = {program: [variant for variant in variants if not variant[1]] for program in chosen_programs}
     for variant in variants:
         if variant[1]:  # it has a program of its own
@@ -266,11 +271,11 @@ def read_sweep(path, *, size=None, mode=None, programs=None):
         Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload, chips[chip], variant, error, hits)
         for workload, scene, (program, some) in itertools.product(workloads, scenes, groups.items()) for chip, (variant, _, settings) in itertools.product(chips, some)
     ]
-    reference, named = reader.text("reference", ""), list(dict.fromkeys([*(variant[0] for variant in variants if variant[0]), *(program.name for program in used)]))
-    if reference and programs is None and reference not in named:
-        reader.fail("reference", f'"{reference}" is neither a variant nor a program of this sweep; {quoted(named)} are')
+    known = list(dict.fromkeys([*named, *(program.name for program in used)]))
+    if reference and programs is None and reference not in known:
+        reader.fail("reference", f'"{reference}" is neither a variant nor a program of this sweep; {quoted(known)} are')
     table = value.get("table")
-    if table is not None and not isinstance(table, dict):
-        reader.fail("table", f"expected an object, is {canonical(table)}")
+    if table is not None and not isinstance(table, dict) and not (isinstance(table, list) and all(isinstance(one, dict) for one in table)):
+        reader.fail("table", f"expected an object or a list of objects, is {canonical(table)}")
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"), reader.text("y_per", ""), str(path),
-                 scenes, used, points, workloads, [variant[0] for variant in variants if variant[0]], reference, table, reader.flag("all", True), mode == "quick")
+                 scenes, used, points, workloads, named, reference, table, reader.flag("all", True), mode == "quick")
