@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a less precise FPDIV/iSQRT unit costs in accuracy and saves in time, for each special.precision_bits from 1 to 24.
 
-    precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.svg; some minutes
+    precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.png; some minutes
     precision.py --page docs/accuracy.md --output DIR     puts the tables and the plot of such a report into the page
     precision.py --check                         a short run that must end, and end with what holds at every precision
 
@@ -255,7 +255,7 @@ def plot(rows, output):
         curves += [f"$d using 1:{4 + 3 * i} with linespoints title '{n}: RMSE of 255'",
                    f"$d using 1:{5 + 3 * i} axes x1y2 with lines dashtype 2 title '{n}: cycles, digits'",
                    f"$d using 1:{6 + 3 * i} axes x1y2 with lines dashtype 3 title '{n}: cycles, newton'"]
-    script = f"""set terminal svg size 900,520 enhanced name 'precision'
+    script = f"""set terminal pngcairo size 900,520 enhanced
 set output '{output}.new'
 set logscale y
 set format y '10^{{%L}}'
@@ -291,7 +291,7 @@ def report(options):
     lines = [",".join(rows[0])] + [",".join(f"{v:.9g}" if isinstance(v, float) else str(v) for v in r.values()) for r in rows]
     write(options.output / "precision.csv", "\n".join(lines) + "\n")
     write(options.output / "precision.md", tables(rows, options))
-    plot(rows, options.output / "precision.svg")
+    plot(rows, options.output / "precision.png")
 
 
 def into_page(options):
@@ -301,7 +301,7 @@ def into_page(options):
         fail(f"{options.page}: the marks of the tables are missing")
     tables_text = (options.output / "precision.md").read_text(encoding="utf-8")
     write(options.page, text.split(BEGIN)[0] + BEGIN + tables_text + END + text.split(END)[1])
-    shutil.copyfile(options.output / "precision.svg", options.page.parent / "precision.svg")
+    shutil.copyfile(options.output / "precision.png", options.page.parent / "precision.png")
 
 
 def check(options):
