@@ -16,7 +16,7 @@ import example
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(FOLDER))
 
-from report import docs, markup, tables  # noqa: E402
+from report import charts, docs, markup, tables  # noqa: E402
 from report.results import Paper, Results, ResultsError  # noqa: E402
 
 PAPER = Paper(FOLDER / "paper")
@@ -162,6 +162,19 @@ class DocsTest(unittest.TestCase):
         for name in ("tracing", "plain"):
             self.assertTrue((self.folder / f"page-{name}.svg").exists())
         self.assertIn("Beams: MRPS (beam, fog, 1280x720, exact)\nThey are fast.\n", text)
+
+    def test_plots(self):
+        """Over a statistic variants are marks of one series, without lines; figures of many decades have a logarithmic axis."""
+        made = example.stranger()
+        for place, record in enumerate(made["runs"]):
+            record["values"] = {"error.rmse": 10.0 ** (place - 4), "count": 1}
+            record["stats"]["cycles"] = 1000 + place
+        made["sweeps"][0].update(x="cycles", y="values.error.rmse", table=None)
+        figure = charts.sweep_figure(Results(made), PAPER, made["sweeps"][0], "figure")
+        self.assertTrue(figure.log_y)
+        self.assertEqual([(series.label, series.line, len(series.points)) for series in figure.series], [(f"{scene}, {chip}", False, 2) for scene in ("cube", "dragon") for chip in ("tiny", "4x32")])
+        self.assertIn("set logscale y 10", figure.script())
+        self.assertIn("1e-04", figure.text().replace("0.0001", "1e-04"))
 
     def test_descriptions(self):
         for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), (3, "expected an object"),

@@ -116,13 +116,15 @@ def sweep_figure(results, paper, sweep, identity):
     if kinds:
         runs = list(by_kind(runs))
     axes = Axes(results, paper, runs, {**sweep, "x": None})
-    if "variant" in axes.varying and len({run.setting(key) for run in runs}) < 2:
+    # Of a statistic y is no function: there are no lines then, and variants are marks of one series.
+    counted = key != "threads" and key not in axes.order and any(run.configured(key) is None and run.get(key) is not None for run in runs)
+    if not counted and "variant" in axes.varying and len({run.setting(key) for run in runs}) < 2:
         key = "variant"
-    others = [axis for axis in axes.varying if axis not in (key, "scene") and not (key == "threads" and axis == "chip")]
+    others = [axis for axis in axes.varying if axis not in (key, "scene") and not (key == "threads" and axis == "chip") and not (counted and axis == "variant")]
     named = [text for text in axes.order.get(key, []) if isinstance(text, str) and text]
     groups = {}
     for run in runs:
-        x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.setting(key), value.of(run)
+        x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.get(key) if counted else run.setting(key), value.of(run)
         if x is not None and y is not None:
             label = tuple(str(part) if axis in ("program", "chip", "workload", "variant", "kind", "size", "mode") else f"{axis}={part}" for axis, part in zip(others, axes.place(run, others)) if part != "")
             groups.setdefault(("" if kinds else run.scene, label), []).append((x, y, f"{run.name()}: {y:.4g}"))
@@ -138,14 +140,14 @@ def sweep_figure(results, paper, sweep, identity):
     series = []
     for (scene, label), points in groups.items():
         colour, mark = scenes.index(scene) if several else labels.index(label), labels.index(label)
-        # Points of a statistic, as an error against cycles, are no function of it.
         series.append(Series(", ".join([scene] * (several and not kinds) + [*label]), STYLES[colour % len(STYLES)][0], sorted(points), STYLES[mark % len(STYLES)][1],
-                             line=not named and (key == "threads" or key in axes.order or "." in key and not key.startswith("values.")),
+                             line=not named and not counted,
                              dashed=first != [] and "program" in axes.varying and first[0] not in label))
     ticks = [(place, text) for place, text in enumerate(named)] or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)
     doubling = not named and len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
+    heights = [point[1] for points in groups.values() for point in points if point[1] > 0]
     unit = value.name + (f" / {value.per}" if value.per else "")
-    return Lines(identity, f"{unit} against {key}", key, unit, series, log_x=doubling, base=2, x_ticks=ticks)
+    return Lines(identity, f"{unit} against {key}", key, unit, series, log_x=doubling, base=2, x_ticks=ticks, log_y=bool(heights) and max(heights) / min(heights) >= 1000)
 
 
 def _joined(columns, rows):

@@ -37,7 +37,8 @@ class Series:
 class Lines:
     """Marks and lines over two axes; x_ticks: (value, text) where the axis is to have them."""
 
-    def __init__(self, identity, title, x, y, series, log_x=False, x_ticks=None, from_zero=True, base=10):
+    def __init__(self, identity, title, x, y, series, log_x=False, x_ticks=None, from_zero=True, base=10, log_y=False):
+        self.log_y = log_y
         self.identity, self.title, self.x, self.y, self.series = identity, title, x, y, series
         self.log_x, self.x_ticks, self.from_zero, self.base = log_x, x_ticks, from_zero, base
         self.height = HEIGHT
@@ -46,7 +47,7 @@ class Lines:
         return [tip for series in self.series for _, _, tip in self._drawn(series)]
 
     def _drawn(self, series):
-        return [(x, y, tip) for x, y, tip in series.known() if x > 0 or not self.log_x]
+        return [(x, y, tip) for x, y, tip in series.known() if (x > 0 or not self.log_x) and (y > 0 or not self.log_y)]
 
     def empty(self):
         return not self.tips()
@@ -57,10 +58,11 @@ class Lines:
     def script(self):
         points = [point for series in self.series for point in self._drawn(series)]
         lines = [f"set xlabel {_quoted(self.x)}", f"set ylabel {_quoted(self.y)}"]
-        for axis, log, place in (("x", self.log_x, 0), ("y", False, 1)):
+        for axis, log, place in (("x", self.log_x, 0), ("y", self.log_y, 1)):
             low, high = min(p[place] for p in points), max(p[place] for p in points)
             if log:
-                lines.append(f"set logscale x {self.base}")
+                lines.append(f"set logscale {axis} {self.base if axis == 'x' else 10}")
+                lines += ["set format y '%g'"] if axis == "y" else []
                 lines.append(f"set {axis}range [{low / 1.25!r}:{high * 1.25!r}]")
             else:
                 low = 0 if self.from_zero and low >= 0 else low
@@ -94,15 +96,15 @@ class Lines:
     def text(self, width=72, height=16):
         """The marks on a grid of letters, for the command's output."""
         drawn = [series for series in self.series if self._drawn(series)]
-        place = {True: math.log, False: float}[self.log_x]
-        points = [(letter, place(x), y) for letter, series in zip(_LETTERS, drawn) for x, y, _ in self._drawn(series)]
+        along, up = (math.log if log else float for log in (self.log_x, self.log_y))
+        points = [(letter, along(x), up(y)) for letter, series in zip(_LETTERS, drawn) for x, y, _ in self._drawn(series)]
         (left, right), (low, high) = ((min(values), max(values)) for values in zip(*(point[1:] for point in points)))
-        low = 0 if self.from_zero and low >= 0 else low
+        low = 0 if self.from_zero and low >= 0 and not self.log_y else low
         grid = [[" "] * width for _ in range(height)]
         for letter, x, y in points:
             column, row = (round((value - first) / ((last - first) or 1) * (cells - 1)) for value, first, last, cells in ((x, left, right, width), (y, low, high, height)))
             grid[height - 1 - row][column] = letter if grid[height - 1 - row][column] in (" ", letter) else "+"
-        edges = {0: f"{high:.4g}", height - 1: f"{low:.4g}"}
+        edges = {row: f"{math.exp(edge) if self.log_y else edge:.4g}" for row, edge in ((0, high), (height - 1, low))}
         names = [f"{text}" for _, text in self.x_ticks or []] or [f"{point:.4g}" for point in sorted({point[0] for series in drawn for point in self._drawn(series)})]
         lines = [self.title, ""] + [f"{edges.get(row, ''):>10} |{''.join(cells).rstrip()}" for row, cells in enumerate(grid)]
         lines += [" " * 11 + "+" + "-" * width, f"{'':12}{names[0]}{names[-1]:>{max(1, width - len(names[0]))}}   {self.x}"]
