@@ -1,4 +1,4 @@
-/* The first load that may return an old value (docs/emulator.md, "Checking the order").
+/* The first load that may return an old value (docs/debugging.md, "Checking the order").
 
    The engines' memory is never stale, so a program's results do not show which order it relies on. A cached load of a
    value that another thread has stored is right if that thread has executed `fence w` since the store and one of three

@@ -1,4 +1,4 @@
-/* The second-level cache that the TMs share (docs/timing.md, "Second-level cache"). */
+/* The second-level cache that the TMs share (docs/timing-memory.md, "Second-level cache"). */
 #ifndef TRAX_FAST_L2_H
 #define TRAX_FAST_L2_H
 

@@ -1,4 +1,4 @@
-/* The memory controller: its channels, and the arbitration of the TMs' requests (docs/timing.md, "Memory controller").
+/* The memory controller: its channels, and the arbitration of the TMs' requests (docs/timing-memory.md, "Memory controller").
    There may be a second-level cache between it and the TMs (fast/l2.h). TMs influence each other's timing only here. */
 #ifndef TRAX_FAST_MEMORY_H
 #define TRAX_FAST_MEMORY_H

@@ -1,4 +1,4 @@
-/* A TM's memory queue: a place for each request that has not completed (docs/timing.md, "Memory queue").
+/* A TM's memory queue: a place for each request that has not completed (docs/timing-memory.md, "Memory queue").
 
    If all requests of a TM complete in the order in which they were made (trax_memory_keeps_order), the places are a
    ring: the oldest `started` requests have been served, and the others wait. Otherwise a request is first in the list

@@ -24,7 +24,7 @@ struct trax_store_buffer_word {
 struct trax_store_buffer {
   struct trax_store_buffer_write *writes; /* [write_count], in the order of issue */
   size_t write_count, write_capacity;
-  uint32_t *reads; /* [read_count]: the words that loads at issue have read; see docs/fast-engine.md, "read set" */
+  uint32_t *reads; /* [read_count]: the words that loads at issue have read; docs/fast-engine.md, read set */
   size_t read_count, read_capacity;
   uint64_t *requests; /* [request_count]: the cycles in which they were made */
   size_t request_count, request_capacity;

@@ -1,4 +1,4 @@
-/* docs/timing.md, "Memory controller". */
+/* docs/timing-memory.md, "Memory controller". */
 #include "reference/reference.h"
 
 #include <math.h>

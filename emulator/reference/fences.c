@@ -1,4 +1,4 @@
-/* docs/timing.md, "Fences". */
+/* docs/timing-memory.md, "Fences". */
 #include "reference/reference.h"
 
 bool trax_ref_fence_waits(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {

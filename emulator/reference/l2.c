@@ -1,4 +1,4 @@
-/* docs/timing.md, "Second-level cache": step 3, before the memory controller. */
+/* docs/timing-memory.md, "Second-level cache": step 3, before the memory controller. */
 #include "reference/reference.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* docs/timing.md, "Memory queue": step 4, and the arrivals of "A cycle". */
+/* docs/timing-memory.md, "Memory queue": step 4, and the arrivals of "A cycle". */
 #include "reference/reference.h"
 
 bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request) {

@@ -1,4 +1,4 @@
-/* The energy of a run, from its counters and the energy of each access (docs/emulator.md, "Energy"). */
+/* The energy of a run, from its counters and the energy of each access (docs/statistics.md, "Energy"). */
 #ifndef TRAX_REPORT_ENERGY_H
 #define TRAX_REPORT_ENERGY_H
 

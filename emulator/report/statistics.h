@@ -1,5 +1,5 @@
 /* All statistics as one list of figures, made from the tables of machine/stats.h. trax_stats_get, the reports and
-   docs/emulator.md use this list. */
+   docs/trax-sim.md use this list. */
 #ifndef TRAX_REPORT_STATISTICS_H
 #define TRAX_REPORT_STATISTICS_H
 

@@ -34,7 +34,7 @@
 #endif
 
 #define LD_SEGMENT_ALIGNMENT 64u       /* docs/abi.md */
-#define LD_INSTRUCTION_CACHE 4096u     /* bytes, docs/emulator.md, by default; for reports only */
+#define LD_INSTRUCTION_CACHE 4096u     /* bytes, docs/trax-sim.md, by default; for reports only */
 #define LD_MAX_ALIGNMENT 65536u        /* of a section; a larger one is taken for a damaged file */
 #define LD_MAX_FILE (256u << 20)       /* of the output; zeroed data among other data, written out, could be any size */
 #define LD_BOUNDARY_SECTION UINT32_MAX /* __start_NAME, __stop_NAME */

@@ -18,7 +18,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = ["--splits=1", "--passes", "0"]  # the tree as the builder leaves it, as for the plain program
 
-# The figure's parts of a run: a colour, a name, and causes of docs/emulator.md, together where the same hardware is behind them.
+# The figure's parts of a run: a colour, a name, and causes of docs/trax-sim.md, together where the same hardware is behind them.
 PARTS = [
     ("#4e79a7", "instructions", ["issued"]),
     ("#f28e2b", "adders and multipliers busy", ["fp_add_conflict", "fp_mul_conflict", "int_mul_conflict"]),

@@ -23,7 +23,7 @@ def printed(binaries, command):
 def main():
     binaries, source = map(pathlib.Path, sys.argv[1:3])
     stale = found = 0
-    for page in [source / "README.md", *sorted((source / "docs").glob("*.md"))]:
+    for page in [source / "README.md", *sorted((source / "docs").rglob("*.md"))]:
         text = page.read_text()
         found += len(BLOCK.findall(text))
         expected = BLOCK.sub(lambda block: f"$ {block[1]}\n{printed(binaries, block[1])}", text)

@@ -77,7 +77,7 @@ def check_tps(stats):
 
 
 def check_energy(stats):
-    """Against the figures for each access, in nJ, and what docs/emulator.md says is an access. The machine has a
+    """Against the figures for each access, in nJ, and what docs/statistics.md says is an access. The machine has a
     data cache of 16 kB with one bank, instruction caches of 4 kB with 16, and a second-level cache of 64 kB with 8."""
     count = stats["instructions_by_operation"]
     registers = {"r": 3, "r1": 2, "cmov": 4, "store": 2, "u": 1, "none": 0}

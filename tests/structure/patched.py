@@ -115,7 +115,7 @@ class Patched:
         with open(os.path.join(self.scratch, "docs", "emulator.md"), encoding="utf-8") as page:
             text = page.read()
         for option in ("--help-config", "--help-stats"):
-            self.check(self.run("trax-sim", option) in text, f"docs/emulator.md has not got what trax-sim {option} prints")
+            self.check(self.run("trax-sim", option) in text, f"docs/trax-sim.md has not got what trax-sim {option} prints")
 
     def end(self):
         self.check_pages()

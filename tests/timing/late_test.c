@@ -1,5 +1,5 @@
 /* The memory controllers of both engines in cycles that no test reaches by simulating all cycles before: transfers by
-   hand (docs/timing.md, "Memory controller"), where the bus time since cycle 0 does not fit in 64 bits. */
+   hand (docs/timing-memory.md, "Memory controller"), where the bus time since cycle 0 does not fit in 64 bits. */
 #include "bench.h"
 
 #include "fast/chip.h"

@@ -27,7 +27,7 @@
 extern "C" {
 #endif
 
-/* --- configuration: trax_config_describe and docs/emulator.md list the keys --- */
+/* --- configuration: trax_config_describe and docs/trax-sim.md list the keys --- */
 typedef struct trax_config trax_config;
 
 /* The defaults: 1 TM of 1 TP, everything else as in the paper. NULL: out of memory. */
@@ -102,7 +102,7 @@ typedef struct trax_progress {
 
 #define TRAX_MAX_SLOT_QUEUES 64
 
-/* Slot-sampled simulation (docs/emulator.md) estimates the run of a program whose threads take numbered pieces of work,
+/* Slot-sampled simulation (docs/sampling.md) estimates the run of a program whose threads take numbered pieces of work,
    called slots, by the atomic increment of a counter, until the number is `slots` or more. The program may have several
    queues of slots, each with its counter: queue q has the tiles q, q + queues, q + 2 * queues and so on, and a thread
    whose queue is empty goes on with another queue. A slot's place is the number of slots that all queues have handed

@@ -1,5 +1,5 @@
 /* Explanations of a run besides its statistics: profiles, traces, time lines, memory heat, costs of items, series
-   (docs/emulator.md, "Explaining a run"). They are deterministic and the same with both timed engines.
+   (docs/explaining.md). They are deterministic and the same with both timed engines.
 
      struct trax_explain *explain;
      trax_explain_begin(&explain, machine, &options, &error);   after loading and binding, before the run

@@ -56,7 +56,7 @@ unsigned trax_variant_latency(const struct trax_variant *variant); /* cycles; 0:
   FIGURE(SCENE, "scene_bytes", "bytes", "of the scene in the chip's memory")                                           \
   FIGURE(CODE, "code_bytes", "bytes", "of the program's code")                                                         \
   FIGURE(MEMORY, "memory_bytes", "bytes", "from and to off-chip memory")                                               \
-  FIGURE(ENERGY, "energy", "J", "the chip's dynamic energy without off-chip memory (docs/emulator.md)")                \
+  FIGURE(ENERGY, "energy", "J", "the chip's dynamic energy without off-chip memory (docs/statistics.md)")                \
   FIGURE(MRPS, "mrps", "million rays/s", "of simulated time")                                                          \
   FIGURE(HOST_SECONDS, "host_seconds", "s", "wall time of the simulation")                                             \
   FIGURE(RMSE, "numerical_rmse", "of 255", "R - E: root of the mean square over all channels")                         \
