@@ -112,7 +112,7 @@ class Patched:
 
     def check_pages(self):
         self.run("timing-units-page", os.path.join("docs", "timing.md"))
-        with open(os.path.join(self.scratch, "docs", "emulator.md"), encoding="utf-8") as page:
+        with open(os.path.join(self.scratch, "docs", "trax-sim.md"), encoding="utf-8") as page:
             text = page.read()
         for option in ("--help-config", "--help-stats"):
             self.check(self.run("trax-sim", option) in text, f"docs/trax-sim.md has not got what trax-sim {option} prints")
