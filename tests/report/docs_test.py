@@ -184,6 +184,12 @@ class DocsTest(unittest.TestCase):
             with self.assertRaisesRegex(ResultsError, message):
                 list(tables.of_sweep(Results(made), PAPER, made["sweeps"][0]))
 
+    def test_only(self):
+        made = example.stranger()
+        made["sweeps"][0]["table"] = {"rows": "chip", "columns": ["scene", "variant"], "relative": {"variant": "as it is"}, "as": "times", "only": {"variant": "sorted", "chip": ["tiny"]}}
+        table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
+        self.assertEqual([row[:3] for row in rows_of("\n".join(table.lines(False)))], [["chip", "cube, sorted", "dragon, sorted"], ["tiny", "1.25", "1.25"]])
+
     def test_missing(self):
         """A mean with a run that is not there is not a mean of the others."""
         made = example.stranger()

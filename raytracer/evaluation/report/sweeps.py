@@ -7,7 +7,7 @@ import itertools
 from .results import ResultsError, deviation, mean, number, ratio
 from .table import Cell, Table, duration, figure, number as shown_number, percent, share
 
-KEYS = ("id", "title", "each", "rows", "columns", "values", "mean", "where", "relative", "as")
+KEYS = ("id", "title", "each", "rows", "columns", "values", "mean", "where", "only", "relative", "as")
 NAMED = ("program", "workload", "kind", "variant", "chip", "size", "mode", "scene")
 # Titles of figures; those that are shares are shown in per cent.
 TITLES = {"mrps": "MRPS", "cycles": "cycles", "rays": "rays", "memory.bandwidth_gbps": "GB/s", "values.bytes_per_ray": "bytes/ray", "values.flops_per_ray": "FLOPs/ray", "gflops": "GFLOPS",
@@ -59,7 +59,7 @@ def checked(given, where):
             spec[key] = spec[key] if isinstance(spec[key], list) else [spec[key]]
             if not all(isinstance(entry, str) or key == "values" and isinstance(entry, dict) and isinstance(entry.get("name"), str) for entry in spec[key]):
                 raise ResultsError(f"{where}.{key}: expected names")
-    for key in ("where", "relative"):
+    for key in ("where", "only", "relative"):
         if not isinstance(spec.get(key, {}), dict):
             raise ResultsError(f"{where}.{key}: expected an object of axes and values")
     if spec.get("as", "change") not in ("change", "times"):
@@ -127,6 +127,10 @@ class Axes:
         return sorted(places, key=lambda place: [order[key].index(value) for key, value in zip(keys, place)])
 
 
+def _is_one(value, wanted):
+    return str(value).lower() in [str(one).lower() for one in (wanted if isinstance(wanted, list) else [wanted])]
+
+
 def _build(results, paper, sweep, spec, runs, identity, title):
     axes = Axes(results, paper, runs, sweep)
     mean_over = spec.get("mean", [])
@@ -160,7 +164,10 @@ def _build(results, paper, sweep, spec, runs, identity, title):
         below = percent(times - 1, signed=True, digits=1) if times is not None else interval_text(some[0]) if value.name == "mrps" and len(some) == 1 else ""
         return value.cell(got, below=below, link=f"#run-{some[0].index}" if len(some) == 1 else "")
 
-    row_places, column_places = (axes.sorted({place[index] for place in groups}, keys) for index, keys in ((0, rows), (1, columns)))
+    def shown(place, keys):
+        return all(_is_one(part, spec["only"][key]) for key, part in zip(keys, place) if key in spec.get("only", {}))
+
+    row_places, column_places = (axes.sorted({place[index] for place in groups if shown(place[index], keys)}, keys) for index, keys in ((0, rows), (1, columns)))
     head = [(key, "n" if all(number(place[index]) is not None for place in row_places) else "t") for index, key in enumerate(rows)]
     for column, value in itertools.product(column_places, values):
         name = ", ".join(str(part) if key in NAMED else f"{key} {part}" for key, part in zip(columns, column))
@@ -187,7 +194,8 @@ def makers(results, paper, sweep):
     kinds = any(run.kinds() for run in runs)
     widths = sorted({int(key.split(".")[1]) for run in runs for key in run.values if key.startswith("simd_utilisation.") and key.split(".")[1].isdecimal()} - {1})
     y = {"name": sweep.get("y") or "mrps", "per": sweep.get("y_per")}
-    default = {"values": [y], **({"relative": {"variant": sweep["reference"]}} if sweep.get("reference") in {run.variant for run in runs} else {})}
+    reference = next((axis for axis in ("variant", "program") if sweep.get("reference") in {run.axis(axis) for run in runs} - {""}), None)
+    default = {"values": [y], **({"relative": {reference: sweep["reference"]}} if reference else {})}
     if kinds:
         default = {"mean": ["scene"], "values": OF_KINDS + [f"kind.lanes.{width}" for width in (4, 8, 16, 32) if any(f"rays.{kind}.lanes.{width}" in run.values for run in runs for kind in run.kinds())]}
     elif widths:
@@ -198,8 +206,7 @@ def makers(results, paper, sweep):
         chosen = list(by_kind(runs)) if any(str(value if isinstance(value, str) else value["name"]).startswith("kind.") for value in spec["values"]) else runs
         axes = Axes(results, paper, chosen, sweep)
         for key, wanted in spec.get("where", {}).items():
-            wanted = [str(one).lower() for one in (wanted if isinstance(wanted, list) else [wanted])]
-            chosen = [run for run in chosen if str(axes.value(run, key)).lower() in wanted]
+            chosen = [run for run in chosen if _is_one(axes.value(run, key), wanted)]
         each = spec.get("each", [])
         for part in axes.sorted({axes.place(run, each) for run in chosen}, each):
             some = [run for run in chosen if axes.place(run, each) == part]

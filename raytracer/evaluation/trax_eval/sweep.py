@@ -6,6 +6,9 @@ import math
 import pathlib
 import re
 
+from report.results import ResultsError
+from report.sweeps import descriptions
+
 from .fields import Fields, quoted
 from .programs import Program, find_programs
 from .scenes import find_scenes, inline_scene
@@ -275,7 +278,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     if reference and programs is None and reference not in known:
         reader.fail("reference", f'"{reference}" is neither a variant nor a program of this sweep; {quoted(known)} are')
     table = value.get("table")
-    if table is not None and not isinstance(table, dict) and not (isinstance(table, list) and all(isinstance(one, dict) for one in table)):
-        reader.fail("table", f"expected an object or a list of objects, is {canonical(table)}")
+    try:
+        descriptions({"name": name, "table": table})
+    except ResultsError as error:
+        reader.fail(None, str(error))
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"), reader.text("y_per", ""), str(path),
                  scenes, used, points, workloads, named, reference, table, reader.flag("all", True), mode == "quick")
