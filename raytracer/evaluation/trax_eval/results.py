@@ -74,7 +74,7 @@ def write_plan(out, sweep, keys, tools):
                        "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason})
     used = {point.workload for point in sweep.points}
     write_json(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None, "claim": sweep.claim,
-                                       "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference, "table": sweep.table,
+                                       "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference or None, "table": sweep.table,
                                        "programs": [{"name": program.name, "title": program.title} for program in sweep.programs],
                                        "scenes": [{name: scene[name] for name in ("name", "title", "licence", "paper")} for scene in sweep.scenes.values()],
                                        "workloads": [{name: workload[name] for name in ("name", "title")} for name, workload in sweep.workloads.items() if name and name in used],
