@@ -68,7 +68,9 @@ def values_of(result, areas):
     for row in result.get("lockstep", []):
         values[f"simd_utilisation.{row['width']:.0f}"] = row["utilisation"]
         values[f"simd_bound.{row['width']:.0f}"] = row["longest"]
-    values |= {f"counters.{name}": value for name, value in result.get("counters", {}).items()}
+    for kind in ("counters", "error", "hits", "code"):
+        values |= {f"{kind}.{name}": value for name, value in result.get(kind, {}).items()}
+    values["scene_bytes"] = sum(buffer["bytes"] for buffer in result["job"]["inputs"]["buffers"] if "file" in buffer and buffer["symbol"] != "params")
     return values | values_of_rays(result, statistics)
 
 

@@ -1,0 +1,121 @@
+"""From sweeps to keys of jobs: names and options are checked, programs built, scenes imported and inputs prepared."""
+
+import sys
+import tempfile
+
+from .fields import installed
+from .inputs import prepare_inputs
+from .jobs import key_of, make_job, write_job
+from .programs import Program, build
+from .scenes import order_options, scene_file
+from .sweep import CHIPS, option_of, option_words
+from .util import Problem, hash_value
+
+
+def check_names(options, sweeps):
+    """Names of --program are those of programs that come with trax, or that a sweep has; other names are those of a sweep."""
+    known = dict.fromkeys([*installed("programs"), *(program.name for sweep in sweeps for program in sweep.programs)])
+    for program in options.programs or ():
+        if not isinstance(program, Program) and program not in known:
+            raise Problem(f'--program {program}: allowed are {", ".join(known)}, and files NAME.json')
+    for option, given, known in (("scene", options.scene, [scene for sweep in sweeps for scene in sweep.scenes]), ("variant", options.variant, [name for sweep in sweeps for name in sweep.variants])):
+        for name in given or ():
+            if name not in known:
+                raise Problem(f'--{option} {name}: the sweep has {"; ".join(dict.fromkeys(known)) or "none"}')
+
+
+def check_machines(sweeps, tools):
+    """A wrong key or value of the configuration, or an option that its program refuses, is the sweep's mistake, and ends the command before anything is written."""
+
+    def check(place, tool, words):
+        if words and (said := tools.refused(tool, tuple(words))):
+            raise Problem(f"{place}: {said}")
+
+    def machine(place, chip, settings):
+        try:
+            tools.configuration(chip, settings)
+        except Problem as problem:
+            raise Problem(f"{place}: {problem}") from None
+
+    for sweep in sweeps:
+        for program in sweep.programs:
+            machine(f"{program.file}: set", CHIPS[0], program.settings)
+        for point in sweep.points:
+            for key, value in point.settings:
+                if option := option_of(key):
+                    check(f"{sweep.file}: set.{key}", option[0], option_words(option[1], value))
+            machine(sweep.file, point.chip_file, point.machine())
+        for program in sweep.programs:
+            check(f"{program.file}: scene", "trax-scene", program.scene)
+            check(f"{program.file}: render", "trax-render", program.render)
+        for workload in sweep.workloads.values():
+            check(f"{workload['file']}: scene", "trax-scene", workload["scene"])
+            check(f"{workload['file']}: render", "trax-render", workload["render"])
+
+
+class Planner:
+    """From points to keys of jobs. Programs are built, scenes imported and inputs prepared once each."""
+
+    def __init__(self, out, tools, folder, quiet, only_look, scratch):
+        self.out, self.tools, self.folder, self.quiet, self.only_look, self.scratch = out, tools, folder, quiet, only_look, scratch
+        self.made = {}
+
+    def once(self, what, function):
+        if what not in self.made:
+            try:
+                self.made[what] = function(), None
+            except Problem as problem:
+                print(f"trax-eval: {problem}", file=sys.stderr)
+                self.made[what] = None, str(problem)
+        value, reason = self.made[what]
+        if reason:
+            raise Problem(reason)
+        return value
+
+    def note(self, text):
+        if not self.quiet and sys.stderr.isatty():
+            print(f"\r\033[Ktrax-eval: {text}\r", end="", file=sys.stderr, flush=True)
+
+    def program(self, program):
+        """Options of trax-render."""
+
+        def make():
+            self.note(f"{program.name}: compiling")
+            return build(self.tools, program, tempfile.mkdtemp(dir=self.scratch))
+
+        return self.once(("program", program), make)
+
+    def inputs(self, sweep, point):
+        scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
+        machine = point.chip_file, point.machine()
+        imported, rendered = (tuple(point.options(tool, workload)) for tool in ("trax-scene", "trax-render"))
+        own = bool(workload["scene"]) or any(option_of(key) and option_of(key)[0] == "trax-scene" for key, _ in point.settings)
+        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if program.specialised else []  # it is made for a machine, as trax-render has it
+        path = self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), imported, tuple(order), own),
+                         lambda: scene_file(self.out, self.tools, self.folder, scene, [*order, *imported], own, self.only_look))
+        if path is None:
+            return None
+        whole = point.mode == "quick" or point.error or point.hits
+        chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if program.specialised else None
+        built = self.program(program)
+        self.note(f"{point.scene}, {point.size}, {program.name}")
+        return self.once((path, scene["view"], point.size, program, chip, whole, rendered),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, program, built, chip, rendered, whole, self.only_look))
+
+    def key(self, sweep, point):
+        """(key, None), or (None, why there is none)."""
+        try:
+            inputs = self.inputs(sweep, point)
+            if inputs is None:  # none of its runs has been made
+                machine = self.tools.configuration(point.chip_file, point.machine())
+                return "-" + hash_value([point.scene, point.program.file, machine, point.size, point.mode, point.series, point.lockstep, point.ray_kinds, point.workload,
+                                         [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits]), None
+            job = make_job(self.tools, inputs, point)
+            return key_of(job) if self.only_look else write_job(self.out, job), None
+        except Problem as problem:
+            return None, str(problem)
+
+
+def label(point):
+    changes = "".join(f" {key}={value}" for key, value in point.settings)
+    return f"{point.scene} {point.chip}{f' ({point.variant})' if point.variant else changes} {point.program.name}{f' {point.workload}' if point.workload else ''} {point.size}"
