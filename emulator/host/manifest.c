@@ -175,8 +175,8 @@ static trax_status read_buffers(const struct place *place, struct trax_manifest 
 }
 
 static trax_status read_document(struct trax_manifest *manifest, trax_error *error) {
-  static const char *const keys[] = {"trax_manifest", "program", "buffers", "items", "configuration",
-                                     "features",      "view",    "picture", NULL};
+  static const char *const keys[] = {"trax_manifest", "program",  "buffers", "items",   "configuration",
+                                     "code",          "features", "view",    "picture", NULL};
   static const char *const program_keys[] = {"file", "bytes", "xxh128", NULL};
   const struct place root = {.manifest = manifest, .value = manifest->root};
   const struct place version = member(&root, "trax_manifest"), items = member(&root, "items");

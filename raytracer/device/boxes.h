@@ -11,16 +11,12 @@
 /* Where along the ray a plane is, as bits. */
 static inline __attribute__((always_inline)) int32_t plane_distance(uint32_t layout, const char *plane, float origin,
                                                                     float inverse) {
-  return nodes_have_frames(layout)     ? quantised8_plane(plane, origin, inverse)
-         : nodes_are_quantised(layout) ? quantised_plane(plane, origin, inverse)
-                                       : binary_plane(plane, origin, inverse);
+  return nodes_are_quantised(layout) ? quantised_plane(plane, origin, inverse) : binary_plane(plane, origin, inverse);
 }
 
 /* A distance as planes have it. */
 static inline __attribute__((always_inline)) int32_t limit_of(uint32_t layout, int32_t distance_bits) {
-  return nodes_have_frames(layout)     ? distance_in_units(distance_bits, FRAME_EXPONENT)
-         : nodes_are_quantised(layout) ? distance_in_units(distance_bits, GRID_EXPONENT)
-                                       : distance_bits;
+  return nodes_are_quantised(layout) ? distance_on_grid(distance_bits) : distance_bits;
 }
 
 /* Clips the ray's way through a box to the slab between two of its planes. False: nothing of it remains. Distances are
@@ -40,7 +36,8 @@ static inline __attribute__((always_inline)) bool clip_to_slab(uint32_t layout, 
 
 /* Where the ray enters a box, as bits, if it does so before `limit`. */
 static inline __attribute__((always_inline)) bool enter_box(uint32_t layout, const char *box, const struct ray *ray,
-                                                            const struct box_ray *way, int32_t limit, int32_t *enter) {
+                                                            int32_t limit, int32_t *enter) {
+  const struct box_ray *way = &ray->box;
   const int plane = plane_bytes(layout);
   const char *least = box, *greatest = box + 3 * plane;
   int32_t leave = limit;
@@ -52,15 +49,6 @@ static inline __attribute__((always_inline)) bool enter_box(uint32_t layout, con
          clip_to_slab(layout, least + 2 * plane + ray->near_offset_z, greatest + 2 * plane - ray->near_offset_z,
                       way->near_origin.z, way->far_origin.z, way->inverse.z, enter, &leave) &&
          leave >= 0;
-}
-
-/* The ray as the boxes of this node take it. */
-static inline __attribute__((always_inline)) struct box_ray ray_at_node(uint32_t layout, const struct ray *ray,
-                                                                        const char *node) {
-  struct box_ray way = ray->box;
-  if (nodes_have_frames(layout))
-    enter_frame(&way, node);
-  return way;
 }
 
 #endif

@@ -140,14 +140,8 @@ static RENDER_ALL void render_quantised(const struct trax_render_params *run) {
   render_layout(run, TRAX_NODES_QUANTISED);
 }
 
-/* The general program of the TPs has no more layouts: trax-render refuses them. */
-static RENDER_ALL void render_other(const struct trax_render_params *run) {
-#if defined __trax__ && !defined TRAX_NODE_LAYOUT
-  (void)run;
+static RENDER_ALL void refuse_layout(void) {
   trax_abort("this program does not know the scene's layout of nodes");
-#else
-  render_layout(run, RUN_LAYOUT(run));
-#endif
 }
 
 /* Everything else. */
@@ -180,7 +174,7 @@ NO_RETURN int main(void) {
   else if (RUN_LAYOUT(run) == TRAX_NODES_QUANTISED)
     render_quantised(run);
   else
-    render_other(run);
+    refuse_layout();
 #ifndef __trax__
   return 0;
 #endif

@@ -1,4 +1,4 @@
-/* Binary nodes: boxes in binary32, exact (struct trax_bvh_node; struct trax_wide_node has two pairs of such boxes). */
+/* Binary nodes: boxes in binary32, exact (struct trax_bvh_node). */
 #ifndef TRAX_DEVICE_NODES_BINARY_H
 #define TRAX_DEVICE_NODES_BINARY_H
 

@@ -13,29 +13,23 @@
 
 #define GRID_EXPONENT 64
 
-/* `unit` is the reciprocal of the unit of distances; the factor of planes is still without 2^149. */
-static inline void prepare_for_grid(struct box_ray *box, struct vector origin, struct vector inverse,
-                                    struct vector margin, const struct trax_ray_grid *grid, float unit) {
+static inline void prepare_for_quantised(struct box_ray *box, struct vector origin, struct vector inverse,
+                                         struct vector margin, const struct trax_ray_grid *grid) {
+  const float unit = 0x1p-64f; /* the reciprocal of the unit of distances */
   struct vector cell = times(unit, load_vector(grid->cell)), step = times(unit, inverse);
   struct vector from = minus(origin, load_vector(grid->origin));
   box->near_origin = filtered(plus(from, margin), step);
   box->far_origin = filtered(minus(from, margin), step);
-  box->inverse = filtered(inverse, cell);
-}
-
-static inline void prepare_for_quantised(struct box_ray *box, struct vector origin, struct vector inverse,
-                                         struct vector margin, const struct trax_ray_grid *grid) {
-  prepare_for_grid(box, origin, inverse, margin, grid, 0x1p-64f);
-  box->inverse = times(0x1p74f, times(0x1p75f, box->inverse));
+  box->inverse = times(0x1p74f, times(0x1p75f, filtered(inverse, cell)));
 }
 
 static inline int32_t quantised_plane(const char *plane, float origin, float inverse) {
   return float_bits(bits_float(*(const uint16_t *)(const void *)plane) * inverse - origin);
 }
 
-/* A distance in units of 2^exponent, as bits; what is nearly 0 becomes a little more. */
-static inline int32_t distance_in_units(int32_t distance_bits, int exponent) {
-  return larger(distance_bits - (exponent << 23), 0x00800000);
+/* A distance in these units, as bits; what is nearly 0 becomes a little more. */
+static inline int32_t distance_on_grid(int32_t distance_bits) {
+  return larger(distance_bits - (GRID_EXPONENT << 23), 0x00800000);
 }
 
 #endif

@@ -5,12 +5,11 @@
 #include "algebra.h"
 #include "bits.h"
 #include "nodes_binary.h"
-#include "nodes_quantised8.h"
+#include "nodes_quantised.h"
 #include "trax/render_params.h"
 #include "triangle.h"
 
 struct ray {
-  /* If nodes have frames of their own, still without what these add. */
   struct box_ray box;
   /* The near planes of a box are its minima where the direction is positive, its maxima where it is negative: where in
      a box they are (0, or as many bytes as three planes take), so that no test compares planes. */
@@ -65,9 +64,7 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   ray->near_offset_z = near_offset(way.z, far_planes);
   struct vector margin = {with_sign_of(box_margin, way.x), with_sign_of(box_margin, way.y),
                           with_sign_of(box_margin, way.z)};
-  if (nodes_have_frames(layout))
-    prepare_for_frames(&ray->box, origin, inverse, margin, grid);
-  else if (nodes_are_quantised(layout))
+  if (nodes_are_quantised(layout))
     prepare_for_quantised(&ray->box, origin, inverse, margin, grid);
   else
     prepare_for_binary(&ray->box, origin, inverse, margin);

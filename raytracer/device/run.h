@@ -3,7 +3,6 @@
 
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
      TRAX_TREE_DEPTH             that of this scene
-     TRAX_STACK_ENTRIES          as many, or fewer (stack.h)
      TRAX_NODE_LAYOUT            that of this scene
      trax_constants              the parameters, and what is behind them: the first colour of the palette, or struct
                                  trax_path_params; the compiler folds their loads into the instructions
@@ -56,19 +55,10 @@ extern struct trax_buffer scene, params, image;
 #define RUN_LAYOUT(run) ((run)->node_layout)
 #endif
 
-/* Of a general program that is told nothing else; the host has room for a whole stack. */
+/* Of a general program that is told nothing else. */
 #ifndef TRAX_TREE_DEPTH
 #define TRAX_TREE_DEPTH TRAX_SCENE_MAX_DEPTH
 #endif
-#ifndef TRAX_STACK_ENTRIES
-#ifdef __trax__
-#define TRAX_STACK_ENTRIES TRAX_SHORT_STACK
-#else
-#define TRAX_STACK_ENTRIES TRAX_TREE_DEPTH
-#endif
-#endif
-
-#define STACK_IS_SHORT (TRAX_STACK_ENTRIES < TRAX_TREE_DEPTH)
 
 #if defined TRAX_SPECIALISED_FEATURES && !defined TRAX_PARAMS_IN_MEMORY
 #define RUN_PARAMS (&trax_constants.params)

@@ -8,24 +8,21 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
   if (options->prepare &&
-      (options->output || options->stats || options->compare || options->report || options->id_picture ||
-       options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+      (options->output || options->stats || options->compare || options->error || options->hits ||
+       options->id_picture || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
-  if (!options->output && !options->prepare)
+  const bool of_run = options->stats || options->compare || options->keep || options->id_picture || options->sampled ||
+                      options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
+  if (!options->output && !options->prepare && (of_run || !(options->error || options->hits)))
     return trax_fail(error, "no picture given: -o PICTURE.png");
-  if (options->bench_accuracy) {
-    if (options->engine != ENGINE_FAST || options->program || options->no_specialise)
-      return trax_fail(error, "--bench-accuracy chooses engines and programs itself");
-    if (options->frame.samples != 1 || options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT ||
-        options->frame.method.fast_math)
-      return trax_fail(error, "--bench-accuracy varies --samples, --triangle and --fast-math itself");
-    if (options->frame.method.stack)
-      return trax_fail(error, "--bench-accuracy is about pictures, which --stack leaves as they are");
-    if (options->stats || options->cost_picture || options->cost_values || options->compare || options->report ||
-        options->keep || options->prepare || options->frames > 1 || options->id_picture ||
-        trax_explain_wanted(&options->explain))
-      return trax_fail(error, "--bench-accuracy makes tables and diagrams of its own, and nothing else");
-  }
+  if (options->error && (options->engine > ENGINE_REFERENCE || options->program || options->no_specialise))
+    return trax_fail(error, "--error is about the program that is compiled for the picture, on the emulator");
+  if (options->converged && !options->error)
+    return trax_fail(error, "--converged is for --error");
+  if ((options->error || options->hits) && (options->frames > 1 || options->sampled))
+    return trax_fail(error, "--error and --hits are about one whole picture");
+  if (options->hits && options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT)
+    return trax_fail(error, "--hits: its error bounds are those of the watertight test");
   const trax_slot_sampling *sampling = &options->sampling;
   if (!options->sampled &&
       (sampling->fraction > 0 || sampling->error > 0 || sampling->seed || sampling->unit || sampling->warm_up))
@@ -34,10 +31,11 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--sample-fraction and --sample-error: one follows from the other");
   if (options->sampled && options->engine != ENGINE_FAST)
     return trax_fail(error, "--sampled needs engine fast");
-  if (options->sampled &&
-      (options->compare || options->report || options->bench_accuracy || options->prepare || options->frames > 1 ||
-       options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+  if (options->sampled && (options->compare || options->prepare || options->frames > 1 || options->cost_picture ||
+                           options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
+  if (options->sampled && options->source)
+    return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
   if (options->sampled && options->frame.method.fast_math)
     return trax_fail(error, "--sampled: with --fast-math the native twin's picture would be another one");
   if (options->engine > ENGINE_REFERENCE) {
@@ -49,14 +47,12 @@ trax_status options_check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
     if (options->choose_queues)
       return trax_fail(error, "--queues needs the emulator: other engines have no TMs");
-    if (options->source || options->cache || options->report || options->no_specialise)
-      return trax_fail(error, "--source, --cache, --report and --no-specialise need the emulator");
+    if (options->cache || options->source || options->no_specialise)
+      return trax_fail(error, "--cache, --source and --no-specialise need the emulator");
     if (options->frame.method.fast_math)
       return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
     if (options->frame.mark_rays)
       return trax_fail(error, "--mark-rays needs the emulator: it is about the program that is compiled for it");
-    if (options->frame.method.stack)
-      return trax_fail(error, "--stack needs the emulator: it is about the program that is compiled for it");
     if (options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT && options->engine == ENGINE_EMBREE)
       return trax_fail(error, "--triangle: engine embree has a test of its own");
   }
@@ -64,34 +60,23 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--queues needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
   const struct trax_method *method = &options->frame.method;
-  if (method->stack && (options->no_specialise || options->program))
-    return trax_fail(error, "--stack needs a program compiled for the picture; %s asks for another",
-                     options->program ? "--program" : "--no-specialise");
   if (method->triangle != TRAX_TRIANGLE_WATERTIGHT || method->fast_math) {
     const char *name = method->fast_math ? "--fast-math" : "--triangle";
     if (options->no_specialise || options->program)
       return trax_fail(error, "%s needs a program compiled for the picture; %s asks for another", name,
                        options->program ? "--program" : "--no-specialise");
-    if (options->report)
-      return trax_fail(error, "--report compares with the general program, which %s does not change", name);
   }
   if (options->frame.mark_rays && (options->no_specialise || options->program))
     return trax_fail(error, "--mark-rays needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
-  if (options->source && (options->no_specialise || options->program))
-    return trax_fail(error, "--source needs a program compiled for the picture; %s asks for another",
-                     options->program ? "--program" : "--no-specialise");
-  if (options->source && options->sampled)
-    return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
-  if (options->no_specialise && (options->cache || options->report))
-    return trax_fail(error, "--cache and --report are about the specialised program; --no-specialise asks for none");
-  if (options->program && (options->cache || options->report))
-    return trax_fail(error, "--cache and --report are about the specialised program; --program asks for another");
+  if (options->no_specialise && (options->cache || options->source))
+    return trax_fail(error, "--cache and --source are about the specialised program; --no-specialise asks for none");
+  if (options->program && (options->cache || options->source))
+    return trax_fail(error, "--cache and --source are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
-  if (options->frames > 1 &&
-      (options->stats || options->keep || options->cost_picture || options->cost_values || options->report ||
-       options->compare || options->id_picture || trax_explain_wanted(&options->explain)))
+  if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
+                              options->compare || options->id_picture || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->frame.seed && !options->frame.paths && !options->frame.occlusion)
     return trax_fail(error, "--seed is for --paths and --occlusion: nothing else is random");

@@ -79,11 +79,8 @@ void trax_scene_relocate(void *bytes, uint32_t address) {
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)bytes + section->offset;
   for (uint32_t i = 0; i < section->count; i++, node += format->bytes) {
-    for (uint32_t k = 0; k < format->width; k++) {
-      trax_scene_ref *child = (trax_scene_ref *)(void *)(node + trax_node_child(format, k));
-      if (*child)
-        *child += address;
-    }
+    for (uint32_t k = 0; k < 2; k++)
+      *(trax_scene_ref *)(void *)(node + trax_node_child(format, k)) += address;
   }
   const struct trax_scene_section *textures = &header->sections[TRAX_SCENE_TEXTURES];
   struct trax_texture *texture = (struct trax_texture *)(void *)((unsigned char *)bytes + textures->offset);

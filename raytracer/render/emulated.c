@@ -1,7 +1,6 @@
 #include "emulated.h"
 
 #include "prepare.h"
-#include "report.h"
 #include "sampled.h"
 #include "trax/run_progress.h"
 
@@ -43,11 +42,6 @@ static trax_status general_program(struct trax_program *program, const struct op
       return trax_fail(error, "the path of the program is too long");
     return TRAX_OK;
   }
-  const uint32_t layout = frame->scene->header->node_layout;
-  if (layout > TRAX_NODES_QUANTISED)
-    return trax_fail(error, "the general program has no %s nodes: it takes %s and %s ones",
-                     trax_node_formats[layout].name, trax_node_formats[TRAX_NODES_BINARY].name,
-                     trax_node_formats[TRAX_NODES_QUANTISED].name);
   const char *name = frame->params->features & TRAX_FEATURE_BIT(EXACT) ? "trax-raytracer-exact"
                      : deep                                            ? "trax-raytracer-deep"
                                                                        : "trax-raytracer";
@@ -159,19 +153,6 @@ static void print_machine(const trax_machine *machine, const char *doubt) {
   printf("rays        %.0f, %.2f million per second\n", statistic(machine, "rays"), statistic(machine, "mrps"));
 }
 
-static trax_status measure(struct program_figures *figures, const struct trax_program *program, trax_machine *machine,
-                           trax_error *error) {
-  const uint8_t *scene;
-  uint32_t scene_bytes;
-  if (trax_machine_read_buffer(machine, "scene", &scene, &scene_bytes, error) != TRAX_OK)
-    return TRAX_ERROR;
-  figures->scene_bytes = scene_bytes;
-  figures->instructions = statistic(machine, "instructions");
-  figures->cycles = statistic(machine, "cycles");
-  figures->memory_bytes = statistic(machine, "memory.bytes");
-  return trax_program_measure(&figures->size, program->path, error);
-}
-
 static trax_status write_costs(const struct trax_costs *costs, const struct options *options, trax_error *error) {
   struct trax_cost_summary summary;
   trax_status status = trax_costs_summarise(costs, &summary, error);
@@ -200,11 +181,11 @@ static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct
   return trax_picture_sampling_init(sampling, picture, frame, program, machine, &twin, error);
 }
 
-/* One picture by one program. figures may be NULL. */
+/* One picture by one program. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_view *view,
                                const struct trax_program *program, trax_progress_line *progress,
-                               const volatile int *interrupt, struct program_figures *figures, trax_error *error) {
+                               const volatile int *interrupt, trax_error *error) {
   if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_config *config = trax_config_create();
@@ -213,7 +194,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
   if (status == TRAX_OK)
     status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
   if (status == TRAX_OK && options->keep)
-    status = prepare_write(options->keep, frame, view, machine, error);
+    status = prepare_write(options->keep, frame, view, program, machine, error);
   if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
     struct trax_run_progress shown = {.line = progress, .step = "rendering"};
@@ -243,9 +224,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     trax_progress_line_clear(progress);
     if (status == TRAX_FAULT)
       trax_machine_print_fault(machine, stderr);
-    if (status == TRAX_OK && figures)
-      status = measure(figures, program, machine, error);
-    if (status == TRAX_OK && !figures && !options->quiet)
+    if (status == TRAX_OK && !options->quiet)
       print_machine(machine, doubt);
     if (status == TRAX_OK && options->stats)
       status = trax_stats_write_json(machine, options->stats, error);
@@ -258,54 +237,14 @@ static trax_status run_program(struct trax_picture *picture, const struct option
   return status;
 }
 
-/* --- both ways --- */
-
-static trax_status report(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                          const struct trax_view *view, const struct trax_program *specialised,
-                          trax_progress_line *progress, const volatile int *interrupt, bool *agrees,
-                          trax_error *error) {
-  struct options plain = *options; /* what explains or keeps the run is about the specialised program */
-  plain.stats = plain.keep = plain.cost_picture = plain.cost_values = NULL;
-  plain.explain = (struct trax_explain_options){0};
-  struct trax_program program;
-  struct trax_picture other = {0};
-  struct program_figures figures[2];
-  trax_status status = general_program(&program, options, frame, error);
-  if (status == TRAX_OK)
-    status = run_program(&other, &plain, frame, view, &program, progress, interrupt, &figures[0], error);
-  if (status == TRAX_OK)
-    status = run_program(picture, options, frame, view, specialised, progress, interrupt, &figures[1], error);
-  if (status == TRAX_OK) {
-    struct trax_difference difference;
-    trax_picture_compare(&difference, picture, &other, 0);
-    report_print(&figures[0], &figures[1], frame->params->features);
-    if (difference.unequal)
-      printf("pictures    %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
-             (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
-    else
-      printf("pictures    identical in every bit\n");
-    *agrees = difference.unequal == 0;
-    if (options->stats)
-      status = report_add_json(options->stats, &figures[0], &figures[1], frame->params->features, *agrees, error);
-  }
-  trax_picture_release(&other);
-  return status;
-}
-
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
                     const struct trax_view *view, trax_progress_line *progress, const volatile int *interrupt,
-                    bool *agrees, trax_error *error) {
+                    trax_error *error) {
   struct trax_program program;
   trax_progress_line_show(progress, "compiling", -1, NULL);
   struct chosen chosen;
   trax_status status = choose(&chosen, options, frame, error);
   if (status == TRAX_OK)
     status = find_program(&program, options, frame, &chosen, interrupt, error);
-  if (status != TRAX_OK)
-    return status;
-  if (!options->report)
-    return run_program(picture, options, frame, view, &program, progress, interrupt, NULL, error);
-  if (!program.specialised)
-    return trax_fail(error, "--report: there is no specialised program to report on");
-  return report(picture, options, frame, view, &program, progress, interrupt, agrees, error);
+  return status == TRAX_OK ? run_program(picture, options, frame, view, &program, progress, interrupt, error) : status;
 }

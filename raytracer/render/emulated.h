@@ -20,10 +20,9 @@ trax_status emulated_cache_lines(unsigned *lines, const struct options *options,
 /* What the installation has, next to this program: ../FOLDER/NAME with its suffix. False if it cannot be read. */
 bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix);
 
-/* The picture, and what the options want to know of the run; view is the frame's. With --report two pictures, by the
-   general program and by the specialised one, and *agrees becomes false if they differ. */
+/* The picture, and what the options want to know of the run; view is the frame's. */
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
                     const struct trax_view *view, trax_progress_line *progress, const volatile int *interrupt,
-                    bool *agrees, trax_error *error);
+                    trax_error *error);
 
 #endif

@@ -40,11 +40,7 @@ static void add_in_folder(trax_files *files, const char *option, const char *fol
 }
 
 static trax_status add_picture(trax_files *files, const struct options *options, trax_error *error) {
-  static const char *const tables[] = {"accuracy.md", "accuracy.csv", "accuracy.json", "accuracy.gnuplot",
-                                       "accuracy.svg"};
-  for (size_t i = 0; options->bench_accuracy && i < sizeof tables / sizeof *tables; i++)
-    add_in_folder(files, "--output", options->output, tables[i]);
-  if (!options->bench_accuracy && options->frames == 1)
+  if (options->frames == 1)
     trax_files_output(files, "--output", options->output);
   for (unsigned i = 0; i < options->frames && options->frames > 1; i++) {
     char *path = numbered(options->output, i + 1);
@@ -62,10 +58,9 @@ trax_status check_files(trax_files *files, const struct options *options, trax_e
   trax_command_files(&render_command, options, files);
   for (size_t i = 0; options->keep && prepared_file(i); i++)
     add_in_folder(files, options->prepare ? "--prepare" : "--keep", options->keep, prepared_file(i));
-  const bool is_file = options->output && !options->bench_accuracy;
   if (trax_files_check(files, error) != TRAX_OK ||
-      (is_file && trax_output_name_check(options->output, "png pfm exr", error) != TRAX_OK) ||
-      (is_file && options->frames == 1 && trax_output_check(options->output, error) != TRAX_OK))
+      (options->output && trax_output_name_check(options->output, "png pfm exr", error) != TRAX_OK) ||
+      (options->output && options->frames == 1 && trax_output_check(options->output, error) != TRAX_OK))
     return TRAX_ERROR;
   return trax_command_check_outputs(&render_command, options, error);
 }

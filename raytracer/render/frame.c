@@ -34,7 +34,7 @@ static void scale_scene(struct trax_scene *scene, int exponent) {
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)scene->nodes;
   for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes)
-    for (uint32_t child = 0; child < format->width; child++)
+    for (uint32_t child = 0; child < 2; child++)
       scale_floats((float *)(void *)(node + trax_node_box(format, child)), 6, exponent);
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
   for (uint32_t i = 0; i < scene->triangle_count; i++) {
@@ -91,10 +91,8 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
    - a direction component that was moved away from zero turns the ray by 2^-30, less than 1.
    - of quantised planes: the factor (1), the products of plane and origin with it (2) and the origin's distance from
    the grid's (2) in place of one subtraction: 4 more;
-   - of planes in a frame, whose bias makes numbers up to twice as large: the factor (2), the product of the frame's
-   place with it (2), the sum of origin and bias (2), its product (1), the origin's distance from the grid's (2) and the
-   two subtractions (2) in place of one: 10 more. 32 is above either sum. As the margin is added to a ray's origin,
-   it must be no less than that coordinate's rounding: hence the doubling and the second term. */
+   32 is above the sum. As the margin is added to a ray's origin, it must be no less than that coordinate's rounding:
+   hence the doubling and the second term. */
 static float box_margin(const struct trax_scene_header *header, const float eye[3]) {
   double distance = 0, magnitude = greatest(greatest(greatest(0, header->bounds_min), header->bounds_max), eye);
   for (int i = 0; i < 3; i++) {

@@ -1,9 +1,9 @@
 /* trax-render: from meshes to a picture in one command. */
-#include "bench_accuracy.h"
+#include "compare.h"
 #include "emulated.h"
 #include "files.h"
-#include "hits.h"
 #include "inputs.h"
+#include "measure.h"
 #include "options.h"
 #include "render.h"
 #include "trax/output.h"
@@ -21,135 +21,15 @@ static void on_broken_pipe(int signal_number) {
   reader_gone = 1;
 }
 
-/* --- the other engines --- */
-
-struct step {
-  trax_progress_line *progress;
-  const char *name;
-};
-
-static void show_step(void *context, uint64_t done, uint64_t total) {
-  const struct step *step = context;
-  trax_progress_line_show(step->progress, step->name, (double)done / (double)total, NULL);
-}
-
-static trax_status run_on_host(struct trax_picture *picture, bool reference, unsigned threads,
-                               const struct trax_frame *frame, trax_progress_line *progress, bool quiet,
-                               trax_error *error) {
-  struct step step = {progress, reference ? "reference" : "native twin"};
-  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
-  double begun = trax_seconds();
-  trax_status status = reference ? trax_render_embree(picture, frame, &run, error)
-                                 : trax_render_twin(picture, frame, threads, &run, error);
-  trax_progress_line_clear(progress);
-  if (status == TRAX_OK && !quiet)
-    printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, trax_seconds() - begun);
-  return status;
-}
-
-enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
-
-/* What the rays hit. */
-static trax_status find_hits(struct trax_hits *hits, enum finder finder, bool holes, unsigned threads,
-                             const struct trax_frame *frame, trax_progress_line *progress, trax_error *error) {
-  static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
-  struct step step = {progress, names[finder]};
-  struct trax_render_run run = {
-      .progress = show_step, .progress_context = &step, .interrupt = &trax_signal, .holes = holes};
-  trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
-                       : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, error)
-                                             : trax_hits_exact(hits, frame, &run, error);
-  trax_progress_line_clear(progress);
-  return status;
-}
-
-static trax_status compare_hits(const struct trax_frame *frame, trax_progress_line *progress, bool *agrees,
-                                trax_error *error) {
-  struct trax_hits hits[3] = {{0}};
-  struct trax_hits_difference difference;
-  trax_status status = TRAX_OK;
-  for (int finder = BY_TWIN; finder <= WITHOUT_ERROR && status == TRAX_OK; finder++)
-    status = find_hits(&hits[finder], finder, false, 0, frame, progress, error);
-  if (status == TRAX_OK) {
-    trax_hits_judge(&difference, &hits[BY_TWIN], &hits[WITHOUT_ERROR], frame);
-    const uint64_t beyond = difference.holes + difference.wrong;
-    printf("hits        %llu of %llu pixels hit the nearest triangle, %llu another within the error bound, %llu beyond "
-           "it, of which %llu are holes",
-           (unsigned long long)difference.same, (unsigned long long)difference.pixels,
-           (unsigned long long)difference.tied, (unsigned long long)beyond, (unsigned long long)difference.holes);
-    if (beyond)
-      printf(": (%u, %u)", difference.x, difference.y);
-    printf("\nEmbree      %llu pixels hit the triangle that Embree hits\n",
-           (unsigned long long)trax_hits_same(&hits[BY_TWIN], &hits[BY_EMBREE], frame));
-    *agrees = *agrees && beyond == 0;
-  }
-  for (int finder = BY_TWIN; finder <= WITHOUT_ERROR; finder++)
-    trax_hits_release(&hits[finder]);
-  return status;
-}
-
-static trax_status write_hits(const struct options *options, const struct trax_frame *frame,
-                              trax_progress_line *progress, trax_error *error) {
-  struct trax_hits hits = {0};
-  struct trax_picture picture = {0};
-  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, true, options->threads,
-                                 frame, progress, error);
-  if (status == TRAX_OK)
-    status = trax_hits_picture(&picture, &hits, frame, error);
-  if (status == TRAX_OK)
-    status = trax_picture_write(&picture, options->id_picture, error);
-  if (status == TRAX_OK && !options->quiet)
-    printf("triangles   %s\n", options->id_picture);
-  trax_picture_release(&picture);
-  trax_hits_release(&hits);
-  return status;
-}
-
-/* *agrees: all comparisons came out well. */
-static trax_status compare(const struct trax_picture *picture, const struct trax_frame *frame,
-                           trax_progress_line *progress, bool *agrees, trax_error *error) {
-  struct trax_picture other = {0};
-  struct trax_difference difference;
-  trax_status status = run_on_host(&other, true, 0, frame, progress, true, error);
-  if (status != TRAX_OK)
-    return status;
-  trax_picture_compare(&difference, picture, &other, 2);
-  const double light = trax_picture_light(picture), other_light = trax_picture_light(&other);
-  trax_picture_release(&other);
-  double percent = trax_difference_percent(&difference);
-  printf("reference   %.4f %% of the pixels within 2/255, largest difference %u at (%u, %u)\n", percent,
-         difference.largest, difference.x, difference.y);
-  *agrees = percent >= 99.9;
-  if (frame->params->features & TRAX_FEATURE_BIT(PATHS)) { /* of which one in thousands takes another turn */
-    const double deviation = other_light > 0 ? 100 * (light / other_light - 1) : 0;
-    printf("            light of the whole picture %+.4f %%\n", deviation);
-    *agrees = percent >= 99 && deviation > -0.2 && deviation < 0.2;
-  }
-
-  if (frame->method.fast_math) {
-    printf("twin        not compared: it is strict, the program is not\n");
-    return TRAX_OK;
-  }
-  status = run_on_host(&other, false, 0, frame, progress, true, error);
-  if (status != TRAX_OK)
-    return status;
-  trax_picture_compare(&difference, picture, &other, 0);
-  trax_picture_release(&other);
-  if (difference.unequal == 0)
-    printf("twin        identical in every bit\n");
-  else
-    printf("twin        %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
-           (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
-  *agrees = *agrees && difference.unequal == 0;
-  /* The error bounds are the watertight test's. */
-  return frame->method.triangle == TRAX_TRIANGLE_WATERTIGHT ? compare_hits(frame, progress, agrees, error) : TRAX_OK;
-}
-
 static void print_outputs(const struct options *options, const char *picture) {
   if (picture)
     printf("picture     %s\n", picture);
   if (options->stats)
     printf("statistics  %s\n", options->stats);
+  if (options->error)
+    printf("error       %s\n", options->error);
+  if (options->hits)
+    printf("hits        %s\n", options->hits);
   if (options->keep)
     printf("inputs      %s\n", options->keep);
 }
@@ -163,15 +43,17 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   int exponent;
   trax_scale_view(view, *scaled);
   trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
-  if (status == TRAX_OK && options->bench_accuracy)
-    return bench_accuracy(options, &inputs->scene, view, progress, &trax_signal, error);
+  if (status == TRAX_OK && options->error)
+    status = measure_error(options, &inputs->scene, view, progress, &trax_signal, error);
   if (status == TRAX_OK) {
     *scaled += exponent;
     status = trax_frame_init(&frame, &inputs->scene, view, &options->frame, error);
   }
-  if (status == TRAX_OK)
+  if (status == TRAX_OK && options->hits)
+    status = measure_hits(options->hits, &frame, progress, error);
+  if (status == TRAX_OK && (output || options->prepare))
     status = options->engine <= ENGINE_REFERENCE
-                 ? emulate(&picture, options, &frame, view, progress, &trax_signal, agrees, error)
+                 ? emulate(&picture, options, &frame, view, progress, &trax_signal, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
                                options->quiet, error);
   if (status == TRAX_OK && output)

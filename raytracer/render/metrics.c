@@ -22,14 +22,12 @@ static double plane_distance(const struct trax_triangle *triangle, struct double
   return dot(normal, minus(v0, eye)) / dot(normal, direction);
 }
 
-/* The number, in the original scene, of the triangle that the program names by its place in its own; TRAX_NO_TRIANGLE
-   for nothing, or for what is none. */
-static uint32_t triangle_number(const struct trax_scene *scene, uint32_t place, const struct trax_scene *original) {
+/* The number of the triangle that the program names by its place; TRAX_NO_TRIANGLE for nothing, or for what is none. */
+static uint32_t triangle_number(const struct trax_scene *scene, uint32_t place) {
   const struct trax_scene_section *section = &scene->header->sections[TRAX_SCENE_TRIANGLES];
   if (place < section->offset || (place - section->offset) / sizeof(struct trax_triangle) >= section->count)
     return TRAX_NO_TRIANGLE;
-  const uint32_t number = (place - section->offset) / (uint32_t)sizeof(struct trax_triangle);
-  return scene == original ? number : scene->source_ids[number];
+  return (place - section->offset) / (uint32_t)sizeof(struct trax_triangle);
 }
 
 /* A triangle may stand in the file several times. */
@@ -38,8 +36,7 @@ static bool same_triangle(const struct trax_scene *scene, uint32_t a, uint32_t b
 }
 
 void trax_hit_errors(struct trax_hit_errors *errors, const struct trax_exact *exact,
-                     const struct trax_sample_record *recorded, const struct trax_frame *frame,
-                     const struct trax_scene *original) {
+                     const struct trax_sample_record *recorded, const struct trax_frame *frame) {
   const struct trax_render_params *params = frame->params;
   *errors = (struct trax_hit_errors){.samples = (uint64_t)exact->width * exact->height * exact->samples};
   size_t i = 0;
@@ -47,8 +44,7 @@ void trax_hit_errors(struct trax_hit_errors *errors, const struct trax_exact *ex
     for (uint32_t x = 0; x < exact->width; x++) {
       uint64_t wrong = 0;
       for (uint32_t sample = 0; sample < exact->samples; sample++, i++) {
-        const uint32_t should = exact->seen[i].triangle,
-                       is = triangle_number(frame->scene, recorded[i].triangle, original);
+        const uint32_t should = exact->seen[i].triangle, is = triangle_number(frame->scene, recorded[i].triangle);
         if (should == TRAX_NO_TRIANGLE && is == TRAX_NO_TRIANGLE)
           continue;
         if (should == TRAX_NO_TRIANGLE) {
@@ -59,10 +55,10 @@ void trax_hit_errors(struct trax_hit_errors *errors, const struct trax_exact *ex
           wrong++, errors->missed++;
           continue;
         }
-        if (!same_triangle(original, is, should)) {
+        if (!same_triangle(frame->scene, is, should)) {
           const struct vector camera = camera_direction(params, pixel_at(x, y), sample_place(sample));
           const struct double3 direction = {camera.x, camera.y, camera.z};
-          const double distance = plane_distance(&original->triangles[is], from(params->eye), direction);
+          const double distance = plane_distance(&frame->scene->triangles[is], from(params->eye), direction);
           if (!(fabs(distance - exact->seen[i].distance) <= TRAX_TIE * exact->seen[i].distance)) {
             wrong++, errors->other++;
             continue;

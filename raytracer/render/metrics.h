@@ -30,13 +30,9 @@ struct trax_hit_errors {
    binary32 that box_margin in frame.c allows for. */
 #define TRAX_TIE 0x1p-19
 
-/* recorded[i] is what the program recorded, of the frame, for the sample that exact->seen[i] is, of the scene
-   `original`. That is the frame's too, or else the source ids of the frame's scene are the numbers of its triangles in
-   `original`.
- */
+/* recorded[i] is what the program recorded for the sample that exact->seen[i] is; both are of the frame. */
 void trax_hit_errors(struct trax_hit_errors *errors, const struct trax_exact *exact,
-                     const struct trax_sample_record *recorded, const struct trax_frame *frame,
-                     const struct trax_scene *original);
+                     const struct trax_sample_record *recorded, const struct trax_frame *frame);
 
 /* The difference that an observer sees when two pictures are shown one after the other: LDR-FLIP (Andersson, Nilsson,
    Akenine-Moeller, Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator for Alternating Images", Proc. ACM

@@ -62,9 +62,8 @@ static const trax_option rows[] = {
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
      .meaning = "of packed files and of pipes, unpacked; K, M and G are powers of 1024 (default 1G)"},
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
-     .meaning = "of the meshes' tree: binary, quantised, quantised8, wide, wide-quantised,\n"
-                "wide-quantised8 or auto, as trax-scene has them (default auto; for another\n"
-                "--program binary)"},
+     .meaning = "of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto;\n"
+                "for another --program binary)"},
     {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),
      .meaning = "splits large triangles, as trax-scene does (default auto; for another\n"
                 "--program 1, which is none)"},
@@ -112,18 +111,21 @@ static const trax_option rows[] = {
      .meaning = "the same in numbers: PFM for FILE.pfm, else CSV"},
     {"cost", .argument = "WHAT", PARSED(take_cost, cost),
      .meaning = "what costs: cycles (default), instructions, or one cause (trax-sim --help-stats)"},
-    {"report", FIELD(report),
-     .meaning = "renders with both programs and prints what each takes; exit status 1 if the pictures\n"
-                "are not the same bit for bit"},
+    {"report", .instead = "run twice with --stats, once with --no-specialise, or trax-eval's sweep lean"},
     {"compare", FIELD(compare),
      .meaning = "renders the reference and the native twin too and prints the differences;\n"
                 "exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
                 "99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
                 "of the whole picture within 0.2 %)"},
-    {"bench-accuracy", FIELD(bench_accuracy),
-     .meaning = "renders by each method and precision and prints what each costs and how wrong it is;\n"
-                "-o DIR: where the table, CSV, JSON and diagrams go, and what was measured is kept,\n"
-                "so that a run that was stopped goes on"},
+    {"hits", .argument = "FILE.json", OUTPUT(hits, "json"),
+     .meaning = "how many pixels hit the nearest triangle, by the native twin, against exact arithmetic and\n"
+                "Embree; without -o nothing is rendered"},
+    {"error", .argument = "FILE.json", OUTPUT(error, "json"),
+     .meaning = "how wrong the picture is, by the emulated program, against exact arithmetic and against\n"
+                "1024 samples a pixel; without -o nothing is rendered"},
+    {"converged", .argument = "DIR", FIELD(converged),
+     .meaning = "where --error keeps the picture of 1024 samples, for the next run of this view"},
+    {"bench-accuracy", .instead = "--error measures one picture, and trax-eval's sweep accuracy those of each method"},
     TRAX_OPTION_GROUP("Program"),
     {"mark-rays", FIELD(frame.mark_rays),
      .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim --ray-kinds\n"
@@ -145,9 +147,8 @@ static const trax_option rows[] = {
                 "threads then share tiles and the cache's lines"},
     {"fast-math", FIELD(frame.method.fast_math),
      .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
-    {"stack", .argument = "N", NUMBER(frame.method.stack, 1, TRAX_SCENE_MAX_DEPTH),
-     .meaning = "compiles the program with N entries on the stack of the traversal, 1 to 62; what it has no\n"
-                "room for it finds again (default: as many as the tree is deep, 8 if deeper than 32)"},
+    {"stack", .argument = "N",
+     .instead = "trax-eval has short stacks as an experiment, lib/trax/evaluation/experiments/stack"},
     TRAX_OPTION_GROUP("Sampled simulation"),
     {"sampled", FIELD(sampled),
      .meaning = "simulates only some parts of the picture and estimates the rest, with an interval; the\n"

@@ -39,9 +39,11 @@ struct options {
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
   const char *stats, *keep, *program;
-  const char *source; /* of specialised programs; NULL: the installation's */
-  const char *cache;  /* of specialised programs; NULL: the user's */
-  const char *cost;   /* what --cost-picture and --cost-values show */
+  const char *error, *hits; /* figures as JSON; NULL: not wanted */
+  const char *converged;    /* where --error keeps pictures; NULL: nowhere */
+  const char *source;       /* of the specialised program; NULL: the installation's */
+  const char *cache; /* of specialised programs; NULL: the user's */
+  const char *cost;  /* what --cost-picture and --cost-values show */
   const char *cost_picture, *cost_values;
   struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */
@@ -53,10 +55,9 @@ struct options {
   struct trax_frame_options frame;
   enum engine engine;
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
-  bool bench_accuracy;         /* output is a folder */
   bool sampled;                /* most of the picture is not simulated */
   trax_slot_sampling sampling; /* fraction or error, and seed */
-  bool compare, quiet, report, no_specialise;
+  bool compare, quiet, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */
 };
 

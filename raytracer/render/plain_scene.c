@@ -59,9 +59,6 @@ static trax_status make_nodes(struct trax_plain_node **nodes, const struct trax_
 trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene *scene, trax_error *error) {
   trax_status status = TRAX_OK;
   if (trax_program_has(machine, "plain_nodes")) {
-    const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
-    if (format->width > 2)
-      return trax_fail(error, "the program takes nodes of two children, not %s ones", format->name);
     if (scene->header->max_depth > TRAX_PLAIN_MAX_DEPTH)
       return trax_fail(error,
                        "the program takes scenes of %d nodes from the root to a leaf, not %u (trax-scene --depth)",

@@ -25,8 +25,6 @@ extern const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS + 1]; /* as o
 struct trax_method {
   enum trax_triangle_method triangle; /* device/triangle.h */
   bool fast_math;                     /* -ffast-math: only a specialised program has it, not the twin */
-  uint32_t stack;                     /* entries at most, of a specialised program; 0: as many as the scene is deep, or
-                                         TRAX_SHORT_STACK if that is more than TRAX_SCENE_DEFAULT_DEPTH */
 };
 
 struct trax_frame {
@@ -106,7 +104,7 @@ struct trax_program {
 
 struct trax_specialise_options {
   const char *root;              /* where trax is installed: bin, lib/trax */
-  const char *source;            /* the device program's source; NULL: the installation's */
+  const char *source;            /* the folder of the program's source; NULL: that of the installation */
   const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */

@@ -41,8 +41,7 @@ static const char *const ingredients[] = {
     "bin/clang",         "bin/trax-ld",     "lib/trax/crt0.o",         "lib/trax/libc.a",
     "lib/trax/libgcc.a", "lib/trax/libm.a", "lib/trax/include/trax.h",
 };
-static const char *const source_folders[] = {"lib/trax/raytracer", "lib/trax/raytracer/trax"};
-static const char *const folders_of_a_source[] = {".", "trax"}; /* that takes the place of the installation's */
+#define SOURCE "lib/trax/raytracer"
 
 /* --- the constants --- */
 
@@ -62,10 +61,6 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   if (!out)
     return NULL;
   const uint32_t depth = frame->scene->header->max_depth ? frame->scene->header->max_depth : 1;
-  const bool wide = trax_node_formats[frame->params->node_layout].width > 2; /* there is no short stack for them */
-  const uint32_t entries = frame->method.stack                         ? frame->method.stack
-                           : depth > TRAX_SCENE_DEFAULT_DEPTH && !wide ? TRAX_SHORT_STACK
-                                                                       : depth;
   fprintf(out,
           "/* One picture's constants; device/run.h says what they are. */\n"
           "#include \"trax/render_params.h\"\n\n"
@@ -83,7 +78,6 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
     fprintf(out, "#define TRAX_QUEUES %u\n", queues < TRAX_MAX_QUEUES ? queues : TRAX_MAX_QUEUES);
   fprintf(out,
           "#define TRAX_TREE_DEPTH %u\n"
-          "#define TRAX_STACK_ENTRIES %u\n"
           "#define TRAX_NODE_LAYOUT %u\n\n"
           "static const union {\n"
           "  uint32_t words[%zu];\n"
@@ -92,8 +86,7 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
           "    %s behind;\n"
           "  };\n"
           "} trax_constants __attribute__((unused)) = {{",
-          depth, entries < depth ? entries : depth, frame->params->node_layout, count,
-          path ? "struct trax_path_params" : "struct trax_palette_entry");
+          depth, frame->params->node_layout, count, path ? "struct trax_path_params" : "struct trax_palette_entry");
   for (size_t i = 0; i < count; i++)
     fprintf(out, "%s0x%08Xu,", i % 6 ? " " : "\n    ", words[i]);
   fputs("\n}};\n", out);
@@ -122,20 +115,15 @@ static int is_file(const struct dirent *entry) {
 }
 
 /* All files of a folder, by name. */
-static trax_status hash_folder(XXH3_state_t *state, const char *root, const char *name, trax_error *error) {
-  char path[TRAX_PATH_SIZE];
+static trax_status hash_folder(XXH3_state_t *state, const char *folder, trax_error *error) {
   struct dirent **entries;
-  if (!join_path(path, root, name, ""))
-    return trax_fail(error, "%s: the path is too long", name);
-  const int count = scandir(path, &entries, is_file, alphasort);
+  const int count = scandir(folder, &entries, is_file, alphasort);
   if (count < 0)
-    return trax_fail(error, "%s: %s", path, strerror(errno));
+    return trax_fail(error, "%s: %s", folder, strerror(errno));
   trax_status status = TRAX_OK;
   for (int i = 0; i < count; i++) {
-    char file[TRAX_PATH_SIZE];
     if (status == TRAX_OK)
-      status = join_path(file, name, entries[i]->d_name, "") ? hash_file(state, root, file, error)
-                                                             : trax_fail(error, "%s: the path is too long", name);
+      status = hash_file(state, folder, entries[i]->d_name, error);
     free(entries[i]);
   }
   free(entries);
@@ -151,10 +139,13 @@ static void hash_library(XXH3_state_t *state, const char *path) {
 }
 
 /* Another number whenever programs are compiled in other ways from the same ingredients. */
-#define WAYS_TO_COMPILE "3"
+#define WAYS_TO_COMPILE "4"
 
 static trax_status make_key(char key[33], const char *root, const char *source, const char *constants,
                             const char *const *chosen, size_t chosen_count, uint32_t icache_bytes, trax_error *error) {
+  char headers[TRAX_PATH_SIZE];
+  if (!join_path(headers, source, "trax", ""))
+    return trax_fail(error, "%s: the path is too long", source);
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
@@ -163,9 +154,10 @@ static trax_status make_key(char key[33], const char *root, const char *source, 
   trax_status status = TRAX_OK;
   for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients && status == TRAX_OK; i++)
     status = hash_file(state, root, ingredients[i], error);
-  for (size_t i = 0; i < sizeof source_folders / sizeof *source_folders && status == TRAX_OK; i++)
-    status = source ? hash_folder(state, source, folders_of_a_source[i], error)
-                    : hash_folder(state, root, source_folders[i], error);
+  if (status == TRAX_OK)
+    status = hash_folder(state, source, error);
+  if (status == TRAX_OK)
+    status = hash_folder(state, headers, error);
   hash_library(state, TRAX_LLVM_LIBRARY);
   for (size_t i = 0; i < chosen_count; i++)
     XXH3_128bits_update(state, chosen[i], strlen(chosen[i]) + 1);
@@ -199,32 +191,39 @@ struct places {
   bool params_in_memory; /* instead of constants, which may take registers */
   bool paths_local;      /* what a path remembers in registers and on the stack, instead of in global memory */
   bool small;            /* -O2 */
-  bool stack_in_memory;  /* of exact hits in deep trees, whose functions' frames come on top of the traversal's */
+  bool stack_in_memory;  /* of trees deeper than usual, and of exact hits, whose functions' frames come on top */
+};
+
+/* What all attempts at a program have in common. */
+struct recipe {
+  const char *root, *source;
+  bool own; /* the source is the installation's */
+  const struct cache_work *work;
+  const char *const *flags;
+  size_t flag_count;
+  const volatile int *interrupt;
 };
 
 /* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
-static trax_status compile(const char *root, const char *folder, const struct cache_work *work,
-                           const char *const *chosen, size_t chosen_count, const struct places *places,
-                           const volatile int *interrupt, trax_error *error) {
+static trax_status compile(const struct recipe *recipe, const struct places *places, trax_error *error) {
+  const struct cache_work *work = recipe->work;
   char maps[3][2 * TRAX_PATH_SIZE + 32];
-  char clang[TRAX_PATH_SIZE], include[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
-  if (!join_path(clang, root, "bin/clang", "") ||
-      !join_path(include, folder ? folder : root, folder ? "." : "lib/trax/raytracer", "") ||
-      !join_path(source, include, "main.c", ""))
-    return trax_fail(error, "%s: the path is too long", folder ? folder : root);
-  /* The program shall not depend on the name of a folder that is soon gone. */
+  char clang[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
+  if (!join_path(clang, recipe->root, "bin/clang", "") || !join_path(source, recipe->source, "main.c", ""))
+    return trax_fail(error, "%s: the path is too long", recipe->source);
+  /* The program shall not depend on the name of a folder that may soon be gone. */
   const int cache = (int)(strrchr(work->folder, '/') - work->folder);
   for (int i = 0; i < 2; i++) { /* relative to the compilation's folder, it has a dot in front */
     const char *dot = i ? "./" : "";
     snprintf(maps[i], sizeof maps[i], "-fdebug-prefix-map=%s%s=%s%.*s", dot, work->folder, dot, cache, work->folder);
   }
-  snprintf(maps[2], sizeof maps[2], "-fdebug-prefix-map=%s=source", include);
+  snprintf(maps[2], sizeof maps[2], "-fdebug-prefix-map=%s=source", recipe->source);
   const char *arguments[MOST_FLAGS + 21], **next = arguments;
   *next++ = clang;
-  for (size_t i = 0; i < chosen_count; i++)
-    *next++ = chosen[i];
+  for (size_t i = 0; i < recipe->flag_count; i++)
+    *next++ = recipe->flags[i];
   *next++ = "-I";
-  *next++ = include;
+  *next++ = recipe->source;
   if (places->params_in_memory)
     *next++ = "-DTRAX_PARAMS_IN_MEMORY";
   if (places->paths_local)
@@ -237,7 +236,7 @@ static trax_status compile(const char *root, const char *folder, const struct ca
   }
   *next++ = maps[0];
   *next++ = maps[1];
-  if (folder)
+  if (!recipe->own)
     *next++ = maps[2];
   *next++ = "-include";
   *next++ = work->header;
@@ -269,7 +268,7 @@ static trax_status compile(const char *root, const char *folder, const struct ca
       break;
     if (ended < 0 && errno != EINTR)
       result = trax_fail(error, "the compiler is lost: %s", strerror(errno));
-    else if (interrupt && *interrupt) {
+    else if (recipe->interrupt && *recipe->interrupt) {
       kill(child, SIGTERM);
       while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
@@ -295,26 +294,27 @@ static bool fits_cache(const char *program, uint32_t icache_bytes) {
 
 /* The first of the ways for which there is stack enough. What is larger than the instruction cache, but for paths,
    which are anyway, is compiled for less code. */
-static trax_status build(const char *root, const char *source, const struct cache_work *work, const char *const *chosen,
-                         size_t chosen_count, uint32_t features, uint32_t icache_bytes, const volatile int *interrupt,
+static trax_status build(const struct recipe *recipe, const struct trax_frame *frame, uint32_t icache_bytes,
                          trax_error *error) {
   static const struct places ways[] = {{.paths_local = true},
                                        {.params_in_memory = true, .paths_local = true},
                                        {0},
                                        {.params_in_memory = true},
                                        {.stack_in_memory = true}};
-  const bool paths = features & TRAX_PATH_FEATURES;
-  const size_t count = sizeof ways / sizeof *ways - (features & TRAX_FEATURE_BIT(EXACT) ? 0 : 1);
+  const bool paths = frame->params->features & TRAX_PATH_FEATURES;
+  const bool large =
+      frame->params->features & TRAX_FEATURE_BIT(EXACT) || frame->scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH;
+  const size_t count = sizeof ways / sizeof *ways - (large ? 0 : 1);
   trax_status status = TRAX_ERROR;
   for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {
     struct places way = ways[i];
-    status = compile(root, source, work, chosen, chosen_count, &way, interrupt, error);
-    if (status != TRAX_OK || paths || fits_cache(work->program, icache_bytes))
+    status = compile(recipe, &way, error);
+    if (status != TRAX_OK || paths || fits_cache(recipe->work->program, icache_bytes))
       continue;
     way.small = true;
-    status = compile(root, source, work, chosen, chosen_count, &way, interrupt, error);
+    status = compile(recipe, &way, error);
     if (status == TRAX_ERROR)
-      status = compile(root, source, work, chosen, chosen_count, &ways[i], interrupt, error);
+      status = compile(recipe, &ways[i], error);
   }
   return status;
 }
@@ -326,28 +326,22 @@ static trax_status note_or_error(const struct trax_frame *frame, const struct tr
   if (options->record)
     return trax_fail(error, "there is no program that records: %s", note);
   if (options->source)
-    return trax_fail(error, "--source: there is no program of it: %s", note);
+    return trax_fail(error, "--source %s: there is no program: %s", options->source, note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
     return trax_fail(error, "--mark-rays: there is no program for it: %s", note);
-  if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math && !method->stack)
+  if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math)
     return TRAX_OK;
-  return trax_fail(error, "%s: there is no program for it: %s",
-                   method->fast_math ? "--fast-math"
-                   : method->stack   ? "--stack"
-                                     : "--triangle",
-                   note);
+  return trax_fail(error, "%s: there is no program for it: %s", method->fast_math ? "--fast-math" : "--triangle", note);
 }
 
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error) {
-  char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE];
+  char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE], own[TRAX_PATH_SIZE];
+  const char *const source = options->source ? options->source : own;
   trax_error reason;
   const char *chosen[MOST_FLAGS];
   const size_t chosen_count = chosen_flags(chosen, &frame->method, options->record);
   const uint32_t icache_bytes = options->icache_bytes ? options->icache_bytes : PAPERS_CACHE;
-  const struct trax_node_format *format = &trax_node_formats[frame->params->node_layout];
-  if (format->width > 2 && frame->method.stack)
-    return trax_fail(error, "--stack: a traversal of %s nodes has a whole stack", format->name);
   note[0] = '\0';
   if (options->cache && snprintf(cache, sizeof cache, "%s", options->cache) >= (int)sizeof cache)
     return trax_fail(error, "--cache: the path is too long");
@@ -359,7 +353,9 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   if (!constants)
     return trax_fail(error, "out of memory");
   trax_status status =
-      make_key(key, options->root, options->source, constants, chosen, chosen_count, icache_bytes, &reason);
+      join_path(own, options->root, SOURCE, "")
+          ? make_key(key, options->root, source, constants, chosen, chosen_count, icache_bytes, &reason)
+          : trax_fail(&reason, "%s: the path is too long", options->root);
   if (status == TRAX_OK && !cache_make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
@@ -376,8 +372,9 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     if (status == TRAX_OK) {
       status = trax_write_file(work.header, constants, strlen(constants), &reason);
       if (status == TRAX_OK)
-        status = build(options->root, options->source, &work, chosen, chosen_count, frame->params->features,
-                       icache_bytes, options->interrupt, &reason);
+        status = build(
+            &(struct recipe){options->root, source, !options->source, &work, chosen, chosen_count, options->interrupt},
+            frame, icache_bytes, &reason);
       if (status == TRAX_OK)
         status = cache_commit(&work, cache, key, options->transient, &reason);
       cache_end(&work);

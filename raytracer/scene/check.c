@@ -37,6 +37,16 @@ static const struct {
     [TRAX_SCENE_TEXELS] = {"texels", sizeof(uint32_t)},
 };
 
+static trax_status refuse_layout(const struct checker *checker, uint32_t layout) {
+  for (uint32_t i = 0; scene_removed_layouts[i]; i++)
+    if (layout == TRAX_NODE_LAYOUTS + i)
+      return trax_fail(checker->error,
+                       "%s: its nodes are %s ones, which scene files no longer have: import the meshes again (trax-eval "
+                       "has such nodes as an experiment)",
+                       checker->name, scene_removed_layouts[i]);
+  return trax_fail(checker->error, "%s: nodes of an unknown layout, %u", checker->name, layout);
+}
+
 static trax_status check_header(const struct checker *checker, const struct trax_scene_header *header, size_t size) {
   const char *name = checker->name;
   trax_error *error = checker->error;
@@ -61,7 +71,7 @@ static trax_status check_header(const struct checker *checker, const struct trax
   if (header->base)
     return trax_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
   if (header->node_layout >= TRAX_NODE_LAYOUTS)
-    return trax_fail(error, "%s: nodes of an unknown layout, %u", name, header->node_layout);
+    return refuse_layout(checker, header->node_layout);
   return TRAX_OK;
 }
 
@@ -269,26 +279,12 @@ static void note_parts(struct checker *checker, trax_scene_ref ref, const struct
 }
 
 static trax_status wrong_box(const struct checker *checker, uint32_t place) {
-  return trax_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name,
-                   place / TRAX_MAX_WIDTH, place % TRAX_MAX_WIDTH);
+  return trax_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name, place / 2,
+                   place % 2);
 }
 
-/* The frame must be the one for these boxes; of a leaf's part nobody knows what it was. */
-static trax_status check_frame(const struct checker *checker, uint32_t number, const struct scene_box boxes[],
-                               const trax_scene_ref children[], uint32_t count) {
-  const struct trax_node_format *format = &trax_node_formats[checker->view.header->node_layout];
-  unsigned char same[TRAX_SCENE_ALIGNMENT] = {0};
-  struct scene_box box;
-  if (format->plane_bytes != 1)
-    return TRAX_OK;
-  scene_node_write(same, checker->view.header->node_layout, boxes, children, count, &box);
-  if (memcmp(same, (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes, format->bytes) != 0)
-    return trax_fail(checker->error, "%s: node %u: its frame is not that of its boxes", checker->name, number);
-  return TRAX_OK;
-}
-
-/* The subtree below ref, with `depth` entries on the stack; *box becomes the one that must be stored for it: of a leaf,
-   at most. The recursion ends because a node is entered once and depth is limited. */
+/* The subtree below ref, with `depth` nodes above it; *box becomes the one that must be stored for it: of a leaf, at
+   most. The recursion ends because a node is entered once and depth is limited. */
 static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
   if (TRAX_SCENE_REF_COUNT(ref)) {
     struct scene_box exact = scene_empty_box();
@@ -306,49 +302,35 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     return trax_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
   checker->node_seen[number] = 1;
   checker->nodes_left--;
-  if (depth + 1 > TRAX_SCENE_MAX_DEPTH)
+  if (++depth > TRAX_SCENE_MAX_DEPTH)
     return trax_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
-  if (format->reserved_bytes) {
-    static const unsigned char zeros[TRAX_SCENE_ALIGNMENT];
-    const unsigned char *reserved = (const unsigned char *)checker->view.nodes + (size_t)number * format->bytes +
-                                    format->bytes - format->reserved_bytes;
-    if (memcmp(reserved, zeros, format->reserved_bytes) != 0)
-      return trax_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
-  }
-  if (!scene_node_has_frame(&checker->view, number))
-    return trax_fail(checker->error, "%s: node %u: its frame is none", checker->name, number);
-  struct scene_box boxes[TRAX_MAX_WIDTH], below[TRAX_MAX_WIDTH];
-  trax_scene_ref children[TRAX_MAX_WIDTH];
-  bool whole = true;
-  const uint32_t count = scene_node_boxes(boxes, children, &checker->view, number);
-  if (count < 2)
+  static const unsigned char zeros[sizeof(struct trax_bvh_node)];
+  const uint32_t used = trax_node_child(format, 2);
+  if (memcmp((const unsigned char *)checker->view.nodes + (size_t)number * format->bytes + used, zeros,
+             format->bytes - used) != 0)
+    return trax_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
+  struct scene_box boxes[2];
+  trax_scene_ref children[2];
+  scene_node_boxes(boxes, children, &checker->view, number);
+  if (!children[0] || !children[1])
     return trax_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
-  depth += count - 1;
   if (depth > checker->max_depth)
     checker->max_depth = depth;
   checker->ranges[number].first = checker->next_triangle;
-  for (uint32_t i = 0; i < count; i++) {
-    below[i] = scene_empty_box();
-    trax_status result = check_subtree(checker, children[i], depth, &below[i]);
+  for (uint32_t i = 0; i < 2; i++) {
+    struct scene_box expected = scene_empty_box();
+    trax_status result = check_subtree(checker, children[i], depth, &expected);
     if (result != TRAX_OK)
       return result;
-    const bool is_leaf = TRAX_SCENE_REF_COUNT(children[i]) != 0;
-    const struct scene_box expected = scene_box_in_frame(&checker->view, number, &below[i]);
     if (!same_box(&boxes[i], &expected)) {
-      if (!is_leaf || !box_within(&boxes[i], &expected))
-        return wrong_box(checker, number * TRAX_MAX_WIDTH + i);
-      note_parts(checker, children[i], &boxes[i], number * TRAX_MAX_WIDTH + i);
-      whole = false;
+      if (!TRAX_SCENE_REF_COUNT(children[i]) || !box_within(&boxes[i], &expected))
+        return wrong_box(checker, 2 * number + i);
+      note_parts(checker, children[i], &boxes[i], 2 * number + i);
     }
   }
-  *box = scene_box_around(checker->view.header->node_layout, boxes, count);
-  struct scene_box none = scene_box_inside_out(box);
-  none = scene_box_in_frame(&checker->view, number, &none);
-  for (uint32_t i = count; i < format->width; i++)
-    if (children[i] || !same_box(&boxes[i], &none))
-      return trax_fail(checker->error, "%s: node %u: child %u is none, and one", checker->name, number, i);
+  *box = scene_box_around(boxes);
   checker->ranges[number].end = checker->next_triangle;
-  return whole ? check_frame(checker, number, below, children, count) : TRAX_OK;
+  return TRAX_OK;
 }
 
 /* With room for what is noted of each node and triangle. */

@@ -239,22 +239,18 @@ struct scene_tree;
    the same unit. */
 struct scene_box scene_box_as_stored(enum trax_node_layout layout, const struct trax_scene_grid *grid,
                                      const struct scene_box *box);
-/* What contains them and nothing beyond the grid. */
-struct scene_box scene_box_around(enum trax_node_layout layout, const struct scene_box boxes[], uint32_t count);
-/* What is least for greatest: hardly any ray is in it. */
-struct scene_box scene_box_inside_out(const struct scene_box *box);
-/* A node around such boxes, of zero bytes before; *box becomes what is around them as they are stored now. */
-void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[],
-                      const trax_scene_ref children[], uint32_t count, struct scene_box *box);
-/* The least box in the node's own frame that contains this one, which is itself if nodes have none. */
-struct scene_box scene_box_in_frame(const struct trax_scene *scene, uint32_t number, const struct scene_box *box);
-/* False: a word of the node's frame is none. */
-bool scene_node_has_frame(const struct trax_scene *scene, uint32_t number);
+/* What contains both. */
+struct scene_box scene_box_around(const struct scene_box boxes[2]);
+/* A node around such boxes. */
+void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],
+                      const trax_scene_ref children[2]);
+/* The names of the layouts from TRAX_NODE_LAYOUTS on, which earlier versions had; ended by NULL. */
+extern const char *const scene_removed_layouts[];
 /* Do rays visit hardly more of the tree if its boxes are on the scene's grid, in each of its larger parts? */
 bool scene_grid_suits(const struct scene_tree *tree);
-/* The boxes of a node as they are stored, as many as nodes have at most; returns how many children it has. */
-uint32_t scene_node_boxes(struct scene_box boxes[], trax_scene_ref children[], const struct trax_scene *scene,
-                          uint32_t number);
+/* The boxes of a node as they are stored. */
+void scene_node_boxes(struct scene_box boxes[2], trax_scene_ref children[2], const struct trax_scene *scene,
+                      uint32_t number);
 
 /* --- parts.c --- */
 
@@ -282,7 +278,7 @@ struct scene_tree {
   struct scene_tree_node {
     uint32_t triangle_count; /* 0: an inner node */
     union {
-      uint32_t child[TRAX_MAX_WIDTH]; /* 0: there are no more */
+      uint32_t child[2];
       struct {
         uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh */
         struct scene_box box;                    /* of the triangles' parts that are in this leaf */
@@ -321,12 +317,6 @@ struct scene_links {
  */
 trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
                            trax_error *error);
-
-/* --- widen.c --- */
-
-/* Of a binary tree one whose nodes have up to four children; a traversal has no more than `entries` of them on its
-   stack, which must be no less than the tree is deep. */
-trax_status scene_widen_tree(struct scene_tree *tree, uint32_t entries, trax_error *error);
 
 /* --- duplicates.c --- */
 

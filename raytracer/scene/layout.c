@@ -181,13 +181,13 @@ static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_
     *box = scene_box_as_stored(layout->node_layout, &layout->grid, &node->box);
     return place_leaf(layout, node);
   }
-  struct scene_box boxes[TRAX_MAX_WIDTH];
-  trax_scene_ref children[TRAX_MAX_WIDTH];
-  uint32_t count = 0;
-  for (; count < TRAX_MAX_WIDTH && node->child[count]; count++)
-    children[count] = place(layout, node->child[count], &boxes[count]);
+  struct scene_box boxes[2];
+  trax_scene_ref children[2];
+  for (int i = 0; i < 2; i++)
+    children[i] = place(layout, node->child[i], &boxes[i]);
+  *box = scene_box_around(boxes);
   const uint32_t offset = layout->positions[index] * trax_node_formats[layout->node_layout].bytes;
-  scene_node_write(layout->nodes + offset, layout->node_layout, boxes, children, count, box);
+  scene_node_write(layout->nodes + offset, layout->node_layout, boxes, children);
   return layout->nodes_offset + offset;
 }
 
@@ -381,11 +381,9 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   if (chosen.choose_nodes && tree.inner_count)
     chosen.nodes = scene_grid_suits(&tree) ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
   options = &chosen;
-  if (trax_node_formats[chosen.nodes].width > 2)
-    result = scene_widen_tree(&tree, options->max_depth ? options->max_depth : TRAX_SCENE_DEFAULT_DEPTH, error);
   struct palette palette = {0};
   struct scene_order order = {0};
-  if (!tree.split && result == TRAX_OK)
+  if (!tree.split)
     result = scene_order_duplicates(&tree, mesh, error);
   if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
     result = TRAX_INTERRUPTED;

@@ -33,7 +33,7 @@ static void measure_areas(double *areas, struct scene_box *boxes, const struct s
   for (uint32_t i = tree->node_count; i-- > 0;) { /* children stand behind their parents */
     const struct scene_tree_node *node = &tree->nodes[i];
     boxes[i] = node->triangle_count ? node->box : scene_empty_box();
-    for (int c = 0; c < TRAX_MAX_WIDTH && !node->triangle_count && node->child[c]; c++)
+    for (int c = 0; c < 2 && !node->triangle_count; c++)
       scene_box_add_box(&boxes[i], &boxes[node->child[c]]);
     areas[i] = scene_half_area(boxes[i].min, boxes[i].max);
   }
@@ -46,7 +46,7 @@ static uint32_t largest_below(const struct scene_order *order, const struct scen
                               uint32_t root) {
   uint32_t largest = 0;
   for (uint32_t node = root;; node = order->next[node]) {
-    for (int c = 0; c < TRAX_MAX_WIDTH && tree->nodes[node].child[c]; c++) {
+    for (int c = 0; c < 2; c++) {
       uint32_t child = tree->nodes[node].child[c];
       if (is_inner(tree, child) && order->group[child] != root && (!largest || areas[child] > areas[largest]))
         largest = child;
@@ -91,7 +91,7 @@ static uint32_t groups_below(uint32_t below[], const struct placing *placing, ui
   const struct scene_order *order = placing->order;
   uint32_t count = 0;
   for (uint32_t node = root;; node = order->next[node]) {
-    for (int c = 0; c < TRAX_MAX_WIDTH && placing->tree->nodes[node].child[c]; c++) {
+    for (int c = 0; c < 2; c++) {
       uint32_t child = placing->tree->nodes[node].child[c];
       if (is_inner(placing->tree, child) && order->group[child] != root && !placing->done[order->group[child]])
         below[count++] = order->group[child];
@@ -101,7 +101,7 @@ static uint32_t groups_below(uint32_t below[], const struct placing *placing, ui
   }
 }
 
-enum { MOST_BELOW = TRAX_MAX_WIDTH }; /* of wide nodes one is a group; of two binary ones there are three */
+enum { MOST_BELOW = 3 }; /* a group has two nodes at most */
 
 /* The treelet below root and, recursively, those below it; each level of recursion is at least one of the tree.
    frontier has room for (MOST_BELOW - 1) * treelet + 1 groups for every level. */

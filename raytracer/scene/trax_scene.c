@@ -55,8 +55,7 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
                                  trax_node_formats[f->scene->header->node_layout].bytes};
   list[n++] = (struct statistic){"bvh.nodes", "", "inner nodes", f->scene->node_count};
   list[n++] = (struct statistic){"bvh.leaves", "", "", f->tree.leaves};
-  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path; of wide ones, their children but one",
-                                 f->scene->header->max_depth};
+  list[n++] = (struct statistic){"bvh.max_depth", "", "most nodes on a path", f->scene->header->max_depth};
   list[n++] = (struct statistic){"bvh.mean_depth", "", "nodes above a leaf", f->tree.mean_leaf_depth};
   list[n++] = (struct statistic){"bvh.sah_nodes", "", "expected visits of a random ray", f->tree.sah_nodes};
   list[n++] = (struct statistic){"bvh.sah_triangles", "", "expected tests of a random ray", f->tree.sah_triangles};

@@ -60,8 +60,6 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Tree"),
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
      .meaning = "binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an axis;\n"
-                "quantised8: four, of 256 planes an axis around each node; wide, wide-quantised,\n"
-                "wide-quantised8: the same, up to four boxes a node;\n"
                 "auto (default): quantised, if the grid is fine enough for each large part of the tree"},
     {"leaf", .argument = "N", NUMBER(build.max_leaf, 1, TRAX_SCENE_MAX_LEAF),
      .meaning = "at most N triangles in a leaf, 1 to 7"},

@@ -59,7 +59,7 @@ def empty_names():
 def options():
     render, scene = ("trax-render", "a.obj", "-o", "x.png"), ("trax-scene", "a.obj", "-o", "x.trax")
     refused("unknown option --siez; did you mean --size?", *render, "--siez", "1x1")
-    refused("--st is ambiguous: --stats, --stack", *render, "--st", "x")
+    refused("--s is ambiguous: ", *render, "--s", "x")
     refused("unknown option --quite-another", *render, "--quite-another=3")
     refused("unknown option -z", *render, "-qz")
     refused("--quiet takes no value", *render, "--quiet=1")

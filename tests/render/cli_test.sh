@@ -58,7 +58,8 @@ refuse '--seed is for --paths' "$render" "$box" -o x.png --seed 3
 refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
-refuse "--nodes: 'octal' is none of auto, binary, quantised, quantised8, wide, wide-quantised and wide-quantised8" "$render" "$box" -o x.png --nodes octal
+refuse "--nodes: 'octal' is none of auto, binary and quantised" "$render" "$box" -o x.png --nodes octal
+refuse "--nodes: 'wide-quantised' has been removed; .*experiments/nodes/wide-quantised.json" "$render" "$box" -o x.png --nodes wide-quantised
 refuse "--texture-size: '3' is not a power of two" "$render" "$box" -o x.png --texture-size 3
 refuse "--normals: 'round' is none of file" "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
@@ -68,11 +69,9 @@ refuse '--stats needs the emulator' "$render" "$box" -o x.png --engine native --
 refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --config 4x32
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --cost-picture c.png
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --profile p.txt
-refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --report
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --no-specialise
-refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --report
 refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --cache here
-refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --report
+refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --cache here
 refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
 refuse "--triangle: 'fast' is none of watertight and moller-trumbore" "$render" "$box" -o x.png --triangle fast
 refuse "--queues: '65' is neither tms nor a whole number from 1 to 64" "$render" "$box" -o x.png --queues 65
@@ -81,17 +80,10 @@ refuse '--queues needs a program.*--no-specialise' "$render" "$box" -o x.png --q
 refuse '--queues needs the emulator' "$render" "$box" -o x.png --engine native --queues tms
 refuse '--triangle needs a program compiled' "$render" "$box" -o x.png --triangle moller-trumbore --no-specialise
 refuse '--fast-math needs a program.*--program asks' "$render" "$box" -o x.png --fast-math --program x.elf
-refuse '--report compares with the general' "$render" "$box" -o x.png --triangle moller-trumbore --report
 refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
 refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
-for entries in 0 63 -1 2x; do
-  refuse "--stack: '$entries' is not a whole number from 1 to 62" "$render" "$box" -o x.png --stack $entries
-done
-refuse '--stack needs a program compiled.*--no-specialise' "$render" "$box" -o x.png --stack 2 --no-specialise
-refuse '--stack needs the emulator' "$render" "$box" -o x.png --stack 2 --engine native
-refuse 'which --stack leaves' "$render" "$box" -o x.png --stack 2 --bench-accuracy
 refuse "--cost: 'time' is none of cycles" "$render" "$box" -o x.png --cost-picture c.png --cost time
-for option in '-o x.png' '--stats s.json' --compare --report '--profile p.txt' '--cost-picture c.png' '--id-picture i.png'; do
+for option in '-o x.png' '--stats s.json' --compare '--profile p.txt' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
 done
 refuse 'need the emulator' "$render" "$box" --prepare prepared --engine native
@@ -107,7 +99,6 @@ refuse "--orbit: '1,2,3' is not" "$render" "$box" -o x.png --orbit 1,2,3
 refuse "--frames: '0' is not a whole number" "$render" "$box" -o x.png --frames 0
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --id-picture i.png
-refuse 'and nothing else' "$render" "$box" -o x.png --bench-accuracy --id-picture i.png
 refuse 'the meshes have no cameras' "$render" "$box" -o x.png --view file:main
 refuse 'is the eye itself' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,3
 refuse 'in which the eye looks' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,5 --up 0,0,1
@@ -150,7 +141,7 @@ refuse '--nodes, --splits and --normals smooth are for meshes' "$render" box.tra
 
 # The picture does not depend on how the tree is stored; the file does.
 refuse "--splits: '0.5' is neither auto nor a number from 1 to 8" "$render" "$box" -o x.png --splits=0.5
-for nodes in binary quantised quantised8 wide wide-quantised wide-quantised8 auto; do
+for nodes in binary quantised auto; do
   accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
   accept "$bin/trax-scene" "$box" -o "split-$nodes.trax" --nodes "$nodes" --splits=4
   for input in "$nodes.trax" "$box --nodes $nodes" "split-$nodes.trax" "$box --nodes $nodes --splits"; do

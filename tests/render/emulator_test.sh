@@ -89,28 +89,26 @@ sed 1d fast-cycles.csv | cut -d, -f3 | awk '{ printf "%.0f\n", $1 }' | cmp -s - 
 head -n 2 x.pfm | tr '\n' ' ' | grep -qx 'Pf 64 36 ' || fail "x.pfm begins with $(head -n 2 x.pfm)"
 
 # A program for one picture and the one for all: the same bits from both engines, and what is left out is out.
-# both ARGUMENTS...: --report finds the same picture, with no more of the scene; what it printed stays in .out.
+# both ARGUMENTS...: the same picture, with no more of the scene, and code that fits in the cache. What each reads stays in
+# special and general. $cache: where the specialised program is kept.
+code() { sed -n '/"code"/,/}/s/^ *"'"$1"'": \([0-9]*\).*/\1/p' special/manifest.json; }
+scene_bytes() { wc -c <"$1/scene.trax"; }
+has_features() { tr -d ' \n' <special/manifest.json | grep -q "\"features\":\[$1\]"; }
 both() {
-  "$bin/trax-render" "$@" -o x.png --report --compare >.out 2>.err || fail "$*: status $?: $(cat .out .err)"
-  grep -q '^pictures    identical in every bit$' .out || fail "$*: $(cat .out)"
-  awk '/^bytes of scene/ && $5 + 0 > $4 + 0 { exit 1 }' .out || fail "$*: the specialised is larger: $(cat .out)"
-  awk -v most="${code_bytes:-4096}" '/^bytes of code/ && $5 > most { exit 1 }' .out || fail "$*: more than the instruction cache: $(cat .out)"
+  same "$@" ${cache:+--cache $cache} --keep special
+  cp x.png special.png
+  "$bin/trax-render" "$@" --no-specialise --keep general -o x.png >.out 2>.err || fail "$*: general: $(cat .err)"
+  "$bin/trax-compare" -q x.png special.png || fail "$*: the general program's picture is another"
+  [ "$(scene_bytes special)" -le "$(scene_bytes general)" ] || fail "$*: the specialised scene is larger"
+  [ "$(code bytes)" -le "${code_bytes:-4096}" ] || fail "$*: $(code bytes) bytes are more than the instruction cache"
 }
+cache=
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
 both "$source/box.obj" $view --size 64x36
-grep -q '^features .* shadows materials$' .out || fail "box: $(cat .out)"
+has_features '"shadows","materials"' || fail "box: $(cat special/manifest.json)"
 both "$source/box.obj" $view --size 64x36 --engine reference --config 1x32
-# The same in the statistics.
-both "$source/box.obj" $view --size 16x9 --config 1x32 --stats report.json
-for row in 'bytes of code:code_bytes' 'bytes of stack:stack_bytes' 'cycles:cycles'; do
-  for column in 1 2; do
-    value=$(sed -n "s/^${row%:*} *\([0-9]*\) *\([0-9]*\) .*/\\$column/p" .out)
-    sed -n '/"report"/,$p' report.json | grep -q "\"${row#*:}\": $value,\{0,1\}\$" || fail "${row#*:} is not $value in report.json"
-  done
-done
-grep -q '"identical": true' report.json || fail "report.json: $(tail -n 30 report.json)"
 both "$source/box.obj" $view --size 40x30 --no-shadows
-grep -q '^features .* all  materials$' .out || fail "box without shadows: $(cat .out)"
+has_features '"materials"' || fail "box without shadows: $(cat special/manifest.json)"
 both "$source/box.obj" $view --size 20x30 --samples 3
 both "$source/box.obj" $view --size 20x30 --samples 4 --no-shadows --ambient 0 --background 102030
 both "$source/box.obj" $view --size 20x30 --smooth
@@ -118,39 +116,33 @@ both "$source/box.obj" $view --size 20x30 --smooth --samples 2
 both triangle.obj --size 30x20
 "$bin/trax-scene" "$source/box.obj" --smooth -o smooth.trax || fail "trax-scene --smooth"
 both smooth.trax $view --size 20x30 --smooth
-grep -q '^features .* smooth$' .out || fail "smooth: $(cat .out)"
-read_scene() { sed -n 's/^bytes of scene *[0-9]* *\([0-9]*\) .*/\1/p' .out; }
-with_normals=$(read_scene)
+has_features '.*"smooth"' || fail "smooth: $(cat special/manifest.json)"
+with_normals=$(scene_bytes special)
 both smooth.trax $view --size 20x30 # the normals are in the file and nothing reads them
-[ "$(read_scene)" -lt "$with_normals" ] || fail "normals that nothing reads are written: $(cat .out)"
+[ "$(scene_bytes special)" -lt "$with_normals" ] || fail "normals that nothing reads are written"
 both "$source/box.obj" --size 1x1 --samples 2 # more threads than pixels
 [ -r $bunny ] && both $bunny --view bunny --size 64x36
 # With a stack as deep as a scene may be, constants in registers would overflow it: the parameters stay in memory.
 awk 'BEGIN { for (i = 0; i < 5000; i++) {
                x = 2 ^ (59 - 0.0358 * i); printf "v %.9g 0 0\nv 0 %.9g 0\nv 0 0 %.9g\nf -3 -2 -1\n", x, x, x } }' >deep.obj
 code_bytes=6656 # sizes that binary32 cannot tell apart: hits are exact
-both deep.obj --size 16x9 --config 1x32 --cache deep
-grep -q 'TRAX_STACK_ENTRIES 32$' deep/*.h || fail "deep.obj is not deep"
-# Deeper than there is stack for, in either program, and less stack than there might be.
-stack_bytes() { sed -n 's/^bytes of stack *[0-9]* *\([0-9]*\) .*/\1/p' .out; }
-whole=$(stack_bytes)
+cache=deep
+both deep.obj --size 16x9 --config 1x32
+grep -q 'TRAX_TREE_DEPTH 32$' deep/*.h || fail "deep.obj is not deep"
+# Deeper than the TPs' own memory has room for: the stack is in global memory.
 "$bin/trax-scene" deep.obj --depth 62 --passes 0 -o deeper.trax --stats | grep -q 'bvh.max_depth *5[0-9]\>' || fail "deeper.trax is not deeper"
-both deeper.trax --size 16x9 --config 1x32 --cache deeper
-grep -q 'TRAX_STACK_ENTRIES 8$' deeper/*.h || fail "deeper.trax: $(grep TRAX_ deeper/*.h)"
+cache=deeper
+both deeper.trax --size 16x9 --config 1x32
+grep -q 'TRAX_TREE_DEPTH 5[0-9]$' deeper/*.h || fail "deeper.trax: $(grep TRAX_ deeper/*.h)"
+cache=
 "$bin/trax-render" deeper.trax --size 16x9 --config 1x32 -o x.png --program "$bin/../lib/trax/trax-raytracer.elf" >.out 2>.err && fail "too deep for its stack"
 grep -q "the scene is deeper than this program's stack" .err || fail "too deep for its stack: $(cat .err)"
-for entries in 1 3; do
-  both deeper.trax --size 16x9 --config 1x32 --cache deeper --stack $entries
-  both deep.obj --size 16x9 --config 1x32 --stack $entries
-  [ "$(stack_bytes)" -lt $((whole - 100)) ] || fail "a stack of $entries takes $(stack_bytes) bytes, the whole one $whole"
-done
 code_bytes=4096
-[ "$(find deeper -name '*.elf' | wc -l)" -eq 3 ] || fail "not one program for each stack"
-both "$source/box.obj" $view --size 20x30 --stack 1
-both "$source/box.obj" $view --size 20x30 --stack 62 # as many as the scene is deep
 # What the compiler folds is not what a less precise divider would compute.
-"$bin/trax-render" triangle.obj --size 1x1 --config 1x32 --set special.precision_bits=8 -o x.png --report >.out 2>.err ||
-  fail "8 bits of precision: $(cat .out .err)"
+for how in '' --no-specialise; do
+  "$bin/trax-render" triangle.obj --size 1x1 --config 1x32 --set special.precision_bits=8 $how -o "8$how.png" >.out 2>.err || fail "8 bits of precision: $(cat .err)"
+done
+"$bin/trax-compare" -q 8.png 8--no-specialise.png || fail "8 bits of precision: another picture"
 
 # Other methods: programs of their own, bit for bit the twin's unless the compiler may reorder.
 if [ -r $bunny ]; then
@@ -219,20 +211,9 @@ for method in '--triangle moller-trumbore' --fast-math; do
   bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png $method >.out 2>.err && fail "$method without a compiler"
   grep -q "error: ${method%% *}: there is no program for it: .*bin/clang" .err && [ ! -e y.png ] || fail "$method: $(cat .err)"
 done
-bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o x.png --report >.out 2>.err && fail "a report without a compiler"
-grep -q 'no specialised program' .err || fail "a report without a compiler: $(cat .err)"
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
 [ -s .err ] && fail "--no-specialise has a note: $(cat .err)"
 "$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"
-"$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise --nodes quantised8 -o y.png >.out 2>.err && fail "--nodes quantised8 --no-specialise"
-grep -q 'the general program has no quantised8 nodes: it takes binary and quantised ones' .err || fail "no reason: $(cat .err)"
-for nodes in quantised8 wide wide-quantised wide-quantised8; do
-  "$bin/trax-render" "$source/box.obj" $view --size 64x36 --nodes $nodes -o x.png >.out 2>.err || fail "--nodes $nodes: $(cat .err)"
-  "$bin/trax-compare" -q x.png box.png || fail "--nodes $nodes: another picture"
-done
-"$bin/trax-render" "$source/box.obj" $view --size 64x36 --nodes wide --stack 4 -o y.png >.out 2>.err && fail "--nodes wide --stack 4"
-grep -q -e '--stack: a traversal of wide nodes has a whole stack' .err || fail "no reason: $(cat .err)"
-
 # What --keep writes runs by itself to the same picture.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept
 "$bin/trax-sim" kept/manifest.json >.out 2>.err || fail "the manifest: $(cat .err)"

@@ -175,7 +175,7 @@ static void test_kinds_of_wrong_hits(void **state) {
     if (exact.seen[i].triangle != TRAX_NO_TRIANGLE)
       recorded[i] = (struct trax_sample_record){triangles + exact.seen[i].triangle * bytes, exact.seen[i].shadow};
   struct trax_hit_errors errors;
-  trax_hit_errors(&errors, &exact, recorded, &frame, &scene);
+  trax_hit_errors(&errors, &exact, recorded, &frame);
   assert_int_equal(errors.samples, 1024);
   assert_int_equal(errors.missed + errors.grown + errors.other + errors.tied + errors.shadow + errors.wrong_pixels, 0);
 
@@ -183,24 +183,24 @@ static void test_kinds_of_wrong_hits(void **state) {
   assert_int_equal(triangles + exact.seen[middle].triangle * bytes, place[0]);
   assert_int_equal(exact.seen[corner].triangle, TRAX_NO_TRIANGLE);
   recorded[corner].triangle = place[2];
-  trax_hit_errors(&errors, &exact, recorded, &frame, &scene);
+  trax_hit_errors(&errors, &exact, recorded, &frame);
   assert_true(errors.grown == 1 && errors.wrong_pixels == 1 && errors.missed + errors.other + errors.tied == 0);
   recorded[corner].triangle = 0;
   recorded[middle].triangle = 0;
-  trax_hit_errors(&errors, &exact, recorded, &frame, &scene);
+  trax_hit_errors(&errors, &exact, recorded, &frame);
   assert_true(errors.missed == 1 && errors.wrong_pixels == 1 && errors.grown + errors.other + errors.tied == 0);
   recorded[middle].triangle = place[1];
-  trax_hit_errors(&errors, &exact, recorded, &frame, &scene);
+  trax_hit_errors(&errors, &exact, recorded, &frame);
   assert_true(errors.other == 1 && errors.wrong_pixels == 1 && errors.missed + errors.grown + errors.tied == 0);
   recorded[middle].triangle = place[0];
   const uint32_t right = triangles + exact.seen[beside].triangle * bytes;
   assert_true(right == place[1] || right == place[2]); /* whichever comes first in the file */
   recorded[beside].triangle = right == place[1] ? place[2] : place[1];
   recorded[middle].shadow ^= TRAX_SHADOW_LIT ^ TRAX_SHADOW_BLOCKED;
-  trax_hit_errors(&errors, &exact, recorded, &frame, &scene);
+  trax_hit_errors(&errors, &exact, recorded, &frame);
   assert_true(errors.tied == 1 && errors.shadow == 1 && errors.wrong_pixels == 0);
   recorded[middle].triangle = triangles + 3 * bytes; /* no triangle of the scene */
-  trax_hit_errors(&errors, &exact, recorded, &frame, &scene);
+  trax_hit_errors(&errors, &exact, recorded, &frame);
   assert_int_equal(errors.missed, 1);
   free(recorded);
   trax_exact_release(&exact);

@@ -230,14 +230,6 @@ int main(void) {
       OF_LAYOUT(test_nearest_hit, BINARY),
       OF_LAYOUT(test_no_ray_leaves_a_closed_surface, QUANTISED),
       OF_LAYOUT(test_nearest_hit, QUANTISED),
-      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, QUANTISED8),
-      OF_LAYOUT(test_nearest_hit, QUANTISED8),
-      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE),
-      OF_LAYOUT(test_nearest_hit, WIDE),
-      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE_QUANTISED),
-      OF_LAYOUT(test_nearest_hit, WIDE_QUANTISED),
-      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE_QUANTISED8),
-      OF_LAYOUT(test_nearest_hit, WIDE_QUANTISED8),
       cmocka_unit_test(test_shadow_rays_start_off_the_surface),
   };
   const int failures = cmocka_run_group_tests_name("hits in binary32", tests, NULL, NULL);

@@ -282,6 +282,15 @@ CHANGE(used_reserve) {
 CHANGE(other_nodes) {
   UNUSED, header->node_layout = 77;
 }
+CHANGE(quantised8_nodes) {
+  UNUSED, header->node_layout = 2;
+}
+CHANGE(wide_quantised8_nodes) {
+  UNUSED, header->node_layout = 5;
+}
+CHANGE(next_nodes) {
+  UNUSED, header->node_layout = 6;
+}
 static void *section_of(struct trax_scene_header *header, enum trax_scene_section_kind kind) {
   return (unsigned char *)header + header->sections[kind].offset;
 }
@@ -380,6 +389,9 @@ static void test_messages(void **state) {
   expect(relocated, "its references are addresses, for a device that has it at 00002000");
   expect(used_reserve, "node 4: reserved words are not zero");
   expect(other_nodes, "nodes of an unknown layout, 77");
+  expect(quantised8_nodes, "its nodes are quantised8 ones, which scene files no longer have: import the meshes again");
+  expect(wide_quantised8_nodes, "its nodes are wide-quantised8 ones");
+  expect(next_nodes, "nodes of an unknown layout, 6");
   expect(nan_uv, "triangle 6: a texture coordinate is not within 8192");
   expect(far_uv, "triangle 6: a texture coordinate is not within 8192");
   expect(no_uvs, "textures without texture coordinates");
@@ -400,7 +412,7 @@ static void test_messages(void **state) {
   expect(smaller_texture, "texels of no texture");
 }
 
-/* A chain deeper than the device's trail is refused, however well it is made. */
+/* A chain deeper than the device's stack is refused, however well it is made. */
 static void test_deep_chain(void **state) {
   (void)state;
   for (unsigned depth = TRAX_SCENE_MAX_DEPTH; depth <= TRAX_SCENE_MAX_DEPTH + 1; depth++) {

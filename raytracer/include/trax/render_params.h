@@ -15,7 +15,6 @@
 
 #define TRAX_RENDER_MAX_SIDE 16384u /* pixels */
 #define TRAX_RENDER_MAX_SAMPLES 4096u
-#define TRAX_SHORT_STACK 8 /* entries that programs have for trees of any depth (device/stack.h) */
 
 /* Bits of trax_render_params.features; features.def says what they are. */
 enum trax_feature {

@@ -169,37 +169,31 @@ struct trax_scene {
   struct trax_scene_grid grid;
 };
 
-/* What there is to know of a layout without its nodes. Children stand in pairs: two boxes, of six planes each, and
-   behind them two references, of which 0 is none, as all behind it are. */
+/* What there is to know of a layout without its nodes, which begin with two boxes of six planes each and two
+ * references.
+ */
 struct trax_node_format {
-  const char *name;        /* as trax-scene --nodes has it */
-  uint32_t bytes;          /* of a node */
-  uint32_t width;          /* children, at most */
-  bool quantised;          /* boxes are in cells of the scene's grid */
-  uint32_t reserved_bytes; /* at its end; zero */
-  uint32_t first_box;      /* where the boxes are; a frame is before them */
-  uint32_t plane_bytes;    /* 4: binary32; 2: a number on the scene's grid; 1: in the node's frame */
+  const char *name;     /* as trax-scene --nodes has it */
+  uint32_t bytes;       /* of a node */
+  bool quantised;       /* boxes are in cells of the scene's grid */
+  uint32_t plane_bytes; /* 4: binary32; 2: a number on the scene's grid */
 };
 extern const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS];
 
 /* Where in a node a child's box is, and its reference. */
 static inline uint32_t trax_node_box(const struct trax_node_format *format, uint32_t child) {
-  const uint32_t box_bytes = 6 * format->plane_bytes, pair_bytes = 2 * box_bytes + 2 * (uint32_t)sizeof(trax_scene_ref);
-  return format->first_box + child / 2 * pair_bytes + child % 2 * box_bytes;
+  return child * 6 * format->plane_bytes;
 }
 static inline uint32_t trax_node_child(const struct trax_node_format *format, uint32_t child) {
-  return trax_node_box(format, child & ~1u) + 12 * format->plane_bytes + child % 2 * (uint32_t)sizeof(trax_scene_ref);
+  return 12 * format->plane_bytes + child * (uint32_t)sizeof(trax_scene_ref);
 }
 
 struct trax_scene_grid trax_scene_grid_of(const float bounds_min[3], const float bounds_max[3]);
 
-#define TRAX_MAX_WIDTH 4
-
 /* A node as any layout has it. Boxes are exact: grid planes too are sums that binary64 has. */
 struct trax_node_children {
-  uint32_t count;
-  trax_scene_ref child[TRAX_MAX_WIDTH];
-  double min[TRAX_MAX_WIDTH][3], max[TRAX_MAX_WIDTH][3];
+  trax_scene_ref child[2];
+  double min[2][3], max[2][3];
 };
 void trax_node_read(struct trax_node_children *children, const struct trax_scene *scene, uint32_t number);
 

@@ -36,14 +36,9 @@ typedef uint32_t trax_scene_ref;
 
 /* What the records of the section of nodes are. */
 enum trax_node_layout {
-  TRAX_NODES_BINARY = 0,     /* struct trax_bvh_node: two boxes in binary32 */
-  TRAX_NODES_QUANTISED = 1,  /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
-  TRAX_NODES_QUANTISED8 = 2, /* struct trax_quantised8_node: two boxes on a grid of the node's own */
-  /* The same of up to four boxes. */
-  TRAX_NODES_WIDE = 3,            /* struct trax_wide_node: two lines */
-  TRAX_NODES_WIDE_QUANTISED = 4,  /* struct trax_wide_quantised_node: a line */
-  TRAX_NODES_WIDE_QUANTISED8 = 5, /* struct trax_wide_quantised8_node: a line */
-  TRAX_NODE_LAYOUTS = 6
+  TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
+  TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
+  TRAX_NODE_LAYOUTS = 2     /* 2 to 5 were quantised8, wide, wide-quantised and wide-quantised8 */
 };
 
 /* The grid of quantised nodes: along each axis 2^16 planes at equal distances, of which the first is at bounds_min and
@@ -77,9 +72,8 @@ struct trax_scene_header {
   uint32_t file_size;      /* bytes, header included, a multiple of 64 */
   uint32_t checksum;       /* CRC-32 (ISO 3309, as in zlib) of the whole file with this field zero */
   trax_scene_ref root;     /* an inner node; a leaf if that holds all triangles; 0 if there are none */
-  uint32_t max_depth;      /* of all paths from the root the greatest sum of the inner nodes' children but one each: of
-                              binary nodes how many are on it. A traversal that pushes the other children never has
-                              more entries on its stack, and may have room for fewer */
+  uint32_t max_depth;      /* most inner nodes on a path from the root. A traversal that pushes the other child of each
+                              never has more entries on its stack */
   uint32_t max_leaf;       /* most triangles in one leaf */
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
   float bounds_min[3];     /* of all triangles; zeros if there are none */
@@ -107,57 +101,6 @@ struct trax_quantised_node {
   } box[2];
   trax_scene_ref child[2]; /* never 0 */
 };
-
-/* Boxes on a frame of the node's own: along each axis 256 planes at equal distances, a power of two times the scene's
-   cells. A frame's word is the binary32 number TRAX_FRAME_BIAS + p, where p is the first plane's place in cells, with
-   TRAX_FRAME_EXPONENT + e in its last nine bits, if planes are 2^e cells apart: p is what both together make it. So the
-   traversal takes the word as a float as it is, and one shift makes of it what is to be added to another float's
-   exponent.
-
-   A box is the least in the frame that contains what is below it: of a leaf its triangles, in cells, rounded outwards
-   to multiples of TRAX_FINEST_CELL; of a node both of its boxes. Along each axis the frame is the one of least e, from
-   TRAX_FRAME_LEAST on, and of these of greatest p, that has room for all boxes. Aligned to 32 bytes. */
-struct trax_quantised8_node {
-  uint32_t frame[3];
-  struct {
-    uint8_t min[3], max[3];
-  } box[2];
-  trax_scene_ref child[2]; /* never 0 */
-};
-
-/* Wide nodes: two pairs of children, one behind the other as two binary nodes are, so that a traversal goes through one
-   pair and then, by the same instructions, through the other. Children that are not there have the reference 0 and
-   stand behind the others, which are two at least; the box of such a one is that around the others' turned inside out,
-   its least planes the greatest and the reverse, so that hardly a ray enters it. */
-struct trax_wide_node {
-  struct {
-    struct {
-      float min[3], max[3];
-    } box[2];
-    trax_scene_ref child[2];
-  } pair[2];
-  uint32_t reserved[4]; /* zero */
-};
-
-struct trax_wide_quantised_node {
-  struct trax_quantised_node pair[2];
-};
-
-struct trax_wide_quantised8_node {
-  uint32_t frame[3];
-  struct {
-    struct {
-      uint8_t min[3], max[3];
-    } box[2];
-    trax_scene_ref child[2];
-  } pair[2];
-  uint32_t reserved[3]; /* zero */
-};
-
-#define TRAX_FRAME_BIAS 65540.0f /* p is -4 at least, in steps of 4 */
-#define TRAX_FRAME_EXPONENT 149  /* a plane's number is used as a float as it is, times 2^-149 */
-#define TRAX_FRAME_LEAST (-7)
-#define TRAX_FINEST_CELL 0x1p-7f
 
 struct trax_triangle {
   float v0[3], v1[3], v2[3]; /* finite; winding as in the mesh */
@@ -225,10 +168,6 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_scene_section, 16);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
-TRAX_SCENE_ASSERT_SIZE(struct trax_quantised8_node, 32);
-TRAX_SCENE_ASSERT_SIZE(struct trax_wide_node, 128);
-TRAX_SCENE_ASSERT_SIZE(struct trax_wide_quantised_node, 64);
-TRAX_SCENE_ASSERT_SIZE(struct trax_wide_quantised8_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));

@@ -420,7 +420,7 @@ static void make_deep(struct setup *setup, uint32_t rays) {
 }
 
 /* The triangle at `turned` fills the other half of its box: half of the rays go down through all nodes, miss
-   everything, and must find it on the way back, when a short stack has lost it. */
+   everything, and must find it on the way back. */
 static void chain(struct setup *setup, uint32_t rays, uint32_t turned) {
   chain_scene(&setup->premade);
   struct trax_triangle *triangle = (struct trax_triangle *)setup->premade.triangles + turned;
@@ -531,9 +531,9 @@ static const struct extreme_case cases[] = {
     {"layers-2", "layers 2 ulp apart", make_layers_2, 0},
     {"layers-3", "layers 3 ulp apart", make_layers_3, 0},
     {"layers-4", "layers 4 ulp apart", make_layers_4, 0},
-    {"deep", "5,000 triangles through 179 octaves: depth beyond the stack", make_deep, CASE_DEPTH},
-    {"deepest", "a chain of as many nodes as there may be", make_chain, CASE_DEPTH},
-    {"deepest-below", "the same, what is hit is among the lower half", make_chain_below, CASE_DEPTH},
+    {"deep", "5,000 triangles through 179 octaves: as deep a tree as there may be", make_deep, 0},
+    {"deepest", "a chain of as many nodes as there may be", make_chain, 0},
+    {"deepest-below", "the same, what is hit is among the lower half", make_chain_below, 0},
 };
 
 const struct extreme_case *extreme_case(unsigned number) {

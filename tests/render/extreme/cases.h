@@ -11,7 +11,6 @@ enum case_flags {
   CASE_HARDWARE = 8,          /* the picture on machines at the ends of what there is */
   CASE_MANY_RAYS = 16,        /* a hundred times as many rays; a sample is judged exactly */
   CASE_BELOW_ROUNDING = 32,   /* the scene is finer than binary32 at that place: what is lost is shown, not forbidden */
-  CASE_DEPTH = 64,            /* short stacks on the emulated machine, too */
   CASE_BEYOND_BINARY32 = 128, /* the watertight test in binary32 must fail: else the case would be too easy */
   CASE_BELOW_OFFSET = 256 /* surfaces nearer to each other or the light than shadow rays start off them: leaks and acne
                              that this explains are shown, not forbidden */

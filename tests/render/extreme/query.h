@@ -35,6 +35,5 @@ struct query_answer {
 typedef void query_function(const void *scene, const struct query_params *params, const struct query_ray *rays,
                             struct query_answer *answers, uint32_t first, uint32_t last);
 query_function query_exact, query_watertight, query_moller_trumbore;
-query_function query_stack_1, query_stack_2, query_stack_4; /* the first one with so many entries on its stack */
 
 #endif

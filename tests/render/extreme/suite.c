@@ -38,16 +38,9 @@ static const struct method {
     {"watertight in binary32", query_watertight, "query-watertight.elf", false},
 };
 
-/* The default with fewer entries on its stack than these trees are deep. */
-static const struct method short_stacks[] = {
-    {"stack of 1", query_stack_1, "query-stack-1.elf", false},
-    {"stack of 2", query_stack_2, "query-stack-2.elf", false},
-    {"stack of 4", query_stack_4, "query-stack-4.elf", false},
-};
-
 struct row {
   struct exact_tally tally;
-  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, variant_differs, stack_differs;
+  uint64_t rays, escapes, not_finite, twin_differs, wrong_winner, variant_differs;
   uint64_t cycles, emulated;
   bool exact; /* hits */
 };
@@ -123,9 +116,6 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
     if (prepared->setup.mesh.triangle_count == 0 || prepared->setup.turned)
       continue;
     build.nodes = i / 2;
-    if (i % 2 && build.nodes != TRAX_NODES_BINARY && build.nodes != TRAX_NODES_QUANTISED &&
-        build.nodes != TRAX_NODES_WIDE_QUANTISED)
-      continue; /* splits are the same in all */
     build.splits = i % 2 ? 3 : 0;
     build.passes = i & 2;
     if (trax_scene_build(&prepared->variants[i], &prepared->setup.mesh, &build, &error) != TRAX_OK ||
@@ -351,34 +341,15 @@ static void compare_variants(struct row *row, const struct prepared *prepared, c
     const struct trax_scene *scene = &prepared->variants[v];
     if (!scene->bytes)
       continue;
-    struct method emulated = method_of(prepared, 0);
+    const struct method emulated = method_of(prepared, 0);
     struct query_answer *others = trace(prepared, scene, &emulated);
-    char program[32];
-    snprintf(program, sizeof program, "query-%snodes-%u.elf", prepared->exact_hits ? "exact-" : "",
-             scene->header->node_layout);
-    if (scene->header->node_layout > TRAX_NODES_QUANTISED)
-      emulated.program = program;
-    if (first && !(trax_node_formats[scene->header->node_layout].width > 2 &&
-                   scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH)) /* a TP has no room for their stack */
+    if (first)
       emulate(row, NULL, prepared, scene, &emulated, directory, others);
     for (uint32_t i = 0; i < prepared->params.count; i++) {
       row->variant_differs += source_of(scene, others[i].triangle) != source_of(&prepared->scene, answers[i].triangle);
       others[i].triangle = answers[i].triangle;
       row->variant_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
     }
-    free(others);
-  }
-}
-
-/* Short stacks, the same answers, and in scenes of great depth on the emulated machine, too. */
-static void compare_stacks(struct row *row, const struct prepared *prepared, const char *directory, bool emulated,
-                           const struct query_answer *answers) {
-  for (unsigned s = 0; s < sizeof short_stacks / sizeof *short_stacks; s++) {
-    struct query_answer *others = trace(prepared, &prepared->scene, &short_stacks[s]);
-    if (emulated)
-      emulate(row, NULL, prepared, &prepared->scene, &short_stacks[s], directory, others);
-    for (uint32_t i = 0; i < prepared->params.count; i++)
-      row->stack_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
     free(others);
   }
 }
@@ -447,7 +418,6 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
         emulate(&rows[m], &rows[m].cycles, &prepared, &prepared.scene, &method, directory, answers[m]);
     }
     compare_variants(&rows[0], &prepared, directory, done == 0, answers[0]);
-    compare_stacks(&rows[0], &prepared, directory, done == 0 && extreme->flags & CASE_DEPTH, answers[BINARY32]);
     if (done == 0)
       judge(rows, &prepared, answers);
     if (done == 0 && prepared.setup.width > 0) {
@@ -523,7 +493,6 @@ static unsigned check_row(const struct extreme_case *extreme, const struct row *
   if (!is_default)
     return failures;
   failures += complain(name, "other nodes of the same triangles answer otherwise", row->variant_differs);
-  failures += complain(name, "a shorter stack answers otherwise", row->stack_differs);
   failures += complain(name, "wrong beyond what rounding explains", row->tally.unexplained);
   if (!(extreme->flags & CASE_BELOW_ROUNDING)) {
     failures += complain(name, "left a closed surface", row->escapes);
