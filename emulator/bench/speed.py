@@ -4,7 +4,7 @@
     emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
                             [--whole | --max-cycles 400000] [--repeats 3] [--bin build/bin]
 
-SCENES_DIRECTORY holds the scenes as for raytracer/evaluation/bench/lean.py. The rows are those of engine-bench (emulator/bench/engines.c):
+SCENES_DIRECTORY holds the meshes of trax-eval's scenes. The rows are those of engine-bench (emulator/bench/engines.c):
 million simulated instructions per second of wall time for each engine, and ratios. The timed engines run the first cycles of
 the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without the reference.
 """

@@ -83,9 +83,9 @@ def axis_in_reference(scene):
 
 # --- and to the source: file, what is there, what takes its place
 
-KIND_OF_RAY = [("traverse.h", "  struct trail *trail) {", "  struct trail *trail, bool any) {"),
-               ("traverse.h", "stack, top, trail)", "stack, top, trail, any)"),
-               ("traverse.h", "stack, &top, &trail)", "stack, &top, &trail, any)")]
+KIND_OF_RAY = [("traverse.h", "struct stack_entry **top) {", "struct stack_entry **top, bool any) {"),
+               ("traverse.h", "reference, top)", "reference, top, any)"),
+               ("traverse.h", "&reference, &top)", "&reference, &top, any)")]
 AXIS = [*KIND_OF_RAY,
         ("traverse.h", "scene_at(scene, *reference);", "scene_at(scene, *reference & ~31u);"),
         ("ray.h", "  struct triangle_ray triangle;\n", "  struct triangle_ray triangle;\n  uint32_t signs; /* bit 31: of x, bit 23: of y, bit 15: of z */\n"),
@@ -106,10 +106,11 @@ REMEMBERED = [("path.h", re.compile(r"(trace_ray\([^;]*)\);"), r"\1, NULL);"),
               ("main.c", "uint32_t layout, struct pixel pixel) {\n  struct vector sum", "uint32_t layout, struct pixel pixel, trax_scene_ref *last) {\n  struct vector sum"),
               ("main.c", "render_pixel(run, layout, pixel)", "render_pixel(run, layout, pixel, &last)"),
               ("main.c", "uint32_t layout) {\n  uint32_t slot", "uint32_t layout) {\n  trax_scene_ref last = 0;\n  uint32_t slot"),
-              ("traverse.h", "bool any, struct hit *hit) {\n  /* Of wide", "bool any, struct hit *hit, trax_scene_ref *last) {\n  /* Of wide"),
-              ("traverse.h", "  stack_begin(stack);\n", """  stack_begin(stack);
+              ("traverse.h", "bool any, struct hit *hit) {\n  struct stack_entry stack", "bool any, struct hit *hit, trax_scene_ref *last) {\n  struct stack_entry stack"),
+              ("traverse.h", "  if (root == 0)\n    return false;\n", """  if (root == 0)
+    return false;
   if (any && last && *last) {
-    stack_push(stack, &top, root, INT32_MIN);
+    *top++ = (struct stack_entry){root, INT32_MIN};
     reference = *last;
   }
 """),

@@ -4,7 +4,7 @@
     raytracer/evaluation/bench/variants.py SCENES_DIRECTORY|MESH order|triangles [--size 320x180] [--configs 4x32,8x64] [--only VARIANT;...] [--scene NAME]
                                 [--jobs N] [--bin build/bin]
 
-SCENES_DIRECTORY is lean.py's; a mesh is framed as a whole. order: which child of a node is visited first (order_variants.py). triangles: what a triangle is
+SCENES_DIRECTORY holds the meshes of trax-eval's scenes; a mesh is framed as a whole. order: which child of a node is visited first (order_variants.py). triangles: what a triangle is
 in memory, and which test it is for (triangle_variants.py). Each variant changes lines of a copy of raytracer/device and, where it must, the scene. A row for
 each scene and variant; then the cycles as parts of those of the program as it is, for each scene and chip, their geometric mean and the greatest. Pixels are
 compared with that program's picture; exit status 1 if some differ where the variant should not change any."""
@@ -23,7 +23,6 @@ import tempfile
 from device_scene import Scene
 from order_variants import ORDERS
 from scenes import ROOT, SCENES, arguments, find
-from traversal import program_bytes
 from trax_eval.manifest import buffer_options, read_manifest
 from triangle_variants import TRIANGLES
 
@@ -42,6 +41,29 @@ def sources(variant, folder):
             sys.exit(f"variants.py: error: {variant.name}: raytracer/device/{name} has no longer: {getattr(old, 'pattern', old)}")
     for name, text in texts.items():
         (folder / name).write_text(text)
+
+
+def program_bytes(cache):
+    """Of the program that was used last: bytes of code and of main's frame, which is its only one."""
+    elf = max(cache.glob("*.elf"), key=lambda path: path.stat().st_mtime_ns).read_bytes()
+    table, = struct.unpack_from("<I", elf, 32)
+    entry, count, names = struct.unpack_from("<HHH", elf, 46)
+    sections = [struct.unpack_from("<10I", elf, table + number * entry) for number in range(count)]
+    code = sum(size for _, kind, flags, _, _, size, *_ in sections if kind == 1 and flags & 4)
+    stack = 0
+    for name, _, _, _, offset, size, *_ in sections:
+        start = sections[names][4] + name
+        if elf[start:elf.index(b"\0", start)] == b".stack_sizes":
+            at, end = offset, offset + size
+            while at < end:
+                at, shift, frame = at + 4, 0, 0
+                while True:
+                    frame |= (elf[at] & 127) << shift
+                    at, shift = at + 1, shift + 7
+                    if not elf[at - 1] & 128:
+                        break
+                stack = max(stack, frame)
+    return code, stack
 
 
 def compiled(options, folder, source, constants):

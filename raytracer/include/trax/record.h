@@ -1,4 +1,4 @@
-/* What the device program can tell about how its picture came about, for trax-render --bench-accuracy. Only a program
+/* What the device program can tell about how its picture came about, for trax-render --error. Only a program
    compiled with TRAX_RECORD (render/specialise.c) does, into its buffer `record`: a struct trax_pixel_record for each
    pixel of the picture, in its order, and behind them all a struct trax_sample_record for each sample of each pixel. */
 #ifndef TRAX_RECORD_H
