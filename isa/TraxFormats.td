@@ -5,6 +5,8 @@
 //
 // The assembler's operand order is the destination first; memory operands are written imm(ra).
 
+include "TraxNumbers.td"
+
 //--- operands ---------------------------------------------------------------
 
 class TraxImmAsmOperand<string name, string diagnostic, string parser = ""> : AsmOperandClass {
@@ -29,26 +31,19 @@ def uimm16 : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm); }]> {
 def uimm5 : Operand<i32>, ImmLeaf<i32, [{ return isUInt<5>(Imm); }]> {
   let ParserMatchClass = TraxImmAsmOperand<"UImm5", "shift amount must be an integer in the range [0, 31]">;
 }
-def srnum : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 6; }]> {
-  let ParserMatchClass = TraxImmAsmOperand<"SRNum",
-      "special register must be thread, tm, tp, threads, cycle, cycleh or a number in the range [0, 5]",
-      "parseSpecialRegister">;
-  let PrintMethod = "printSpecialRegister";
-  let DecoderMethod = "decodeSpecialRegister";
+// A number of a list, written by its name.
+class TraxNamed<TraxNumbers numbers, string name, string what, string suffix>
+    : Operand<i32>, ImmLeaf<i32, "return Imm >= " # numbers.First # " && Imm < " # numbers.Limit # ";"> {
+  let ParserMatchClass = TraxImmAsmOperand<name,
+      what # " must be " # !interleave(numbers.Names, ", ") # " or a number in the range [" # numbers.First # ", "
+          # !add(numbers.Limit, -1) # "]",
+      "parse" # suffix>;
+  let PrintMethod = "print" # suffix;
+  let DecoderMethod = "decode" # suffix;
 }
-def trapcode : Operand<i32>, ImmLeaf<i32, [{ return isUInt<16>(Imm) && Imm < 7; }]> {
-  let ParserMatchClass = TraxImmAsmOperand<"TrapCode",
-      "trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]",
-      "parseTrapCode">;
-  let PrintMethod = "printTrapCode";
-  let DecoderMethod = "decodeTrapCode";
-}
-def fencekind : Operand<i32>, ImmLeaf<i32, [{ return Imm >= 1 && Imm < 4; }]> {
-  let ParserMatchClass = TraxImmAsmOperand<"FenceKind",
-      "fence must be r, w, rw or a number in the range [1, 3]", "parseFenceKind">;
-  let PrintMethod = "printFenceKind";
-  let DecoderMethod = "decodeFenceKind";
-}
+def srnum : TraxNamed<SpecialRegisters, "SRNum", "special register", "SpecialRegister">;
+def trapcode : TraxNamed<Traps, "TrapCode", "trap code", "TrapCode">;
+def fencekind : TraxNamed<Fences, "FenceKind", "fence", "FenceKind">;
 def brtarget : Operand<OtherVT> {
   let ParserMatchClass = TraxImmAsmOperand<"BrTarget",
       "branch target must be a symbol or a multiple of 4 in the range [-131072, 131068]">;

@@ -121,17 +121,17 @@ def JALR : TraxInst<FormatI, 39, (outs GPR:$rd), (ins GPR:$ra, simm16:$imm), "ja
 
 //--- system ------------------------------------------------------------------
 let hasSideEffects = true in {
-let ImmLimit = 6 in
+let ImmLimit = SpecialRegisters.Limit in
 def RDSR : InstU<40, "rdsr", srnum, UnitControl, [{ RD = SPECIAL_REGISTER(IMM); }],
                  "Read a special register; an unknown one is an illegal instruction.">;
-let ImmLimit = 7 in
+let ImmLimit = Traps.Limit in
 def TRAP : TraxInst<FormatT, 41, (outs), (ins GPR:$ra, trapcode:$imm), "trap\t$ra, $imm", UnitControl, [{ TRAP(RA, IMM); }],
                     "Call the host; an unknown code is an illegal instruction."> {
   bits<5> ra; bits<16> imm;
   let Inst{25-21} = 0; let Inst{20-16} = ra; let Inst{15-0} = imm;
 }
 // To the compiler an access to all of memory; the machine accesses none.
-let ImmFirst = 1, ImmLimit = 4, mayLoad = true, mayStore = true in
+let ImmFirst = Fences.First, ImmLimit = Fences.Limit, mayLoad = true, mayStore = true in
 def FENCE : TraxInst<FormatF, 43, (outs), (ins fencekind:$imm), "fence\t$imm", UnitControl, [{ FENCE(IMM); }],
                      "Order memory accesses: r waits for earlier loads and empties the TM's data cache, w waits until earlier stores are performed, rw does both; another number is an illegal instruction."> {
   bits<16> imm;

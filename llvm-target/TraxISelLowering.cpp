@@ -492,23 +492,12 @@ TargetLowering::AtomicExpansionKind TraxTargetLowering::shouldExpandAtomicRMWInI
 
 /// A register by its number or its name in the ABI.
 static MCRegister findRegister(StringRef Name) {
-  unsigned Number;
-  if (Name == "zero" || Name == "ra" || Name == "sp" || Name == "fp")
-    return Name == "zero" ? Trax::R0 : Name == "ra" ? Trax::R1 : Name == "sp" ? Trax::R2 : Trax::R3;
-  if (Name.size() < 2 || Name.drop_front().getAsInteger(10, Number) || (Name.size() > 2 && Name[1] == '0'))
-    return MCRegister();
-  switch (Name[0]) {
-  case 'r':
-    return Number < 32 ? MCRegister(Trax::R0 + Number) : MCRegister();
-  case 'a':
-    return Number < 8 ? MCRegister(Trax::R4 + Number) : MCRegister();
-  case 't':
-    return Number < 8 ? MCRegister(Trax::R12 + Number) : MCRegister();
-  case 's':
-    return Number < 12 ? MCRegister(Trax::R20 + Number) : MCRegister();
-  default:
-    return MCRegister();
-  }
+#define MATCH(NUMBERED, BY_ROLE, NUMBER)                                                                               \
+  if (Name == NUMBERED || Name == BY_ROLE)                                                                             \
+    return Trax::R##NUMBER;
+  TRAX_REGISTERS(MATCH)
+#undef MATCH
+  return MCRegister();
 }
 
 /// Global register variables may only name registers that nothing else uses.

@@ -225,8 +225,8 @@ def : Pat<(trax_copy_loop (i32 GPR:$to), (i32 GPR:$from), timm:$bytes, timm:$uni
           (PseudoCopyLoop GPR:$to, GPR:$from, timm:$bytes, timm:$unit)>;
 def : Pat<(trax_setjmp (i32 GPR:$buffer)), (PseudoSETJMP GPR:$buffer)>;
 def : Pat<(trax_longjmp (i32 GPRTC:$buffer)), (PseudoLONGJMP GPRTC:$buffer)>;
-def : Pat<(trap), (TRAP (i32 R0), 2)>; // abort without a message
-def : Pat<(debugtrap), (TRAP (i32 R0), 2)>;
+def : Pat<(trap), (TRAP (i32 R0), NumberOf<Traps, "abort">.Number)>; // without a message
+def : Pat<(debugtrap), (TRAP (i32 R0), NumberOf<Traps, "abort">.Number)>;
 
 //--- floating point ---------------------------------------------------------
 

@@ -6,6 +6,7 @@
 #include "TraxBuiltins.h"
 #include "TraxMachineFunctionInfo.h"
 #include "TraxTargetTransformInfo.h"
+#include "trax/abi.h"
 #include "llvm/CodeGen/Passes.h"
 #include "llvm/CodeGen/TargetLoweringObjectFileImpl.h"
 #include "llvm/CodeGen/TargetPassConfig.h"
@@ -24,20 +25,15 @@ void LLVMInitializeTraxTarget() {
   initializeTraxLowerVAArgPass(PR);
 }
 
-// docs/abi.md; clang's TargetInfo says the same.
-static constexpr const char DataLayoutString[] = "e-m:e-p:32:32-i64:32-f64:32-n32-S32";
-
 TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRef CPU, StringRef FS,
                                      const TargetOptions &Options, std::optional<Reloc::Model>,
                                      std::optional<CodeModel::Model> CM, CodeGenOptLevel OL, bool)
     // Programs are linked statically at fixed addresses: position independence is accepted and without effect.
-    : LLVMTargetMachine(T, DataLayoutString, TT, CPU, FS, Options, Reloc::Static,
+    : LLVMTargetMachine(T, TRAX_DATA_LAYOUT, TT, CPU, FS, Options, Reloc::Static,
                         getEffectiveCodeModel(CM, CodeModel::Small), OL),
       TLOF(std::make_unique<TargetLoweringObjectFileELF>()) {
   initAsmInfo();
   setCFIFixup(true);
-  setMachineOutliner(true);
-  setSupportsDefaultOutlining(true);
 }
 
 TraxTargetMachine::~TraxTargetMachine() = default;

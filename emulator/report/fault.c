@@ -7,8 +7,10 @@
 #include "trax/isa.h"
 
 const char *const trax_register_names[TRAX_NUM_REGISTERS] = {
-    "zero", "ra", "sp", "fp", "a0", "a1", "a2", "a3", "a4", "a5", "a6", "a7", "t0", "t1", "t2",  "t3",
-    "t4",   "t5", "t6", "t7", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10", "s11"};
+#define NAME(NUMBERED, BY_ROLE, NUMBER) BY_ROLE,
+    TRAX_REGISTERS(NAME)
+#undef NAME
+};
 enum { RA = 1, SP = 2 };
 
 enum { LABEL = 12, INLINE_DEPTH = 16 };

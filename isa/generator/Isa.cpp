@@ -186,6 +186,12 @@ Isa readIsa(RecordKeeper &Records) {
   checkFormats(Isa.Instructions);
   readFormats(Records, Isa);
   readRegisters(Records, Isa);
+  for (const Record *R : Records.getAllDerivedDefinitions("TraxNumbers")) {
+    Numbers List{R->getValueAsString("List").str(), R->getValueAsString("Prefix").str(), {}, R->getValueAsInt("First")};
+    for (StringRef Name : R->getValueAsListOfStrings("Names"))
+      List.Names.push_back(Name.str());
+    Isa.Named.push_back(std::move(List));
+  }
   Isa.Aliases = readAliases(Records);
   return Isa;
 }

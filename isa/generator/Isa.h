@@ -44,6 +44,13 @@ struct Register {
   std::string Name, OtherName;
 };
 
+// What is written by name and encoded as a number.
+struct Numbers {
+  std::string List, Prefix;
+  std::vector<std::string> Names;
+  int64_t First;
+};
+
 // Another name for an instruction, or for a sequence. Both as assembler text, the expansion in backquotes.
 struct Alias {
   std::string Syntax, Expansion;
@@ -55,6 +62,7 @@ struct Isa {
   std::vector<Format> Formats;     // in the order of their first instructions
   std::vector<Register> Registers; // by number
   std::vector<Alias> Aliases;
+  std::vector<Numbers> Named;
   std::vector<Instruction> Instructions; // in the order of their encodings
 };
 
@@ -63,6 +71,7 @@ Isa readIsa(llvm::RecordKeeper &Records); // fails with the record's location on
 
 void emitInstructions(llvm::raw_ostream &OS, const Isa &Isa);
 void emitUnits(llvm::raw_ostream &OS, const Isa &Isa);
+void emitNumbers(llvm::raw_ostream &OS, const Isa &Isa);
 void emitSemantics(llvm::raw_ostream &OS, const Isa &Isa);
 void emitCodec(llvm::raw_ostream &OS, const Isa &Isa);
 void emitManual(llvm::raw_ostream &OS, const Isa &Isa, const std::string &TemplatePath);

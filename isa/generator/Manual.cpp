@@ -1,7 +1,7 @@
 // docs/isa.md: the template's text with the instructions filled in.
 
 #include "Isa.h"
-#include "trax/abi.h"
+#include "trax/ray_kinds.h"
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/Support/MemoryBuffer.h"
 #include "llvm/TableGen/Error.h"
@@ -87,11 +87,9 @@ static void checkTemplate(StringRef Text, const std::string &Path, const Isa &Is
     if (!Text.contains(("\n| " + Row).str()))
       PrintFatalError(Path + ": there is no row '| " + Row + "'");
   };
-#define ROW(CONSTANT, NAME, NUMBER) Require(Twine(NUMBER) + " | `" NAME "` |");
-  TRAX_SPECIAL_REGISTERS(ROW)
-  TRAX_TRAPS(ROW)
-  TRAX_FENCES(ROW)
-#undef ROW
+  for (const Numbers &List : Isa.Named)
+    for (size_t N = 0; N < List.Names.size(); ++N)
+      Require(Twine(List.First + N) + " | `" + List.Names[N] + "` |");
 #define ROW(X, ID, NAME, NUMBER, MEANING) Require(Twine(NUMBER) + " | `" #NAME "` | " MEANING " |");
   TRAX_RAY_KINDS(ROW, )
 #undef ROW

@@ -3,6 +3,7 @@
 // A TableGen backend. Reads isa/Isa.td, the description that LLVM's own backends read too, and prints one of:
 //   -gen=instructions  TRAX_INSTRUCTION(...) a line for each instruction
 //   -gen=units         TRAX_UNIT(...) a line for each unit
+//   -gen=numbers       constants of special registers, traps and fences, names of registers
 //   -gen=semantics     TRAX_SEMANTICS(NAME, { statement })
 //   -gen=codec         the decoder's and the encoder's cases
 //   -gen=manual        docs/isa.md, from the template given by -template
@@ -17,11 +18,12 @@
 
 using namespace llvm;
 
-enum class Output { Instructions, Units, Semantics, Codec, Manual };
+enum class Output { Instructions, Units, Numbers, Semantics, Codec, Manual };
 
 static cl::opt<Output> What("gen", cl::desc("What to print:"), cl::Required,
                             cl::values(clEnumValN(Output::Instructions, "instructions", "Instruction table"),
                                        clEnumValN(Output::Units, "units", "Unit table"),
+                                       clEnumValN(Output::Numbers, "numbers", "Named numbers"),
                                        clEnumValN(Output::Semantics, "semantics", "Semantics in C"),
                                        clEnumValN(Output::Codec, "codec", "Decoder and encoder"),
                                        clEnumValN(Output::Manual, "manual", "The manual")));
@@ -35,6 +37,9 @@ static bool emit(raw_ostream &OS, RecordKeeper &Records) {
     break;
   case Output::Units:
     trax::emitUnits(OS, Isa);
+    break;
+  case Output::Numbers:
+    trax::emitNumbers(OS, Isa);
     break;
   case Output::Semantics:
     trax::emitSemantics(OS, Isa);

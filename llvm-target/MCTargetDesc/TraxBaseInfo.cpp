@@ -6,14 +6,11 @@
 
 using namespace llvm;
 
-static constexpr StringLiteral SpecialRegisters[] = {"thread", "tm", "tp", "threads", "cycle", "cycleh"};
-static_assert(std::size(SpecialRegisters) == TRAX_SR_COUNT && TRAX_SR_THREADS == 3 && TRAX_SR_CYCLEH == 5);
-
-static constexpr StringLiteral Traps[] = {"exit", "putc", "abort", "rays", "items", "puts", "kinds"};
-static_assert(std::size(Traps) == TRAX_TRAP_COUNT && TRAX_TRAP_ABORT == 2 && TRAX_TRAP_KINDS == 6);
-
-static constexpr StringLiteral Fences[] = {"", "r", "w", "rw"}; // nothing is number 0
-static_assert(std::size(Fences) == TRAX_FENCE_RW + 1 && TRAX_FENCE_R == 1 && TRAX_FENCE_W == 2);
+#define NAME(CONSTANT, TEXT, NUMBER) TEXT,
+static constexpr StringLiteral SpecialRegisters[] = {TRAX_SPECIAL_REGISTERS(NAME)};
+static constexpr StringLiteral Traps[] = {TRAX_TRAPS(NAME)};
+static constexpr StringLiteral Fences[] = {"", TRAX_FENCES(NAME)}; // nothing is number 0
+#undef NAME
 
 static StringRef nameOf(ArrayRef<StringLiteral> Names, unsigned Number) {
   return Number < Names.size() ? StringRef(Names[Number]) : StringRef();

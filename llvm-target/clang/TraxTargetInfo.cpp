@@ -1,6 +1,8 @@
 //===- TraxTargetInfo.cpp - what clang's front end knows of the machine --===//
 
 #include "TraxTargetInfo.h"
+#include "PrivateMember.h"
+#include "trax/abi.h"
 #include "clang/Basic/Builtins.h"
 #include "clang/Basic/DiagnosticFrontend.h"
 #include "clang/Basic/MacroBuilder.h"
@@ -14,29 +16,23 @@ using namespace clang;
 using llvm::ArrayRef;
 using llvm::StringRef;
 
-// TargetInfo::TargetOpts is private and set by clang's own factory alone, which knows no Trax. An explicit
-// instantiation may name private members; this one hands out the member.
-namespace {
-std::shared_ptr<TargetOptions> &targetOptsOf(TargetInfo &Info);
-template <auto Member> struct TargetOptsAccess {
-  friend std::shared_ptr<TargetOptions> &targetOptsOf(TargetInfo &Info) { return Info.*Member; }
+namespace trax {
+// Set by clang's own factory of targets alone, which knows no Trax.
+struct TargetOpts {
+  using Type = std::shared_ptr<TargetOptions> TargetInfo::*;
+  friend Type addressOf(TargetOpts);
 };
-template struct TargetOptsAccess<&TargetInfo::TargetOpts>;
-} // namespace
+template struct Publish<TargetOpts, &TargetInfo::TargetOpts>;
+} // namespace trax
 
 namespace {
 
-const char *const RegisterNames[] = {"r0",  "r1",  "r2",  "r3",  "r4",  "r5",  "r6",  "r7",  "r8",  "r9",  "r10",
-                                     "r11", "r12", "r13", "r14", "r15", "r16", "r17", "r18", "r19", "r20", "r21",
-                                     "r22", "r23", "r24", "r25", "r26", "r27", "r28", "r29", "r30", "r31"};
-
-const TargetInfo::GCCRegAlias RegisterAliases[] = {
-    {{"zero"}, "r0"}, {{"ra"}, "r1"},  {{"sp"}, "r2"},  {{"fp"}, "r3"},  {{"a0"}, "r4"},  {{"a1"}, "r5"},
-    {{"a2"}, "r6"},   {{"a3"}, "r7"},  {{"a4"}, "r8"},  {{"a5"}, "r9"},  {{"a6"}, "r10"}, {{"a7"}, "r11"},
-    {{"t0"}, "r12"},  {{"t1"}, "r13"}, {{"t2"}, "r14"}, {{"t3"}, "r15"}, {{"t4"}, "r16"}, {{"t5"}, "r17"},
-    {{"t6"}, "r18"},  {{"t7"}, "r19"}, {{"s0"}, "r20"}, {{"s1"}, "r21"}, {{"s2"}, "r22"}, {{"s3"}, "r23"},
-    {{"s4"}, "r24"},  {{"s5"}, "r25"}, {{"s6"}, "r26"}, {{"s7"}, "r27"}, {{"s8"}, "r28"}, {{"s9"}, "r29"},
-    {{"s10"}, "r30"}, {{"s11"}, "r31"}};
+#define NAME(NUMBERED, BY_ROLE, NUMBER) NUMBERED,
+const char *const RegisterNames[] = {TRAX_REGISTERS(NAME)};
+#undef NAME
+#define NAME(NUMBERED, BY_ROLE, NUMBER) {{BY_ROLE}, NUMBERED},
+const TargetInfo::GCCRegAlias RegisterAliases[] = {TRAX_REGISTERS(NAME)};
+#undef NAME
 
 // Attribute letters as in clang/Basic/Builtins.def: n nothrow, c const, r noreturn, F a call of a library function.
 const Builtin::Info Builtins[] = {
@@ -47,7 +43,7 @@ const Builtin::Info Builtins[] = {
 class TraxTargetInfo final : public TargetInfo {
 public:
   explicit TraxTargetInfo(const llvm::Triple &Triple) : TargetInfo(Triple) {
-    resetDataLayout("e-m:e-p:32:32-i64:32-f64:32-n32-S32");
+    resetDataLayout(TRAX_DATA_LAYOUT);
     BigEndian = false; // the triple does not say
     SizeType = UnsignedInt;
     PtrDiffType = SignedInt;
@@ -129,7 +125,7 @@ bool trax::isTraxTriple(const llvm::Triple &Triple) {
 llvm::IntrusiveRefCntPtr<TargetInfo> trax::createTargetInfo(DiagnosticsEngine &Diags,
                                                             std::shared_ptr<TargetOptions> Opts) {
   llvm::IntrusiveRefCntPtr<TargetInfo> Target(new TraxTargetInfo(llvm::Triple(Opts->Triple)));
-  targetOptsOf(*Target) = Opts;
+  (*Target).*addressOf(TargetOpts()) = Opts;
 
   if (!Opts->CPU.empty() && !Target->setCPU(Opts->CPU)) {
     Diags.Report(diag::err_target_unknown_cpu) << Opts->CPU;

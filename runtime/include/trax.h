@@ -30,31 +30,33 @@ enum trax_ray_kind {
 
 #ifdef __trax__
 
+#include <trax/numbers.h> /* of special registers and traps */
+
 #define TRAX_INLINE static inline __attribute__((always_inline, unused))
 
 TRAX_INLINE unsigned trax_thread(void) {
-  return __builtin_trax_rdsr(0);
+  return __builtin_trax_rdsr(TRAX_SR_THREAD);
 } /* 0 .. trax_threads() - 1 */
 TRAX_INLINE unsigned trax_tm(void) {
-  return __builtin_trax_rdsr(1);
+  return __builtin_trax_rdsr(TRAX_SR_TM);
 } /* number of this thread's TM */
 TRAX_INLINE unsigned trax_tp(void) {
-  return __builtin_trax_rdsr(2);
+  return __builtin_trax_rdsr(TRAX_SR_TP);
 } /* number of this TP within its TM */
 TRAX_INLINE unsigned trax_threads(void) {
-  return __builtin_trax_rdsr(3);
+  return __builtin_trax_rdsr(TRAX_SR_THREADS);
 } /* threads of the chip */
 TRAX_INLINE unsigned trax_cycles(void) {
-  return __builtin_trax_rdsr(4);
+  return __builtin_trax_rdsr(TRAX_SR_CYCLE);
 } /* cycle counter modulo 2^32 */
 
 /* The whole cycle counter. The halves are read at different cycles: a carry in between shows in the upper one. */
 TRAX_INLINE unsigned long long trax_cycles64(void) {
   unsigned high, low;
   do {
-    high = __builtin_trax_rdsr(5);
-    low = __builtin_trax_rdsr(4);
-  } while (high != __builtin_trax_rdsr(5));
+    high = __builtin_trax_rdsr(TRAX_SR_CYCLEH);
+    low = __builtin_trax_rdsr(TRAX_SR_CYCLE);
+  } while (high != __builtin_trax_rdsr(TRAX_SR_CYCLEH));
   return (unsigned long long)high << 32 | low;
 }
 
@@ -87,18 +89,18 @@ __attribute__((noreturn)) TRAX_INLINE void trax_halt(void) {
 /* Adds to the run's counters of rays, of rays by kind, and of finished items (pixels). A thread that counts rays of one
    kind works for that kind from there on, until its next count of rays or items (trax-sim --ray-kinds). */
 TRAX_INLINE void trax_count_rays(unsigned n) { /* of kind TRAX_RAY_OTHER */
-  __builtin_trax_trap(n, 3);
+  __builtin_trax_trap(n, TRAX_TRAP_RAYS);
 }
 TRAX_INLINE void trax_count_kinds(unsigned rays) { /* a sum of TRAX_RAYS(kind, n) */
-  __builtin_trax_trap(rays, 6);
+  __builtin_trax_trap(rays, TRAX_TRAP_KINDS);
 }
 TRAX_INLINE void trax_count_items(unsigned n) {
-  __builtin_trax_trap(n, 4);
+  __builtin_trax_trap(n, TRAX_TRAP_ITEMS);
 }
 
 /* Stops the machine with a fault report that shows message (in global memory; NULL for none). */
 __attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
-  __builtin_trax_trap((unsigned)message, 2);
+  __builtin_trax_trap((unsigned)message, TRAX_TRAP_ABORT);
   __builtin_trax_halt();
 }
 

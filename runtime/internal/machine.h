@@ -12,16 +12,16 @@
 #include <trax.h>
 
 INLINE void machine_put_char(int c) {
-  __builtin_trax_trap((unsigned)c, 1);
+  __builtin_trax_trap((unsigned)c, TRAX_TRAP_PUTC);
 }
 INLINE void machine_put_string(const char *s) {
-  __builtin_trax_trap((unsigned)s, 5);
+  __builtin_trax_trap((unsigned)s, TRAX_TRAP_PUTS);
 }
 __attribute__((noreturn)) INLINE void machine_abort(const char *message) {
   trax_abort(message);
 }
 __attribute__((noreturn)) INLINE void machine_exit(int status) {
-  __builtin_trax_trap((unsigned)status, 0);
+  __builtin_trax_trap((unsigned)status, TRAX_TRAP_EXIT);
   __builtin_trax_halt();
 }
 INLINE unsigned long long machine_cycles(void) {

@@ -1,6 +1,9 @@
 // The compiler's builtins as functions, for uses that take their address. Where the instruction holds a number that is an
 // argument here, a jump table of one instruction and a return per number does; other numbers fault as they would there.
-#include <trax/abi.h>
+#include <trax/numbers.h>
+
+#define READ(CONSTANT, NAME, NUMBER) rdsr r4, NUMBER; jalr r0, 0(r1);
+#define CALL(CONSTANT, NAME, NUMBER) trap r4, NUMBER; jalr r0, 0(r1);
 
 .macro function name
   .section .text.\name, "ax", @progbits
@@ -39,18 +42,7 @@ function __builtin_trax_rdsr
   add r12, r12, r4
   jalr r0, %lo(.Lregisters)(r12)
 .Lregisters:
-  rdsr r4, 0
-  jalr r0, 0(r1)
-  rdsr r4, 1
-  jalr r0, 0(r1)
-  rdsr r4, 2
-  jalr r0, 0(r1)
-  rdsr r4, 3
-  jalr r0, 0(r1)
-  rdsr r4, 4
-  jalr r0, 0(r1)
-  rdsr r4, 5
-  jalr r0, 0(r1)
+  TRAX_SPECIAL_REGISTERS(READ)
 .Lillegal_register:
   .word 0
   end __builtin_trax_rdsr
@@ -63,20 +55,7 @@ function __builtin_trax_trap
   add r12, r12, r5
   jalr r0, %lo(.Lcodes)(r12)
 .Lcodes:
-  trap r4, 0
-  jalr r0, 0(r1)
-  trap r4, 1
-  jalr r0, 0(r1)
-  trap r4, 2
-  jalr r0, 0(r1)
-  trap r4, 3
-  jalr r0, 0(r1)
-  trap r4, 4
-  jalr r0, 0(r1)
-  trap r4, 5
-  jalr r0, 0(r1)
-  trap r4, 6
-  jalr r0, 0(r1)
+  TRAX_TRAPS(CALL)
 .Lillegal_code:
   .word 0
   end __builtin_trax_trap

@@ -135,13 +135,13 @@ def count(instructions, made, constants):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("instructions", "abi", "tools", "folder"):
+    for name in ("instructions", "numbers", "tools", "folder"):
         parser.add_argument(name)
     parser.add_argument("--model", help="what makes the signatures")
     parser.add_argument("--check", action="store_true", help="look for missing tests, and make nothing")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
-    constants = read_constants(options.abi)
+    constants = read_constants(options.numbers)
     instructions = read_instructions(options.instructions)
     made = all_programs(instructions, constants)
     counts, of_features = count(instructions, made, constants)

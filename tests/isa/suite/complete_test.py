@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An instruction without a test, or without a condition's, stops the build: complete_test.py TRAX_ISA_GEN ISA_FOLDER INSTRUCTIONS_INC LLVM_INCLUDE...
+"""An instruction without a test, or without a condition's, stops the build: complete_test.py TRAX_ISA_GEN ISA_FOLDER INSTRUCTIONS_INC NUMBERS_H LLVM_INCLUDE...
 
 Copies of the description with one more instruction, of each format, one less, and one renamed."""
 
@@ -14,7 +14,7 @@ import coverage
 from build import all_programs, count
 from description import DescriptionError, read_constants, read_instructions
 
-GENERATOR, ISA, TABLE, *INCLUDES = sys.argv[1:]
+GENERATOR, ISA, TABLE, NUMBERS, *INCLUDES = sys.argv[1:]
 HERE = os.path.dirname(os.path.realpath(__file__))
 MORE = [
     ('def ROTL : InstR<1, 12, "rotl", UnitInt, [{ RD = RA << RB; }], "Rotate.">;', "rotl (ROTL) has no test"),
@@ -42,7 +42,7 @@ def build(change):
         includes = [word for include in [folder, *INCLUDES] for word in ("-I", include)]
         subprocess.run([GENERATOR, "-gen=instructions", *includes, os.path.join(folder, "Isa.td"), "-o", table], check=True)
         return subprocess.run([sys.executable, "-B", os.path.join(HERE, "build.py"), "--check", table,
-                               os.path.join(ISA, "include/trax/abi.h"), "none", "none"], capture_output=True, text=True)
+                               NUMBERS, "none", "none"], capture_output=True, text=True)
 
 
 def expect(what, change, messages):
@@ -59,7 +59,7 @@ expect("one of each format more", lambda text: text + "\n".join(definition for d
 expect("without fmin", lambda text: re.sub(r"(?s)def FMIN .*?;\n(?=def)", "", text), ["FMIN has tests"])
 
 # A condition that loses its cases, one after the other.
-instructions, constants = read_instructions(TABLE), read_constants(os.path.join(ISA, "include/trax/abi.h"))
+instructions, constants = read_instructions(TABLE), read_constants(NUMBERS)
 counts, _ = count(instructions, all_programs(instructions, constants), constants)
 cells = 0
 for mnemonic, row in counts.items():

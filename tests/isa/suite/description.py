@@ -1,4 +1,4 @@
-"""The instructions as the build generated them from the ISA description (trax/instructions.inc), and the numbers of trax/abi.h."""
+"""The instructions as the build generated them from the ISA description (trax/instructions.inc, trax/numbers.h)."""
 
 import re
 from dataclasses import dataclass
@@ -65,6 +65,6 @@ def read_instructions(path):
 
 
 def read_constants(path):
-    """{name: value} of the plain macros of trax/abi.h."""
+    """{name: value} of the plain macros of trax/numbers.h."""
     with open(path) as file:
         return {name: int(value, 0) for name, value in re.findall(r"^#define (\w+) (0x[0-9A-Fa-f]+|\d+)u?\b", file.read(), re.M)}
