@@ -64,10 +64,6 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
     Inst =
         MCInstBuilder(Trax::JAL).addReg(MI->getOpcode() == Trax::PseudoCALL ? Trax::R1 : Trax::R0).addOperand(Callee);
     break;
-  case Trax::PseudoCALLOutlined:
-    lowerOperand(MI->getOperand(1), Callee);
-    Inst = MCInstBuilder(Trax::JAL).addReg(MI->getOperand(0).getReg()).addOperand(Callee);
-    break;
   case Trax::PseudoTAILIndirect:
     Inst = MCInstBuilder(Trax::JALR).addReg(Trax::R0).addReg(MI->getOperand(0).getReg()).addImm(0);
     break;

@@ -51,17 +51,6 @@ public:
   MachineBasicBlock *getBranchDestBlock(const MachineInstr &MI) const override;
   bool isBranchOffsetInRange(unsigned Opcode, int64_t Offset) const override;
 
-  // Outlining: TraxOutliner.cpp.
-  std::optional<outliner::OutlinedFunction>
-  getOutliningCandidateInfo(std::vector<outliner::Candidate> &RepeatedSequenceLocs) const override;
-  outliner::InstrType getOutliningTypeImpl(MachineBasicBlock::iterator &MIT, unsigned Flags) const override;
-  bool isFunctionSafeToOutlineFrom(MachineFunction &MF, bool OutlineFromLinkOnceODRs) const override;
-  bool shouldOutlineFromFunctionByDefault(MachineFunction &MF) const override;
-  void buildOutlinedFrame(MachineBasicBlock &MBB, MachineFunction &MF,
-                          const outliner::OutlinedFunction &OF) const override;
-  MachineBasicBlock::iterator insertOutlinedCall(Module &M, MachineBasicBlock &MBB, MachineBasicBlock::iterator &It,
-                                                 MachineFunction &MF, outliner::Candidate &C) const override;
-
   std::pair<unsigned, unsigned> decomposeMachineOperandsTargetFlags(unsigned Flags) const override;
   ArrayRef<std::pair<unsigned, const char *>> getSerializableDirectMachineOperandTargetFlags() const override;
 };

@@ -45,12 +45,6 @@ def PseudoTAILIndirect : TraxPseudo<(outs), (ins GPRTC:$ra, variable_ops)>; // j
 }
 }
 
-// Of outlined sequences, whose return address is in any register.
-let isCall = true in
-def PseudoCALLOutlined : TraxPseudo<(outs GPR:$link), (ins calltarget:$callee)>; // jal
-let isReturn = true, isTerminator = true, isBarrier = true in
-def PseudoRETOutlined : TraxPseudo<(outs), (ins GPR:$link)>, PseudoInstExpansion<(JALR R0, GPR:$link, 0)>;
-
 // What does not change while a thread runs can be read again anywhere (thread, tm, tp, threads).
 let isReMaterializable = true, isAsCheapAsAMove = true in
 def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstExpansion<(RDSR GPR:$rd, srnum:$imm)>;

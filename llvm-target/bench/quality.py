@@ -144,8 +144,7 @@ def compare_compile_time(options, work):
 
 #--- code size -----------------------------------------------------------------
 
-SIZE_LEVELS = {"-O3": ["-O3"], "-O2": ["-O2"], "-Os": ["-Os"], "-Oz": ["-Oz"],
-               "-Oz, not outlined": ["-Oz", "-mno-outline"]}
+SIZE_LEVELS = {"-O3": ["-O3"], "-O2": ["-O2"], "-Os": ["-Os"], "-Oz": ["-Oz"]}
 
 
 def code_bytes(machine, flags, sources, work):
@@ -166,10 +165,9 @@ def compare_code_size(options, work):
     trax, riscv = Trax(options.build, work), Riscv(options.build, work, library=False)
     print(f"{'bytes of code':18} {'ray tracer':>10} {'rv32':>8} {'library':>10} {'rv32':>8}")
     for name, flags in SIZE_LEVELS.items():
-        theirs = flags if len(flags) == 1 else ["-Oz", "-mllvm", "-enable-machine-outliner=never"]
         sizes = [code_bytes(machine, [*level, *extra], sources, work)
                  for sources, extra in (([RAY_TRACER], [*COMMON, "-Wno-frame-larger-than"]), (library, library_flags))
-                 for machine, level in ((trax, flags), (riscv, theirs))]
+                 for machine, level in ((trax, flags), (riscv, flags))]
         print(f"{name:18} {sizes[0]:10} {sizes[1]:8} {sizes[2]:10} {sizes[3]:8}")
     return True
 

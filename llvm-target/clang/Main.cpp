@@ -7,6 +7,7 @@
 
 #include "CC1.h"
 #include "LLVMTrax.h"
+#include "TraxOptions.h"
 #include "TraxTargetInfo.h"
 #include "TraxToolChain.h"
 #include "trax/files.h"
@@ -75,19 +76,6 @@ struct Installation {
       ResourceDir = TRAX_CLANG_RESOURCE_DIR; // Debian's, as found when this was built
   }
 };
-
-/// The target that the arguments or the program's name (`trax-clang`) ask for; the last argument wins.
-std::string requestedTarget(llvm::ArrayRef<const char *> Args, const ParsedClangName &Name) {
-  std::string Target = Name.TargetIsValid ? Name.TargetPrefix : "";
-  for (size_t I = 1; I < Args.size(); ++I) {
-    StringRef Given = Args[I] ? Args[I] : "";
-    if (Given.consume_front("--target="))
-      Target = Given.str();
-    else if ((Given == "-target" || Given == "--target") && I + 1 < Args.size() && Args[I + 1])
-      Target = Args[++I];
-  }
-  return Target;
-}
 
 bool hasArgument(llvm::ArrayRef<const char *> Args, StringRef Name) {
   return llvm::any_of(Args.drop_front(), [&](const char *Given) { return Given && Name == Given; });
@@ -159,23 +147,15 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_files_release(&Files);
 }
 
-/// Does what the command line says. ForTrax if that is known to be the target before the arguments are looked at.
-int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
-  const ArgVector Given = Args;
-  const bool Canonical = !hasArgument(Args, "-no-canonical-prefixes");
-  const Installation Installed(Args[0], Canonical);
+/// Does what the command line says.
+int drive(ArgVector Args, llvm::StringSaver &Strings) {
+  const Installation Installed(Args[0], !hasArgument(Args, "-no-canonical-prefixes"));
 
   ParsedClangName Name = ToolChain::getTargetAndModeFromProgramName(Args[0]);
   // Our target answers to every architecture that LLVM does not know, but `my-clang` is no target.
   const llvm::Triple Prefix(llvm::Triple::normalize(Name.TargetPrefix));
   if (Prefix.getArch() == llvm::Triple::UnknownArch && !trax::isTraxTriple(Prefix))
     Name.TargetIsValid = false;
-
-  trax::StackOptions Stack(Args);
-  const std::string Target = requestedTarget(Args, Name);
-  ForTrax |= !Target.empty() && trax::isTraxTriple(llvm::Triple(llvm::Triple::normalize(Target)));
-  if (ForTrax)
-    trax::insertDefaults(Args, Stack, Installed.RuntimeDir, Strings);
   if (Name.DriverMode) // clang++
     Args.insert(Args.begin() + 1, Name.DriverMode);
   if (Name.TargetIsValid)
@@ -190,6 +170,8 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
   Driver TheDriver(Installed.Program, llvm::sys::getDefaultTargetTriple(), Diags);
   TheDriver.ResourceDir = Installed.ResourceDir;
   TheDriver.setTargetAndMode(Name);
+  trax::addOptions();
+  trax::addToolChains(TheDriver, Installed.RuntimeDir);
   auto CC1 = [](llvm::SmallVectorImpl<const char *> &ToolArgs) { return runTool(ToolArgs); };
   if (!hasArgument(Args, "-fno-integrated-cc1")) {
     TheDriver.CC1Main = CC1;
@@ -199,20 +181,8 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool ForTrax = false) {
   std::unique_ptr<Compilation> C(TheDriver.BuildCompilation(Args));
   if (hasArgument(Args, "--version"))
     llvm::outs() << "TRaX " TRAX_VERSION ", with the target trax\n";
-  // A configuration file may have named the target: once more, with the defaults before all else.
-  if (C && !ForTrax && !C->getJobs().empty() && trax::isTraxTriple(C->getDefaultToolChain().getTriple()))
-    return drive(Given, Strings, /*ForTrax=*/true);
-
-  if (C && !C->containsError())
-    Stack.check(*C, ForTrax);
-  std::unique_ptr<trax::Linker> Linker;
-  if (C && ForTrax) {
-    if (!C->containsError())
-      trax::checkOptions(*C);
+  if (C && trax::isTraxTriple(C->getDefaultToolChain().getTriple()))
     checkFiles(*C, Diags);
-    Linker = std::make_unique<trax::Linker>(C->getDefaultToolChain(), Stack, Installed.RuntimeDir);
-    Linker->replaceJobs(*C);
-  }
   int Result = 1;
   bool Crashed = false;
   if (C && !C->containsError() && !Diags.hasErrorOccurred())

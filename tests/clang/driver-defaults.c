@@ -3,9 +3,8 @@
 // CHECK: Target: trax
 // CHECK: "-cc1" "-triple" "trax" "-emit-obj"
 // CHECK-SAME: "-mrelocation-model" "static" "-mframe-pointer=none" "-ffp-contract=off"
-// CHECK-SAME: "-ffunction-sections" "-fdata-sections"
-// CHECK-SAME: "-nostdsysteminc" "-resource-dir" "{{[^"]+}}clang/19"
-// CHECK-SAME: "-ftls-model=local-exec"
+// CHECK-SAME: "-nostdsysteminc" "-ffunction-sections" "-fdata-sections" "-fstack-size-section" "-ftls-model=local-exec"
+// CHECK-SAME: "-resource-dir" "{{[^"]+}}clang/19"
 // CHECK-SAME: "-internal-externc-isystem" "{{[^"]+}}lib/trax/include"
 // CHECK-NOT: warning:
 

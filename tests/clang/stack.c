@@ -19,7 +19,7 @@
 // RELOCATABLE-NOT: __trax_stack_size
 
 // RUN: not %clang -c %s -mstack=heap -mstack-size=4x 2>&1 | FileCheck %s --check-prefix=WRONG
-// WRONG: error: unsupported argument 'heap' to option '-mstack='
+// WRONG: error: unsupported argument 'heap' to option '-mstack=' for target 'trax': there are 'local' and 'global'
 // WRONG: error: invalid value '4x' in '-mstack-size='
 // RUN: not %clang -c %s -mstack=global -mstack-size=4G 2>&1 | FileCheck %s --check-prefix=HUGE
 // RUN: not %clang -c %s -mstack=global -mstack-size=4096M 2>&1 | FileCheck %s --check-prefix=HUGE
@@ -30,10 +30,14 @@
 // RUN: %clang -c %s -mstack-size=4k -o %t.o 2>&1 | FileCheck %s --check-prefix=UNUSED
 // UNUSED: warning: argument unused during compilation: '-mstack-size=4k'
 // RUN: not %host_clang -c %s -mstack=global 2>&1 | FileCheck %s --check-prefix=HOST
-// HOST: error: unsupported option '-mstack=global' for target 'x86_64
+// HOST: error: unsupported option '-mstack=' for target 'x86_64
 
 // RUN: echo '--target=trax -O1' > %t.cfg
 // RUN: %host_clang --config %t.cfg -mstack=global -### %s 2>&1 | FileCheck %s --check-prefixes=GLOBAL,DEFAULT
+// RUN: echo '--target=trax -mstack=global -mstack-size=16k' > %t.cfg
+// RUN: %host_clang --config %t.cfg -### %s 2>&1 | FileCheck %s --check-prefixes=GLOBAL,KILO
+// RUN: %clang --help | FileCheck %s --check-prefix=HELP
+// HELP: -mstack=<place>{{.*}}'local'{{.*}}'global'
 
 // RUN: %clang -O2 -S %s -o %t.s 2> %t.txt && FileCheck %s --check-prefix=LOCAL-CODE < %t.s
 // RUN: FileCheck %s --check-prefix=FRAME < %t.txt

@@ -18,7 +18,7 @@ def build_and_run(target, program, directory, name, flags, max_cycles):
 
 
 def smallest(target, program, directory, max_cycles):
-    """-Oz, with the outliner if the back end has one."""
+    """-Oz."""
     return build_and_run(target, program, directory, "Oz", ["-Oz"], max_cycles)
 
 

@@ -1,0 +1,50 @@
+//===- TraxOptions.cpp - the options that clang does not have ------------===//
+
+#include "TraxOptions.h"
+#include "PrivateMember.h"
+#include "llvm/Option/OptTable.h"
+#include "llvm/Option/Option.h"
+#include <vector>
+
+using llvm::ArrayRef;
+using llvm::StringLiteral;
+using llvm::opt::Option;
+using llvm::opt::OptTable;
+
+namespace trax {
+struct OptionInfos {
+  using Type = ArrayRef<OptTable::Info> OptTable::*;
+  friend Type addressOf(OptionInfos);
+};
+template struct Publish<OptionInfos, &OptTable::OptionInfos>;
+} // namespace trax
+
+namespace {
+
+constexpr StringLiteral Dash[] = {"-"};
+
+OptTable::Info joined(trax::options::ID ID, StringLiteral Name, const char *Value, const char *Help,
+                      unsigned Group, unsigned Flags = 0, const char *Values = nullptr) {
+  return {Dash, Name, Help, {}, Value, ID, Option::JoinedClass, /*Param=*/0, Flags, clang::driver::options::ClangOption,
+          static_cast<unsigned short>(Group), /*AliasID=*/0, /*AliasArgs=*/nullptr, Values};
+}
+
+} // namespace
+
+void trax::addOptions() {
+  using namespace clang::driver::options;
+  auto &Table = const_cast<OptTable &>(clang::driver::getDriverOptTable());
+  ArrayRef<OptTable::Info> &Rows = Table.*addressOf(OptionInfos());
+  static std::vector<OptTable::Info> Extended(Rows.begin(), Rows.end());
+  // The table is searched from where a name would stand in the alphabet to its end: there these are found, too.
+  Extended.push_back(joined(options::OPT_mstack_EQ, "-mstack=", "<place>",
+                            "trax: where stacks are: 'local' (512 bytes of local memory, default) or 'global' (global "
+                            "memory, for programs that need more)",
+                            OPT_m_Group, TargetSpecific, "local,global"));
+  Extended.push_back(joined(options::OPT_mstack_size_EQ, "-mstack-size=", "<bytes>",
+                            "trax: bytes of each stack with -mstack=global; 'k' and 'M' are understood (default: 64k)",
+                            OPT_m_Group));
+  Extended.push_back(joined(options::OPT_ffixed_r, "-ffixed-r", "<N>",
+                            "trax: generated code does not use register rN (4 to 31)", OPT_f_Group, TargetSpecific));
+  Rows = Extended;
+}

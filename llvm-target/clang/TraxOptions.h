@@ -1,0 +1,23 @@
+//===- TraxOptions.h - the options that clang does not have --------------===//
+//
+// -mstack=, -mstack-size= and -ffixed-rN are rows behind those of clang's own table. So they are parsed, completed,
+// explained by --help, read from configuration files and written by -MJ as all others are.
+//
+//===----------------------------------------------------------------------===//
+#ifndef TRAX_CLANG_TRAXOPTIONS_H
+#define TRAX_CLANG_TRAXOPTIONS_H
+
+#include "clang/Driver/Options.h"
+
+namespace trax {
+
+namespace options {
+enum ID : unsigned { OPT_mstack_EQ = clang::driver::options::LastOption, OPT_mstack_size_EQ, OPT_ffixed_r };
+} // namespace options
+
+/// Adds the rows to the driver's table. Before a Driver parses anything, and once.
+void addOptions();
+
+} // namespace trax
+
+#endif

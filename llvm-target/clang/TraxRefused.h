@@ -1,0 +1,24 @@
+//===- TraxRefused.h - options that the machine cannot obey --------------===//
+#ifndef TRAX_CLANG_TRAXREFUSED_H
+#define TRAX_CLANG_TRAXREFUSED_H
+
+#include "llvm/ADT/SmallVector.h"
+#include "llvm/Option/ArgList.h"
+#include "llvm/TargetParser/Triple.h"
+
+namespace clang::driver {
+class Driver;
+}
+
+namespace trax {
+
+/// Reports what clang accepts for any target and this machine cannot do, and wrong values of the options of its own.
+/// What asks for what is so anyway is claimed.
+void refuseOptions(const clang::driver::Driver &D, const llvm::Triple &Triple, const llvm::opt::ArgList &Args);
+
+/// The registers of -ffixed-rN, those alone that can be kept free.
+llvm::SmallVector<unsigned, 4> fixedRegisters(const llvm::opt::ArgList &Args);
+
+} // namespace trax
+
+#endif
