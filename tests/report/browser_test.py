@@ -109,6 +109,15 @@ class BrowserTest(unittest.TestCase):
             self.assertGreater(max(abs(a - b) for a, b in zip(rgb, ground)), 30, colour)
         self.assertGreaterEqual(len(set(colours)), 12)
 
+    def test_cells_hold_their_text(self):
+        self.load("complete")
+        self.browser.run("for (const closed of document.querySelectorAll('details')) closed.open = true")
+        over = self.browser.run("""Array.from(document.querySelectorAll("td, th"), e => {
+            const range = document.createRange(); range.selectNodeContents(e);
+            const inner = range.getBoundingClientRect(), outer = e.getBoundingClientRect();
+            return inner.width && (inner.right > outer.right + 1 || inner.left < outer.left - 1) ? e.closest("table").id + ": " + e.textContent.slice(0, 60) : null; }).filter(x => x)""")
+        self.assertEqual(over, [])
+
     def test_sorts(self):
         self.load("complete")
         column = """Array.from(document.querySelector("#table2-ours").tBodies[0].rows, row => row.cells[{}].dataset.value ?? null)"""

@@ -108,7 +108,7 @@ def _error_time(results, paper):
 
 def sweep_figure(results, paper, sweep, identity):
     """What a sweep's x and y say: a colour for each scene (of rays by kind: for each kind, means of the scenes), a mark for each of what else differs. None
-    where x has one value. x may be what a table's rows may be, "threads" or a statistic; where it has one value, the variants are the axis."""
+    if its runs differ in nothing. x may be what a table's rows may be, "threads" or a statistic; if it has one value, what differs is the axis, the variants first."""
     runs, key = results.of_sweep(sweep.get("name")), str(sweep.get("x") or "threads")
     kinds = sweep.get("y") in (None, "mrps") and any(run.kinds() for run in runs)
     value = Value({"name": "kind.mrps" if kinds else sweep.get("y") or "mrps", "per": sweep.get("y_per")})
@@ -118,8 +118,8 @@ def sweep_figure(results, paper, sweep, identity):
     axes = Axes(results, paper, runs, {**sweep, "x": None})
     # Of a statistic y is no function: there are no lines then, and variants are marks of one series.
     counted = key != "threads" and key not in axes.order and any(run.configured(key) is None and run.get(key) is not None for run in runs)
-    if not counted and "variant" in axes.varying and len({run.setting(key) for run in runs}) < 2:
-        key = "variant"
+    if not counted and len({run.setting(key) for run in runs if run.done}) < 2:
+        key = next((axis for axis in ("variant", *reversed(axes.varying)) if axis in axes.varying), key)
     others = [axis for axis in axes.varying if axis not in (key, "scene") and not (key == "threads" and axis == "chip") and not (counted and axis == "variant")]
     named = [text for text in axes.order.get(key, []) if isinstance(text, str) and text]
     groups = {}
@@ -127,7 +127,7 @@ def sweep_figure(results, paper, sweep, identity):
         x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.get(key) if counted else run.setting(key), value.of(run)
         if x is not None and y is not None:
             label = tuple(str(part) if axis in ("program", "chip", "workload", "variant", "kind", "size", "mode") else f"{axis}={part}" for axis, part in zip(others, axes.place(run, others)) if part != "")
-            groups.setdefault(("" if kinds else run.scene, label), []).append((x, y, f"{run.name()}: {y:.4g}"))
+            groups.setdefault(("" if kinds or key == "scene" else run.scene, label), []).append((x, y, f"{run.name()}: {y:.4g}"))
     if kinds:
         groups = {group: [(x, y, f"{', '.join(group[1])}: {y:.4g}, mean of the scenes") for x in {point[0] for point in points} for y in [mean(point[1] for point in points if point[0] == x)]]
                   for group, points in groups.items()}
@@ -135,7 +135,7 @@ def sweep_figure(results, paper, sweep, identity):
     if len(values) < 2:
         return None
     scenes, labels = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 1))
-    several = not kinds and (len(scenes) > 1 or len(labels) == 1)
+    several = not kinds and key != "scene" and (len(scenes) > 1 or len(labels) == 1)
     first = results.programs()[:1]
     series = []
     for (scene, label), points in groups.items():
