@@ -99,7 +99,7 @@ class Axes:
     def __init__(self, results, paper, runs, sweep):
         self.runs, self.order = runs, {}
         keys = dict.fromkeys([*NAMED, *([sweep["x"]] if sweep.get("x") and sweep["x"] != "threads" else []), *(key for run in runs for key in run.set)])
-        known = {"program": results.programs(), "scene": results.scenes(), "chip": paper.chips, "workload": list(results.named("workloads"))}
+        known = {"program": results.programs(), "scene": results.scenes(), "chip": paper.chips, "workload": list(results.named("workloads")), "variant": sweep.get("variants") or []}
         for key in keys:
             values = list(dict.fromkeys(self.value(run, key) for run in runs))
             if all(number(value) is not None for value in values):
