@@ -177,12 +177,27 @@ class DocsTest(unittest.TestCase):
         self.assertIn("1e-04", figure.text().replace("0.0001", "1e-04"))
 
     def test_descriptions(self):
-        for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), (3, "expected an object"),
+        for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), (3, "table: expected an object or a list of objects"), ([{}, 3], "table: expected an object or a list of objects"),
                                ([{"id": "a"}, {"id": "a"}], "the same id")):
             made = example.stranger()
             made["sweeps"][0]["table"] = table
             with self.assertRaisesRegex(ResultsError, message):
                 list(tables.of_sweep(Results(made), PAPER, made["sweeps"][0]))
+
+    def test_nothing_varies(self):
+        """Of a sweep over scenes alone, each is a row and a mark; of a single run there is a table without a plot."""
+        made = example.stranger()
+        made["runs"] = [made["runs"][0], made["runs"][4]]
+        for record in made["runs"]:
+            record["values"] = {}
+        results = Results(made)
+        for count in (2, 1):
+            results = Results({**made, "runs": made["runs"][:count]})
+            table, = tables.of_sweep(results, PAPER, {**results.sweeps[0], "table": None, "reference": ""})
+            self.assertEqual(rows_of("\n".join(table.without_empty().lines(False)))[0][:2], ["scene", "MRPS"])
+            self.assertEqual([row[0].shown for row in table.rows], ["cube", "dragon"][:count])
+            figure = charts.sweep_figure(results, PAPER, results.sweeps[0], "figure")
+            self.assertEqual(figure and [[point[0] for point in series.points] for series in figure.series], [[0, 1]] if count == 2 else None)
 
     def test_only(self):
         made = example.stranger()

@@ -140,7 +140,7 @@ def sweep_figure(results, paper, sweep, identity):
     series = []
     for (scene, label), points in groups.items():
         colour, mark = scenes.index(scene) if several else labels.index(label), labels.index(label)
-        series.append(Series(", ".join([scene] * (several and not kinds) + [*label]), STYLES[colour % len(STYLES)][0], sorted(points), STYLES[mark % len(STYLES)][1],
+        series.append(Series(", ".join([scene] * several + [*label]) or value.title, STYLES[colour % len(STYLES)][0], sorted(points), STYLES[mark % len(STYLES)][1],
                              line=not named and not counted,
                              dashed=first != [] and "program" in axes.varying and first[0] not in label))
     ticks = [(place, text) for place, text in enumerate(named)] or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)

@@ -48,8 +48,6 @@ def interval_text(run):
 
 def checked(given, where):
     """A description of a table, with lists where a single word stands; what is wrong with it is an error."""
-    if not isinstance(given, dict):
-        raise ResultsError(f"{where}: expected an object")
     for key in given:
         if key not in KEYS:
             raise ResultsError(f"{where}: unknown key \"{key}\"; allowed are {', '.join(KEYS)}")
@@ -74,6 +72,8 @@ def descriptions(sweep):
     given = sweep.get("table")
     given = given if isinstance(given, list) else [] if given is None else [given]
     where = f"sweep \"{sweep.get('name')}\": table"
+    if not all(isinstance(spec, dict) for spec in given):
+        raise ResultsError(f"{where}: expected an object or a list of objects")
     specs = [checked(spec, f"{where}[{place}]") for place, spec in enumerate(given)]
     identities = [spec.get("id") for spec in specs if spec.get("id")]
     if len(set(identities)) < len(identities):
@@ -137,7 +137,8 @@ def _build(results, paper, sweep, spec, runs, identity, title):
     columns = spec.get("columns", ["scene"] if "scene" not in mean_over and "scene" in axes.varying and "scene" not in spec.get("rows", []) else [])
     rows = [key for key in spec.get("rows", []) if key not in columns]
     rows += [key for key in axes.varying if key not in (*rows, *columns, *mean_over, *spec.get("each", []))]  # whatever differs is told apart
-    rows = rows or ["scene"]
+    if not rows:
+        rows, columns = ["scene"], [key for key in columns if key != "scene"]
     values = [Value(given) for given in spec["values"]]
     fixed = [str(axes.order[key][0]) for key in NAMED if key not in (*rows, *columns, *mean_over, *spec.get("each", [])) and len(axes.order[key]) == 1 and axes.order[key][0]]
     title += (f": {values[0].title}" if columns and len(values) == 1 else "") + (f" ({', '.join(fixed)})" if fixed else "")

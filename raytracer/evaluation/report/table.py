@@ -33,7 +33,7 @@ def seconds(value):
     for unit, size, least in (("h", 3600, 7200), ("min", 60, 120), ("s", 1, 0.1)):
         if value >= least:
             return f"{number(value / size)}\u00a0{unit}"
-    return f"{1000 * value:.0f}\u00a0ms"
+    return f"{number(1000 * value)}\u00a0ms"
 
 
 class Cell:

@@ -287,8 +287,9 @@ def print_tables(results, paper, names, out):
     """The command's output: of each sweep its tables."""
     for sweep in results.sweeps:
         if sweep.get("name") in names:
-            for place, table in enumerate(of_sweep(results, paper, sweep)):
+            made = [table for table in of_sweep(results, paper, sweep) if table.rows]
+            for place, table in enumerate(made):
                 table.title += f"\n{sweep['claim']}" if sweep.get("claim") and place == 0 else ""
                 out.write(table.without_empty().text())
-            figure = sweep_figure(results, paper, sweep, "")
+            figure = sweep_figure(results, paper, sweep, "") if not str(sweep["name"]).startswith("table") else None  # those compare figures
             out.write(figure.text() + "\n\n" if figure else "")
