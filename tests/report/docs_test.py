@@ -133,6 +133,11 @@ class DocsTest(unittest.TestCase):
                 status, said = self.docs(*words, self.page)
                 self.assertEqual((status, said.count("\n"), self.page.read_text()), (1, 1, page_of("table2-era")), (data, said))
         self.assertEqual(self.docs("--check", results, self.page)[0], 1)
+        (self.folder / "folder.md").mkdir()
+        (self.folder / "zero.md").symlink_to("/dev/zero")
+        (self.folder / "binary.md").write_bytes(bytes(range(256)))
+        for name in ("folder", "zero", "binary", "none"):
+            self.assertEqual(self.docs(results, self.folder / f"{name}.md")[0], 1, name)
         self.assertEqual(self.docs(results)[0], 1)
         self.assertEqual(self.docs(self.folder / "page.txt")[0], 1)
 

@@ -280,6 +280,17 @@ class ReportTest(unittest.TestCase):
         self.assertIn("<b>beam: Beams of a stranger</b>", self.text)
         self.assertEqual(len(page.identities), len(set(page.identities)))
 
+    def test_rays_of_two_programs(self):
+        made = example.stranger()
+        others = copy.deepcopy(made["runs"])
+        for place, record in enumerate(others):
+            record.update(program="lamp", key=f"lamp-{place}")
+        made["runs"] += others
+        page = self.make(made)
+        self.assertEqual([(row[0][0], row[2][0]) for row in page.tables["rays-gain"]["rows"]], [("shadow", "beam"), ("shadow", "lamp"), ("primary", "beam"), ("primary", "lamp")])
+        self.assertEqual(len(page.figures["rays-lanes"]), 4 * 5)
+        self.assertIn(">shadow (fog, lamp)<", self.text)
+
     def test_same_bytes(self):
         self.make(example.complete())
         first = self.text

@@ -26,6 +26,7 @@ from .results import ASKED, HERE, Paper, Results, ResultsError, read_results
 MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
 ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")
 DATA = re.compile(r"<!-- trax-eval data: (\S+) -->")
+LIMIT = 1 << 24  # bytes of a page
 DIGITS = 6  # of what is no whole number
 
 
@@ -33,9 +34,12 @@ class Page:
     def __init__(self, path):
         self.path = pathlib.Path(path)
         try:
-            self.text = self.path.read_text(encoding="utf-8")
+            with open(self.path, "rb") as file:
+                self.text = file.read(LIMIT).decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
             raise ResultsError(f"{path}: cannot be read: {error}") from None
+        if len(self.text.encode()) >= LIMIT:
+            raise ResultsError(f"{path}: {LIMIT} bytes or more")
         found = DATA.search(self.text)
         self.data = self.path.parent / found[1] if found else self.path.with_suffix(".json")
         self.names = [match[1] for match in MARK.finditer(self.text)]

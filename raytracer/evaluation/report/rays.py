@@ -3,6 +3,7 @@
 from .charts import STYLES
 from .plots import Bars, Lines, Series
 from .results import mean, ratio
+from .sweeps import by_kind
 from .table import Cell, Table, figure, number, percent, share, words
 
 WIDTHS = (4, 8, 16, 32)
@@ -10,7 +11,6 @@ LINES = [*STYLES, (0, "dot")]  # styles of kinds
 # Of a kind's thread-cycles, as page.css has the causes of all threads.
 SHARES = [(10, "issued", "utilisation"), (11, "instruction fetch", "fetch"), (12, "data-cache banks and hits", "dcache"), (13, "off-chip memory", "memory"), (14, "shared units", "units"),
           (17, "other waits", "rest")]
-
 
 EXPLAINED = ("Rays that leave a surface in many directions have less and less in common. A SIMD machine makes one step for all its lanes, so lanes whose rays do not need it are lost; "
              "a machine of independent threads loses none to that, but each thread waits for instructions, memory and shared units by itself. Of the same rays: the lanes that a SIMD machine would "
@@ -22,36 +22,36 @@ class Group:
 
     def __init__(self, workload, kind, chip, settings, size, program):
         self.workload, self.kind, self.chip, self.settings, self.size, self.program, self.runs = workload, kind, chip, settings, size, program, []
+        self.several = False  # programs: then its label has its own
 
     def of(self, name):
         return mean(run.get(f"values.rays.{self.kind}.{name}") for run in self.runs)
 
     @property
     def label(self):
-        return f"{self.kind} ({self.workload})" if self.workload not in ("", self.kind) else self.kind
+        inner = [part for part in ("" if self.workload == self.kind else self.workload, self.program if self.several else "") if part]
+        return f"{self.kind} ({', '.join(inner)})" if inner else self.kind
 
 
 def groups(results, lanes=False):
     """All kinds on all machines, or on those of which a SIMD machine's lanes are known. A scene whose run is not there makes the mean of its group missing."""
-    runs = [run for run in results.runs if not lanes or any(".lanes." in name for name in run.values) or not run.done]
-    found, kinds = {}, {}
-    for run in runs:
-        kinds.setdefault((run.program, run.workload), {}).update(dict.fromkeys(run.kinds()))
-    for run in runs:
-        for kind in run.kinds() if run.done else kinds[run.program, run.workload]:
-            place = run.workload, kind, run.config, tuple(sorted(run.set.items())), run.size, run.program
-            found.setdefault(place, Group(*place)).runs.append(run)
+    found = {}
+    for run in by_kind([run for run in results.runs if not lanes or any(".lanes." in name for name in run.values) or not run.done]):
+        place = run.workload, run.kind, run.config, tuple(sorted(run.set.items())), run.size, run.program
+        found.setdefault(place, Group(*place)).runs.append(run)
+    for group in found.values():
+        group.several = len({other.program for other in found.values()}) > 1
     return list(found.values())
 
 
 def chosen(found):
-    """A group for each line of a figure: each kind of the first workload that has it; of a workload without a kind of its own, its last."""
+    """A group for each line of a figure: of a program each kind of the first workload that has it; of a workload without a kind of its own, its last."""
     by_workload, seen, lines = {}, set(), []
     for group in found:
         by_workload.setdefault((group.program, group.workload), {})[group.kind] = group.label
     for (program, workload), kinds in by_workload.items():
-        new = [kind for kind in kinds if kind not in seen] or list(kinds)[-1:]
-        seen.update(new)
+        new = [kind for kind in kinds if (program, kind) not in seen] or list(kinds)[-1:]
+        seen.update((program, kind) for kind in new)
         lines += [(program, workload, kind) for kind in new]
     return lines
 
@@ -69,12 +69,12 @@ def with_lanes(results):
 
 def gain_table(results):
     """What a machine of independent threads does for each ray of a SIMD machine with as many lanes, if lanes were all that differs."""
-    columns = [("kind of ray", "t"), ("workload", "t"), ("chip", "t")] + [(f"{width} lanes in use", "n") for width in WIDTHS] + [(f"MIMD over {width} lanes", "n") for width in WIDTHS]
+    columns = [("kind of ray", "t"), ("workload", "t"), ("program", "t"), ("chip", "t")] + [(f"{width} lanes in use", "n") for width in WIDTHS] + [(f"MIMD over {width} lanes", "n") for width in WIDTHS]
     columns += [("MIMD issues", "n"), ("MRPS", "n"), ("bytes/ray", "n"), ("nJ/ray", "n")]
     rows = []
     for group in with_lanes(results):
         lanes = [group.of(f"lanes.{width}") for width in WIDTHS]
-        rows.append([words(group.kind), words(group.workload), words(group.chip), *(share(value) for value in lanes), *(_times(value) for value in lanes),
+        rows.append([words(group.kind), words(group.workload), words(group.program), words(group.chip), *(share(value) for value in lanes), *(_times(value) for value in lanes),
                      share(group.of("utilisation")), *(figure(group.of(name)) for name in ("mrps", "bytes_per_ray", "energy_per_ray"))])
     return Table("rays-gain", "What MIMD gains as rays lose coherence", columns, rows,
                  "The most coherent rays first; means of the scenes. Each kind is shown of the first workload that has it; the table of all is below. Lanes in use: the share of a SIMD machine's lanes that the same "
@@ -105,7 +105,7 @@ def kinds_table(results):
 def _lanes(found):
     """Lanes in use over kinds of rays, a line for each width, and what the threads of the emulated chip issue."""
     kinds = [group.kind for group in found]
-    ticks = [(place, group.kind if kinds.count(group.kind) == 1 else group.workload) for place, group in enumerate(found)]
+    ticks = [(place, group.kind if kinds.count(group.kind) == 1 else group.label if group.several else group.workload) for place, group in enumerate(found)]
     series = []
     for index, width in enumerate(WIDTHS):
         style, mark = STYLES[index % len(STYLES)]
