@@ -1,47 +1,89 @@
 #!/usr/bin/env python3
-"""The experiments of raytracer/evaluation/experiments fit the device program's source, and change how long it takes, but no bit of the picture.
+"""Every program of raytracer/evaluation/experiments: its patches apply to the source as it is, it compiles and fits, and renders the picture that it should.
 
-Usage: experiments_test.py --bin BIN"""
+    tests/evaluation/experiments_test.py --bin build/bin
+
+The scenes are the bunny, and a wavy ground of two materials with roofs above it, so that there are shadows."""
 
 import argparse
 import json
+import math
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
+SIDE, ROOFS = 24, 5
+WIDTH, HEIGHT = 96, 64
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
-LEAST = 8  # experiments: one that is not found any more must not go unnoticed
+CACHE, STACK = 4096, 512  # bytes
+OTHER_TESTS = {"triangles-moller-trumbore", "triangles-edges", "triangles-transform"}  # of triangles: some pixels may be others
+SMALL = ("order", "triangles", "era")  # whose programs fit in the instruction cache
+failures = 0
+
+
+def check(condition, text):
+    global failures
+    if not condition:
+        failures += 1
+        print(f"FAILED: {text}", flush=True)
+
+
+def write_scene(path):
+    lines = ["mtllib waves.mtl"]
+    for x in range(SIDE + 1):
+        for z in range(SIDE + 1):
+            lines.append(f"v {x} {math.sin(x * 0.7) + math.cos(z * 0.9) * 0.5:.6f} {z}")
+    for x in range(SIDE):
+        for z in range(SIDE):
+            first = x * (SIDE + 1) + z + 1
+            lines += [f"usemtl {'light' if (x + z) % 3 else 'dark'}", f"f {first} {first + 1} {first + SIDE + 2} {first + SIDE + 1}"]
+    for roof in range(ROOFS):
+        corner = 4 * roof + 2
+        lines += [f"v {corner + x} {5 + roof} {corner + z}" for x, z in ((0, 0), (0, 3), (3, 3), (3, 0))] + ["f -4 -3 -2 -1"]
+    path.write_text("\n".join(lines) + "\n")
+    path.with_suffix(".mtl").write_text("newmtl light\nKd 0.8 0.7 0.6\nnewmtl dark\nKd 0.2 0.3 0.4\n")
 
 
 def main():
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    binaries = parser.parse_args().bin.resolve()
-    files = sorted((binaries.parent / "lib/trax/evaluation/experiments").glob("*/*.json"))
-    if len(files) < LEAST:
-        sys.exit(f"FAILED: {len(files)} experiments")
-    with tempfile.TemporaryDirectory() as folder:
-        sweep = {"name": "experiments", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "bunny"}], "chips": ["1x32"], "size": "128x128", "reference": "ours",
-                 "programs": ["ours", *(os.path.relpath(file, folder) for file in files)]}
-        pathlib.Path(folder, "experiments.json").write_text(json.dumps(sweep))
-        run = subprocess.run([binaries / "trax-eval", "experiments.json", "--output", "out"], cwd=folder, capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            sys.exit(f"FAILED: trax-eval: status {run.returncode}\n{run.stdout}{run.stderr}")
-        runs = {run["program"]: run for run in json.loads(pathlib.Path(folder, "out/results.json").read_text())["runs"]}
-    failures = []
-    if len(runs) != len(files) + 1:
-        failures.append(f"{len(runs)} runs of {len(files)} experiments")
-    for name, run in runs.items():
-        if run["status"] != "done" or run["values"]["picture.pixels_that_differ"] != 0:
-            failures.append(f"{name}: {run['status']} {run.get('error') or ''}, {run.get('values', {}).get('picture.pixels_that_differ')} pixels differ")
-        elif name != "ours" and run["stats"]["instructions"] == runs["ours"]["stats"]["instructions"]:
-            failures.append(f"{name}: takes as many instructions as the program without a change")
-    for failure in failures:
-        print(f"FAILED: {failure}")
-    return len(failures)
+    folder = parser.parse_args().bin.resolve()
+    data = folder.parent / "lib/trax/evaluation"
+    files = sorted((data / "experiments").glob("*/*.json"))
+    folders = {json.loads(file.read_text())["name"]: file.parent.name for file in files}
+    sweeps = {name for sweep in (data / "sweeps").glob("*.json") for name in json.dumps(json.loads(sweep.read_text())).split('"')}
+    for file in files:
+        check(f"{file.parent.name}/{file.stem}" in sweeps or any(name.endswith(f"{file.parent.name}/{file.name}") for name in sweeps), f"no sweep has {file}")
+    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as name:
+        scratch = pathlib.Path(name)
+        write_scene(scratch / "waves.obj")
+        sweep = {"name": "all", "scenes": [{"name": "waves", "meshes": ["waves.obj"]}, {"name": "bunny", "meshes": [BUNNY], "view": "bunny"}], "chips": "1x32",
+                 "size": f"{WIDTH}x{HEIGHT}", "reference": "ours", "programs": ["ours", "era", *(f"{file.parent.name}/{file.stem}" for file in files)]}
+        (scratch / "all.json").write_text(json.dumps(sweep))
+        run = subprocess.run([folder / "trax-eval", "all.json", "-q", "-o", "out"], cwd=scratch, capture_output=True, text=True)
+        check(run.returncode == 0, f"trax-eval: {run.returncode}: {run.stderr}")
+        runs = {(one["program"], one["scene"]): one for one in json.loads((scratch / "out/results.json").read_text())["runs"]}
+        check(runs.keys() == {(name, scene) for name in ("ours", "era", *folders) for scene in ("waves", "bunny")}, f"the runs are {sorted(runs)}")
+        seen = set()
+        for (name, scene), one in runs.items():
+            if one["status"] != "done":
+                check(False, f"{name}: {one.get('error')}")
+                continue
+            values, group = one["values"], folders.get(name, "")
+            job = json.loads((scratch / "out" / one["json"]).read_text())["job"]["inputs"]
+            what = job["program"]["xxh128"], tuple(buffer.get("xxh128") for buffer in job["buffers"])
+            check(what not in seen, f"{name}: the same program and inputs as another one's")
+            seen.add(what)
+            print(f"{name}, {scene}: {values['code.bytes']} bytes of code, {values['code.stack_bytes']} of stack, {one['stats']['cycles']} cycles, {values['picture.pixels_that_differ']} pixels")
+            check(values["code.stack_bytes"] <= STACK, f"{name}: {values['code.stack_bytes']} bytes of stack")
+            check(values["code.bytes"] <= CACHE or group not in SMALL, f"{name}: {values['code.bytes']} bytes of code")
+            expected = runs["era" if group == "era" else "ours", scene]["picture"]
+            same = one["picture"] == expected
+            check(same or name == "era" or name in OTHER_TESTS and values["picture.pixels_that_differ"] <= WIDTH * HEIGHT // 100, f"{name}, {scene}: another picture")
+    return 1 if failures else 0
 
 
 if __name__ == "__main__":
-    sys.exit(1 if main() else 0)
+    sys.exit(main())

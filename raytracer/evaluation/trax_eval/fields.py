@@ -83,14 +83,15 @@ def installed(kind):
     return sorted(path.stem for path in (FOLDER / kind).glob("*.json"))
 
 
+PLACES = {"programs": ("programs", "experiments")}  # of a kind, where not in the folder of its name
+
+
 def find_file(kind, name, beside):
     """The file of what comes with trax under that name, or NAME.json in the folder `beside`; None if there is none."""
     if not re.fullmatch(r"[\w.+/-]{1,200}", name):
         return None
-    path = pathlib.Path(beside, name) if name.endswith(".json") else FOLDER / kind / f"{name}.json"
-    if name.endswith(".json") and not path.is_file():
-        path = FOLDER / kind / name
-    return path if path.is_file() else None
+    places = [pathlib.Path(beside, name)] if name.endswith(".json") else [FOLDER / place / f"{name}.json" for place in PLACES.get(kind, (kind,))]
+    return next((path for path in places if path.is_file()), None)
 
 
 def unknown(kind, name, what):

@@ -1,16 +1,10 @@
-"""What a specialised program reads (trax/scene_format.h), to be changed before it runs, and how its source is changed."""
+"""What a specialised program reads (trax/scene_format.h), for converters of experiments: they run in the folder of prepared inputs, and change scene.trax."""
 
 import array
+import pathlib
 import struct
 
 LINE, TRIANGLE = 16, 10  # words
-
-
-class Variant:
-    """Of nothing changed: the program as it is. source: (file, what is there, what takes its place). scene: changes one. other: its picture may be another one."""
-
-    def __init__(self, name, source=(), scene=None, other=False):
-        self.name, self.source, self.scene, self.other = name, source, scene, other
 
 
 def cross(a, b):
@@ -24,9 +18,9 @@ def minus(a, b):
 class Scene:
     """What the device reads (trax/scene_format.h): its words, little endian as is the host (x86-64), and where things are in them."""
 
-    def __init__(self, path):
-        self.words = array.array("I")
-        self.words.frombytes(path.read_bytes())
+    def __init__(self, path="scene.trax"):
+        self.path, self.words = pathlib.Path(path), array.array("I")
+        self.words.frombytes(self.path.read_bytes())
         words = self.words
         self.base, layout = words[14:16]
         self.nodes, node_bytes, self.node_count, self.node_size = words[16] // 4, *words[17:19], words[19] // 4
@@ -36,6 +30,9 @@ class Scene:
         self.end = self.nodes + node_bytes // 4
         lows, highs = (struct.unpack("<3f", words[at:at + 3].tobytes()) for at in (8, 11))
         self.units = [1.0] * 3 if layout == 0 else [high - low for low, high in zip(lows, highs)]
+
+    def write(self):
+        self.path.write_bytes(self.words.tobytes())
 
     def references(self, change):
         """change(list of references) for each node's first children, and their second ones."""
@@ -67,13 +64,6 @@ class Scene:
         at = self.triangles + number * TRIANGLE
         values = struct.unpack("<9f", self.words[at:at + 9].tobytes())
         return values[:3], values[3:6], values[6:]
-
-    def move(self, base):
-        """For a program that has the scene at the address `base`."""
-        by, self.base = base - self.base, base
-        self.references(lambda references: [reference + by for reference in references])
-        self.words[4] += by
-        self.words[14] = base
 
     def replace_triangles(self, place, words, behind=()):
         """place: maps a leaf's first triangle to a place in `words`, in words; `behind` becomes the section of materials."""

@@ -1,12 +1,12 @@
-"""What a triangle is in memory, and which test it is for."""
+"""Other triangles for a specialised program, in the folder of its inputs: triangles.py apart|few-lines|48|64|shared|edges|transforms"""
 
 import array
-import re
+import pathlib
 import struct
+import sys
 
-from device_scene import LINE, TRIANGLE, Variant, cross, minus
-
-# --- what is done to the scene
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from device_scene import LINE, TRIANGLE, Scene, cross, minus  # noqa: E402
 
 
 def dense(size):
@@ -111,71 +111,6 @@ def unit_transforms(scene):
     scene.words[24] = scene.words[20] + 4 * len(words)  # where the records are
 
 
-# --- and to the source: file, what is there, what takes its place
-
-
-def stride(size):
-    return [("traverse.h", "sizeof(struct trax_triangle)", f"{size}u")]
-
-
-def material(address):
-    return [("shade.h", "load_word(triangle + 36)", f"load_word({address})")]
-
-
-HEADER = "((const struct trax_scene_header *)scene.data)"
-APART = material(f"(const char *)scene.data + {HEADER}->sections[TRAX_SCENE_MATERIALS].offset + "
-                 f"(((uint32_t)triangle - {HEADER}->base - {HEADER}->sections[TRAX_SCENE_TRIANGLES].offset) >> 5 << 2)")
-INDEXED = [("triangle.h", "int corner) {\n", "int corner) {\n  const char *at = ((const char *const *)(const void *)triangle)[corner];\n"),
-           ("triangle.h", re.compile(r"triangle \+ ray->offset_([uvw]) \+ 12 \* corner"), r"at + ray->offset_\1"),
-           ("triangle.h", "*words = (const uint32_t *)(const void *)triangle, *others = (const uint32_t *)(const void *)other;",
-            "*const *words = (const uint32_t *const *)(const void *)triangle, *const *others = (const uint32_t *const *)(const void *)other;"),
-           ("triangle.h", "word = words[i], other_word = others[i];", "word = words[i / 3][i % 3], other_word = others[i / 3][i % 3];"),
-           ("shade.h", "*v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;",
-            "*const *corner = (const float *const *)(const void *)hit->triangle, *v0 = corner[0], *v1 = corner[1], *v2 = corner[2];")]
-MOLLER_TRUMBORE = [("triangle.h", "#define TRAX_TRIANGLE TRAX_WATERTIGHT", "#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE")]
-EDGES = [*MOLLER_TRUMBORE,
-         ("triangle.h", "f = minus(load_vector(v2), a)", "f = load_vector(v2)"),
-         ("triangle.h", "e = minus(load_vector(v1), a)", "e = load_vector(v1)"),
-         ("shade.h", re.compile(r"e = minus\(load_vector\(v1\), a\), f = minus\(load_vector\(v2\), a\)"), "e = load_vector(v1), f = load_vector(v2)")]
-TRANSFORM_TEST = """  const float *row0 = (const float *)(const void *)triangle;
-  float height = dot(load_vector(row0), ray->origin) + row0[3];
-  float determinant = dot(load_vector(row0), ray->direction);
-  int32_t size_bits = magnitude(determinant), sign = float_bits(determinant) & SIGN_BIT;
-  if (size_bits < LEAST_DETERMINANT_BITS)
-    return false;
-  int32_t scaled_bits = float_bits(-height) ^ sign;
-  if (scaled_bits <= 0 ||
-      scaled_bits > float_bits(bits_float(hit->distance_bits) * bits_float(size_bits)) + UNITS_OF_DOUBT)
-    return false;
-  float weight[2];
-  for (int row = 0; row < 2; row++) {
-    const float *at = row0 + 4 + 4 * row;
-    float start = dot(load_vector(at), ray->origin) + at[3];
-    float step = dot(load_vector(at), ray->direction);
-    weight[row] = bits_float(float_bits(start * determinant - height * step) ^ sign);
-    if ((uint32_t)float_bits(weight[row]) > (uint32_t)SIGN_BIT || float_bits(weight[row]) > size_bits)
-      return false;
-  }
-  if (float_bits(weight[0] + weight[1]) > size_bits)
-    return false;
-  return accept_hit(triangle, any, -height, determinant, bits_float(float_bits(weight[0]) ^ sign),
-                    bits_float(float_bits(weight[1]) ^ sign), hit);
-}
-"""
-RECORD = f"{HEADER}->sections[TRAX_SCENE_MATERIALS].offset - {HEADER}->sections[TRAX_SCENE_TRIANGLES].offset"
-TRANSFORMS = [*MOLLER_TRUMBORE, *stride(48), *material(f"triangle + 36 + {RECORD}"),
-              ("triangle.h", re.compile(r"  const float \*v0 = \(const float \*\)\(const void \*\)triangle, \*v1.*?\n}\n", re.S), TRANSFORM_TEST),
-              ("shade.h", "(const void *)hit->triangle, *v1", f"(const void *)(hit->triangle + {RECORD}), *v1")]
-
-
-TRIANGLES = [
-    Variant("40 bytes"),
-    Variant("36 bytes, materials apart", stride(36) + APART, materials_apart),
-    Variant("40 bytes, leaves in few lines", (), in_few_lines),
-    Variant("48 bytes", stride(48), padded(12)),
-    Variant("64 bytes", stride(64), padded(16)),
-    Variant("16 bytes, shared vertices", stride(16) + INDEXED + material("triangle + 12"), indexed),
-    Variant("40 bytes, Möller and Trumbore", MOLLER_TRUMBORE, None, True),
-    Variant("the same, vertex and edges", EDGES, edges, True),
-    Variant("48 bytes, unit transform", TRANSFORMS, unit_transforms, True),
-]
+scene = Scene()
+{"apart": materials_apart, "few-lines": in_few_lines, "48": padded(12), "64": padded(16), "shared": indexed, "edges": edges, "transforms": unit_transforms}[sys.argv[1]](scene)
+scene.write()
