@@ -9,14 +9,34 @@ million simulated instructions per second of wall time for each engine, and rati
 the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without the reference.
 """
 
+import argparse
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "raytracer/evaluation/bench"))
-from scenes import arguments, files_of  # noqa: E402
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "raytracer/evaluation"))
 from trax_eval.manifest import read_manifest  # noqa: E402
+from trax_eval.scenes import mesh_files  # noqa: E402
+from trax_eval.util import Problem  # noqa: E402
+
+
+def arguments(description, size):
+    """A parser of what each measurement takes; size is the default."""
+    parser = argparse.ArgumentParser(description=description.split("\n")[0])
+    parser.add_argument("scenes", metavar="SCENES_DIRECTORY", type=pathlib.Path)
+    parser.add_argument("--size", default=size)
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
+    return parser
+
+
+def files_of(directory, scene):
+    """The meshes of the scene of this name."""
+    try:
+        return mesh_files(directory, scene)
+    except Problem as problem:
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: error: {problem}")
 
 
 def prepare(options, scene, scratch):

@@ -18,9 +18,9 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "timing"), str(HERE.parents[1] / "raytracer/evaluation/bench")]
+sys.path[:0] = [str(HERE.parent / "timing"), str(HERE.parents[1] / "raytracer/evaluation")]
 import engines  # noqa: E402
-from scenes import SCENES, find  # noqa: E402
+from trax_eval.scenes import mesh_files  # noqa: E402
 
 CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()
 
@@ -28,8 +28,7 @@ CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8
 def scenes_of(options, folder):
     """Import what the command line names; return names and arguments of trax-render."""
     if options.scenes.is_dir():
-        chosen = [(name, [find(options.scenes, file) for file in files], ["--view", name]) for name, files in SCENES
-                  if name in options.only.split(",")]
+        chosen = [(name, mesh_files(options.scenes, name), ["--view", name]) for name in options.only.split(",")]
     else:
         chosen = [(options.scenes.stem, [str(options.scenes)], [])]
     made = []

@@ -37,13 +37,3 @@ def seal(folder, more=()):
             data = pathlib.Path(folder, part["file"]).read_bytes()
             part["bytes"], part["xxh128"] = len(data), xxh128(data)
     write_json(pathlib.Path(folder, NAME), manifest)
-
-
-def buffer_options(manifest):
-    """The buffers as options of trax-sim, relative to the folder: for files that were changed after they were prepared."""
-    options = []
-    for buffer in manifest["buffers"]:
-        if "bytes_per_thread" in buffer:
-            raise ValueError(f"the buffer {buffer['symbol']} depends on the machine")
-        options += ["--bind", f"{buffer['symbol']}={buffer['file']}"] if "file" in buffer else ["--alloc", f"{buffer['symbol']}={buffer['bytes']}"]
-    return options

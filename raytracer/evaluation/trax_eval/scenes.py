@@ -87,3 +87,8 @@ def scene_file(out, tools, directory, scene, options, own, only_look=False):
         if run.returncode != 0:
             raise Problem(f"{name}: {run.stderr.strip() or f'trax-scene ended with status {run.returncode}'}")
     return path
+
+
+def mesh_files(directory, name):
+    """Of a scene that comes with trax, in the folder of scenes: for scripts that measure without trax-eval."""
+    return [find_mesh(directory, mesh) for mesh in find_scenes(name, ".", False)[0]["meshes"]]
