@@ -4,9 +4,13 @@
 #include "trax/output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 /* --- the key --- */
@@ -107,6 +111,17 @@ static trax_status compute(struct trax_converged *converged, const struct trax_f
   return status;
 }
 
+/* Waits until no other process computes a picture for this folder, since each takes all processors. The lock ends with
+   its descriptor; where the file system has none, -1, several compute the same. */
+static int lock_folder(const char *folder, const volatile int *interrupt) {
+  const struct timespec pause = {.tv_nsec = 50000000};
+  const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  while (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
+         !(interrupt && *interrupt))
+    nanosleep(&pause, NULL);
+  return descriptor;
+}
+
 trax_status trax_converge(struct trax_converged *converged, const struct trax_frame *frame,
                           const struct trax_frame *rough, const char *folder, struct trax_render_run *run,
                           trax_error *error) {
@@ -124,6 +139,14 @@ trax_status trax_converge(struct trax_converged *converged, const struct trax_fr
     return TRAX_OK;
   if (trax_output_check(path, error) != TRAX_OK)
     return TRAX_ERROR;
-  const trax_status status = compute(converged, frame, rough, run, error);
-  return status == TRAX_OK ? write_converged(converged, path, error) : status;
+  const int lock = lock_folder(folder, run->interrupt);
+  trax_status status = TRAX_OK;
+  if (!read_converged(converged, frame, path)) { /* nobody else has made it meanwhile */
+    status = compute(converged, frame, rough, run, error);
+    if (status == TRAX_OK)
+      status = write_converged(converged, path, error);
+  }
+  if (lock >= 0)
+    close(lock);
+  return status;
 }

@@ -30,6 +30,12 @@ for file in coarse nodes; do
 done
 measure --error alone.json || fail "without --converged: $(cat .err)"
 cmp -s whole.json alone.json || fail "--converged changes: $(diff whole.json alone.json)"
+# Two at once: one of them computes it.
+for run in 1 2; do
+  "$bin/trax-render" "$source/box.obj" --view "$source/box.view" --size 96x54 $chip --error twice$run.json --converged twice -q &
+done
+wait
+cmp -s twice1.json twice2.json && [ "$(ls twice | wc -l)" -eq 1 ] || fail "two at once: $(ls twice)"
 # With a picture, its figures as well as the others.
 measure --error both.json --converged kept --hits hits.json -o x.png --stats s.json || fail "with a picture: $(cat .err)"
 cmp -s whole.json both.json && [ -s x.png ] && [ -s s.json ] || fail "with a picture: $(ls)"
