@@ -20,5 +20,12 @@ find_library(OPENEXR_CORE_LIBRARY OpenEXRCore REQUIRED) # the C one alone, not t
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
+find_path(EMBREE_INCLUDE_DIR rtcore.h PATH_SUFFIXES embree${embree_VERSION_MAJOR} REQUIRED NO_CACHE)
+add_library(trax_embree INTERFACE) # <rtcore.h> of either
+target_include_directories(trax_embree SYSTEM INTERFACE ${EMBREE_INCLUDE_DIR})
+target_link_libraries(trax_embree INTERFACE ${EMBREE_LIBRARIES})
 find_package(Threads REQUIRED)

@@ -3,6 +3,8 @@
    intersection, nor shading. */
 #include "embree.h"
 
+#include "rtc_query.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,10 +45,9 @@ static struct RTCRay make_ray(struct double3 origin, struct double3 direction, f
 bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit) {
   if (embree->exactly)
     return exact_nearest(embree->scene, origin, direction, hit);
-  struct RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  rtc_context context;
   struct RTCRayHit ray = {.ray = make_ray(origin, direction, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtcIntersect1(embree->scene, &context, &ray);
+  rtc_intersect(embree->scene, &context, &ray);
   *hit = (struct exact_hit){ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};
   return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
@@ -54,10 +55,9 @@ bool embree_hit(const struct embree *embree, struct double3 origin, struct doubl
 bool embree_blocked(const struct embree *embree, struct double3 origin, struct double3 direction, double distance) {
   if (embree->exactly)
     return exact_any(embree->scene, origin, direction, distance);
-  struct RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  rtc_context context;
   struct RTCRay ray = make_ray(origin, direction, (float)distance);
-  rtcOccluded1(embree->scene, &context, &ray);
+  rtc_occluded(embree->scene, &context, &ray);
   return ray.tfar < 0;
 }
 

@@ -1,5 +1,7 @@
 #include "exact.h"
 
+#include "rtc_query.h"
+
 #include <gmp.h>
 #include <string.h>
 
@@ -156,7 +158,7 @@ bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin,
 /* --- Embree's callbacks --- */
 
 struct query {
-  struct RTCIntersectContext context; /* first: Embree hands its address back */
+  rtc_context context; /* first: Embree hands its address back */
   struct double3 origin, direction;
   double limit;
   struct exact_hit hit;
@@ -263,17 +265,15 @@ static struct RTCRay ray_of(const struct query *query) {
 
 bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 direction, struct exact_hit *hit) {
   struct query query = {.origin = origin, .direction = direction, .limit = INFINITY};
-  rtcInitIntersectContext(&query.context);
   struct RTCRayHit ray = {.ray = ray_of(&query), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtcIntersect1(scene, &query.context, &ray);
+  rtc_intersect(scene, &query.context, &ray);
   *hit = query.hit;
   return query.found;
 }
 
 bool exact_any(RTCScene scene, struct double3 origin, struct double3 direction, double limit) {
   struct query query = {.origin = origin, .direction = direction, .limit = limit};
-  rtcInitIntersectContext(&query.context);
   struct RTCRay ray = ray_of(&query);
-  rtcOccluded1(scene, &query.context, &ray);
+  rtc_occluded(scene, &query.context, &ray);
   return query.found;
 }

@@ -7,7 +7,7 @@
 #include "double3.h"
 #include "trax/scene.h"
 
-#include <embree3/rtcore.h>
+#include <rtcore.h>
 #include <stdbool.h>
 #include <stdint.h>
 

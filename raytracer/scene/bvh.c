@@ -2,8 +2,8 @@
  * when its callbacks ran. */
 #include "internal.h"
 
-#include <embree3/rtcore.h>
 #include <math.h>
+#include <rtcore.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,0 +1,43 @@
+/* One ray through Embree's BVH, by Embree 3 or 4, which take a query's context in two ways. */
+#ifndef TRAX_RENDER_RTC_QUERY_H
+#define TRAX_RENDER_RTC_QUERY_H
+
+#include <rtcore.h>
+
+#if RTC_VERSION_MAJOR >= 4
+
+typedef struct RTCRayQueryContext rtc_context;
+
+static inline void rtc_intersect(RTCScene scene, rtc_context *context, struct RTCRayHit *ray) {
+  struct RTCIntersectArguments arguments;
+  rtcInitRayQueryContext(context);
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = context;
+  rtcIntersect1(scene, ray, &arguments);
+}
+
+static inline void rtc_occluded(RTCScene scene, rtc_context *context, struct RTCRay *ray) {
+  struct RTCOccludedArguments arguments;
+  rtcInitRayQueryContext(context);
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = context;
+  rtcOccluded1(scene, ray, &arguments);
+}
+
+#else
+
+typedef struct RTCIntersectContext rtc_context;
+
+static inline void rtc_intersect(RTCScene scene, rtc_context *context, struct RTCRayHit *ray) {
+  rtcInitIntersectContext(context);
+  rtcIntersect1(scene, context, ray);
+}
+
+static inline void rtc_occluded(RTCScene scene, rtc_context *context, struct RTCRay *ray) {
+  rtcInitIntersectContext(context);
+  rtcOccluded1(scene, context, ray);
+}
+
+#endif
+
+#endif
