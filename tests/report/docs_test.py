@@ -219,6 +219,9 @@ class DocsTest(unittest.TestCase):
         rows = rows_of(self.page.read_text())
         self.assertEqual(rows[:1] + rows[1:3], [["kind"], ["primary"], ["shadow"]])
         self.assertEqual(rows[4], ["primary", "12.5", "12 %"])
+        self.page.write_text(page_of("tracing"))
+        self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
+        self.assertEqual(rows_of(self.page.read_text())[1:3], [["4x32", "as it is", "20.0 (0.0 %)", "10.0 (0.0 %)"], ["4x32", "sorted", "25.0 (+25.0 %)", "-"]])
 
     def test_programs_are_not_named(self):
         for path in (FOLDER / "report").glob("*.py"):
