@@ -116,6 +116,14 @@ class DocsTest(unittest.TestCase):
         self.assertEqual(blocks["table2-era"], {match[1]: match[2] for match in docs.MARK.finditer(first)}["table2-era"])
         self.assertEqual({cell for row in rows_of(blocks["fpu-sharing"])[1:] for cell in row[1:]}, {"77.7"})
         self.assertIn("trax 0.1.0 (2026-02-02)", blocks["fpu-sharing"])
+        # Another size stands beside the first, or with --anew in its place.
+        for run in other["runs"]:
+            run["size"] = [64, 36]
+        for words, sizes in ([], ["1280x720", "64x36"]), (["--anew"], ["64x36"]):
+            self.assertEqual(self.docs(*words, self.results(other, "other"), self.page), (0, ""))
+            block = next(match[2] for match in docs.MARK.finditer(self.page.read_text()) if match[1] == "fpu-sharing")
+            self.assertEqual(sorted(set(re.findall(r"\d+x\d+", block)) - {"4x32"}), sizes)
+            self.assertEqual(next(match[2] for match in docs.MARK.finditer(self.page.read_text()) if match[1] == "table2-era"), blocks["table2-era"])
 
     def test_wrong(self):
         results = self.results(example.complete())

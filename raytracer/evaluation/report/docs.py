@@ -5,8 +5,8 @@
 
 What stands in a page between `<!-- trax-eval NAME: begin -->` and `<!-- trax-eval NAME: end -->` is the table of that name, or with `plot NAME` the plot, an SVG
 file beside the page. Names are those of the report's tables and of sweeps; a sweep's plot has the sweep's name. The figures are those of PAGE.json (another file if
-the page has `<!-- trax-eval data: FILE -->`), which holds what the tables need and nothing else. RESULTS.json replaces the sweeps that it has in that file. Pages
-that share a file are given together. --check writes nothing, and ends with status 1 if a block or a plot is not what the file gives."""
+the page has `<!-- trax-eval data: FILE -->`), which holds what the tables need and nothing else. Runs of RESULTS.json take the
+place of those of the same sweep, program, workload, size and mode in that file; with --anew of the same sweep. Pages that share a file are given together. --check writes nothing, and ends with status 1 if a block or a plot is not what the file gives."""
 
 import argparse
 import itertools
@@ -162,21 +162,28 @@ def read_data(path):
         raise ResultsError(f"{path}: is no file that trax-eval docs wrote: {error!r}") from None
 
 
-def merged(old, new):
-    """One document with the sweeps of both. The new one's runs take the place of those of the same sweep, program, workload, size and mode."""
-    def places(run):
-        return {(name, run.get("program"), run.get("workload") or "", str(run.get("size")), run.get("mode")): name for name in run.get("experiments") or []}
-
-    taken = {place for run in new.get("runs") or [] for place in places(run)}
-    sources, runs = [*old.get("sources", [])], []
-    for run in old.get("runs", []):
-        left = [name for place, name in places(run).items() if place not in taken]
+def without(document, is_dropped):
+    """A page's document without the runs of some sweeps: is_dropped(name of the sweep, run)."""
+    runs = []
+    for run in document.get("runs", []):
+        left = [name for name in run["experiments"] if not is_dropped(name, run)]
         if left:
             points = [point for point in run.get("points", []) if point["experiment"] in left]
             runs.append({**run, "experiments": left, **({"points": points} if points else {})})
+    return {**document, "runs": runs}
+
+
+def merged(old, new):
+    """One document with the sweeps of both. The new one's runs take the place of those of the same sweep, program, workload, size and mode."""
+    def place(name, run):
+        return name, run.get("program"), run.get("workload") or "", str(run.get("size")), run.get("mode")
+
+    taken = {place(name, run) for run in new.get("runs") or [] for name in run.get("experiments") or []}
+    old = without(old, lambda name, run: place(name, run) in taken)
+    sources, runs = [*old.get("sources", [])], old["runs"]
     shift = len(sources)
     sources += new.get("sources") or [new]
-    runs += [{**run, "source": run.get("source", 0) + shift} for run in new.get("runs") or []]
+    runs = runs + [{**run, "source": run.get("source", 0) + shift} for run in new.get("runs") or []]
     both = {}
     for kind in ("programs", "scenes", "workloads", "sweeps"):
         entries = {entry.get("name"): entry for document in (old, new) for entry in document.get(kind) or []}
@@ -257,6 +264,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="RESULTS.json or PAGE.md")
     parser.add_argument("--check", action="store_true", help="write nothing; status 1 if a block is not what the file gives")
+    parser.add_argument("--anew", action="store_true", help="earlier runs of the sweeps of RESULTS.json are dropped, whatever their size")
     options = parser.parse_args(arguments)
     try:
         wrong = [name for name in options.files if not name.endswith((".json", ".md"))]
@@ -269,9 +277,12 @@ def main(arguments=None):
         check_files(sources, [page.path for page in pages])
         if sources:
             for data in dict.fromkeys(page.data for page in pages):
-                document = read_data(data) if data.exists() else {}
-                for name in sources:
-                    document = merged(document, read_results(name).document)
+                document, added = read_data(data) if data.exists() else {}, [read_results(name).document for name in sources]
+                if options.anew:
+                    names = {name for new in added for run in new.get("runs") or [] for name in run.get("experiments") or []}
+                    document = without(document, lambda name, run: name in names)
+                for new in added:
+                    document = merged(document, new)
                 write_file(data, compact(document, [page for page in pages if page.data == data], paper))
         stale = write_pages(pages, paper, options.check)
     except (Problem, ResultsError, PlotError) as error:
