@@ -215,8 +215,22 @@ def test_options(evaluation, scratch):
           "commands repeat the options")
     run = evaluation.run(sweep, "options", "--variant", "dim", "--scene", "bunny", "--chip", "1x32", "--dry-run")
     check(run.stdout == "0 of 3 runs are missing\n", f"--variant, which keeps the reference, --scene, --chip: {run.stdout}{run.stderr}")
+    # What trax-render tells of a picture, of a changed program, too; and seeds of samples, which an exact run has no use for.
+    sweep = dict(SMALL, name="measured", series=0, chips="1x32", programs=["ours", "order/fixed"], error=True, hits=True, set={"special.precision_bits": [9, 24]})
+    run = evaluation.run(sweep, "measured", "--jobs", "2")
+    check(run.returncode == 0, f"error and hits: {run.stderr}")
+    for one in evaluation.results("measured")["runs"]:
+        values, bits = one["values"], one["machine"]["special.precision_bits"]
+        check(values["hits.pixels"] == values["hits.nearest"] == 40 * 24, f"hits: {values}")
+        check((values["error.numerical_rmse"] > 1) == (bits == 9) and values["error.numerical_rmse"] < 60 and values["error.total_rmse"] > 1, f"error of {bits} bits: {values}")
+        check(1000 < values["code.bytes"] < 8192 and 0 < values["code.stack_bytes"] <= 512 and values["scene_bytes"] > 69000 * 40, f"sizes: {values}")
+    seeds = dict(SMALL, name="seeds", series=0, chips="1x32", set={"trax-render --sample-seed": [1, 2]}, mode="quick", size="256x144")
+    for mode, runs in (([], 2), (["--mode", "exact"], 1)):
+        run = evaluation.run(seeds, "measured", *mode, "--dry-run")  # where the scene has been imported
+        check(f"{runs} of {runs} runs are missing" in run.stdout, f"seeds of samples, {mode}: {run.stdout}{run.stderr}")
+    sweep = dict(SMALL, series=0, chips="1x32", set={"trax-scene --leaf": [1, 4]})
     run = evaluation.run(sweep, "options", "--quick", "--dry-run")
-    check(run.stdout.count(" 16x10\n") == 7, f"--quick makes the pictures smaller: {run.stdout}{run.stderr}")
+    check(run.stdout.count(" 16x10\n") == 2, f"--quick makes the pictures smaller: {run.stdout}{run.stderr}")
 
 
 REFUSED = [
@@ -235,13 +249,14 @@ REFUSED = [
     ('{"name": "x", "set": [{"name": "a"}], "reference": "b"}', 'reference: "b" is neither a variant nor a program of this sweep; "a", "ours", "era" are'),
     ('{"name": "x", "table": 1}', "table: expected an object or a list of objects"),
     ('{"name": "x", "error": 1}', "error: expected true or false"),
-    ('{"name": "x", "mode": "quick", "set": {"trax-scene --leaf": 1}}', "mode: series, lockstep"),
+    ('{"name": "x", "mode": "quick", "programs": "ours", "hits": true}', "mode: series, lockstep"),
+    ('{"name": "x", "error": true}', 'programs: error and hits need programs that are "specialised"'),
     ('{"name": "x", "programs": ["ours", "paper"]}', 'programs: "ours" is there twice'),
     ('{"name": "x", "chip": "4x32"}', 'unknown key "chip", did you mean "chips"'),
     ('{"name": "x", "chips": "4x33"}', "4x33"),
     ('{"name": "x", "chips": []}', "chips: expected a list of texts"),
     ('{"name": "x", "chips": ["4x32", "4x32"]}', "twice"),
-    ('{"name": "x", "programs": ["theirs"]}', 'programs: "theirs" is no program; allowed are "era", "ours", "paper", and files NAME.json'),
+    ('{"name": "x", "programs": ["theirs"]}', 'programs: "theirs" is no program; allowed are "era", '),
     ('{"name": "x", "scenes": ["cornell"]}', 'scenes: "cornell" is no scene; allowed are "conference", "crytek-sponza"'),
     ('{"name": "x", "scenes": [{"name": "y", "mesh": "z"}]}', 'scenes: unknown key "mesh", did you mean "meshes"? Allowed are "name", "title", "meshes", "view"'),
     ('{"name": "x", "set": {"icache.bank": 4}}', 'unknown key "icache.bank"; did you mean icache.banks'),
@@ -254,7 +269,7 @@ REFUSED = [
     ('{"name": "x", "size": "0x10"}', "size: expected"),
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
-    ('{"name": "x", "mode": "quick", "series": 100}', 'mode: series, lockstep, ray_kinds, workloads, error, hits, options in "set" and programs that are compiled or converted need "exact"'),
+    ('{"name": "x", "mode": "quick", "series": 100}', 'mode: series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need "exact"'),
     ('{"name": "x", "ray_kinds": 1}', "ray_kinds: expected true or false"),
     ('{"name": "x", "ray_kinds": true, "programs": ["ours", "era"]}', 'programs: workloads and ray_kinds need programs with "rays": true, which '),
     ('{"name": "x", "workloads": ["fog"]}', 'workloads: "fog" is no workload; allowed are "diffuse", "glass"'),

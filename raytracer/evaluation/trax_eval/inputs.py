@@ -16,10 +16,10 @@ COUNTERS = "counters"  # the buffer of a program that counts
 SOURCE = "source"  # of a program that trax-render is to compile again
 
 
-def prepare_inputs(out, tools, scene, view, size, program, built, chip, more=(), whole=False, only_look=False):
+def prepare_inputs(out, tools, scene, view, size, program, built, chip, more=(), sampling=(), whole=False, only_look=False):
     """The files that a program reads for a picture; returns their description, which is part of the job. built: options of trax-render that name the
-    program. chip: what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does. more: options of trax-render.
-    whole: trax-render is to run again, to estimate or to measure. only_look: nothing is kept."""
+    program. chip: what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does. more: options of trax-render;
+    sampling: those for a run of some parts. whole: trax-render is to run again, to estimate or to measure. only_look: nothing is kept."""
     scratch = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
     try:
         command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
@@ -38,7 +38,7 @@ def prepare_inputs(out, tools, scene, view, size, program, built, chip, more=(),
         description = description_of(read_manifest(scratch))
         if whole:
             shutil.copyfile(scene, pathlib.Path(scratch, "whole.trax"))
-            description["whole"] = describe_whole(program, built, more, scratch)
+            description["whole"] = describe_whole(program, built, [*more, *sampling], scratch)
         place = out / "inputs" / hash_value(description)
         if not only_look and not place.exists():
             (place.parent / "bytes").mkdir(parents=True, exist_ok=True)

@@ -89,6 +89,8 @@ class Planner:
         scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
         machine = point.chip_file, point.machine()
         imported, rendered = (tuple(point.options(tool, workload)) for tool in ("trax-scene", "trax-render"))
+        sampling = tuple(word for word in rendered if word.startswith("--sample-") and point.mode == "quick")  # all of an exact picture is simulated
+        rendered = tuple(word for word in rendered if not word.startswith("--sample-"))
         own = bool(workload["scene"]) or any(option_of(key) and option_of(key)[0] == "trax-scene" for key, _ in point.settings)
         order = order_options(self.tools.whole(*machine, "dcache.bytes")) if program.specialised else []  # it is made for a machine, as trax-render has it
         path = self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), imported, tuple(order), own),
@@ -99,8 +101,8 @@ class Planner:
         chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if program.specialised else None
         built = self.program(program)
         self.note(f"{point.scene}, {point.size}, {program.name}")
-        return self.once((path, scene["view"], point.size, program, chip, whole, rendered),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, program, built, chip, rendered, whole, self.only_look))
+        return self.once((path, scene["view"], point.size, program, chip, whole, rendered, sampling),
+                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, program, built, chip, rendered, sampling, whole, self.only_look))
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""

@@ -255,10 +255,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
         reader.fail("programs", f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they take workloads, and tell where rays begin')
     if (error or hits) and (unfit := [program for program in used if not program.specialised or program.convert]):
         reader.fail("programs", f'error and hits need programs that are "specialised", without "convert", which {unfit[0].file} is not')
-    options = any(option_of(key) for _, _, settings in variants for key, _ in settings)
-    if series or lockstep or rays or error or hits or options or not all(program.plain for program in used):  # every cycle is needed, or the run is not trax-render's own
+    if series or lockstep or rays or error or hits or not all(program.plain for program in used):  # every cycle is needed, or the run is not trax-render's own
         if "mode" in value and chosen_mode != "exact" and not mode:
-            reader.fail("mode", 'series, lockstep, ray_kinds, workloads, error, hits, options in "set" and programs that are compiled or converted need "exact"')
+            reader.fail("mode", 'series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need "exact"')
         chosen_mode = "exact"
     if mode == "quick" and not size and not lockstep and not ray_kinds and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
         chosen_mode = "exact"
