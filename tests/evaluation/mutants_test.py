@@ -3,7 +3,7 @@
 
     tests/evaluation/mutants_test.py --bin build/bin [--seed N] [--count N]
 
-Sweeps are mutated in this process, which calls the command's own functions; folders and options are those of the program."""
+Sweeps, programs, scenes and workloads are mutated in this process, which calls the command's own functions; folders and options are those of the program."""
 
 import argparse
 import contextlib
@@ -22,6 +22,12 @@ import tempfile
 GOOD = {"name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2", "scenes": [{"name": "y", "meshes": ["generate:forest"], "view": "forest"}],
         "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]}, "size": "8x8", "mode": "exact", "series": 100, "lockstep": False,
         "workloads": ["occlusion"], "ray_kinds": True}
+VARIANTS = GOOD | {"set": [{"name": "a"}, {"name": "b", "program": "ours", "trax-scene --leaf": [1, 4]}, {"name": "c", "trax-render --no-shadows": True}], "reference": "a", "lockstep": True,
+                   "table": [{"rows": "variant", "columns": "chip", "values": ["mrps"]}], "error": False, "hits": False, "workloads": ["primary-shadow"], "scenes": ["forest"]}
+PROGRAM = {"name": "p", "title": "t", "program": "p.c", "flags": ["-O2"], "patch": ["p.patch"], "scene": ["--leaf", "2"], "render": ["--ambient", "0.1"], "set": {"icache.banks": 4},
+           "convert": ["true"], "counters": ["a", "b"], "rays": True}
+SCENE = {"name": "s", "title": "t", "meshes": ["generate:forest"], "view": "forest", "licence": "l", "paper": "fairy"}
+WORKLOAD = {"name": "w", "title": "t", "render": ["--occlusion", "2"], "scene": ["--material", "mirror"]}
 ODD = [None, True, False, 0, -1, 1.5, 1e300, 10 ** 400, "", "x", "..", "/", "\n", "\0", "\ud800", "é" * 5000, [], [[]], [None], ["x"], {}, {"name": 0}, {"": [0]}, [{}],
        {"a": {"b": [1]}}, list(range(300)), [[[[[[[]]]]]]]]
 failures = 0
@@ -34,9 +40,9 @@ def check(condition, text):
         print(f"FAILED: {text}", flush=True)
 
 
-def mutated(source):
-    """A text that is a sweep but for one to three changes, in its values or in its bytes."""
-    value = copy.deepcopy(GOOD)
+def mutated(source, good):
+    """The text of `good` but for one to three changes, in its values or in its bytes."""
+    value = copy.deepcopy(good)
     for _ in range(source.randint(1, 3)):
         place, path = value, []
         while isinstance(place, (dict, list)) and place and (not path or source.random() < 0.5):
@@ -59,24 +65,31 @@ def mutated(source):
     return bytes(data[: source.randrange(len(data))] if source.random() < 0.05 else data)
 
 
-def test_sweeps(folder, scratch, seed, count):
+def test_files(folder, scratch, seed, count):
+    """Sweeps, and programs, scenes and workloads beside a sweep that is good."""
     sys.path[:0] = [str(folder.parent / "lib/trax/evaluation")]
     main = importlib.import_module("trax_eval.main")
     sys.dont_write_bytecode = True
-    source, taken = random.Random(seed), 0
-    path = scratch / "sweep.json"
-    for number in range(count):
-        text = mutated(source)
-        path.write_bytes(text)
-        errors, out = io.StringIO(), io.StringIO()
-        try:
-            with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(out):
-                status = main.main([str(path), str(scratch), "--dry-run", "-q", "-o", str(scratch / "none")], folder, folder.parent / "lib/trax/evaluation")
-            taken += status == 0
-            check(status in (0, 1) and (status == 0 or errors.getvalue().startswith("trax-eval: ")), f"seed {seed}, sweep {number}: {status}, {errors.getvalue()!r}: {text[:300]}")
-        except Exception as error:  # what would be a traceback
-            check(False, f"seed {seed}, sweep {number}: {error!r}: {text[:600]}")
-    check(0 < taken < count, f"{taken} of {count} mutants are sweeps all the same")
+    source = random.Random(seed)
+    for name in ("p.c", "p.patch"):
+        (scratch / name).write_text("")
+    for kind, good in (("sweep", GOOD), ("variants", VARIANTS), ("programs", PROGRAM), ("scenes", SCENE), ("workloads", WORKLOAD)):
+        taken = 0
+        for number in range(count):
+            text, path = mutated(source, good), scratch / f"{kind}-{number}.json"
+            path.write_bytes(text)
+            if kind not in ("sweep", "variants"):
+                path = scratch / "sweep.json"
+                path.write_text(json.dumps(GOOD | {"workloads": ["primary-shadow"], "set": {}, kind: [f"{kind}-{number}.json"]}))
+            errors, out = io.StringIO(), io.StringIO()
+            try:
+                with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(out):
+                    status = main.main([str(path), str(scratch), "--dry-run", "-q", "-o", str(scratch / "none")], folder, folder.parent / "lib/trax/evaluation")
+                taken += status == 0
+                check(status in (0, 1) and (status == 0 or errors.getvalue().startswith("trax-eval: ")), f"seed {seed}, {kind} {number}: {status}, {errors.getvalue()!r}: {text[:300]}")
+            except Exception as error:  # what would be a traceback
+                check(False, f"seed {seed}, {kind} {number}: {error!r}: {text[:600]}")
+        check(0 < taken < count, f"{taken} of {count} mutants of {kind} are taken all the same")
     check(not (scratch / "none").exists(), "--dry-run wrote something")
 
 
@@ -145,13 +158,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--count", type=int, default=60)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch, folder = pathlib.Path(temporary).resolve(), options.bin.resolve()
         test_commands(folder, scratch)
         test_dry_run(folder, scratch)
-        test_sweeps(folder, scratch, options.seed, options.count)
+        test_files(folder, scratch, options.seed, options.count)
     return 1 if failures else 0
 
 
