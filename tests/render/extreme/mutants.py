@@ -28,7 +28,7 @@ MUTANTS = [
     ("length-of-direction", "ray.h", "return bits_float(larger(0x7F000000 - exponent, 0x00800000))",
      "return exponent ? 1.0f : 1.0f", "directions-10^-20"),
     ("stack-dropped", "traverse.h", "entry.enter >= limit", "entry.enter >= 0", "soup"),
-    ("no-offset", "shade.h", "float offset = bound * inverse_length", "float offset = 0 * inverse_length", "grazing-shadows"),
+    ("no-offset", "shade.h", "times(bound * inverse_length, n)", "times(0 * inverse_length, n)", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
     ("exact-bound", "triangle.h", "* 0x1p-17f + 0x1p-38f", "* 0", "tiny-1e16"),
     ("exact-scale", "triangle.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),

@@ -32,10 +32,10 @@ static const struct method {
   const char *program;
   bool plain_boxes; /* not widened */
 } methods[METHODS] = {
-    {"watertight", query_watertight, "query-watertight.elf", false},
-    {"Moeller-Trumbore", query_moller_trumbore, "query-moller-trumbore.elf", false},
-    {"watertight, boxes as they are", query_watertight, "query-watertight.elf", true},
-    {"watertight in binary32", query_watertight, "query-watertight.elf", false},
+    {"watertight", query_watertight, "query-watertight", false},
+    {"Moeller-Trumbore", query_moller_trumbore, "query-moller-trumbore", false},
+    {"watertight, boxes as they are", query_watertight, "query-watertight", true},
+    {"watertight in binary32", query_watertight, "query-watertight", false},
 };
 
 struct row {
@@ -77,7 +77,7 @@ static bool hits_are_exact(const struct prepared *prepared, int m) {
 static struct method method_of(const struct prepared *prepared, int m) {
   struct method method = methods[m];
   if (hits_are_exact(prepared, m))
-    method.trace = query_exact, method.program = "query-exact.elf";
+    method.trace = query_exact, method.program = "query-exact";
   return method;
 }
 
@@ -280,7 +280,8 @@ static uint32_t emulated_rays(const struct prepared *prepared) {
 static void emulate(struct row *row, uint64_t *cycles, const struct prepared *prepared, const struct trax_scene *scene,
                     const struct method *method, const char *directory, const struct query_answer *native) {
   char program[4096];
-  snprintf(program, sizeof program, "%s/%s", directory, method->program);
+  snprintf(program, sizeof program, "%s/%s%s.elf", directory, method->program,
+           scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH ? "-deep" : "");
   struct query_params params = params_for(prepared, scene, method);
   const uint32_t most = emulated_rays(prepared);
   params.count = params.count < most ? params.count : most;
