@@ -1,4 +1,4 @@
-/* Cycles of the runtime's binary64 functions on one TP, warm, the call included; docs/runtime.md has the table.
+/* Cycles of the runtime's binary64 functions on one TP, warm, the call included; docs/results/functions.md has the table.
    accuracy/cost.c is for binary32.
 
      clang --target=trax -O2 tests/numerics/cycles.c -o cycles.elf

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The accuracy of the binary32 functions and what they cost, as docs/accuracy.md has it.
+"""The accuracy of the binary32 functions and what they cost, as docs/results/functions.md has it.
 
     accuracy.py --measure   measures what measured.csv does not have or what has changed (trax-accuracy, half an hour on two cores from
                             nothing), then does what --update does
-    accuracy.py --update    writes the table of docs/accuracy.md from measured.csv, with cycles and bytes measured now (seconds)
+    accuracy.py --update    writes the table of docs/results/functions.md from measured.csv, with cycles and bytes measured now (seconds)
     accuracy.py --check     exit status 1 if the table's errors are not those of measured.csv
 
 Cycles are those of cost.c on one TP with the latencies of the paper, and with caches that hold all. Bytes are those of code and constants
@@ -22,7 +22,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 MEASURED = HERE / "measured.csv"
-PAGE = ROOT / "docs/accuracy.md"
+PAGE = ROOT / "docs/results/functions.md"
 BEGIN, END = "<!-- accuracy.py: begin -->\n", "<!-- accuracy.py: end -->\n"
 
 
@@ -111,14 +111,14 @@ def check():
     table = page[page.index(BEGIN) : page.index(END)]
     missing = [row["function"] for row in measured_rows() if measured_columns(row) not in table]
     if missing or table.count("\n| `") != len(measured_rows()):
-        sys.exit(f"accuracy.py: docs/accuracy.md differs from measured.csv for {' '.join(missing) or 'some functions'}: run accuracy.py --update")
+        sys.exit(f"accuracy.py: docs/results/functions.md differs from measured.csv for {' '.join(missing) or 'some functions'}: run accuracy.py --update")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--measure", action="store_true", help="measure what is missing, then --update")
-    what.add_argument("--update", action="store_true", help="write the table of docs/accuracy.md")
+    what.add_argument("--update", action="store_true", help="write the table of docs/results/functions.md")
     what.add_argument("--check", action="store_true", help="compare the table with measured.csv")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     options = parser.parse_args()

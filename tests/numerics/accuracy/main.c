@@ -1,4 +1,4 @@
-/* trax-accuracy: how accurate the runtime's binary32 functions are; docs/accuracy.md has the results.
+/* trax-accuracy: how accurate the runtime's binary32 functions are; docs/results/functions.md has the results.
 
      trax-accuracy --output FILE [FUNCTION...]   all 2^32 operands, or 2^28 sets of several; rows that FILE already has
    and that still hold are kept, so a run that was stopped goes on where it was trax-accuracy --sample N [FUNCTION...]

@@ -2,7 +2,7 @@
 """What a less precise FPDIV/iSQRT unit costs in accuracy and saves in time, for each special.precision_bits from 1 to 24.
 
     precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.png; some minutes
-    precision.py --page docs/accuracy.md --output DIR     puts the tables and the plot of such a report into the page
+    precision.py --page docs/results/precision.md --output DIR     puts the tables and the plot of such a report into the page
     precision.py --check                         a short run that must end, and end with what holds at every precision
 
 For each precision b: the errors of frsqrt and fdiv themselves (precision-units), of the library's sqrtf and of normalised vectors

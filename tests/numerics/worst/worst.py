@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The greatest errors of the binary64 functions, as docs/runtime.md has them.
+"""The greatest errors of the binary64 functions, as docs/results/functions.md has them.
 
     worst.py --measure [--count N] [--seed N]   searches (math64-worst; a few minutes on two idle cores), starting from the operands in
                                                 found.csv, writes found.csv, then does what --update does
-    worst.py --update                           writes the table of docs/runtime.md from found.csv
+    worst.py --update                           writes the table of docs/results/functions.md from found.csv
     worst.py --check                            exit status 1 if the table is not that of found.csv
 
 test-math64 computes the errors of found.csv again.
@@ -18,7 +18,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 FOUND = HERE / "found.csv"
-PAGE = ROOT / "docs/runtime.md"
+PAGE = ROOT / "docs/results/functions.md"
 BEGIN, END = "<!-- worst.py: begin -->\n", "<!-- worst.py: end -->\n"
 
 
@@ -68,7 +68,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--measure", action="store_true", help="search, then --update")
-    what.add_argument("--update", action="store_true", help="write the table of docs/runtime.md")
+    what.add_argument("--update", action="store_true", help="write the table of docs/results/functions.md")
     what.add_argument("--check", action="store_true", help="compare the table with found.csv")
     parser.add_argument("--count", type=int, default=10_000_000, help="operands of each function (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1)
@@ -80,7 +80,7 @@ def main():
     before, old, after = parts()
     if options.check:
         if old != table():
-            sys.exit("worst.py: docs/runtime.md differs from found.csv: run worst.py --update")
+            sys.exit("worst.py: docs/results/functions.md differs from found.csv: run worst.py --update")
         return
     replace(PAGE, before + BEGIN + table() + END + after)
 
