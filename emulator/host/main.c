@@ -6,6 +6,7 @@
 
 #include "gdb/gdb.h"
 #include "host/options.h"
+#include "host/png.h"
 #include "report/backtrace.h"
 #include "report/watchdog.h"
 #include "trax/output.h"
@@ -63,10 +64,15 @@ static trax_status load(trax_machine *machine, const struct trax_options *option
       status = trax_machine_bind(machine, buffer->name, NULL, buffer->bytes, error);
   }
   for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; ++i) {
+    const struct trax_assignment *dump = &options->assignments[i];
     const uint8_t *bytes;
     uint32_t size;
-    if (options->assignments[i].kind == TRAX_ASSIGN_DUMP)
-      status = trax_machine_read_buffer(machine, options->assignments[i].name, &bytes, &size, error);
+    if (dump->kind != TRAX_ASSIGN_DUMP)
+      continue;
+    status = trax_machine_read_buffer(machine, dump->name, &bytes, &size, error);
+    if (status == TRAX_OK && dump->width && size != (uint64_t)dump->width * dump->height * 4)
+      status = trax_fail(error, "--dump %s: a picture of %ux%u has %llu bytes, and the buffer has %u", dump->name,
+                         dump->width, dump->height, (unsigned long long)dump->width * dump->height * 4, size);
   }
   if (status == TRAX_OK && options->signature)
     status = trax_machine_check_signature(machine, error);
@@ -150,12 +156,15 @@ static trax_status write_post_mortem(const struct trax_post_mortem *post_mortem,
   return trax_output_commit(&output, error);
 }
 
-static trax_status write_dump(trax_machine *machine, const char *symbol, const char *path, trax_error *error) {
+static trax_status write_dump(trax_machine *machine, const struct trax_assignment *dump, trax_error *error) {
   const uint8_t *bytes;
   uint32_t size;
   trax_output output;
-  if (trax_machine_read_buffer(machine, symbol, &bytes, &size, error) != TRAX_OK ||
-      trax_output_open(&output, path, error) != TRAX_OK)
+  if (trax_machine_read_buffer(machine, dump->name, &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (dump->width)
+    return trax_png_write(dump->value, bytes, dump->width, dump->height, error);
+  if (trax_output_open(&output, dump->value, error) != TRAX_OK)
     return TRAX_ERROR;
   fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
   return trax_output_commit(&output, error);
@@ -179,7 +188,7 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
     result = trax_fail(error, "%s", reason.message);
   for (size_t i = 0; finished && i < options->assignment_count; ++i) {
     const struct trax_assignment *dump = &options->assignments[i];
-    if (dump->kind == TRAX_ASSIGN_DUMP && write_dump(machine, dump->name, dump->value, &reason) != TRAX_OK &&
+    if (dump->kind == TRAX_ASSIGN_DUMP && write_dump(machine, dump, &reason) != TRAX_OK &&
         result == TRAX_OK)
       result = trax_fail(error, "%s", reason.message);
   }

@@ -5,9 +5,12 @@
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "host/engines.h"
 #include "trax/output.h"
+
+enum { MOST_PIXELS = 16384 }; /* of a side of a picture */
 
 /* --- values --- */
 
@@ -47,7 +50,28 @@ static trax_status add_assignment(struct trax_options *options, const trax_optio
 ASSIGNMENT_PARSER(parse_set, TRAX_ASSIGN_SET)
 ASSIGNMENT_PARSER(parse_bind, TRAX_ASSIGN_BIND)
 ASSIGNMENT_PARSER(parse_alloc, TRAX_ASSIGN_ALLOC)
-ASSIGNMENT_PARSER(parse_dump, TRAX_ASSIGN_DUMP)
+
+/* SYMBOL=FILE, or SYMBOL=FILE.png:WIDTHxHEIGHT. */
+static trax_status parse_dump(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct trax_assignment dump = {.kind = TRAX_ASSIGN_DUMP};
+  const char *colon = strrchr(value, ':'), *end = colon ? colon : value + strlen(value);
+  if (end - value < 4 || strncasecmp(end - 4, ".png", 4) != 0)
+    return add_assignment(target, option, dump, value, error);
+  char *after = NULL;
+  const unsigned long width = colon && isdigit((unsigned char)colon[1]) ? strtoul(colon + 1, &after, 10) : 0;
+  const bool has_height = after && after[0] == 'x' && isdigit((unsigned char)after[1]);
+  const unsigned long height = has_height ? strtoul(after + 1, &after, 10) : 0;
+  if (width < 1 || width > MOST_PIXELS || height < 1 || height > MOST_PIXELS || *after)
+    return trax_option_refuse(option, value, error, "has no size of the picture: a PNG is SYMBOL=FILE.png:WIDTHxHEIGHT");
+  dump.width = (uint32_t)width;
+  dump.height = (uint32_t)height;
+  char *text = strndup(value, (size_t)(end - value));
+  if (!text)
+    return trax_fail(error, "out of memory");
+  const trax_status status = add_assignment(target, option, dump, text, error);
+  free(text);
+  return status;
+}
 
 static trax_status parse_scene(void *target, const trax_option *option, const char *value, trax_error *error) {
   char *text = malloc(strlen(value) + sizeof "scene=");
@@ -127,7 +151,7 @@ static const trax_option rows[] = {
     {"alloc", .argument = "SYMBOL=BYTES", .parse = parse_alloc,
      .meaning = "fill the program's buffer SYMBOL with zeros"},
     {"dump", .argument = "SYMBOL=FILE", .parse = parse_dump,
-     .meaning = "write the buffer SYMBOL to a file after the run"},
+     .meaning = "write the buffer SYMBOL to a file after the run; FILE.png:WxH: as a picture, 4 bytes a pixel"},
     {"signature", .argument = "FILE", OUTPUT(signature),
      .meaning = "write the words from begin_signature to end_signature, and the fault, after the run"},
     TRAX_OPTION_GROUP("Run"),

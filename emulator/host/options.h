@@ -17,6 +17,7 @@ struct trax_assignment {
   char *name;
   const char *value; /* in name's allocation, after its NUL */
   uint32_t bytes;    /* of --alloc */
+  uint32_t width, height; /* of --dump: a picture of this size; 0: the bytes as they are */
   enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP } kind;
 };
 

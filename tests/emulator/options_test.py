@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import zlib
 
 SIM, PROGRAMS = (os.path.abspath(path) for path in sys.argv[1:])
 failures = 0
@@ -78,7 +79,9 @@ CASES = {
     "alloc": Case(["input=0", "--alloc", "output=4", "--dump", "output=out.txt"], file_holds("out.txt", "\0\0\0\0"), "copy.elf",
                   bad=tuple("input=" + number for number in NUMBERS) + ("input", "=4", "input=4294967296")),
     "dump": Case(["output=out.txt", "--bind", "input=in.bin", "--alloc", "output=16"], file_holds("out.txt", "^0123456789abcdef$"),
-                 "copy.elf", bad=("output", "=x", "output=", "output=none/x", "output=closed", "nothing=x")),
+                 "copy.elf", bad=("output", "=x", "output=", "output=none/x", "output=closed", "nothing=x", "output=x.png", "output=x.png:2",
+                                  "output=x.png:2x", "output=x.png:0x4", "output=x.png:2x2x2", "output=x.PNG:-2x2", "output=x.png:3x2",
+                                  "output=none/x.png:2x2", "output=.png:99999x1")),
     "signature": Case(["out.txt"], file_holds("out.txt", r"^fedcba98\n0000002a\nfault null pc 00001018 address 00000004\n$"),
                       "signature.elf", 1, FILES, "b"),
     "stats": Case(["stats.json"], statistic("status", "finished"), bad=FILES, twice="b"),
@@ -166,6 +169,27 @@ def same_file():
         fail("/dev/null does not take two outputs")
 
 
+def picture():
+    """A PNG has the buffer's bytes but each fourth one, row by row."""
+    status, _, err = run("--bind", "input=in.bin", "--alloc", "output=16", "--dump", "output=out.png:1x4", "copy.elf")
+    if status != 0:
+        return fail("--dump writes no PNG", err)
+    with open("in.bin", "rb") as given, open("out.png", "rb") as file:
+        data, png = given.read(16), file.read()
+    rows = b"".join(b"\0" + data[4 * y:4 * y + 3] for y in range(4))
+    chunks, at = [], 8
+    while at < len(png):
+        size = int.from_bytes(png[at:at + 4], "big")
+        chunks.append((png[at + 4:at + 8], png[at + 8:at + 8 + size]))
+        if zlib.crc32(png[at + 4:at + 8 + size]) != int.from_bytes(png[at + 8 + size:at + 12 + size], "big"):
+            fail("a chunk's checksum is wrong", chunks[-1])
+        at += 12 + size
+    if [name for name, _ in chunks] != [b"IHDR", b"IDAT", b"IEND"] or chunks[0][1] != bytes([0, 0, 0, 1, 0, 0, 0, 4, 8, 2, 0, 0, 0]):
+        fail("the PNG's chunks are wrong", chunks)
+    elif zlib.decompress(chunks[1][1]) != rows:
+        fail("the PNG's pixels are wrong", zlib.decompress(chunks[1][1]))
+
+
 def try_option(name, argument, case):
     words = [f"--{name}", *case.words]
     status, out, err = run(*words, case.program)
@@ -205,6 +229,7 @@ with tempfile.TemporaryDirectory() as directory:
     for name in options.keys() & CASES.keys():
         try_option(name, options[name] or None, CASES[name])
     same_file()
+    picture()
     os.chdir("/")
 print(f"{len(CASES)} options, {failures} failures")
 sys.exit(failures > 0)
