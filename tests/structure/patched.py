@@ -1,4 +1,4 @@
-"""Patches that are kept as tests: what a stranger would add, in as few files as docs/tutorial.md says.
+"""Patches that are kept as tests: what a stranger would add, in as few files as docs/extending.md says.
 
   patched.py SOURCE SCRATCH [COMPILER-LAUNCHER]
 

@@ -1,17 +1,12 @@
 #!/usr/bin/env python3
-"""docs/tutorial.md by doing it: tutorial_test.py SOURCE BUILD [--update] [--whole COPY]
+"""docs/tutorial.md and docs/extending.md by doing them: tutorial_test.py SOURCE BUILD [--update] [--whole COPY]
 
-Files and commands are taken from the page, in its order. Blocks of it, by what stands behind the three backticks:
-
-    c boxes.c (any language and a name)   a file in out/tutorial
-    sh                                    commands of one shell, which begins in the top folder
-    text                                  what the commands before print
-    c of PATH (any language)              a part of that file of the sources
-    sh whole, text whole                  the same as sh and text, with changed sources built anew
+Files and commands are taken from the pages, in their order, as tests/docs/blocks.py says. Files go to out/tutorial, and commands
+begin in the top folder. Blocks of `sh whole` and `text whole` need changed sources built anew.
 
 Without --whole the instruction's patch is applied to a copy of the files that it changes, and of these everything is made that takes no compiler:
-tables, manual, patterns. --whole COPY clones the sources into the folder COPY, builds them, and does all that the page says (some ten minutes).
---update writes into the page what the commands have printed."""
+tables, manual, patterns. --whole COPY clones the sources into the folder COPY, builds them, and does all that the pages say (some ten minutes).
+--update writes into the pages what the commands have printed."""
 
 import argparse
 import os
@@ -23,74 +18,10 @@ import sys
 import tempfile
 import zlib
 
-MARK = "@@@ tutorial block "
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+from blocks import Failure, check_parts, compare, read_blocks, run_commands
 
-
-class Failure(Exception):
-    pass
-
-
-def read_blocks(page):
-    """(information, text, line) of each fenced block."""
-    blocks, inside = [], None
-    for number, line in enumerate(page.splitlines(keepends=True), 1):
-        if inside is None and line.startswith("```"):
-            inside = (line[3:].strip(), [], number)
-        elif inside is not None and line.rstrip("\n") == "```":
-            blocks.append((inside[0], "".join(inside[1]), inside[2]))
-            inside = None
-        elif inside is not None:
-            inside[1].append(line)
-    if inside:
-        raise Failure(f"the block of line {inside[2]} has no end")
-    for words, _, line in blocks:
-        if words.split()[:1] not in (["sh"], ["text"]) and len(words.split()) != 2 and words.split()[1:-1] != ["of"]:
-            raise Failure(f"line {line}: a block of \"{words}\": neither commands, what they print, a file nor a part of one")
-    return blocks
-
-
-def run_commands(blocks, root, whole):
-    """What each block of commands printed, by its line."""
-    folder = root / "out" / "tutorial"
-    folder.mkdir(parents=True, exist_ok=True)
-    script = ["set -e -o pipefail"]
-    for words, text, line in blocks:
-        kind = words.split()
-        if kind[0] == "sh" and (whole or kind[-1] != "whole"):
-            script += [f"echo '{MARK}{line}'", text]
-        elif kind[0] not in ("sh", "text") and len(kind) == 2:
-            (folder / kind[1]).write_text(text)
-    environment = {**os.environ, "LC_ALL": "C"}
-    done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=root, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    printed = {}
-    for part in done.stdout.split(MARK)[1:]:
-        line, _, text = part.partition("\n")
-        printed[int(line)] = text
-    if done.returncode != 0:
-        raise Failure(f"the commands of line {max(printed, default=0)} ended with status {done.returncode}:\n{printed.get(max(printed, default=0), '')[-2000:]}"
-                      f"{done.stderr[-2000:]}")
-    if done.stderr:
-        raise Failure(f"the commands wrote to standard error:\n{done.stderr[-2000:]}")
-    return printed
-
-
-def compare(page, blocks, printed, update):
-    """Blocks of text against what the commands before them printed; the page as it should be."""
-    lines, wrong, compared, shift = page.splitlines(keepends=True), [], 0, 0
-    for (before, _, at), (words, text, line) in zip(blocks, blocks[1:]):
-        if words.split()[0] != "text" or at not in printed:
-            continue
-        if before.split()[0] != "sh":
-            raise Failure(f"line {line}: no commands stand before this text")
-        compared += 1
-        if printed[at] != text:
-            wrong.append(f"line {line}: the page has\n{text}but the commands of line {at} print\n{printed[at]}")
-            start, old, new = line + shift, text.splitlines(keepends=True), printed[at].splitlines(keepends=True)
-            lines[start:start + len(old)] = new
-            shift += len(new) - len(old)
-    if wrong and not update:
-        raise Failure("\n".join(wrong))
-    return "".join(lines), compared
+PAGES = ("docs/tutorial.md", "docs/extending.md")
 
 
 def same_picture(folder, source):
@@ -114,11 +45,12 @@ def run(*command, **options):
     return done.stdout
 
 
-def check_parts(blocks, source):
-    """What the page shows of files is in them."""
-    for words, text, line in blocks:
-        if words.split()[1:-1] == ["of"] and text not in (source / words.split()[2]).read_text():
-            raise Failure(f"line {line}: this is no part of {words.split()[2]}")
+def check_figure(source, text):
+    """The figure's cycles are those of the pages."""
+    figures = re.findall(r">(\d[\d,]+)</text>", (source / "docs/tutorial.svg").read_text())
+    wrong = [figure for figure in figures if not re.search(rf"\b{figure.replace(',', '')}\b", text)]
+    if wrong or len(figures) < 4:
+        raise Failure(f"docs/tutorial.svg has {' '.join(wrong) or 'too few figures'}, which the pages do not print")
 
 
 def check_changes(source, build, scratch):
@@ -172,10 +104,11 @@ def main():
     parser.add_argument("--whole", type=pathlib.Path, metavar="COPY")
     options = parser.parse_args()
     source, build = options.source.resolve(), options.build.resolve()
-    path = source / "docs" / "tutorial.md"
     try:
-        page = path.read_text()
-        blocks = read_blocks(page)
+        texts = [(source / name).read_text() for name in PAGES]
+        lines = [text.count("\n") for text in texts]
+        blocks = [read_blocks(text) for text in texts]
+        every = blocks[0] + [(words, text, line + lines[0]) for words, text, line in blocks[1]]
         with tempfile.TemporaryDirectory() as folder:
             scratch = pathlib.Path(folder)
             if options.whole:
@@ -192,17 +125,22 @@ def main():
                 root.mkdir()
                 (root / "build").symlink_to(build)
                 (root / "raytracer").symlink_to(source / "raytracer")
-            printed = run_commands(blocks, root, bool(options.whole))
+            printed, errors = run_commands(every, root, root / "out/tutorial", ("sh", "whole") if options.whole else ("sh",))
+            if errors:
+                raise Failure(f"the commands wrote to standard error:\n{errors[-2000:]}")
             if options.update:
                 shutil.copy(root / "out/tutorial/boxes.png", source / "docs" / "tutorial.png")
-            new, compared = compare(page, blocks, printed, options.update)
+            new, compared = compare("".join(texts), every, printed, options.update)
             same_picture(root / "out" / "tutorial", source)
-            check_parts(blocks, source)
+            check_parts(every, source)
+            check_figure(source, new)
             check_changes(source, build, scratch)
             if options.update:
-                path.write_text(new)
+                at = new.index(texts[1].split("\n")[0] + "\n")
+                for name, text in zip(PAGES, (new[:at], new[at:])):
+                    (source / name).write_text(text)
     except Failure as failure:
-        print(f"docs/tutorial.md: {failure}", file=sys.stderr)
+        print(f"{' and '.join(PAGES)} (lines go on from one to the next): {failure}", file=sys.stderr)
         return 1
     print(f"{len(printed)} blocks of commands, {compared} texts compared")
     return 0 if compared >= 5 else 1
