@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PARTS = ["CMakeLists.txt", "cmake", "docs", "emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "LICENSE", "README.md"]
+PARTS = ["CMakeLists.txt", "VERSION", "cmake", "docs", "emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "LICENSE", "README.md"]
 TARGETS = ["timing-engines-test", "timing-rollback-test", "timing-units-page", "emulator-programs", "trax-sim"]
 
 ADDED = "added-fields.txt"  # in SCRATCH: the names of the structures

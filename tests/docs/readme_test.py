@@ -1,0 +1,118 @@
+"""README's figures and picture are those of this build: readme_test.py SOURCE BIN [--update]
+
+The forest is made by the program itself, so its row and its picture are rendered again, and must be the same to the digit and the
+pixel. With TRAX_SCENES=DIR the rows of the other scenes are, too. --update writes rows and picture; its right half, what each pixel
+cost, takes a minute of a core."""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import zlib
+
+SCENES = {"conference": ("conference.ply.xz", "conference"), "crytek-sponza": ("crytek-sponza.ply.xz", "crytek-sponza"),
+          "dragon": ("dragon.ply.xz dragon_box.obj", "dragon"), "sibenik": ("sibenik.ply.xz", "sibenik"), "forest": ("generate:forest", "forest")}
+PICTURE, SIZE, GAP = "docs/forest.png", "400x225", 8
+
+
+def unfilter(line, before, how):
+    """A row of RGB pixels of a PNG as it was before filter `how`."""
+    line = bytearray(line)
+    for i in range(len(line)):
+        left, up, corner = (line[i - 3] if i >= 3 else 0), before[i], (before[i - 3] if i >= 3 else 0)
+        guess = left + up - corner
+        paeth = min((left, up, corner), key=lambda value: abs(guess - value))
+        line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[how]) & 255
+    return line
+
+
+def read_png(path):
+    """Rows of RGB pixels."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, name = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
+        if name == b"IHDR":
+            width, kind = int.from_bytes(data[at + 8:at + 12], "big"), tuple(data[at + 16:at + 18])
+        packed += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
+        at += 12 + size
+    if kind != (8, 2):
+        sys.exit(f"{path}: no PNG of 8 bits RGB")
+    raw, rows, length = zlib.decompress(packed), [], 3 * width + 1
+    for y in range(len(raw) // length):
+        rows.append(unfilter(raw[y * length + 1:(y + 1) * length], rows[-1] if rows else bytes(3 * width), raw[y * length]))
+    return [bytes(row) for row in rows]
+
+
+def write_png(path, rows):
+    def chunk(name, content):
+        return len(content).to_bytes(4, "big") + name + content + zlib.crc32(name + content).to_bytes(4, "big")
+    lines, before = b"", bytes(len(rows[0]))
+    for row in rows:
+        filtered = (row, bytes((row[i] - (row[i - 3] if i >= 3 else 0)) & 255 for i in range(len(row))),
+                    bytes((a - b) & 255 for a, b in zip(row, before)))
+        how = min(range(3), key=lambda i: sum(min(value, 256 - value) for value in filtered[i]))
+        lines += bytes([how]) + filtered[how]
+        before = row
+    header = (len(rows[0]) // 3).to_bytes(4, "big") + len(rows).to_bytes(4, "big") + bytes([8, 2, 0, 0, 0])
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
+
+
+def digits(value):
+    return f"{value:,.0f}" if value >= 999.5 else f"{value:#.3g}".rstrip(".")
+
+
+def row(scene, statistics, old):
+    """The row of README for a scene's statistics; name and the paper's figure are from the old one."""
+    cells = old.strip("|\n ").split(" | ")
+    rays, paper = statistics["rays"], cells[4]
+    deviation = "-" if paper == "-" else f"{statistics['mrps'] / float(paper) * 100 - 100:+.1f} %"
+    return "| " + " | ".join([cells[0], f"{statistics['cycles']:,}", f"{rays:,}", digits(statistics["mrps"]), paper, deviation,
+                              digits(statistics["flops"] / rays), digits(statistics["memory"]["bytes"] / rays),
+                              digits(statistics["memory"]["bandwidth_gbps"])]) + " |\n"
+
+
+def main():
+    source, binaries, update = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), "--update" in sys.argv
+    page = source / "README.md"
+    text, wrong, folder_of_scenes = page.read_text(), [], os.environ.get("TRAX_SCENES")
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+
+        def render(meshes, view, size, *words):
+            subprocess.run([binaries / "trax-render", *meshes, "--view", view, "--config", "4x32", "--size", size, "--quiet", "-o", folder / "picture.png",
+                            "--stats", folder / "stats.json", *words], check=True, stdout=subprocess.DEVNULL)
+            return json.loads((folder / "stats.json").read_text())
+
+        for scene, (files, view) in SCENES.items():
+            if scene != "forest" and not folder_of_scenes:
+                continue
+            meshes = [file if ":" in file else pathlib.Path(folder_of_scenes) / file for file in files.split()]
+            old = re.search(rf"^\| {scene}\b.*\n", text, re.M)[0]
+            new = row(scene, render(meshes, view, "320x180"), old)
+            if new != old:
+                wrong.append(f"README.md has\n{old}and this build's figures are\n{new}")
+                text = text.replace(old, new)
+        cost = ["--cost-picture", folder / "cost.png"] if update else []
+        cycles = render(["generate:forest"], "forest", SIZE, *cost)["cycles"]
+        said = f"128 threads: {cycles / 1e6:.1f} million cycles"
+        if said not in text:
+            wrong.append(f"README.md does not say: {said}")
+            text = re.sub(r"128 threads: [\d.]+ million cycles", said, text)
+        left = read_png(folder / "picture.png")
+        if update:
+            write_png(source / PICTURE, [a + b"\xff" * (3 * GAP) + b for a, b in zip(left, read_png(folder / "cost.png"))])
+            page.write_text(text)
+            return 0
+        both = read_png(source / PICTURE)
+        if len(both) != len(left) or any(b[:len(a)] != a or len(b) != 2 * len(a) + 3 * GAP for a, b in zip(left, both)):
+            wrong.append(f"{PICTURE}: its left half is not what the program renders")
+    for fault in wrong:
+        print(fault)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
