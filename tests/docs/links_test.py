@@ -19,8 +19,7 @@ from blocks import kind, pages, read_blocks
 
 LINES = 260
 PICTURE = 300_000  # bytes of a PNG
-GENERATED = {"isa.md": "the manual", "isa-coverage.md": "the suite's cases", "timing-rules.md": "the rules of time", "trax-sim.md": "lists of options",
-             "evaluation.md": "its results move to results/"}
+GENERATED = {"isa.md": "the manual", "isa-coverage.md": "the suite's cases", "timing-rules.md": "the rules of time", "trax-sim.md": "lists of options"}
 LINK = re.compile(r"!?\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 QUOTED = re.compile(r"\]\(([^)\s#]+\.md)\)(?:,\s+|,? section )((?:\"[^\"]+\"(?:,? and |, )?)+)")
 IN_SOURCES = re.compile(r"\bdocs/([\w/-]+\.md)\b(?:,[\s/*#]*\"([^\"]+)\")?")

@@ -78,7 +78,7 @@ def gain_table(results):
                      share(group.of("utilisation")), *(figure(group.of(name)) for name in ("mrps", "bytes_per_ray", "energy_per_ray"))])
     return Table("rays-gain", "What MIMD gains as rays lose coherence", columns, rows,
                  "The most coherent rays first; means of the scenes. Each kind is shown of the first workload that has it; the table of all is below. Lanes in use: the share of a SIMD machine's lanes that the same "
-                 "rays use, in full warps of one kind and generation, with memory that takes no time (docs/emulator.md, --lockstep-rays). MIMD over lanes: 1 over that share, how many times the work a thread of "
+                 "rays use, in full warps of one kind and generation, with memory that takes no time (docs/explaining.md, --lockstep-rays). MIMD over lanes: 1 over that share, how many times the work a thread of "
                  "its own for each lane does, if divergence is all that is lost. MIMD issues: the share of the kind's thread-cycles in which an instruction issues here, with all waits for caches, units and memory.")
 
 

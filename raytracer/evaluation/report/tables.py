@@ -142,7 +142,7 @@ def of_the_text(results, paper):
         for title, value, name in (
             ("dragon on 4x32 against MRTP scaled to 500 MHz, times", ratio(results.figure("mrps", program, dragon, "4x32"), published_at("mrtp_mrps_scaled")), "mrtp_speedup"),
             ("dragon on 4x32, frames of 1280x720 per second", run.frames_per_second() if run else None, "frames_per_second"),
-            ("power of 4x32, W, mean of the scenes (a lower bound: docs/emulator.md, Energy)", results.mean_of_papers("energy.average_power", program, "4x32"), "power_4x32_w"),
+            ("power of 4x32, W, mean of the scenes (a lower bound: docs/statistics.md, Energy)", results.mean_of_papers("energy.average_power", program, "4x32"), "power_4x32_w"),
             ("adds and multiplies per ray, mean of the scenes", results.mean_of_papers("values.flops_per_ray", program, "4x32"), "flops_per_ray"),
         ):
             rows.append([words(program), words(title), published(published_at(name)), compared(value, published_at(name))])

@@ -74,7 +74,7 @@ def values_of(result, areas):
     return values | values_of_rays(result, statistics)
 
 
-# Causes of docs/emulator.md by what is behind them.
+# Causes of docs/trax-sim.md by what is behind them.
 STALLS = {
     "fetch": ("icache_bank_conflict", "icache_miss"),
     "memory": ("wait_memory", "memory_queue_full"),
