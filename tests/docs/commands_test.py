@@ -88,8 +88,8 @@ def help_of(program):
     text = done.stdout + done.stderr
     if set(re.findall(r"--[a-z][\w-]*", text)) - {"--help"}:
         return text
-    words = re.findall(rb"\0(?:--)?([a-z][a-z-]+)(?=\0)", program.read_bytes())  # a test's program without help: its strings
-    return " ".join(f"--{word.decode()}" for word in words)
+    words = re.findall(rb"([a-z][a-z-]+)(?=\0)", program.read_bytes())  # a test's program without help: its strings, and their ends
+    return " ".join(f"--{word[at:].decode()}" for word in set(words) if len(word) < 40 for at in range(len(word) - 2))
 
 
 class Commands:
