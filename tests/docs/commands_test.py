@@ -8,6 +8,7 @@ what the commands print. tests/tutorial does the tutorial's two pages."""
 
 import functools
 import json
+import lzma
 import math
 import pathlib
 import re
@@ -16,8 +17,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-
-import lzma
 
 from blocks import Failure, check_parts, compare, kind, pages, read_blocks, run_commands
 
