@@ -34,6 +34,7 @@ test_packages=(
   gnuplot-nox                                                             # the evaluation's figures
   parallel chromium                                                       # runs handed to GNU parallel; the evaluation's page in a browser
   slurmctld slurmd slurm-client                                           # the same by Slurm; its services do nothing without a configuration
+  clangd-19 clang-tidy-19 meson                                           # recipes of docs/compiler.md
   csmith libcsmith-dev 'lib32gcc-12-dev|lib32gcc-14-dev' libc6-dev-i386   # random programs, and a host of 32 bits
   qemu-user lld-19 'gcc-12-source|gcc-14-source' gcc-multilib libclang-rt-19-dev  # longer checks: code quality, gcc's torture, fuzzers
 )

@@ -42,8 +42,12 @@ def TraxAsmWriter : AsmWriter {
 def FeatureGlobalStack
     : SubtargetFeature<"global-stack", "HasGlobalStack", "true", "The stack is in global memory">;
 
+// -ffixed-rN.
+foreach i = 4-31 in
+  def FeatureReserveR#i
+      : SubtargetFeature<"reserve-r"#i, "ReservedRegisters["#i#"]", "true", "Generated code does not use r"#i>;
+
 def : ProcessorModel<"generic", TraxModel, []>;
-def : ProcessorModel<"trax", TraxModel, []>;
 
 def Trax : Target {
   let InstructionSet = TraxInstrInfo;

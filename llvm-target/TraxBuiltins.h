@@ -7,7 +7,9 @@
 #ifndef TRAX_TRAXBUILTINS_H
 #define TRAX_TRAXBUILTINS_H
 
+#include "llvm/ADT/SmallVector.h"
 #include "llvm/ADT/StringRef.h"
+#include "llvm/CodeGenTypes/MachineValueType.h"
 #include "llvm/IR/PassManager.h"
 #include <optional>
 
@@ -18,11 +20,20 @@ class Module;
 
 namespace TraxBuiltin {
 
-enum ID { Rsqrt, Rdsr, Trap, Halt, Ainc, Lwnt };
+enum ID {
+#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES) ID,
+#include "TraxBuiltins.def"
+};
 
-/// The builtin that a function of this name stands for: __builtin_trax_x, or __trax_x as clang calls the library
-/// function behind the builtin __builtin___trax_x.
+/// The builtin that a function of this name stands for.
 std::optional<ID> find(StringRef Name);
+
+/// The types of its result, if it has one, and of its arguments, as the code generator sees them.
+struct Signature {
+  SmallVector<MVT, 1> Results;
+  SmallVector<MVT, 2> Arguments;
+};
+Signature signature(ID Builtin);
 
 } // namespace TraxBuiltin
 

@@ -1,5 +1,6 @@
 //===- TraxCallLowering.cpp - Arguments, results and calls ---------------===//
 #include "Trax.h"
+#include "MCTargetDesc/TraxInstPrinter.h"
 #include "TraxBuiltins.h"
 #include "TraxISelLowering.h"
 #include "TraxMachineFunctionInfo.h"
@@ -17,6 +18,14 @@ using namespace llvm;
 static void unsupported(SelectionDAG &DAG, const SDLoc &DL, const Twine &What) {
   const Function &F = DAG.getMachineFunction().getFunction();
   DAG.getContext()->diagnose(DiagnosticInfoUnsupported(F, What, DL.getDebugLoc()));
+}
+
+/// Arguments and results go where the ABI says: a register of -ffixed-rN is none of them.
+static void checkReserved(ArrayRef<CCValAssign> Locations, const SDLoc &DL, SelectionDAG &DAG) {
+  for (const CCValAssign &VA : Locations)
+    if (VA.isRegLoc() && DAG.getSubtarget<TraxSubtarget>().isReserved(VA.getLocReg()))
+      unsupported(DAG, DL, Twine(TraxInstPrinter::getRegisterName(VA.getLocReg())) +
+                               " is needed for an argument or a result, and -ffixed-rN keeps it free");
 }
 
 static void checkCallingConv(CallingConv::ID CC, const SDLoc &DL, SelectionDAG &DAG) {
@@ -37,6 +46,7 @@ SDValue TraxTargetLowering::LowerFormalArguments(SDValue Chain, CallingConv::ID 
   SmallVector<CCValAssign, 16> Locations;
   CCState Info(CC, IsVarArg, MF, Locations, *DAG.getContext());
   Info.AnalyzeFormalArguments(Ins, CC_Trax);
+  checkReserved(Locations, DL, DAG);
 
   for (const auto &[VA, In] : zip_equal(Locations, Ins)) {
     if (VA.isRegLoc()) {
@@ -73,6 +83,7 @@ SDValue TraxTargetLowering::LowerReturn(SDValue Chain, CallingConv::ID CC, bool 
   SmallVector<CCValAssign, 4> Locations;
   CCState Info(CC, IsVarArg, DAG.getMachineFunction(), Locations, *DAG.getContext());
   Info.AnalyzeReturn(Outs, RetCC_Trax);
+  checkReserved(Locations, DL, DAG);
 
   SDValue Glue;
   SmallVector<SDValue, 6> Operands(1, Chain);
@@ -203,7 +214,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
       continue;
     unsigned Size = Out.Flags.getByValSize();
     if (Size > TRAX_LOCAL_SIZE && !Subtarget.hasGlobalStack()) {
-      unsupported(DAG, DL, "an argument of " + Twine(Size) + " bytes does not fit the local memory");
+      unsupported(DAG, DL, "an argument of " + Twine(Size) + " bytes does not fit the local memory; -mstack=global has room for it");
       Out.Flags.setByValSize(4);
       Size = 4;
     }
@@ -221,6 +232,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
   SmallVector<CCValAssign, 16> Locations;
   CCState Info(CLI.CallConv, CLI.IsVarArg, MF, Locations, *DAG.getContext());
   assignArguments(Info, Outs);
+  checkReserved(Locations, DL, DAG);
   if (CLI.IsTailCall)
     CLI.IsTailCall = !CopiesToFrame && isTailCallPossible(CLI, Info);
   if (!CLI.IsTailCall && CLI.CB && CLI.CB->isMustTailCall())
@@ -287,6 +299,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
   SmallVector<CCValAssign, 4> Results;
   CCState ResultInfo(CLI.CallConv, CLI.IsVarArg, MF, Results, *DAG.getContext());
   ResultInfo.AnalyzeCallResult(CLI.Ins, RetCC_Trax);
+  checkReserved(Results, DL, DAG);
   for (const CCValAssign &VA : Results) {
     SDValue Result = DAG.getCopyFromReg(Chain, DL, VA.getLocReg(), VA.getLocVT(), Glue);
     Chain = Result.getValue(1);
@@ -308,11 +321,13 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
     return SDValue();
 
   // A function of that name but of another type is somebody's own.
-  auto Has = [&](ArrayRef<MVT> Arguments, ArrayRef<MVT> Results) {
-    return CLI.Outs.size() == Arguments.size() && CLI.Ins.size() == Results.size() &&
-           all_of(zip(CLI.Outs, Arguments), [](auto P) { return std::get<0>(P).VT == std::get<1>(P); }) &&
-           all_of(zip(CLI.Ins, Results), [](auto P) { return std::get<0>(P).VT == std::get<1>(P); });
+  const TraxBuiltin::Signature Signature = TraxBuiltin::signature(*Builtin);
+  auto HasTypes = [](const auto &Values, ArrayRef<MVT> Types) {
+    return Values.size() == Types.size() &&
+           all_of(zip(Values, Types), [](auto P) { return std::get<0>(P).VT == std::get<1>(P); });
   };
+  if (!HasTypes(CLI.Outs, Signature.Arguments) || !HasTypes(CLI.Ins, Signature.Results))
+    return SDValue();
   SelectionDAG &DAG = CLI.DAG;
   const SDLoc &DL = CLI.DL;
   SDVTList WordAndChain = DAG.getVTList(MVT::i32, MVT::Other);
@@ -323,22 +338,12 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
     unsupported(DAG, DL, What + " must be a constant below " + Twine(Count));
     return std::nullopt;
   };
-  auto AccessWord = [&](MachineMemOperand::Flags Flags) {
-    const Value *Pointer = CLI.CB ? CLI.CB->getArgOperand(0) : nullptr;
-    return DAG.getMachineFunction().getMachineMemOperand(Pointer ? MachinePointerInfo(Pointer) : MachinePointerInfo(),
-                                                         Flags, 4, Align(4));
-  };
-
   SDValue Chain = CLI.Chain;
   switch (*Builtin) {
   case TraxBuiltin::Rsqrt:
-    if (!Has({MVT::f32}, {MVT::f32}))
-      return SDValue();
     InVals.push_back(DAG.getNode(TraxISD::RSQRT, DL, MVT::f32, CLI.OutVals[0]));
     break;
   case TraxBuiltin::Rdsr: {
-    if (!Has({MVT::i32}, {MVT::i32}))
-      return SDValue();
     SDValue Number = DAG.getTargetConstant(Constant(0, TRAX_SR_COUNT, "special register").value_or(0), DL, MVT::i32);
     if (Number->getAsZExtVal() <= TRAX_SR_THREADS) {
       InVals.push_back(DAG.getNode(TraxISD::RDSR_CONST, DL, MVT::i32, Number));
@@ -350,28 +355,22 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
     break;
   }
   case TraxBuiltin::Trap: {
-    if (!Has({MVT::i32, MVT::i32}, {}))
-      return SDValue();
     SDValue Code = DAG.getTargetConstant(Constant(1, TRAX_TRAP_COUNT, "trap code").value_or(0), DL, MVT::i32);
     Chain = DAG.getNode(TraxISD::TRAP, DL, MVT::Other, Chain, CLI.OutVals[0], Code);
     break;
   }
   case TraxBuiltin::Halt:
-    if (!Has({}, {}))
-      return SDValue();
     Chain = DAG.getNode(TraxISD::HALT, DL, MVT::Other, Chain);
     break;
-  case TraxBuiltin::Ainc:
-  case TraxBuiltin::Lwnt: {
-    if (!Has({MVT::i32}, {MVT::i32}))
-      return SDValue();
-    bool IsIncrement = *Builtin == TraxBuiltin::Ainc;
-    auto Flags = MachineMemOperand::MOVolatile | MachineMemOperand::MOLoad;
-    SDValue Load =
-        DAG.getMemIntrinsicNode(IsIncrement ? TraxISD::AINC : TraxISD::LWNT, DL, WordAndChain, {Chain, CLI.OutVals[0]},
-                                MVT::i32, AccessWord(IsIncrement ? Flags | MachineMemOperand::MOStore : Flags));
-    InVals.push_back(Load);
-    Chain = Load.getValue(1);
+  case TraxBuiltin::Ainc: {
+    const Value *Pointer = CLI.CB ? CLI.CB->getArgOperand(0) : nullptr;
+    MachineMemOperand *Word = DAG.getMachineFunction().getMachineMemOperand(
+        Pointer ? MachinePointerInfo(Pointer) : MachinePointerInfo(),
+        MachineMemOperand::MOVolatile | MachineMemOperand::MOLoad | MachineMemOperand::MOStore, 4, Align(4));
+    SDValue Old =
+        DAG.getMemIntrinsicNode(TraxISD::AINC, DL, WordAndChain, {Chain, CLI.OutVals[0]}, MVT::i32, Word);
+    InVals.push_back(Old);
+    Chain = Old.getValue(1);
     break;
   }
   }

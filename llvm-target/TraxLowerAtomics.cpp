@@ -13,6 +13,7 @@
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
+#include "TraxBuiltins.h"
 #include "TraxSubtarget.h"
 #include "TraxTargetMachine.h"
 #include "llvm/ADT/STLExtras.h"
@@ -122,7 +123,7 @@ static bool isOnlyCounted(const Value &Pointer) {
     if (const auto *Call = dyn_cast<CallBase>(Where)) {
       const Function *Callee = Call->getCalledFunction();
       return isa<MemIntrinsic>(Call) || Call->isLifetimeStartOrEnd() ||
-             (Callee && Callee->getName() == "__builtin_trax_ainc");
+             (Callee && TraxBuiltin::find(Callee->getName()) == TraxBuiltin::Ainc);
     }
     const auto *Derived = dyn_cast<Operator>(Where);
     return Derived && (isa<GEPOperator>(Derived) || isa<BitCastOperator>(Derived)) && isOnlyCounted(*Derived);

@@ -34,6 +34,9 @@ BitVector TraxRegisterInfo::getReservedRegs(const MachineFunction &MF) const {
   BitVector Reserved(getNumRegs());
   markSuperRegs(Reserved, Trax::R0);
   markSuperRegs(Reserved, Trax::R2);
+  for (MCPhysReg Register : Trax::GPRRegClass)
+    if (MF.getSubtarget<TraxSubtarget>().isReserved(Register))
+      markSuperRegs(Reserved, Register);
   if (TFL.hasFP(MF))
     markSuperRegs(Reserved, Trax::R3);
   if (TFL.hasBP(MF))

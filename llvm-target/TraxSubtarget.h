@@ -8,6 +8,7 @@
 #include "TraxRegisterInfo.h"
 #include "llvm/CodeGen/SelectionDAGTargetInfo.h"
 #include "llvm/CodeGen/TargetSubtargetInfo.h"
+#include <bitset>
 
 #define GET_SUBTARGETINFO_HEADER
 #include "TraxGenSubtargetInfo.inc"
@@ -22,6 +23,7 @@ class TraxSubtarget : public TraxGenSubtargetInfo {
   TraxTargetLowering TLInfo;
   SelectionDAGTargetInfo TSInfo;
   bool HasGlobalStack = false;
+  std::bitset<32> ReservedRegisters;
 
 public:
   TraxSubtarget(const Triple &TT, const std::string &CPU, const std::string &FS, const TraxTargetMachine &TM);
@@ -37,6 +39,9 @@ public:
 
   /// Whether automatic objects are in global memory, where other threads can reach them.
   bool hasGlobalStack() const { return HasGlobalStack; }
+
+  /// -ffixed-rN: whether the program keeps the register for itself.
+  bool isReserved(MCRegister Register) const { return ReservedRegisters[InstrInfo.getRegisterInfo().getEncodingValue(Register)]; }
 
   bool enableMachineScheduler() const override { return true; }
   bool enableSpillageCopyElimination() const override { return true; }

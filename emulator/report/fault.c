@@ -67,10 +67,10 @@ static void print_access(const trax_machine *machine, const struct trax_fault *f
   const uint32_t stack = host ? host->stack_bytes : 0;
   const uint64_t top = machine->space.size - fault->thread * ((uint64_t)stack + TRAX_STACK_GUARD);
   if (fault->kind == TRAX_FAULT_STACK_OVERFLOW && stack)
-    fprintf(out, "; the thread's stack is 0x%08" PRIx64 " to 0x%08" PRIx64 ", %u bytes, sp is 0x%08x", top - stack,
+    fprintf(out, "; the thread's stack is 0x%08" PRIx64 " to 0x%08" PRIx64 ", %u bytes, sp is 0x%08x; -mstack-size= makes it larger", top - stack,
             top - 1, stack, fault->registers[SP]);
   else if (fault->kind == TRAX_FAULT_STACK_OVERFLOW)
-    fprintf(out, "; local memory is 0x%08x to 0xffffffff, %u bytes, sp is 0x%08x", TRAX_LOCAL_BASE, TRAX_LOCAL_SIZE,
+    fprintf(out, "; local memory is 0x%08x to 0xffffffff, %u bytes, sp is 0x%08x; -mstack=global has more room", TRAX_LOCAL_BASE, TRAX_LOCAL_SIZE,
             fault->registers[SP]);
   fprintf(out, "\n");
 }

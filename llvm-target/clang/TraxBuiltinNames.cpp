@@ -20,7 +20,7 @@ using namespace clang;
 namespace {
 
 const char *const Names[] = {
-#define BUILTIN(NAME, TYPE, ATTRIBUTES) #NAME,
+#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES) "__builtin_trax_" #NAME,
 #include "TraxBuiltins.def"
 };
 

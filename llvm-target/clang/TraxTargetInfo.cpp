@@ -36,7 +36,8 @@ const TargetInfo::GCCRegAlias RegisterAliases[] = {TRAX_REGISTERS(NAME)};
 
 // Attribute letters as in clang/Basic/Builtins.def: n nothrow, c const, r noreturn, F a call of a library function.
 const Builtin::Info Builtins[] = {
-#define BUILTIN(NAME, TYPE, ATTRIBUTES) {#NAME, TYPE, ATTRIBUTES "F", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
+#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES)                                                                            \
+  {"__builtin_trax_" #NAME, TYPE, ATTRIBUTES "F", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 #include "TraxBuiltins.def"
 };
 
@@ -105,7 +106,11 @@ public:
   bool isValidCPUName(StringRef Name) const override { return Name == "generic"; }
   void fillValidCPUList(SmallVectorImpl<StringRef> &Values) const override { Values.push_back("generic"); }
   bool setCPU(const std::string &Name) override { return isValidCPUName(Name); }
-  bool isValidFeatureName(StringRef Name) const override { return Name == "global-stack"; }
+  bool isValidFeatureName(StringRef Name) const override {
+    unsigned Register;
+    return Name == "global-stack" ||
+           (Name.consume_front("reserve-r") && !Name.getAsInteger(10, Register) && Register >= 4 && Register < 32);
+  }
   bool hasFeature(StringRef Name) const override { return Name == "global-stack" && HasGlobalStack; }
   bool handleTargetFeatures(std::vector<std::string> &Features, DiagnosticsEngine &) override {
     HasGlobalStack = llvm::is_contained(Features, "+global-stack");

@@ -115,6 +115,8 @@ public:
     ArgStringList Out{"-o", Output.getFilename()};
     if (!Relocatable)
       Out.push_back("--gc-sections");
+    if (Args.hasArg(OPT_Z_Xlinker__no_demangle)) // what clang makes of -Wl,--no-demangle
+      Out.push_back("--no-demangle");
     if (!NoStartFile)
       Out.push_back(findFile(C, TC, GlobalStack ? "crt0-global-stack.o" : "crt0.o"));
     if (GlobalStack)

@@ -63,6 +63,7 @@ typedef struct ld_output ld_output;
 void *ld_alloc(ld_context *ctx, size_t size); /* zeroed, aligned to 16; the link ends if memory is exhausted */
 void *ld_alloc_array(ld_context *ctx, size_t count, size_t size);
 char *ld_format(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
+const char *ld_demangle(ld_context *ctx, const char *text); /* text with the names of C++ in it as people write them */
 void *ld_grow(ld_context *ctx, void *items, size_t count, size_t *capacity, size_t size);
 void ld_free_all(ld_context *ctx);
 
@@ -139,6 +140,7 @@ typedef struct ld_options {
   bool gc_sections, print_gc_sections, print_memory_usage, print_stack;
   bool relocatable; /* -r */
   bool strip_all, strip_debug;
+  bool no_demangle;
   bool fatal_warnings, no_warnings, trace;
   bool help, version, version_only; /* asked for; version_only: and nothing else */
 } ld_options;

@@ -45,7 +45,7 @@ static bool run(ld_context *ctx, int argc, char **argv) {
   if (ok && ctx->options.help)
     ld_print_help(stdout);
   if (ok && ctx->options.version)
-    puts("trax-ld " TRAX_VERSION);
+    puts("trax-ld " TRAX_VERSION " (compatible with GNU linkers)"); /* Meson and libtool look for "GNU" */
   if (ok && !ctx->options.help && !ctx->options.version_only && ctx->options.inputs.count) {
     ok = link_program(ctx);
     if (ok && ctx->options.print_memory_usage)

@@ -131,7 +131,7 @@ bool ld_write_map(ld_context *ctx) {
   print_image(ctx, out);
   print_absolute(ctx, out);
   if (ctx->stack_report)
-    fprintf(out, "\n%s", ctx->stack_report);
+    fprintf(out, "\n%s", ld_demangle(ctx, ctx->stack_report));
   fclose(out);
   const bool ok = ld_write_file(ctx, path, text, size, false);
   free(text);

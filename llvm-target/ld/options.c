@@ -15,6 +15,8 @@ typedef enum option_id {
   OPT_DEFSYM,
   OPT_ENTRY,
   OPT_ERROR_LIMIT,
+  OPT_DEMANGLE,
+  OPT_NO_DEMANGLE,
   OPT_FATAL_WARNINGS,
   OPT_GC,
   OPT_HELP,
@@ -108,6 +110,8 @@ static const option option_table[] = {
     {"trace", NONE, OPT_TRACE, NULL, NULL},
     {"verbose", NONE, OPT_TRACE, NULL, NULL},
     {"error-limit", VALUE, OPT_ERROR_LIMIT, "N", "show at most N errors (default 20; 0: all)"},
+    {"demangle", NONE, OPT_DEMANGLE, NULL, NULL},
+    {"no-demangle", NONE, OPT_NO_DEMANGLE, NULL, "print names of C++ as they stand in the files"},
     {"fatal-warnings", NONE, OPT_FATAL_WARNINGS, NULL, "warnings are errors"},
     {"no-fatal-warnings", NONE, OPT_NO_FATAL_WARNINGS, NULL, NULL},
     {"w", NONE, OPT_NO_WARNINGS, NULL, "no warnings"},
@@ -127,6 +131,8 @@ static const option option_table[] = {
     {"Bstatic", NONE, OPT_ACCEPTED, NULL, NULL},
     {"no-pie", NONE, OPT_ACCEPTED, NULL, NULL},
     {"no-undefined", NONE, OPT_ACCEPTED, NULL, NULL},
+    {"allow-shlib-undefined", NONE, OPT_ACCEPTED, NULL, NULL},
+    {"no-allow-shlib-undefined", NONE, OPT_ACCEPTED, NULL, NULL},
     {"nostdlib", NONE, OPT_ACCEPTED, NULL, NULL},
     {"X", NONE, OPT_ACCEPTED, NULL, NULL},
     {"discard-locals", NONE, OPT_ACCEPTED, NULL, NULL},
@@ -307,6 +313,10 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
     break;
   case OPT_ENTRY:
     options->entry = value;
+    break;
+  case OPT_DEMANGLE:
+  case OPT_NO_DEMANGLE:
+    options->no_demangle = option->id == OPT_NO_DEMANGLE;
     break;
   case OPT_ERROR_LIMIT:
     set_error_limit(ctx, value);

@@ -385,6 +385,6 @@ bool ld_check_stack(ld_context *ctx) {
     refuse(&walk, root, limit, where);
   add_estimate(ctx, root);
   if (ctx->options.print_stack)
-    fputs(ctx->stack_report, stdout);
+    fputs(ld_demangle(ctx, ctx->stack_report), stdout);
   return ctx->error_count == 0;
 }

@@ -60,15 +60,21 @@ void *ld_grow(ld_context *ctx, void *items, size_t count, size_t *capacity, size
   return grown;
 }
 
-char *ld_format(ld_context *ctx, const char *format, ...) {
-  va_list args, copy;
-  va_start(args, format);
+static char *vformat(ld_context *ctx, const char *format, va_list args) {
+  va_list copy;
   va_copy(copy, args);
   int length = vsnprintf(NULL, 0, format, args);
-  va_end(args);
   char *text = ld_alloc(ctx, (size_t)length + 1);
   vsnprintf(text, (size_t)length + 1, format, copy);
   va_end(copy);
+  return text;
+}
+
+char *ld_format(ld_context *ctx, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  char *text = vformat(ctx, format, args);
+  va_end(args);
   return text;
 }
 
@@ -130,10 +136,8 @@ uintptr_t ld_map_find(const ld_map *map, const void *key, size_t length) {
 
 /* --- diagnostics --- */
 
-static void print_message(const char *severity, const char *format, va_list args) {
-  fprintf(stderr, "trax-ld: %s: ", severity);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
+static void print_message(ld_context *ctx, const char *severity, const char *format, va_list args) {
+  fprintf(stderr, "trax-ld: %s: %s\n", severity, ld_demangle(ctx, vformat(ctx, format, args)));
 }
 
 void ld_error(ld_context *ctx, const char *format, ...) {
@@ -142,7 +146,7 @@ void ld_error(ld_context *ctx, const char *format, ...) {
     return;
   va_list args;
   va_start(args, format);
-  print_message("error", format, args);
+  print_message(ctx, "error", format, args);
   va_end(args);
 }
 
@@ -152,7 +156,7 @@ void ld_warning(ld_context *ctx, const char *format, ...) {
   ctx->warning_count++;
   va_list args;
   va_start(args, format);
-  print_message("warning", format, args);
+  print_message(ctx, "warning", format, args);
   va_end(args);
 }
 

@@ -73,7 +73,7 @@ private:
   const Section *Current = nullptr;
   size_t NextSymbol = 0;
   const Symbol *Covering = nullptr; ///< the last symbol at or before the place that is a function, an object or a label
-  const SourceLines::Row *LastRow = nullptr;
+  std::optional<SourceLines::Place> LastPlace;
   std::array<std::optional<uint32_t>, TRAX_NUM_REGISTERS>
       Known; ///< what lui and addi made, in the order of the listing
 };
@@ -140,7 +140,7 @@ void Disassembly::printSymbols(uint32_t Address) {
   for (size_t I = First; I != NextSymbol; ++I)
     if (Symbols[I]->Value + Base == Address)
       OS << format("\n%08x <", Address) << Symbols[I]->Name << ">:\n";
-  LastRow = nullptr;
+  LastPlace.reset();
 }
 
 void Disassembly::printSourceLine(const std::string &Path, uint32_t Line) {
@@ -165,15 +165,14 @@ void Disassembly::printSourceLine(const std::string &Path, uint32_t Line) {
 void Disassembly::printLine(uint32_t Address) {
   if (!Options.LineNumbers && !Options.Source)
     return;
-  const SourceLines::Row *Row = Lines.find(*Current, Address);
-  if (!Row || Row->Line == 0 || (LastRow && LastRow->Line == Row->Line && LastRow->File == Row->File))
+  std::optional<SourceLines::Place> Place = Lines.find(*Current, Address);
+  if (!Place || Place->Line == 0 || (LastPlace && LastPlace->Line == Place->Line && LastPlace->File == Place->File))
     return;
-  LastRow = Row;
-  const std::string &Path = Lines.file(Row->File);
   if (Options.LineNumbers)
-    OS << "; " << Path << ':' << Row->Line << '\n';
+    OS << "; " << Place->File << ':' << Place->Line << '\n';
   if (Options.Source)
-    printSourceLine(Path, Row->Line);
+    printSourceLine(Place->File, Place->Line);
+  LastPlace = std::move(Place);
 }
 
 const Relocation *Disassembly::relocationAt(uint32_t Offset) const {
@@ -298,7 +297,7 @@ void Disassembly::print(const Section &S) {
   Current = &S;
   NextSymbol = 0;
   Covering = nullptr;
-  LastRow = nullptr;
+  LastPlace.reset();
   bool HasHeading = false;
   for (uint32_t Offset = 0, Step; Offset < S.Contents.size(); Offset += Step) {
     uint32_t Address = S.Address + Offset, Left = S.Contents.size() - Offset;

@@ -40,6 +40,7 @@ Error ElfFile::readSections(const File &Elf) {
       return damaged("section names: " + toString(Found.takeError()));
     Names = *Found;
   }
+  uint32_t NextBase = 4096; // what belongs to no section is at 0
   for (const auto &[Index, Raw] : enumerate(*Headers)) {
     Section S{unsigned(Index),
               "",
@@ -61,6 +62,10 @@ Error ElfFile::readSections(const File &Elf) {
       if (!Contents)
         return inSection(Index, S.Name, Contents.takeError());
       S.Contents = *Contents;
+    }
+    if (isRelocatable() && S.isCode()) {
+      S.DebugBase = NextBase;
+      NextBase += S.Size + 4096;
     }
     Sections.push_back(std::move(S));
   }
@@ -222,7 +227,8 @@ Expected<std::vector<uint8_t>> ElfFile::finalContents(const Section &S) const {
     if (R.Offset > Bytes.size() || Bytes.size() - R.Offset < Width)
       return damaged("section " + Twine(S.Index) + " (" + S.Name + "): relocation at 0x" + Twine::utohexstr(R.Offset) +
                      " lies outside");
-    uint32_t Value = (R.Target ? R.Target->Value : 0) + uint32_t(R.Addend) - (R.Type == R_TRAX_PC32 ? R.Offset : 0);
+    uint32_t Base = R.Target && R.Target->Where ? R.Target->Where->DebugBase : 0;
+    uint32_t Value = Base + (R.Target ? R.Target->Value : 0) + uint32_t(R.Addend) - (R.Type == R_TRAX_PC32 ? R.Offset : 0);
     for (unsigned I = 0; I != Width; ++I)
       Bytes[R.Offset + I] = Value >> 8 * I;
   }

@@ -38,6 +38,7 @@ struct Section {
   llvm::ArrayRef<uint8_t> Contents;    ///< as in the file; empty for SHT_NOBITS
   std::vector<Relocation> Relocations; ///< by offset
   std::vector<const Symbol *> Symbols; ///< those with a name in it, by address
+  uint32_t DebugBase = 0;              ///< of code in an object, whose sections all begin at 0: apart from the others
 
   bool isCode() const { return Flags & llvm::ELF::SHF_EXECINSTR; }
 };
@@ -56,7 +57,7 @@ public:
   const Section *findSection(llvm::StringRef Name) const; ///< the first of the name, or nullptr
 
   /// The contents, decompressed and, in a relocatable file, with the relocations applied: symbols of this file count
-  /// with their values, which are offsets in their sections, others with 0.
+  /// with their values, which are offsets in their sections, behind the section's DebugBase, others with 0.
   llvm::Expected<std::vector<uint8_t>> finalContents(const Section &S) const;
 
 private:

@@ -3,39 +3,35 @@
 #define TRAX_TOOLS_SOURCELINES_H
 
 #include "ElfFile.h"
+#include "llvm/DebugInfo/DWARF/DWARFContext.h"
 #include <string>
 
 namespace trax {
 
-/// The line tables of a file (.debug_line, DWARF 2 to 5), by address.
+/// The line tables of a file (.debug_line), by address.
 class SourceLines {
 public:
-  struct Row {
-    uint32_t Address; ///< in an object: offset in the section
-    uint32_t File;    ///< index for file()
-    uint32_t Line;    ///< 0: the instructions belong to no line
+  struct Place {
+    std::string File;
+    uint32_t Line; ///< 0: the instruction belongs to no line
   };
 
-  /// A file without debug information has no lines. What is damaged ends a table; Warning hears of it, what was read
-  /// before stays.
+  /// A file without debug information has no lines. Warning hears of what is damaged; what can be read stays.
   static llvm::Expected<SourceLines> read(const ElfFile &File, llvm::function_ref<void(llvm::Error)> Warning);
 
-  /// The row for the instruction, or nullptr. In an executable every section has the same addresses.
-  const Row *find(const Section &S, uint32_t Address) const;
-  const std::string &file(uint32_t Index) const { return Files[Index]; }
+  /// In an object, the address is an offset in the section; in an executable every section has the same addresses.
+  std::optional<Place> find(const Section &S, uint32_t Address) const;
 
 private:
-  friend class LineReader;
-
-  /// Rows of rising addresses; the last one ends it.
   struct Sequence {
-    const Section *Where; ///< nullptr in an executable
-    uint32_t Begin, End;
-    size_t FirstRow, RowCount;
+    uint64_t Begin, End;
+    const llvm::DWARFDebugLine::LineTable *Table;
+    const char *Directory; ///< where the unit was compiled
   };
-  std::vector<std::string> Files;
-  std::vector<Row> Rows;
-  std::vector<Sequence> Sequences; ///< by Where and Begin
+  llvm::StringMap<std::unique_ptr<llvm::MemoryBuffer>> Contents; ///< of the sections, by name without the dot
+  std::unique_ptr<llvm::DWARFContext> Context;                    ///< refers to them
+  std::deque<llvm::DWARFDebugLine::LineTable> Tables;
+  std::vector<Sequence> Sequences; ///< by Begin
 };
 
 } // namespace trax
