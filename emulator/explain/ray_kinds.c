@@ -26,7 +26,9 @@ struct ray_kinds {
 
 /* --- the counters, as the engines count them --- */
 
-static uint64_t transfer_bytes(const struct trax_config *config, uint32_t bytes) {
+static uint64_t transfer_bytes(const struct trax_config *config, uint32_t address, uint32_t bytes) {
+  if (config->memory.model == TRAX_MEMORY_DRAM)
+    return trax_dram_bytes(config, address, bytes);
   return bytes < config->memory.min_transfer_bytes ? config->memory.min_transfer_bytes : bytes;
 }
 
@@ -34,14 +36,16 @@ static void count_load(struct trax_tm_stats *to, const struct trax_config *confi
                        unsigned flags) {
   if (flags & TRAX_IS_NONTEMPORAL) {
     to->nontemporal_loads++;
-    to->nontemporal_read_bytes += transfer_bytes(config, 4);
+    to->nontemporal_read_bytes += transfer_bytes(config, span->issue->address, 4);
     return;
   }
   to->dcache_hits += (span->issue->outcome & TRAX_OUTCOME_HIT) != 0;
   to->dcache_merged += (span->issue->outcome & TRAX_OUTCOME_MERGED) != 0;
   if (span->issue->outcome & TRAX_OUTCOME_MISS) {
     to->dcache_misses++;
-    to->data_read_bytes += config->dcache.line_bytes;
+    to->data_read_bytes += config->memory.model == TRAX_MEMORY_DRAM
+                               ? trax_dram_bytes(config, 0, config->dcache.line_bytes)
+                               : config->dcache.line_bytes;
   }
 }
 
@@ -67,7 +71,9 @@ static void count_instruction(struct trax_tm_stats *to, const struct trax_config
   if (span->issue->address >= TRAX_LOCAL_BASE)
     ++*(info->flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads);
   else if (info->flags & TRAX_IS_ATOMIC)
-    to->atomic_bytes += transfer_bytes(config, config->memory.atomic_bytes);
+    to->atomic_bytes += config->memory.model == TRAX_MEMORY_DRAM
+                            ? 0
+                            : transfer_bytes(config, span->issue->address, config->memory.atomic_bytes);
   else if (info->flags & TRAX_IS_STORE)
     count_store(to, span, info->flags);
   else

@@ -248,6 +248,22 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool w
   return winners;
 }
 
+/* Returns those of the TPs whose bank is being filled; bit: the planes of the banks' numbers. */
+static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_fast_tm *ftm, uint64_t requesters, uint64_t *bit,
+                                                           uint64_t t) {
+  uint64_t found = 0;
+  trax_fast_transpose(&ftm->heads, ftm->wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
+  trax_fast_transpose(&ftm->heads, ftm->wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
+  for (uint32_t bank = 0; bank < ftm->data_banks; bank++)
+    if (ftm->tm->dcache.fills_end[bank] > t) {
+      uint64_t here = requesters;
+      for (uint32_t k = 0; k < ftm->data_bank_bits; k++)
+        here &= bank >> k & 1 ? bit[k] : ~bit[k];
+      found |= here;
+    }
+  return found;
+}
+
 static bool load_hits(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   const uint32_t address = ftm->tp[number].address[ftm->heads.load[number]];
@@ -359,8 +375,10 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
   uint64_t queue_requesters = ready_high & bit[2];
   *banks = requesters = ready_high & ~(bit[1] | bit[2]);
   if (requesters) {
-    uint64_t hits;
-    won = grant_banks(ftm, wide, requesters, bit + TRAX_STEP_BANK_SHIFT, &hits);
+    uint64_t hits, filling = 0;
+    if (__builtin_expect(tm->dcache.all_fills_end > t, false))
+      filling = in_filling_banks(ftm, requesters, bit + TRAX_STEP_BANK_SHIFT, t);
+    won = grant_banks(ftm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT, &hits);
     refused->bank = requesters & ~won;
     if (ftm->serial_hits)
       hits = 0; /* serve() handles them */

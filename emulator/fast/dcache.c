@@ -71,12 +71,26 @@ uint32_t trax_dcache_drop(struct trax_dcache *dcache) {
   return trax_cache_tags_drop(&dcache->tags);
 }
 
+/* The line takes the banks of its words. */
+static void fill(struct trax_dcache *dcache, const struct trax_config *config, uint32_t line, uint64_t t) {
+  const uint32_t words = config->dcache.line_bytes / 4;
+  for (uint32_t i = 0; i < words && i < dcache->banks; i++) {
+    uint64_t *const end = &dcache->fills_end[(line * words + i) % dcache->banks];
+    *end = (*end > t ? *end : t) + config->dcache.fill_cycles;
+    if (*end > dcache->all_fills_end)
+      dcache->all_fills_end = *end;
+  }
+}
+
 void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t) {
   uint32_t i = 0;
   while (dcache->mshr[i].line != line) /* found, since each requested line has a miss register */
     i++;
-  if (!dcache->mshr[i].passing)
+  if (!dcache->mshr[i].passing) {
     trax_cache_tags_install(&dcache->tags, line);
+    if (tm->config->dcache.fill_cycles)
+      fill(dcache, tm->config, line, t);
+  }
   for (uint16_t waiter = dcache->mshr[i].first_waiter; waiter != NO_WAITER; waiter = dcache->next_waiter[waiter])
     trax_tm_data_arrival(tm, waiter / TRAX_NUM_REGISTERS, waiter % TRAX_NUM_REGISTERS, t);
   dcache->mshr[i] = dcache->mshr[--dcache->mshr_count];

@@ -11,7 +11,9 @@ trax_status trax_l2_create(struct trax_l2 **result, const struct trax_config *co
   const uint32_t least = config->memory.min_transfer_bytes;
   l2->banks = config->l2.banks;
   l2->latency = config->l2.latency_cycles;
-  l2->line_cost = config->l2.line_bytes > least ? config->l2.line_bytes : least;
+  l2->line_cost = config->memory.model == TRAX_MEMORY_DRAM ? trax_dram_bytes(config, 0, config->l2.line_bytes)
+                  : config->l2.line_bytes > least          ? config->l2.line_bytes
+                                                           : least;
   l2->mshr_limit = config->l2.mshrs;
   l2->bank = trax_waiting_create(l2->banks);
   l2->mshr = calloc(l2->mshr_limit, sizeof *l2->mshr);

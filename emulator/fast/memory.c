@@ -22,7 +22,8 @@ static uint64_t ceiling(struct trax_instant instant) {
 }
 
 bool trax_memory_keeps_order(const struct trax_config *config) {
-  return config->memory.channels == 1 && !config->l2.bytes && !config->memory.atomic_latency_cycles;
+  return config->memory.model == TRAX_MEMORY_LIMIT && config->memory.channels == 1 && !config->l2.bytes &&
+         !config->memory.atomic_latency_cycles && !config->memory.atomic_interval_cycles;
 }
 
 static void create_bus(struct trax_memory *memory, const struct trax_config *config) {
@@ -37,6 +38,8 @@ uint32_t trax_memory_least_latency(const struct trax_config *config) {
   struct trax_memory bus;
   if (config->l2.bytes)
     return config->l2.latency_cycles;
+  if (config->memory.model == TRAX_MEMORY_DRAM)
+    return 1 + config->memory.latency_cycles;
   create_bus(&bus, config);
   const uint64_t transfer = divide_up(config->memory.min_transfer_bytes * bus.units_per_byte, bus.units_per_cycle);
   return (uint32_t)(transfer < MOST_LATENCY ? transfer : MOST_LATENCY) + config->memory.latency_cycles;
@@ -49,6 +52,7 @@ trax_status trax_memory_create(struct trax_memory *memory, const struct trax_con
   create_bus(memory, config);
   memory->latency = config->memory.latency_cycles;
   memory->atomic_latency = config->memory.atomic_latency_cycles;
+  memory->unit_interval = config->memory.atomic_interval_cycles;
   memory->channels = config->memory.channels;
   memory->interleave_shift = (unsigned)__builtin_ctz(config->memory.interleave_bytes);
   memory->keeps_order = trax_memory_keeps_order(config);
@@ -60,12 +64,15 @@ trax_status trax_memory_create(struct trax_memory *memory, const struct trax_con
     if (!memory->channel[i].waiting)
       return trax_fail(error, "out of memory");
   }
+  if (config->memory.model == TRAX_MEMORY_DRAM && !(memory->dram = trax_dram_create(config, &stats->dram, error)))
+    return TRAX_ERROR;
   return config->l2.bytes ? trax_l2_create(&memory->l2, config, error) : TRAX_OK;
 }
 
 void trax_memory_destroy(struct trax_memory *memory) {
   for (uint32_t i = 0; i < memory->channels; i++)
     free(memory->channel[i].waiting);
+  trax_dram_destroy(memory->dram);
   trax_l2_destroy(memory->l2);
 }
 
@@ -117,7 +124,8 @@ trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tm
 }
 
 static struct trax_channel *channel_of(struct trax_memory *memory, uint32_t address) {
-  return &memory->channel[(address >> memory->interleave_shift) % memory->channels];
+  return &memory->channel[memory->dram ? trax_dram_channel_of(memory->dram, address)
+                                       : (address >> memory->interleave_shift) % memory->channels];
 }
 
 void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tms, trax_request_id id) {
@@ -152,6 +160,25 @@ static void increment(const struct trax_memory *memory, struct trax_request *req
   memcpy(space->bytes + request->address, &incremented, sizeof incremented);
 }
 
+/* Performs an atomic increment whose transfer is over in cycle `over`. Returns the cycle in which the channel's unit
+   has done it. */
+static uint64_t increment_at(struct trax_memory *memory, unsigned number, struct trax_request *request,
+                             struct trax_space *space, uint64_t over) {
+  struct trax_channel *channel = &memory->channel[number];
+  increment(memory, request, space);
+  if (channel->unit_free_from > over)
+    over = channel->unit_free_from;
+  channel->unit_free_from = over + memory->unit_interval;
+  return over;
+}
+
+static void count_transfer(const struct trax_memory *memory, unsigned number, uint32_t bytes) {
+  memory->stats->transfers++;
+  memory->stats->bytes += bytes;
+  memory->stats->channel[number].transfers++;
+  memory->stats->channel[number].bytes += bytes;
+}
+
 /* Begins the transfer of the request's bytes. Returns ceil(f) + memory.latency_cycles. */
 static uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request,
                          struct trax_space *space, uint64_t t) {
@@ -160,13 +187,11 @@ static uint64_t transfer(struct trax_memory *memory, unsigned number, struct tra
   const uint64_t units = begin.units + request->bytes * memory->units_per_byte;
   channel->free_from =
       (struct trax_instant){begin.cycle + units / memory->units_per_cycle, units % memory->units_per_cycle};
-  memory->stats->transfers++;
-  memory->stats->bytes += request->bytes;
-  memory->stats->channel[number].transfers++;
-  memory->stats->channel[number].bytes += request->bytes;
+  count_transfer(memory, number, request->bytes);
+  uint64_t over = ceiling(channel->free_from);
   if (request->kind == TRAX_REQUEST_ATOMIC)
-    increment(memory, request, space);
-  return ceiling(channel->free_from) + memory->latency;
+    over = increment_at(memory, number, request, space, over);
+  return over + memory->latency;
 }
 
 void trax_memory_complete(struct trax_tm *tms, trax_request_id id, uint64_t completion) {
@@ -227,6 +252,18 @@ static bool has_waiting(const struct trax_channel *channel) {
   return channel->waiting ? channel->waiting->tms != 0 : channel->passed.first != TRAX_NO_REQUEST;
 }
 
+/* A request has been served; `back`: the cycle in which its transfer is over, and memory.latency_cycles. */
+static void finish(struct trax_memory *memory, struct trax_tm *tms, unsigned number, trax_request_id id,
+                   uint64_t back) {
+  memory->waiting--;
+  if (id >= TRAX_LINE_REQUEST) {
+    trax_l2_set_arrival(memory, tms, number, id, back);
+    return;
+  }
+  const bool atomic = trax_memory_request(memory, tms, id)->kind == TRAX_REQUEST_ATOMIC;
+  trax_memory_complete(tms, id, back + (memory->l2 ? memory->l2->latency : 0) + (atomic ? memory->atomic_latency : 0));
+}
+
 static void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
                           uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
@@ -235,14 +272,67 @@ static void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struc
     const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_arbitrate(waiting))
                                        : trax_memory_take_first(memory, tms, &channel->passed);
     struct trax_request *request = trax_memory_request(memory, tms, id);
-    const uint64_t back = transfer(memory, number, request, space, t);
-    memory->waiting--;
-    if (id >= TRAX_LINE_REQUEST)
-      trax_l2_set_arrival(memory, tms, number, id, back);
+    finish(memory, tms, number, id, transfer(memory, number, request, space, t));
+  }
+}
+
+/* --- DRAM --- */
+
+static enum trax_dram_queue queue_of(const struct trax_request *request) {
+  return request->kind == TRAX_REQUEST_WRITE ? TRAX_DRAM_WRITE : TRAX_DRAM_READ;
+}
+
+/* Whether the channel can take the request from those that wait for it. */
+static bool is_admitted(const struct trax_memory *memory, unsigned number, const struct trax_request *request) {
+  return request->kind == TRAX_REQUEST_ATOMIC || trax_dram_has_place(memory->dram, number, queue_of(request));
+}
+
+/* Takes the next request that the channel can take. TRAX_NO_REQUEST: there is none. */
+static trax_request_id take_admitted(struct trax_memory *memory, struct trax_tm *tms, unsigned number) {
+  struct trax_channel *channel = &memory->channel[number];
+  struct trax_waiting *waiting = channel->waiting;
+  if (!waiting) {
+    const trax_request_id first = channel->passed.first;
+    if (first == TRAX_NO_REQUEST || !is_admitted(memory, number, trax_memory_request(memory, tms, first)))
+      return TRAX_NO_REQUEST;
+    return trax_memory_take_first(memory, tms, &channel->passed);
+  }
+  uint64_t admitted = waiting->tms;
+  if (!trax_dram_has_place(memory->dram, number, TRAX_DRAM_READ) ||
+      !trax_dram_has_place(memory->dram, number, TRAX_DRAM_WRITE))
+    for (uint64_t rest = waiting->tms; rest; rest &= rest - 1) {
+      const unsigned tm = (unsigned)__builtin_ctzll(rest);
+      if (!is_admitted(memory, number, trax_memory_request(memory, tms, waiting->list[tm].first)))
+        admitted &= ~((uint64_t)1 << tm);
+    }
+  if (!admitted)
+    return TRAX_NO_REQUEST;
+  const unsigned tm = trax_arbiter_peek(waiting->arbiter, admitted);
+  trax_arbiter_to_back(&waiting->arbiter, tm);
+  return trax_waiting_take(memory, tms, waiting, tm);
+}
+
+/* Brings requests to the DRAM as long as it has places, and performs atomic increments. */
+static void admit(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
+                  uint64_t t) {
+  trax_request_id id;
+  while ((id = take_admitted(memory, tms, number)) != TRAX_NO_REQUEST) {
+    struct trax_request *request = trax_memory_request(memory, tms, id);
+    if (request->kind == TRAX_REQUEST_ATOMIC)
+      finish(memory, tms, number, id, increment_at(memory, number, request, space, t + 1) + memory->latency);
     else
-      trax_memory_complete(tms, id,
-                           back + (memory->l2 ? memory->l2->latency : 0) +
-                               (request->kind == TRAX_REQUEST_ATOMIC ? memory->atomic_latency : 0));
+      trax_dram_bring(memory->dram, queue_of(request), id, request->address, request->bytes, t);
+  }
+}
+
+static void serve_dram(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
+                       uint64_t t) {
+  struct trax_dram_served served;
+  admit(memory, tms, space, number, t);
+  while (trax_dram_serve(memory->dram, number, t, &served)) {
+    count_transfer(memory, number, trax_memory_request(memory, tms, served.id)->bytes);
+    finish(memory, tms, number, served.id, served.over + memory->latency);
+    admit(memory, tms, space, number, t);
   }
 }
 
@@ -254,7 +344,7 @@ void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct t
   if (memory->l2 && memory->l2->waiting)
     trax_l2_cycle(memory, tms, t);
   for (unsigned i = 0; i < memory->channels && memory->waiting; i++)
-    serve_channel(memory, tms, space, i, t);
+    (memory->dram ? serve_dram : serve_channel)(memory, tms, space, i, t);
 }
 
 bool trax_memory_has_waiting(const struct trax_memory *memory) {
@@ -269,8 +359,9 @@ uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t) {
   uint64_t next = UINT64_MAX;
   for (unsigned i = 0; i < memory->channels; i++) {
     const struct trax_channel *channel = &memory->channel[i];
-    const uint64_t free_cycle = channel->free_from.cycle; /* the bus frees during it */
-    if ((memory->keeps_order || has_waiting(channel)) && free_cycle < next)
+    const uint64_t free_cycle =
+        memory->dram ? trax_dram_next_cycle(memory->dram, i) : channel->free_from.cycle; /* the bus frees during it */
+    if ((memory->keeps_order || memory->dram || has_waiting(channel)) && free_cycle < next)
       next = free_cycle;
   }
   return next > t + 1 ? next : t + 1;
@@ -279,7 +370,7 @@ uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t) {
 uint64_t trax_memory_idle_from(const struct trax_memory *memory) {
   uint64_t idle_from = 0;
   for (unsigned i = 0; i < memory->channels; i++) {
-    const uint64_t idle = ceiling(memory->channel[i].free_from);
+    const uint64_t idle = memory->dram ? trax_dram_idle_from(memory->dram, i) : ceiling(memory->channel[i].free_from);
     idle_from = idle > idle_from ? idle : idle_from;
   }
   return idle_from;

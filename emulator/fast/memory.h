@@ -3,6 +3,7 @@
 #ifndef TRAX_FAST_MEMORY_H
 #define TRAX_FAST_MEMORY_H
 
+#include "dram/dram.h"
 #include "fast/arbiter.h"
 #include "fast/queue.h"
 #include "machine/config.h"
@@ -46,8 +47,9 @@ struct trax_instant {
 };
 
 #define TRAX_CHANNEL_STATE(X, S)                                                                                       \
-  X(S, struct trax_instant, free_from, )   /* f of docs/timing.md */                                                   \
-  X(S, struct trax_request_list, passed, ) /* requests that the second-level cache has passed */
+  X(S, struct trax_instant, free_from, )   /* f of docs/timing.md; without DRAM */                                     \
+  X(S, struct trax_request_list, passed, ) /* requests that the second-level cache has passed */                       \
+  X(S, uint64_t, unit_free_from, )         /* of the increment unit */
 struct trax_channel {
   TRAX_CHANNEL_STATE(TRAX_FIELD, )
   struct trax_waiting *waiting; /* NULL with a second-level cache, and if the TMs' queues are rings */
@@ -57,7 +59,8 @@ struct trax_channel {
 #define TRAX_MEMORY_STATE(X, S)                                                                                        \
   X(S, trax_arbiter, arbiter, ) /* of the channel, if keeps_order */                                                   \
   X(S, uint64_t, tms, )         /* mask of the TMs whose requests wait for it, if keeps_order */                       \
-  X(S, uint32_t, waiting, )     /* number of requests that wait for channels, unless keeps_order */
+  X(S, uint32_t, waiting, ) /* number of requests that wait for channels or in the DRAM's queues, unless keeps_order   \
+                             */
 
 struct trax_memory {
   TRAX_MEMORY_STATE(TRAX_FIELD, )
@@ -66,10 +69,12 @@ struct trax_memory {
   uint64_t units_per_cycle, units_per_byte;
   uint32_t latency;        /* cycles, of every transfer */
   uint32_t atomic_latency; /* cycles added for an atomic increment */
+  uint32_t unit_interval;  /* cycles between the increments of a channel */
   uint32_t channels, interleave_shift;
   struct trax_channel channel[TRAX_MAX_CHANNELS];
   bool keeps_order;
-  struct trax_l2 *l2; /* NULL: there is none */
+  struct trax_l2 *l2;     /* NULL: there is none */
+  struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
   void (*before_increment)(void *context, uint32_t address); /* called before an atomic increment; may be NULL */
   void *context;

@@ -25,6 +25,10 @@ FIELDS(trax_waiting, TRAX_WAITING_STATE);
 FIELDS(trax_instant, TRAX_INSTANT_STATE);
 FIELDS(trax_channel, TRAX_CHANNEL_STATE);
 FIELDS(trax_memory, TRAX_MEMORY_STATE);
+FIELDS(trax_dram_request, TRAX_DRAM_REQUEST_STATE);
+FIELDS(trax_dram_bank, TRAX_DRAM_BANK_STATE);
+FIELDS(trax_dram_rank, TRAX_DRAM_RANK_STATE);
+FIELDS(trax_dram_channel, TRAX_DRAM_CHANNEL_STATE);
 FIELDS(trax_l2_mshr, TRAX_L2_MSHR_STATE);
 FIELDS(trax_l2, TRAX_L2_STATE);
 
@@ -39,14 +43,20 @@ static const struct trax_field trax_tm_stats_fields[] = {
     ROW(trax_tm_stats, uint64_t, cycles) ROW(trax_tm_stats, uint64_t, instructions) TRAX_TM_COUNTERS(TM_ROW)};
 static const struct trax_field trax_channel_stats_fields[] = {ROW(trax_channel_stats, uint64_t, transfers)
                                                                   ROW(trax_channel_stats, uint64_t, bytes)};
+#define DRAM_ROW(ID, ...) ROW(trax_dram_stats, uint64_t, ID)
+static const struct trax_field trax_dram_stats_fields[] = {TRAX_DRAM_COUNTERS(DRAM_ROW)};
 static const struct trax_field trax_memory_stats_fields[] = {ROW(trax_memory_stats, struct trax_channel_stats, channel)
-                                                                 TRAX_MEMORY_COUNTERS(MEMORY_ROW)};
+                                                                 ROW(trax_memory_stats, struct trax_dram_stats, dram)
+                                                                     TRAX_MEMORY_COUNTERS(MEMORY_ROW)};
 _Static_assert(sizeof(struct trax_tp_stats) == TRAX_CAUSE_COUNT * sizeof(uint64_t), "a field has no row");
 _Static_assert(sizeof(struct trax_tm_stats) ==
                    (TRAX_CAUSE_COUNT + TRAX_OP_COUNT TRAX_TM_COUNTERS(ONE)) * sizeof(uint64_t),
                "a field has no row");
 _Static_assert(sizeof(struct trax_channel_stats) == 2 * sizeof(uint64_t), "a field has no row");
-_Static_assert(sizeof(struct trax_memory_stats) == (2 * TRAX_MAX_CHANNELS TRAX_MEMORY_COUNTERS(ONE)) * sizeof(uint64_t),
+_Static_assert(sizeof(struct trax_dram_stats) == (0 TRAX_DRAM_COUNTERS(ONE)) * sizeof(uint64_t), "a field has no row");
+_Static_assert(sizeof(struct trax_memory_stats) ==
+                   (2 * TRAX_MAX_CHANNELS TRAX_MEMORY_COUNTERS(ONE)) * sizeof(uint64_t) +
+                       sizeof(struct trax_dram_stats),
                "a field has no row");
 
 /* --- sections --- */
@@ -123,12 +133,26 @@ static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
   visit_tags(visitor, &l2->tags);
 }
 
+static void visit_dram(const struct visitor *visitor, const struct trax_dram *dram) {
+  const struct trax_config *config = dram->config;
+  VISIT_ALL(trax_dram_channel, dram->channel, config->memory.channels);
+  for (uint32_t i = 0; i < config->memory.channels; i++) {
+    struct trax_dram_channel *channel = &dram->channel[i];
+    for (unsigned queue = 0; queue < TRAX_DRAM_QUEUES; queue++)
+      VISIT_ALL(trax_dram_request, channel->request[queue], dram->capacity[queue]);
+    VISIT_ALL(trax_dram_rank, channel->rank, config->dram.ranks);
+    VISIT_ALL(trax_dram_bank, channel->bank, config->dram.ranks * config->dram.banks);
+  }
+}
+
 static void visit_memory(const struct visitor *visitor, struct trax_memory *memory) {
   VISIT_ALL(trax_memory, memory, 1);
   VISIT_ALL(trax_channel, memory->channel, memory->channels);
   for (uint32_t i = 0; i < memory->channels; i++)
     VISIT_ALL(trax_waiting, memory->channel[i].waiting, memory->channel[i].waiting ? 1 : 0);
   VISIT_ALL(trax_memory_stats, memory->stats, 1);
+  if (memory->dram)
+    visit_dram(visitor, memory->dram);
   if (memory->l2)
     visit_l2(visitor, memory->l2);
 }
@@ -151,6 +175,7 @@ void trax_state_visit(void *state, trax_section_visitor *visit, void *context) {
   VISIT_NONE(trax_request_list);
   VISIT_NONE(trax_instant);
   VISIT_NONE(trax_channel_stats);
+  VISIT_NONE(trax_dram_stats);
   for (uint32_t i = 0; i < chip->tms; i++)
     visit_tm(visitor, &chip->tm[i]);
   visit_memory(visitor, &chip->memory);

@@ -172,6 +172,9 @@ static void check_dcache(struct checker *checker, const struct trax_tm *tm, stru
   const struct trax_dcache *dcache = &tm->dcache;
   check_tags(checker, &dcache->tags, "data cache");
   check_arbiters(checker, dcache->bank, TRAX_MAX_TPS_PER_TM, "bank of the data cache");
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++)
+    expect(checker, dcache->fills_end[i] <= dcache->all_fills_end && dcache->all_fills_end <= checker->farthest,
+           "TM %u, bank %u of the data cache: filled up to cycle %" PRIu64, tm->number, i, dcache->fills_end[i]);
   if (!expect(checker, dcache->mshr_count <= dcache->mshr_limit && dcache->mshr_count == wanted->data_lines,
               "TM %u: %" PRIu32 " miss registers, %" PRIu32 " lines", tm->number, dcache->mshr_count,
               wanted->data_lines))
@@ -308,30 +311,37 @@ static void check_tm(struct checker *checker, struct trax_tm *tm) {
 
 /* --- beyond the TMs --- */
 
+/* Marks a request that waits. `lines`: a request of the second-level cache is allowed. */
+static bool mark(struct checker *checker, trax_request_id id, bool lines, const char *which) {
+  const struct trax_memory *memory = &checker->chip->memory;
+  const uint32_t depth = checker->chip->tm->queue.depth;
+  const uint32_t tm = id >> TRAX_REQUEST_BITS, place = id & ((1u << TRAX_REQUEST_BITS) - 1);
+  uint8_t *listed = NULL;
+  if (tm < checker->chip->tms && place < depth) {
+    const struct trax_queue *queue = &checker->chip->tm[tm].queue;
+    listed =
+        trax_queue_is_taken(queue, place) && !is_started(queue, place) ? &checker->listed[tm * depth + place] : NULL;
+  } else if (lines && tm == TRAX_MAX_TMS && memory->l2 && place < memory->l2->mshr_limit) {
+    listed = &checker->lines_listed[place];
+  }
+  if (!expect(checker, listed && !*listed, "%s: request 0x%" PRIx32, which, id))
+    return false;
+  *listed = 1;
+  return true;
+}
+
 /* Checks a list of waiting requests, marks each, and returns their number. `lines`: requests of the second-level cache
    are allowed. */
 static uint32_t check_list(struct checker *checker, const struct trax_request_list *list, bool lines,
                            const char *which) {
-  const struct trax_memory *memory = &checker->chip->memory;
-  const uint32_t depth = checker->chip->tm->queue.depth;
   uint32_t count = 0;
   trax_request_id last = list->last;
   for (trax_request_id id = list->first; id != TRAX_NO_REQUEST;) {
-    const uint32_t tm = id >> TRAX_REQUEST_BITS, place = id & ((1u << TRAX_REQUEST_BITS) - 1);
-    uint8_t *mark = NULL;
-    if (tm < checker->chip->tms && place < depth) {
-      const struct trax_queue *queue = &checker->chip->tm[tm].queue;
-      mark =
-          trax_queue_is_taken(queue, place) && !is_started(queue, place) ? &checker->listed[tm * depth + place] : NULL;
-    } else if (lines && tm == TRAX_MAX_TMS && memory->l2 && place < memory->l2->mshr_limit) {
-      mark = &checker->lines_listed[place];
-    }
-    if (!expect(checker, mark && !*mark, "%s: request 0x%" PRIx32, which, id))
+    if (!mark(checker, id, lines, which))
       return count;
-    *mark = 1;
     count++;
     last = id;
-    id = trax_memory_request(memory, checker->chip->tm, id)->next;
+    id = trax_memory_request(&checker->chip->memory, checker->chip->tm, id)->next;
   }
   expect(checker, last == list->last, "%s: the last request is 0x%" PRIx32, which, list->last);
   return count;
@@ -404,6 +414,29 @@ static void check_lines_listed(struct checker *checker, const struct trax_l2 *l2
     }
 }
 
+/* The requests that the machine can have. */
+static uint64_t most_requests(const struct trax_chip *chip) {
+  uint64_t requests = chip->memory.l2 ? chip->memory.l2->mshr_limit : 0;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    requests += chip->tm[i].queue.depth;
+  return requests;
+}
+
+/* Returns the number of requests in the queues of a channel's DRAM, and marks each. */
+static uint32_t check_dram(struct checker *checker, uint32_t number) {
+  const struct trax_dram *dram = checker->chip->memory.dram;
+  const struct trax_dram_channel *channel = &dram->channel[number];
+  uint32_t count = 0;
+  if (!expect(checker, trax_dram_check(dram, number, checker->t, most_requests(checker->chip)),
+              "channel %" PRIu32 ": the state of its DRAM", number))
+    return count;
+  for (unsigned queue = 0; queue < TRAX_DRAM_QUEUES; queue++)
+    for (uint32_t i = 0; i < channel->count[queue]; i++, count++)
+      if (!mark(checker, channel->request[queue][i].id, true, "queue of the DRAM"))
+        return count;
+  return count;
+}
+
 static void check_memory(struct checker *checker) {
   const struct trax_memory *memory = &checker->chip->memory;
   const uint32_t depth = checker->chip->tm->queue.depth;
@@ -417,6 +450,10 @@ static void check_memory(struct checker *checker) {
     waiting += check_list(checker, &channel->passed, true, "channel");
     if (channel->waiting && !checker->failed)
       waiting += check_waiting(checker, channel->waiting, "channel");
+    if (memory->dram && !checker->failed)
+      waiting += check_dram(checker, i);
+    expect(checker, channel->unit_free_from <= checker->farthest, "channel %" PRIu32 ": increments from cycle %" PRIu64,
+           i, channel->unit_free_from);
   }
   expect(checker, waiting == memory->waiting, "memory controller: %" PRIu32 " of %" PRIu32 " wait", waiting,
          memory->waiting);
@@ -438,10 +475,10 @@ static void check_memory(struct checker *checker) {
 /* Returns a cycle in which all transfers must be over, if they were made one after the other. */
 static uint64_t farthest_cycle(const struct trax_chip *chip, uint64_t t) {
   const struct trax_memory *memory = &chip->memory;
-  uint64_t transfers = memory->l2 ? memory->l2->mshr_limit : 0;
-  for (uint32_t i = 0; i < chip->tms; i++)
-    transfers += chip->tm[i].queue.depth;
-  return t + MEMORY_LATENCIES + transfers * (MOST_BYTES * memory->units_per_byte / memory->units_per_cycle + 1);
+  const uint64_t requests = most_requests(chip);
+  const uint64_t transfer = memory->dram ? trax_dram_cycles(memory->dram, trax_dram_most_ticks(memory->dram))
+                                         : MOST_BYTES * memory->units_per_byte / memory->units_per_cycle;
+  return t + MEMORY_LATENCIES + requests * (transfer + memory->unit_interval + 1);
 }
 
 const char *trax_state_check(void *state, uint64_t t, char text[128]) {

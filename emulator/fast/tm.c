@@ -150,7 +150,10 @@ void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t) {
 
 void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   struct trax_tm_stats *stats = tm->stats;
-  if (request.bytes < tm->config->memory.min_transfer_bytes)
+  if (tm->config->memory.model == TRAX_MEMORY_DRAM)
+    request.bytes =
+        trax_dram_bytes(tm->config, request.address, request.kind == TRAX_REQUEST_ATOMIC ? 4 : request.bytes);
+  else if (request.bytes < tm->config->memory.min_transfer_bytes)
     request.bytes = tm->config->memory.min_transfer_bytes;
   switch ((trax_request_kind)request.kind) {
   case TRAX_REQUEST_INSTRUCTION_LINE:
@@ -168,7 +171,7 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
     tm->tp[request.tp].writes++;
     break;
   case TRAX_REQUEST_ATOMIC:
-    stats->atomic_bytes += request.bytes;
+    stats->atomic_bytes += tm->config->memory.model == TRAX_MEMORY_DRAM ? 0 : request.bytes;
     tm->tp[request.tp].increments++;
     break;
   }

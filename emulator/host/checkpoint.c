@@ -97,9 +97,10 @@ static XXH128_hash_t digest_run(const struct trax_checkpoint *checkpoint) {
     const double value = trax_config_value(&machine->config, &trax_config_keys[i]);
     XXH3_128bits_update(state, trax_config_keys[i].name, strlen(trax_config_keys[i].name) + 1);
     XXH3_128bits_update(state, &value, sizeof value);
-    if (trax_config_keys[i].kind == TRAX_KIND_POLICY) /* a number of this build */
-      XXH3_128bits_update(state, trax_replacements[(size_t)value].word,
-                          strlen(trax_replacements[(size_t)value].word) + 1);
+    char text[TRAX_CONFIG_WORD];
+    const char *word = trax_config_value_word(&trax_config_keys[i], value, text);
+    if (word) /* the value may be a number of this build */
+      XXH3_128bits_update(state, word, strlen(word) + 1);
   }
   for (size_t i = 0; i < machine->space.segment_count; i++) {
     const struct trax_segment *segment = &machine->space.segments[i];

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "host/dram_presets.h"
 #include "trax/names.h"
 
 /* The chips of the paper's Table 2, in its order. */
@@ -146,20 +147,7 @@ trax_status trax_config_store(struct trax_config *config, const struct trax_conf
                               trax_error *error) {
   if (trax_config_check_value(key, value, error) != TRAX_OK)
     return TRAX_ERROR;
-  void *member = (char *)config + key->offset;
-  switch (key->kind) {
-  case TRAX_KIND_FLAG:
-    *(bool *)member = value != 0;
-    break;
-  case TRAX_KIND_REAL:
-    *(double *)member = value;
-    break;
-  case TRAX_KIND_COUNT:
-  case TRAX_KIND_POWER:
-  case TRAX_KIND_POLICY:
-    *(uint32_t *)member = (uint32_t)value;
-    break;
-  }
+  trax_config_put(config, key, value);
   return TRAX_OK;
 }
 
@@ -180,15 +168,12 @@ static trax_status parse_flag(const char *name, const char *text, double *value,
   return trax_fail(error, "%s is \"%s\"; allowed are true and false", name, text);
 }
 
-trax_status trax_config_parse_policy(const struct trax_config_key *key, const char *word, double *value,
-                                     trax_error *error) {
-  for (size_t i = 0; i < TRAX_REPLACEMENT_COUNT; ++i)
-    if (strcmp(word, trax_replacements[i].word) == 0) {
-      *value = (double)i;
-      return TRAX_OK;
-    }
+trax_status trax_config_parse_word(const struct trax_config_key *key, const char *word, double *value,
+                                   trax_error *error) {
   trax_error allowed;
-  return trax_fail(error, "%s is \"%s\"%s", key->name, word, trax_config_allowed(key, &allowed));
+  if (trax_config_word_value(key, word, value))
+    return TRAX_OK;
+  return trax_fail(error, "%s is \"%.80s\"%s", key->name, word, trax_config_allowed(key, &allowed));
 }
 
 static trax_status parse_number(const struct trax_config_key *key, const char *text, double *value, trax_error *error) {
@@ -202,6 +187,8 @@ static trax_status parse_number(const struct trax_config_key *key, const char *t
 }
 
 trax_status trax_config_set(trax_config *config, const char *key_text, const char *value_text, trax_error *error) {
+  if (strcmp(key_text, TRAX_DRAM_PRESET) == 0)
+    return trax_dram_preset_apply(config, value_text, error);
   const char *name = key_text;
   const bool renamed = trax_config_renamed(&name);
   const struct trax_config_key *key = trax_config_find(name, error);
@@ -209,8 +196,8 @@ trax_status trax_config_set(trax_config *config, const char *key_text, const cha
     return TRAX_ERROR;
   double value = 0;
   const trax_status status = renamed || key->kind == TRAX_KIND_FLAG ? parse_flag(key_text, value_text, &value, error)
-                             : key->kind == TRAX_KIND_POLICY ? trax_config_parse_policy(key, value_text, &value, error)
-                                                             : parse_number(key, value_text, &value, error);
+                             : trax_config_has_words(key) ? trax_config_parse_word(key, value_text, &value, error)
+                                                          : parse_number(key, value_text, &value, error);
   if (renamed)
     value = value ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
   return status == TRAX_OK ? trax_config_store(config, key, value, error) : TRAX_ERROR;
@@ -226,9 +213,10 @@ double trax_config_get(const trax_config *config, const char *name) {
 }
 
 const char *trax_config_word(const trax_config *config, const char *name) {
+  static _Thread_local char text[TRAX_CONFIG_WORD];
   for (size_t i = 0; i < trax_config_key_count; ++i)
-    if (strcmp(trax_config_keys[i].name, name) == 0 && trax_config_keys[i].kind == TRAX_KIND_POLICY)
-      return trax_replacements[(size_t)trax_config_value(config, &trax_config_keys[i])].word;
+    if (strcmp(trax_config_keys[i].name, name) == 0)
+      return trax_config_value_word(&trax_config_keys[i], trax_config_value(config, &trax_config_keys[i]), text);
   return NULL;
 }
 
@@ -252,8 +240,9 @@ static void format_value(const struct trax_config_key *key, double value, char *
     snprintf(text, size, "%s", value != 0 ? "true" : "false");
     return;
   }
-  if (key->kind == TRAX_KIND_POLICY) {
-    snprintf(text, size, "\"%s\"", trax_replacements[(size_t)value].word);
+  char word[TRAX_CONFIG_WORD];
+  if (trax_config_has_words(key)) {
+    snprintf(text, size, "\"%s\"", trax_config_value_word(key, value, word));
     return;
   }
   for (int digits = 1; digits <= 17; ++digits) {
@@ -274,7 +263,7 @@ void trax_config_print(const trax_config *config, FILE *out) {
     if (strcmp(section, key->section) != 0)
       fprintf(out, "%s%s: {\n", *section ? "};\n" : "", key->section);
     section = key->section;
-    char value[32], setting[80];
+    char value[TRAX_CONFIG_WORD + 2], setting[TRAX_CONFIG_WORD + 48];
     format_value(key, trax_config_value(config, key), value, sizeof value);
     snprintf(setting, sizeof setting, "%s = %s;", key->key, value);
     fprintf(out, "  %-32s # %s%s%s\n", setting, *key->unit ? key->unit : "", *key->unit ? ": " : "", key->meaning);
@@ -286,7 +275,7 @@ void trax_config_describe(FILE *out) {
   fprintf(out, "Keys of --set and of configuration files. \"paper\" marks a default that the paper fixes.\n\n");
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
-    char initial[32], range[96];
+    char initial[TRAX_CONFIG_WORD + 2], range[96];
     format_value(key, key->initial, initial, sizeof initial);
     switch (key->kind) {
     case TRAX_KIND_FLAG:
@@ -294,6 +283,12 @@ void trax_config_describe(FILE *out) {
       break;
     case TRAX_KIND_POLICY:
       snprintf(range, sizeof range, "a policy");
+      break;
+    case TRAX_KIND_MODEL:
+      snprintf(range, sizeof range, "a model");
+      break;
+    case TRAX_KIND_MAPPING:
+      snprintf(range, sizeof range, "a mapping");
       break;
     case TRAX_KIND_POWER:
       snprintf(range, sizeof range, "%spower of two, %.12g to %.12g", key->least == 0 ? "0 or " : "",
@@ -312,6 +307,14 @@ void trax_config_describe(FILE *out) {
   fprintf(out, "\nPolicies, by the place that an arriving line takes in its set:\n");
   for (size_t i = 0; i < TRAX_REPLACEMENT_COUNT; ++i)
     fprintf(out, "  %-6s %s\n", trax_replacements[i].word, trax_replacements[i].place);
+  fprintf(out, "\nModels of off-chip memory:");
+  for (size_t i = 0; i < TRAX_MEMORY_MODEL_COUNT; ++i)
+    fprintf(out, " %s", trax_memory_models[i]);
+  fprintf(
+      out,
+      "\nA mapping has the fields row, rank, bank, column and channel, with a number of bits or the rest of them.\n");
+  fprintf(out, "\n%s sets the other keys of dram, and memory.channels:\n", TRAX_DRAM_PRESET);
+  trax_dram_presets_describe(out);
   fprintf(out, "\nPresets, TMs x TPs of a TM (the paper's Table 2):");
   for (size_t i = 0; i < PRESETS; ++i)
     fprintf(out, " %s", presets[i].name);

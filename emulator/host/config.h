@@ -9,8 +9,8 @@ const struct trax_config_key *trax_config_find(const char *name, trax_error *err
 /* Whether `name` is the former name of a policy's key, which was a flag: lru, or not. If so, *name becomes today's. */
 bool trax_config_renamed(const char **name);
 /* Finds a policy by its word. */
-trax_status trax_config_parse_policy(const struct trax_config_key *key, const char *word, double *value,
-                                     trax_error *error);
+trax_status trax_config_parse_word(const struct trax_config_key *key, const char *word, double *value,
+                                   trax_error *error);
 /* Checks and stores a value. */
 trax_status trax_config_store(struct trax_config *config, const struct trax_config_key *key, double value,
                               trax_error *error);

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "host/config.h"
+#include "host/dram_presets.h"
 #include "trax/input.h"
 #include "trax/names.h"
 
@@ -108,6 +109,10 @@ static trax_status apply_setting(struct trax_config *config, const char *section
                                  trax_error *error) {
   char name[256];
   snprintf(name, sizeof name, "%s%s%s", section, *section ? "." : "", config_setting_name(setting));
+  if (strcmp(name, TRAX_DRAM_PRESET) == 0) {
+    const char *preset = config_setting_get_string(setting);
+    return trax_dram_preset_apply(config, preset ? preset : describe(setting).text, error);
+  }
   const char *today = name;
   const bool renamed = trax_config_renamed(&today);
   const struct trax_config_key *key = trax_config_find(today, error);
@@ -118,10 +123,10 @@ static trax_status apply_setting(struct trax_config *config, const char *section
   const char *word = config_setting_get_string(setting);
   if (renamed && flag) {
     value = config_setting_get_bool(setting) ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
-  } else if (key->kind == TRAX_KIND_POLICY && word) {
-    if (trax_config_parse_policy(key, word, &value, error))
+  } else if (trax_config_has_words(key) && word) {
+    if (trax_config_parse_word(key, word, &value, error))
       return TRAX_ERROR;
-  } else if (key->kind == TRAX_KIND_FLAG ? !flag : key->kind == TRAX_KIND_POLICY || !number_value(setting, &value)) {
+  } else if (key->kind == TRAX_KIND_FLAG ? !flag : trax_config_has_words(key) || !number_value(setting, &value)) {
     trax_error allowed;
     return trax_fail(error, "%s is %s%s", name, describe(setting).text, trax_config_allowed(key, &allowed));
   } else if (flag) {

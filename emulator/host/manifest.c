@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/manifest.h"
+#include "machine/config.h"
 #include "trax/input.h"
 #include "trax/names.h"
 
@@ -264,15 +265,15 @@ bool trax_manifest_output(const trax_manifest *manifest, size_t i, const char **
 }
 
 /* As trax_config_set takes it. */
-static trax_status value_text(const struct place *place, char text[64], trax_error *error) {
+static trax_status value_text(const struct place *place, char text[TRAX_CONFIG_WORD], trax_error *error) {
   if (json_is_string(place->value))
-    snprintf(text, 64, "%s", json_string_value(place->value));
+    snprintf(text, TRAX_CONFIG_WORD, "%s", json_string_value(place->value));
   else if (json_is_boolean(place->value))
-    snprintf(text, 64, "%s", json_is_true(place->value) ? "true" : "false");
+    snprintf(text, TRAX_CONFIG_WORD, "%s", json_is_true(place->value) ? "true" : "false");
   else if (json_is_integer(place->value))
-    snprintf(text, 64, "%" JSON_INTEGER_FORMAT, json_integer_value(place->value));
+    snprintf(text, TRAX_CONFIG_WORD, "%" JSON_INTEGER_FORMAT, json_integer_value(place->value));
   else if (json_is_real(place->value))
-    snprintf(text, 64, "%.17g", json_real_value(place->value));
+    snprintf(text, TRAX_CONFIG_WORD, "%.17g", json_real_value(place->value));
   else
     return refuse(place, error, "must be a number, true, false or a word");
   return TRAX_OK;
@@ -291,7 +292,7 @@ trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *
       return refuse(&in, error, "must be an object");
     json_object_foreach(section, key, value) {
       const struct place at = member(&in, key);
-      char text[64], name[96];
+      char text[TRAX_CONFIG_WORD], name[96];
       trax_error reason;
       snprintf(name, sizeof name, "%.40s.%.40s", section_name, key);
       if (value_text(&at, text, error) != TRAX_OK)

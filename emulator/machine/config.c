@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define TRAX_SECTION(SECTION)
 #define TRAX_ROW(KIND, SECTION, KEY, DEFAULT, LEAST, MOST, UNIT, ORIGIN, MEANING)                                      \
@@ -14,10 +15,13 @@
 #define TRAX_ROW_FLAG(...) TRAX_ROW(TRAX_KIND_FLAG, __VA_ARGS__)
 #define TRAX_ROW_REAL(...) TRAX_ROW(TRAX_KIND_REAL, __VA_ARGS__)
 #define TRAX_ROW_POLICY(...) TRAX_ROW(TRAX_KIND_POLICY, __VA_ARGS__)
+#define TRAX_ROW_MODEL(...) TRAX_ROW(TRAX_KIND_MODEL, __VA_ARGS__)
+#define TRAX_ROW_MAPPING(...) TRAX_ROW(TRAX_KIND_MAPPING, __VA_ARGS__)
 enum { OURS = false, PAPER = true };
 
-const struct trax_config_key trax_config_keys[] = {TRAX_CONFIG_KEYS(
-    TRAX_SECTION, TRAX_ROW_COUNT, TRAX_ROW_POWER, TRAX_ROW_FLAG, TRAX_ROW_REAL, TRAX_ROW_POLICY, TRAX_SECTION)};
+const struct trax_config_key trax_config_keys[] = {TRAX_CONFIG_KEYS(TRAX_SECTION, TRAX_ROW_COUNT, TRAX_ROW_POWER,
+                                                                    TRAX_ROW_FLAG, TRAX_ROW_REAL, TRAX_ROW_POLICY,
+                                                                    TRAX_ROW_MODEL, TRAX_ROW_MAPPING, TRAX_SECTION)};
 const size_t trax_config_key_count = sizeof trax_config_keys / sizeof *trax_config_keys;
 
 const struct trax_replacement_policy trax_replacements[] = {
@@ -32,13 +36,61 @@ double trax_config_value(const struct trax_config *config, const struct trax_con
   case TRAX_KIND_FLAG:
     return *(const bool *)member;
   case TRAX_KIND_REAL:
+  case TRAX_KIND_MAPPING:
     return *(const double *)member;
   case TRAX_KIND_COUNT:
   case TRAX_KIND_POWER:
   case TRAX_KIND_POLICY:
+  case TRAX_KIND_MODEL:
     break;
   }
   return *(const uint32_t *)member;
+}
+
+void trax_config_put(struct trax_config *config, const struct trax_config_key *key, double value) {
+  void *member = (char *)config + key->offset;
+  switch (key->kind) {
+  case TRAX_KIND_FLAG:
+    *(bool *)member = value != 0;
+    break;
+  case TRAX_KIND_REAL:
+  case TRAX_KIND_MAPPING:
+    *(double *)member = value;
+    break;
+  case TRAX_KIND_COUNT:
+  case TRAX_KIND_POWER:
+  case TRAX_KIND_POLICY:
+  case TRAX_KIND_MODEL:
+    *(uint32_t *)member = (uint32_t)value;
+    break;
+  }
+}
+
+/* --- words --- */
+
+/* Word i of a kind with a list of words; NULL: there are no more. */
+static const char *listed_word(const struct trax_config_key *key, size_t i) {
+  if (key->kind == TRAX_KIND_POLICY)
+    return i < TRAX_REPLACEMENT_COUNT ? trax_replacements[i].word : NULL;
+  return key->kind == TRAX_KIND_MODEL && i < TRAX_MEMORY_MODEL_COUNT ? trax_memory_models[i] : NULL;
+}
+
+const char *trax_config_value_word(const struct trax_config_key *key, double value, char text[TRAX_CONFIG_WORD]) {
+  if (key->kind == TRAX_KIND_MAPPING)
+    return trax_dram_mapping_format(value, text) ? text : "";
+  return listed_word(key, (size_t)value);
+}
+
+bool trax_config_word_value(const struct trax_config_key *key, const char *word, double *value) {
+  if (key->kind == TRAX_KIND_MAPPING)
+    return trax_dram_mapping_parse(word, value);
+  const char *listed;
+  for (size_t i = 0; (listed = listed_word(key, i)) != NULL; i++)
+    if (strcmp(word, listed) == 0) {
+      *value = (double)i;
+      return true;
+    }
+  return false;
 }
 
 static bool is_power_of_two(double value) {
@@ -46,11 +98,15 @@ static bool is_power_of_two(double value) {
   return frexp(value, &exponent) == 0.5;
 }
 
-static trax_status fail_policy(trax_error *error, const char *key, double value) {
+static trax_status fail_word(trax_error *error, const struct trax_config_key *key, double value) {
   char words[200] = "";
-  for (size_t i = 0, length = 0; i < TRAX_REPLACEMENT_COUNT && length < sizeof words; i++)
-    length += (size_t)snprintf(words + length, sizeof words - length, "%s%s", i ? ", " : "", trax_replacements[i].word);
-  return trax_fail(error, "%s is %.12g; allowed are %s", key, value, words);
+  const char *word;
+  for (size_t i = 0, length = 0; (word = listed_word(key, i)) != NULL && length < sizeof words; i++)
+    length += (size_t)snprintf(words + length, sizeof words - length, "%s%s", i ? ", " : "", word);
+  return trax_fail(error, "%s is %.12g; allowed are %s", key->name, value,
+                   key->kind == TRAX_KIND_MAPPING
+                       ? "row, rank, bank, column and channel, with a number of bits or without, and colons between"
+                       : words);
 }
 
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error) {
@@ -79,7 +135,10 @@ trax_status trax_config_check_value(const struct trax_config_key *key, double va
                        value, key->least, key->most, key->unit);
     return TRAX_OK;
   case TRAX_KIND_POLICY:
-    return in_range && value == floor(value) ? TRAX_OK : fail_policy(error, key->name, value);
+  case TRAX_KIND_MODEL:
+    return in_range && value == floor(value) ? TRAX_OK : fail_word(error, key, value);
+  case TRAX_KIND_MAPPING:
+    return trax_dram_mapping_format(value, NULL) ? TRAX_OK : fail_word(error, key, value);
   }
   return TRAX_OK;
 }
@@ -101,6 +160,26 @@ static trax_status check_cache(const char *name, uint32_t bytes, uint32_t line_b
   return TRAX_OK;
 }
 
+double trax_memory_gbps(const struct trax_config *config) {
+  if (config->memory.model == TRAX_MEMORY_LIMIT)
+    return config->memory.bandwidth_gbps;
+  return config->dram.mtps * (config->dram.bus_bits / 8.0) * config->memory.channels / 1000;
+}
+
+static trax_status check_dram(const struct trax_config *config, trax_error *error) {
+  struct trax_dram_map map;
+  if (config->dram.batch_from > config->dram.writes)
+    return trax_fail(error, "dram.batch_from is %u; it must not be more than dram.writes = %u", config->dram.batch_from,
+                     config->dram.writes);
+  if (config->dram.batch_to >= config->dram.batch_from)
+    return trax_fail(error, "dram.batch_to is %u; it must be less than dram.batch_from = %u", config->dram.batch_to,
+                     config->dram.batch_from);
+  if (config->dram.trefi && config->dram.trefi <= config->dram.trfc)
+    return trax_fail(error, "dram.trefi is %u; it must be 0 or more than dram.trfc = %u", config->dram.trefi,
+                     config->dram.trfc);
+  return trax_dram_map_create(&map, config, error);
+}
+
 trax_status trax_config_validate(const struct trax_config *config, trax_error *error) {
   for (size_t i = 0; i < trax_config_key_count; i++)
     if (trax_config_check_value(&trax_config_keys[i], trax_config_value(config, &trax_config_keys[i]), error))
@@ -113,6 +192,8 @@ trax_status trax_config_validate(const struct trax_config *config, trax_error *e
        check_line("icache", config->icache.line_bytes, "l2.line_bytes", config->l2.line_bytes, error) ||
        check_line("dcache", config->dcache.line_bytes, "l2.line_bytes", config->l2.line_bytes, error)))
     return TRAX_ERROR;
+  if (config->memory.model == TRAX_MEMORY_DRAM)
+    return check_dram(config, error);
   const char *const interleave = "memory.interleave_bytes";
   const uint32_t interleave_bytes = config->memory.interleave_bytes;
   if (config->memory.channels > 1 &&

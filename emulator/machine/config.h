@@ -19,7 +19,7 @@ struct trax_config {
 #define TRAX_KEY_FLAG(SECTION, KEY, ...) bool KEY;
 #define TRAX_KEY_REAL(SECTION, KEY, ...) double KEY;
   TRAX_CONFIG_KEYS(TRAX_SECTION_BEGIN, TRAX_KEY_COUNT, TRAX_KEY_COUNT, TRAX_KEY_FLAG, TRAX_KEY_REAL, TRAX_KEY_COUNT,
-                   TRAX_SECTION_END)
+                   TRAX_KEY_COUNT, TRAX_KEY_REAL, TRAX_SECTION_END)
 #undef TRAX_SECTION_BEGIN
 #undef TRAX_SECTION_END
 #undef TRAX_KEY_COUNT
@@ -33,14 +33,23 @@ struct trax_config {
 #define TRAX_CONFIG_DEFAULT                                                                                            \
   {                                                                                                                    \
     TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
-                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_NOTHING)                                    \
+                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
+                     TRAX_CONFIG_NOTHING)                                                                              \
   }
 
 /* One row of the table, for code that visits all keys. */
 struct trax_config_key {
   const char *name; /* "memory.bandwidth_gbps" */
   const char *section, *key;
-  enum { TRAX_KIND_COUNT, TRAX_KIND_POWER, TRAX_KIND_FLAG, TRAX_KIND_REAL, TRAX_KIND_POLICY } kind;
+  enum {
+    TRAX_KIND_COUNT,
+    TRAX_KIND_POWER,
+    TRAX_KIND_FLAG,
+    TRAX_KIND_REAL,
+    TRAX_KIND_POLICY,
+    TRAX_KIND_MODEL,
+    TRAX_KIND_MAPPING
+  } kind;
   size_t offset;               /* in struct trax_config */
   double initial, least, most; /* a double holds every value exactly */
   const char *unit, *meaning;  /* unit is "" for flags */
@@ -50,13 +59,28 @@ struct trax_config_key {
 extern const struct trax_config_key trax_config_keys[];
 extern const size_t trax_config_key_count;
 
-/* The value of a key in a configuration; counts, flags and policies as numbers. */
+/* The value of a key in a configuration; counts, flags and words as numbers. */
 double trax_config_value(const struct trax_config *config, const struct trax_config_key *key);
+/* Sets a key to a value that trax_config_check_value allows. */
+void trax_config_put(struct trax_config *config, const struct trax_config_key *key, double value);
+
+/* The word of a value of the key; NULL: the key's values are no words. A mapping's is written to `text`. */
+enum { TRAX_CONFIG_WORD = TRAX_DRAM_MAPPING_TEXT };
+const char *trax_config_value_word(const struct trax_config_key *key, double value, char text[TRAX_CONFIG_WORD]);
+/* Whether the word is one of a key whose values are words; *value receives it. */
+bool trax_config_word_value(const struct trax_config_key *key, const char *word, double *value);
+/* Whether the key's values are words. */
+static inline bool trax_config_has_words(const struct trax_config_key *key) {
+  return key->kind >= TRAX_KIND_POLICY;
+}
 /* Checks that the key may have the value. The message names the key, the value and what is allowed. */
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);
 
 /* Checks all ranges and the relations between keys, which are all that the machine relies on. The message names the key
    and what is allowed. */
 trax_status trax_config_validate(const struct trax_config *config, trax_error *error);
+
+/* The most that the buses of off-chip memory can move, in GB/s. */
+double trax_memory_gbps(const struct trax_config *config);
 
 #endif

@@ -7,11 +7,14 @@
      FLAG    bool (the range is 0 to 1)
      REAL    double, in steps of 0.001
      POLICY  uint32_t, an enum trax_replacement
+     MODEL   uint32_t, an enum trax_memory_model
+     MAPPING double, a mapping of addresses (machine/dram_mapping.h)
    with section, key, default, least, greatest, unit, origin of the default (PAPER, or OURS where the paper is silent)
    and meaning. */
 #ifndef TRAX_MACHINE_CONFIG_KEYS_H
 #define TRAX_MACHINE_CONFIG_KEYS_H
 
+#include "machine/dram_mapping.h"
 #include "machine/replacement.h"
 
 #define TRAX_MAX_TMS 64
@@ -19,7 +22,7 @@
 #define TRAX_MAX_CHANNELS 16
 
 /* clang-format off */
-#define TRAX_CONFIG_KEYS(BEGIN, COUNT, POWER, FLAG, REAL, POLICY, END)                                                                     \
+#define TRAX_CONFIG_KEYS(BEGIN, COUNT, POWER, FLAG, REAL, POLICY, MODEL, MAPPING, END)                                                     \
   BEGIN(chip)                                                                                                                              \
   COUNT(chip, tms, 1, 1, TRAX_MAX_TMS, "TMs", OURS,  "thread multiprocessors of the chip (paper: 1, 2, 4, 6, 8)")                          \
   COUNT(chip, tps_per_tm, 1, 1, TRAX_MAX_TPS_PER_TM, "TPs", OURS,  "thread processors of a TM (paper: 32, 48, 64)")                        \
@@ -69,6 +72,7 @@
   COUNT(dcache, tps_per_bank, 8, 1, 64, "TPs", PAPER, "the cache has ceil(chip.tps_per_tm / this) banks")                                  \
   COUNT(dcache, hit_latency_cycles, 1, 1, 1000, "cycles", OURS, "latency of a load that hits")                                             \
   COUNT(dcache, mshrs, 64, 1, 1024, "lines", OURS, "lines on their way to the cache at once")                                              \
+  COUNT(dcache, fill_cycles, 0, 0, 64, "cycles", OURS, "for which an arriving line takes the banks of its words; 0: none")                 \
   END(dcache)                                                                                                                              \
   BEGIN(l2)                                                                                                                                \
   POWER(l2, bytes, 0, 0, 1u << 28, "bytes", OURS, "size of the second-level cache that the TMs share; 0: there is none")                   \
@@ -80,6 +84,7 @@
   COUNT(l2, mshrs, 256, 1, 4096, "lines", OURS, "lines on their way to the cache at once")                                                 \
   END(l2)                                                                                                                                  \
   BEGIN(memory)                                                                                                                            \
+  MODEL(memory, model, TRAX_MEMORY_LIMIT, 0, TRAX_MEMORY_MODEL_COUNT - 1, "", OURS, "what off-chip memory is: limit or dram")              \
   REAL(memory, bandwidth_gbps, 8, 0.001, 1e6, "GB/s", PAPER, "off-chip bandwidth of the whole chip (1 GB is 1e9 bytes)")                   \
   COUNT(memory, channels, 1, 1, TRAX_MAX_CHANNELS, "channels", OURS, "channels with equal shares of the bandwidth")                        \
   POWER(memory, interleave_bytes, 256, 64, 1u << 20, "bytes", OURS, "bytes in one channel before the next one's follow")                   \
@@ -89,8 +94,42 @@
   COUNT(memory, min_transfer_bytes, 1, 1, 4096, "bytes", OURS, "a shorter transfer costs as much as this")                                 \
   COUNT(memory, atomic_bytes, 8, 1, 4096, "bytes", OURS, "cost of an atomic increment: a word read and written")                           \
   COUNT(memory, atomic_latency_cycles, 0, 0, 100000, "cycles", OURS, "added to every atomic increment")                                    \
+  COUNT(memory, atomic_interval_cycles, 0, 0, 100000, "cycles", OURS, "between the atomic increments of a channel")                        \
   FLAG(memory, write_combining, true, 0, 1, "", OURS, "adjacent stores of a TP become one transfer")                                       \
-  END(memory)
+  END(memory)                                                                                                                              \
+  BEGIN(dram)                                                                                                                              \
+  COUNT(dram, mtps, 1600, 1, 100000, "10^6/s", OURS, "transfers of each wire of the bus; a tick is two of them")                           \
+  POWER(dram, bus_bits, 32, 8, 512, "bits", OURS, "width of a channel's data bus")                                                        \
+  POWER(dram, burst_length, 8, 2, 64, "transfers", OURS, "transfers of a burst")                                                           \
+  POWER(dram, ranks, 1, 1, TRAX_DRAM_MAX_RANKS, "ranks", OURS, "ranks of a channel")                                                       \
+  POWER(dram, banks, 8, 1, TRAX_DRAM_MAX_BANKS, "banks", OURS, "banks of a rank")                                                          \
+  POWER(dram, row_bytes, 4096, 64, 65536, "bytes", OURS, "row of a bank")                                                                  \
+  MAPPING(dram, mapping, TRAX_DRAM_DEFAULT_MAPPING, 0, 9007199254740991.0, "", OURS, "fields of an address, the highest bits first")       \
+  COUNT(dram, trcd, 15, 1, 1000, "ticks", OURS, "from the activation of a row to a read or write")                                         \
+  COUNT(dram, trp, 15, 1, 1000, "ticks", OURS, "from the precharge of a bank to an activation")                                            \
+  COUNT(dram, tcl, 12, 1, 1000, "ticks", OURS, "from a read to its data")                                                                  \
+  COUNT(dram, tcwl, 6, 1, 1000, "ticks", OURS, "from a write to its data")                                                                 \
+  COUNT(dram, tras, 34, 1, 1000, "ticks", OURS, "from an activation to the precharge")                                                     \
+  COUNT(dram, trrd, 8, 1, 1000, "ticks", OURS, "between activations of a rank")                                                            \
+  COUNT(dram, tfaw, 40, 1, 1000, "ticks", OURS, "window of at most four activations of a rank")                                            \
+  COUNT(dram, twtr, 6, 1, 1000, "ticks", OURS, "from the end of written data to a read of the rank")                                       \
+  COUNT(dram, twr, 12, 1, 1000, "ticks", OURS, "from the end of written data to the precharge")                                            \
+  COUNT(dram, trtp, 6, 1, 1000, "ticks", OURS, "from a read to the precharge")                                                             \
+  COUNT(dram, tturn, 2, 0, 1000, "ticks", OURS, "between data in different directions or of different ranks")                              \
+  COUNT(dram, trefi, 3120, 0, 1000000, "ticks", OURS, "between refreshes of a rank; 0: there are none")                                    \
+  COUNT(dram, trfc, 104, 1, 10000, "ticks", OURS, "duration of a refresh")                                                                 \
+  COUNT(dram, reads, 32, 1, TRAX_DRAM_MAX_QUEUE, "requests", OURS, "reads that a channel chooses from")                                    \
+  COUNT(dram, writes, 32, 1, TRAX_DRAM_MAX_QUEUE, "requests", OURS, "writes that a channel collects")                                      \
+  COUNT(dram, batch_from, 24, 1, TRAX_DRAM_MAX_QUEUE, "requests", OURS, "collected writes that begin a batch")                             \
+  COUNT(dram, batch_to, 8, 0, TRAX_DRAM_MAX_QUEUE, "requests", OURS, "collected writes that a batch leaves")                               \
+  COUNT(dram, write_wait, 4000, 0, 1000000, "ticks", OURS, "for which a write waits behind reads at most")                                 \
+  COUNT(dram, cap, 16, 0, 1000000, "requests", OURS, "that overtake the oldest one at most; 0: first come, first served")                  \
+  REAL(dram, activate_nj, 2.4, 0, 1e6, "nJ", OURS, "energy of an activation and its precharge")                                            \
+  REAL(dram, read_nj, 1.6, 0, 1e6, "nJ", OURS, "energy of a burst that is read")                                                           \
+  REAL(dram, write_nj, 1.6, 0, 1e6, "nJ", OURS, "energy of a burst that is written")                                                       \
+  REAL(dram, refresh_nj, 20, 0, 1e6, "nJ", OURS, "energy of a refresh of a rank")                                                          \
+  REAL(dram, background_mw, 50, 0, 1e6, "mW", OURS, "power of a rank without these")                                                       \
+  END(dram)
 /* clang-format on */
 
 #endif

@@ -90,15 +90,29 @@ typedef enum trax_cause {
   X(l2_served_bytes, "l2.served_bytes", "bytes", "read by the TMs through hits and merged reads")                      \
   X(l2_read_bytes, "l2.read_bytes", "bytes", "lines read into the second-level cache from off-chip memory")
 
+/* Counters of the DRAM, if memory.model is dram: identifier, name, unit, meaning. */
+#define TRAX_DRAM_COUNTERS(X)                                                                                          \
+  X(activates, "dram.activates", "commands", "activations of rows")                                                    \
+  X(conflicts, "dram.conflicts", "commands", "precharges of banks whose open row was another one")                     \
+  X(row_hits, "dram.row_hits", "requests", "requests that found their row open")                                       \
+  X(reads, "dram.reads", "bursts", "bursts that were read")                                                            \
+  X(writes, "dram.writes", "bursts", "bursts that were written")                                                       \
+  X(refreshes, "dram.refreshes", "commands", "refreshes of ranks")
+
 struct trax_channel_stats {
   uint64_t transfers, bytes;
 };
 
 #define TRAX_COUNTER_FIELD(ID, NAME, UNIT, MEANING) uint64_t ID;
 
+struct trax_dram_stats {
+  TRAX_DRAM_COUNTERS(TRAX_COUNTER_FIELD)
+};
+
 struct trax_memory_stats {
   TRAX_MEMORY_COUNTERS(TRAX_COUNTER_FIELD)
   struct trax_channel_stats channel[TRAX_MAX_CHANNELS];
+  struct trax_dram_stats dram;
 };
 
 struct trax_tp_stats {
@@ -171,7 +185,7 @@ struct trax_stats {
   X(memory_gbps, "memory.bandwidth_gbps", "GB/s", "off-chip bandwidth used",                                           \
     S->memory.bytes / TRAX_SECONDS(S, C) / 1e9)                                                                        \
   X(memory_utilisation, "memory.utilisation", "fraction", "share of the off-chip bandwidth used",                      \
-    S->memory.bytes / TRAX_SECONDS(S, C) / 1e9 / C->memory.bandwidth_gbps)                                             \
+    S->memory.bytes / TRAX_SECONDS(S, C) / 1e9 / trax_memory_gbps(C))                                                  \
   TRAX_ENERGIES(TRAX_ENERGY_FIGURE, X)                                                                                 \
   X(energy_total, "energy.total", "J",                                                                                 \
     "the sum of these: the chip's dynamic energy at 65 nm, without leakage and clock", trax_energy_of(S, C).total)     \

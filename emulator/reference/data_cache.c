@@ -7,13 +7,19 @@ static bool asks_for_bank(const struct trax_ref_tp *tp) {
          !trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);
 }
 
+static uint32_t banks_of(const struct trax_ref_tm *tm) {
+  const uint32_t per_bank = tm->config->dcache.tps_per_bank;
+  return (tm->tps + per_bank - 1) / per_bank;
+}
+
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t) {
-  const uint32_t per_bank = tm->config->dcache.tps_per_bank, banks = (tm->tps + per_bank - 1) / per_bank;
+  const uint32_t banks = banks_of(tm);
   for (uint32_t bank = 0; bank < banks; bank++) {
     bool asks[MOST] = {false};
     for (uint32_t i = 0; i < tm->tps; i++)
       asks[i] = asks_for_bank(&tm->tp[i]) && tm->tp[i].address / 4 % banks == bank;
-    const int winner = trax_ref_arbitrate(&tm->dcache_bank[bank], asks, tm->tps);
+    const bool filling = t < tm->dcache_fills_end[bank];
+    const int winner = filling ? -1 : trax_ref_arbitrate(&tm->dcache_bank[bank], asks, tm->tps);
     for (uint32_t i = 0; i < tm->tps; i++)
       if (asks[i] && (int)i != winner)
         trax_ref_charge(tm, &tm->tp[i], t, TRAX_CAUSE_DCACHE_BANK);
@@ -55,9 +61,24 @@ bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   return true;
 }
 
+/* The line takes the banks of its words. */
+static void fill(struct trax_ref_tm *tm, uint32_t line, uint64_t t) {
+  const uint32_t banks = banks_of(tm);
+  const uint32_t words = tm->config->dcache.line_bytes / 4;
+  for (uint32_t bank = 0; bank < banks; bank++)
+    for (uint32_t word = 0; word < words; word++)
+      if ((line * words + word) % banks == bank) {
+        uint64_t *const end = &tm->dcache_fills_end[bank];
+        *end = (*end > t ? *end : t) + tm->config->dcache.fill_cycles;
+        break;
+      }
+}
+
 void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request *request, uint64_t t) {
-  if (!request->passing)
+  if (!request->passing) {
     trax_ref_lines_install(&tm->dcache, request->line);
+    fill(tm, request->line, t);
+  }
   for (uint32_t i = 0; i < tm->tps; i++)
     for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++) {
       struct trax_ref_register *reg = &tm->tp[i].scoreboard[rd];

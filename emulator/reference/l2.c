@@ -23,6 +23,8 @@ uint32_t trax_ref_bank_of(const struct trax_config *config, uint32_t address) {
 
 uint32_t trax_ref_l2_line_cost(const struct trax_config *config) {
   const uint32_t line = config->l2.line_bytes, least = config->memory.min_transfer_bytes;
+  if (config->memory.model == TRAX_MEMORY_DRAM)
+    return trax_dram_bytes(config, 0, line);
   return line > least ? line : least;
 }
 

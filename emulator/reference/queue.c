@@ -5,8 +5,12 @@ bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request) {
   struct trax_tm_stats *stats = tm->stats;
   if (tm->places == tm->config->memory.queue_depth)
     return false;
-  if (request.bytes < tm->config->memory.min_transfer_bytes)
+  const bool dram = tm->config->memory.model == TRAX_MEMORY_DRAM;
+  if (dram)
+    request.bytes = trax_dram_bytes(tm->config, request.address, request.kind == ATOMIC ? 4 : request.bytes);
+  else if (request.bytes < tm->config->memory.min_transfer_bytes)
     request.bytes = tm->config->memory.min_transfer_bytes;
+  request.channel = trax_ref_channel_of(tm->config, request.address);
   request.stage = tm->config->l2.bytes ? AT_BANK : AT_CHANNEL;
   tm->queue[tm->places++] = request;
 
@@ -19,7 +23,7 @@ bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request) {
                              [LOAD_PAST_CACHE] = &stats->nontemporal_read_bytes,
                              [WRITE] = &stats->written_bytes,
                              [ATOMIC] = &stats->atomic_bytes};
-  *bytes[request.kind] += request.bytes;
+  *bytes[request.kind] += dram && request.kind == ATOMIC ? 0 : request.bytes;
   return true;
 }
 
@@ -47,7 +51,7 @@ struct trax_ref_request *trax_ref_oldest_at_bank(struct trax_ref_tm *tm, uint32_
 
 struct trax_ref_request *trax_ref_oldest_at_channel(struct trax_ref_tm *tm, uint32_t channel) {
   for (uint32_t i = 0; i < tm->places; i++)
-    if (tm->queue[i].stage == AT_CHANNEL && trax_ref_channel_of(tm->config, tm->queue[i].address) == channel)
+    if (tm->queue[i].stage == AT_CHANNEL && tm->queue[i].channel == channel)
       return &tm->queue[i];
   return NULL;
 }

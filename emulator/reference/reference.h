@@ -8,6 +8,7 @@
 #ifndef TRAX_REFERENCE_H
 #define TRAX_REFERENCE_H
 
+#include "dram/dram.h"
 #include "machine/machine.h"
 #include "machine/timing.h"
 #include "trax/isa.h"
@@ -56,8 +57,10 @@ struct trax_ref_request {
   uint32_t rd;                                /* LOAD_PAST_CACHE, ATOMIC: the register that waits */
   bool passing;                               /* DATA_LINE: it does not enter the cache */
   uint32_t old_value;                         /* ATOMIC */
-  enum { AT_BANK, AT_CHANNEL, SERVED } stage; /* AT_BANK: it waits for its second-level bank; AT_CHANNEL: its channel */
-  uint64_t came;       /* AT_CHANNEL, with a second-level cache: its number of trax_ref_controller.came */
+  uint32_t channel;
+  /* AT_BANK: it waits for its second-level bank; AT_CHANNEL: for its channel; IN_DRAM: in a queue of the DRAM */
+  enum { AT_BANK, AT_CHANNEL, IN_DRAM, SERVED } stage;
+  uint64_t came;       /* AT_CHANNEL, with a second-level cache, and IN_DRAM: its number of trax_ref_controller.came */
   uint32_t l2_line;    /* SERVED by a second-level line that is on its way: the line's number */
   uint64_t completion; /* SERVED: the cycle, UNKNOWN until the arrival of l2_line is known */
 };
@@ -105,6 +108,7 @@ struct trax_ref_tm {
   struct trax_ref_group group[TRAX_SHARED_COUNT][MOST];
   struct trax_ref_lines dcache;
   trax_ref_pointer dcache_bank[MOST];
+  uint64_t dcache_fills_end[MOST]; /* by bank */
   struct trax_ref_request *queue; /* [places], the oldest first */
   uint32_t places;                /* number of places taken */
   trax_ref_pointer queue_pointer;
@@ -118,7 +122,8 @@ struct trax_ref_l2 {
   struct trax_ref_miss {
     uint32_t line, channel;
     uint64_t came;    /* as trax_ref_request.came */
-    uint64_t arrival; /* UNKNOWN while it waits for its channel */
+    uint64_t arrival; /* UNKNOWN while it waits for its channel or in a queue of the DRAM */
+    bool in_dram;     /* it is or has been in one */
   } * miss;           /* [misses]: the miss registers in use */
   uint32_t misses;
 };
@@ -132,8 +137,10 @@ struct trax_ref_controller {
   struct trax_ref_channel {
     trax_ref_units free_from; /* f */
     trax_ref_pointer pointer; /* over the TMs */
+    uint64_t unit_free_from;  /* of the increment unit */
   } channel[MOST];
-  uint64_t came; /* number of requests that have come from the second-level cache so far, to any channel */
+  uint64_t came;          /* number of requests that have come to any channel or the DRAM so far */
+  struct trax_dram *dram; /* NULL unless memory.model is dram */
 };
 
 struct trax_ref_chip {
@@ -250,7 +257,16 @@ uint32_t trax_ref_l2_line_cost(const struct trax_config *config);
 void trax_ref_l2_started(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint64_t arrival);
 
 /* --- Memory controller: controller.c --- */
-void trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config);
+bool trax_ref_controller_create(struct trax_ref_controller *controller, const struct trax_config *config,
+                                struct trax_memory_stats *stats);
+/* With DRAM: dram.c. */
+void trax_ref_serve_dram(struct trax_ref_chip *chip, uint32_t channel, uint64_t t);
+/* Performs an atomic increment whose transfer is over in cycle `over`. Returns the cycle in which the channel's unit
+   has done it. */
+uint64_t trax_ref_increment(struct trax_ref_chip *chip, struct trax_ref_request *request, uint64_t over);
+/* The request or the miss that came to the channel first and waits for it. False: there is none. */
+bool trax_ref_first_at_channel(struct trax_ref_chip *chip, uint32_t channel, struct trax_ref_request **request,
+                               struct trax_ref_miss **miss);
 void trax_ref_controller_cycle(struct trax_ref_chip *chip, uint64_t t);
 uint32_t trax_ref_channel_of(const struct trax_config *config, uint32_t address);
 /* Whether all buses are idle in cycle t. */

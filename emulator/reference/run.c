@@ -34,9 +34,9 @@ static trax_status create(struct trax_run *run, trax_error *error) {
     return trax_fail(error, "out of memory");
   *chip = (struct trax_ref_chip){
       .machine = machine, .tms = machine->config.chip.tms, .config = &machine->config, .stats = &machine->stats.memory};
-  trax_ref_controller_create(&chip->controller, &machine->config);
   chip->tm = calloc(chip->tms, sizeof *chip->tm);
-  bool complete = chip->tm && trax_ref_l2_create(&chip->l2, &machine->config);
+  bool complete = chip->tm && trax_ref_controller_create(&chip->controller, &machine->config, chip->stats) &&
+                  trax_ref_l2_create(&chip->l2, &machine->config);
   for (uint32_t i = 0; complete && i < chip->tms; i++)
     complete = create_tm(&chip->tm[i], i, machine, run->options->output);
   return complete ? TRAX_OK : trax_fail(error, "out of memory");
@@ -53,6 +53,7 @@ static void destroy(void *context) {
     free(chip->tm[i].queue);
   }
   trax_ref_l2_destroy(&chip->l2);
+  trax_dram_destroy(chip->controller.dram);
   free(chip->tm);
   free(chip);
 }

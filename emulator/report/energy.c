@@ -78,6 +78,15 @@ static void add_operations(struct trax_energy *energy, unsigned op, double count
   }
 }
 
+/* Commands, and the power of the ranks without them. */
+static double of_dram(const struct trax_stats *stats, const struct trax_config *config) {
+  const struct trax_dram_stats *dram = &stats->memory.dram;
+  const double nanoseconds = (double)stats->cycles * 1e3 / config->chip.clock_mhz;
+  return (double)dram->activates * config->dram.activate_nj + (double)dram->reads * config->dram.read_nj +
+         (double)dram->writes * config->dram.write_nj + (double)dram->refreshes * config->dram.refresh_nj +
+         config->dram.background_mw / 1e3 * config->dram.ranks * config->memory.channels * nanoseconds;
+}
+
 struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct trax_config *config) {
   const struct trax_tm_stats *count = &stats->total;
   struct trax_energy energy = {0};
@@ -100,7 +109,8 @@ struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct t
     energy.l2 = requests * trax_energy_of_cache(config->l2.bytes, config->l2.banks);
   }
 
-  energy.off_chip = off_chip_nj_per_byte * (double)stats->memory.bytes;
+  energy.off_chip = config->memory.model == TRAX_MEMORY_DRAM ? of_dram(stats, config)
+                                                             : off_chip_nj_per_byte * (double)stats->memory.bytes;
   energy.off_chip *= 1e-9;
 #define ADD(X, ID, MEANING)                                                                                            \
   energy.ID *= 1e-9;                                                                                                   \

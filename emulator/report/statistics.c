@@ -91,9 +91,15 @@ static void visit_instructions(const struct visitor *visitor, const struct trax_
          (double)tm->instructions[op]);
 }
 
-static void visit_memory(const struct visitor *visitor, const struct trax_memory_stats *memory) {
+static void visit_memory(const struct visitor *visitor, const struct trax_memory_stats *memory, bool dram) {
 #define COUNTER(ID, NAME, UNIT, MEANING) emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (double)memory->ID);
   TRAX_MEMORY_COUNTERS(COUNTER)
+#undef COUNTER
+#define COUNTER(ID, NAME, UNIT, MEANING)                                                                               \
+  emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (double)memory->dram.ID);
+  if (dram) {
+    TRAX_DRAM_COUNTERS(COUNTER)
+  }
 #undef COUNTER
 }
 
@@ -110,7 +116,8 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
   const struct visitor visitor = {visit, context};
   if (!tm) {
     visit_run(&visitor, stats ? stats : &no_stats, config ? config : &no_config);
-    visit_memory(&visitor, stats ? &stats->memory : &no_stats.memory);
+    visit_memory(&visitor, stats ? &stats->memory : &no_stats.memory,
+                 !config || config->memory.model == TRAX_MEMORY_DRAM);
     tm = stats ? &stats->total : &no_stats.total;
   } else {
     visit_tm_shares(&visitor, stats ? stats : &no_stats, tm, config ? config : &no_config);
@@ -323,7 +330,7 @@ static void print_shares(const trax_machine *machine, FILE *out) {
 
 double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel) {
   const struct trax_config *config = &machine->config;
-  const double share = 1e9 * config->memory.bandwidth_gbps / config->memory.channels; /* bytes/s */
+  const double share = 1e9 * trax_memory_gbps(config) / config->memory.channels; /* bytes/s */
   const double seconds = TRAX_SECONDS(&machine->stats, config);
   return seconds > 0 ? (double)machine->stats.memory.channel[channel].bytes / seconds / share : 0;
 }
@@ -358,7 +365,7 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
   const struct trax_host *host = trax_host_of(machine);
   fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
   fprintf(out, "chip     %ux%u at %u MHz, %.12g GB/s\n", machine->config.chip.tms, machine->config.chip.tps_per_tm,
-          machine->config.chip.clock_mhz, machine->config.memory.bandwidth_gbps);
+          machine->config.chip.clock_mhz, trax_memory_gbps(&machine->config));
   print_ending(machine, out);
   print_sampling(&machine->stats.sampling, out);
   print_group(machine, out, "Run", TRAX_GROUP_RUN, false);

@@ -212,12 +212,13 @@ json_t *trax_config_json(const struct trax_config *config) {
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
     double value = trax_config_value(config, key);
+    char word[TRAX_CONFIG_WORD];
     json_t *section = level(document, configuration, key->section, strlen(key->section));
     put(document, section, key->key,
-        key->kind == TRAX_KIND_FLAG     ? json_boolean(value != 0)
-        : key->kind == TRAX_KIND_REAL   ? json_real(value)
-        : key->kind == TRAX_KIND_POLICY ? json_string(trax_replacements[(size_t)value].word)
-                                        : json_integer((json_int_t)value));
+        key->kind == TRAX_KIND_FLAG   ? json_boolean(value != 0)
+        : key->kind == TRAX_KIND_REAL ? json_real(value)
+        : trax_config_has_words(key)  ? json_string(trax_config_value_word(key, value, word))
+                                      : json_integer((json_int_t)value));
   }
   if (!all.failed)
     return configuration;

@@ -50,12 +50,12 @@ static void assert_round_trip(const trax_config *config) {
 }
 
 static void set_number(trax_config *config, const struct trax_config_key *key, double value) {
-  char text[64];
+  char text[TRAX_CONFIG_WORD], word[TRAX_CONFIG_WORD];
   trax_error error;
   if (key->kind == TRAX_KIND_FLAG)
     snprintf(text, sizeof text, "%s", value != 0 ? "true" : "false");
-  else if (key->kind == TRAX_KIND_POLICY)
-    snprintf(text, sizeof text, "%s", trax_replacements[(size_t)value].word);
+  else if (trax_config_has_words(key))
+    snprintf(text, sizeof text, "%s", trax_config_value_word(key, value, word));
   else
     snprintf(text, sizeof text, "%.17g", value);
   if (trax_config_set(config, key->name, text, &error) != TRAX_OK)
@@ -69,7 +69,8 @@ static void test_every_key_at_its_limits(void **state) {
   assert_true(trax_config_key_count >= 30);
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
-    const double values[] = {key->least, key->most, key->initial};
+    const bool mapping = key->kind == TRAX_KIND_MAPPING; /* most numbers in its range are none */
+    const double values[] = {mapping ? TRAX_DRAM_ROW : key->least, mapping ? TRAX_DRAM_ROW : key->most, key->initial};
     for (size_t j = 0; j < 3; ++j) {
       trax_config *config = trax_config_create(), *expected = trax_config_create();
       set_number(config, key, values[j]);
@@ -109,6 +110,12 @@ static void test_every_key_beyond_its_limits(void **state) {
       refuse(key->name, "mru", "allowed are fifo, lru");
       refuse(key->name, "0", "allowed are fifo, lru");
       refuse(key->name, "true", "allowed are fifo, lru");
+      continue;
+    }
+    if (trax_config_has_words(key)) {
+      static const char *const wrong[] = {"", "0", "true", "row:", "limits"};
+      for (size_t j = 0; j < sizeof wrong / sizeof *wrong; ++j)
+        refuse(key->name, wrong[j], key->kind == TRAX_KIND_MODEL ? "allowed are limit, dram" : "allowed are row, rank");
       continue;
     }
     const double step = key->kind == TRAX_KIND_REAL ? 0.001 : 1;
@@ -197,7 +204,10 @@ static void test_random_configurations_round_trip(void **state) {
       const struct trax_config_key *key = &trax_config_keys[i];
       double fraction = (double)(next_random() >> 11) / 9007199254740992.0;
       double value = key->least + fraction * (key->most - key->least);
-      if (key->kind == TRAX_KIND_POWER)
+      if (key->kind == TRAX_KIND_MAPPING)
+        value = TRAX_DRAM_PART(0, 1 + next_random() % 5, next_random() % 16) +
+                TRAX_DRAM_PART(1, 1 + next_random() % 5, next_random() % 16);
+      else if (key->kind == TRAX_KIND_POWER)
         value = key->least == 0 && next_random() % 2
                     ? 0
                     : exp2(floor(log2(fmax(key->least, 1)) + fraction * (log2(key->most) - log2(fmax(key->least, 1)))));
@@ -356,7 +366,7 @@ static void test_every_key_wrong_in_a_file(void **state) {
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
     const bool flag = key->kind == TRAX_KIND_FLAG, real = key->kind == TRAX_KIND_REAL;
-    const bool word = key->kind == TRAX_KIND_POLICY;
+    const bool word = trax_config_has_words(key);
     const char *const values[] = {"\"x\"",
                                   "[1]",
                                   "(1)",
@@ -378,7 +388,9 @@ static void test_every_key_wrong_in_a_file(void **state) {
       load_text(text, (size_t)length, place);
       load_text(text, (size_t)length,
                 flag   ? "; allowed are true and false"
-                : word ? "; allowed are fifo, lru"
+                : word ? (key->kind == TRAX_KIND_POLICY  ? "; allowed are fifo, lru"
+                          : key->kind == TRAX_KIND_MODEL ? "; allowed are limit, dram"
+                                                         : "; allowed are row, rank, bank")
                        : "; allowed are ");
     }
     char text[256], suggestion[128];

@@ -85,7 +85,8 @@ def violation(one):
         return f"identity: {identity}"
     clock = one.statistics["configuration"]["chip"]["clock_mhz"] * 1e6
     gbps = one.statistics["memory"]["bytes"] / max(one.statistics["cycles"], 1) * clock / 1e9
-    allowed = one.statistics["configuration"]["memory"]["bandwidth_gbps"]
+    memory, dram = (one.statistics["configuration"][section] for section in ("memory", "dram"))
+    allowed = memory["bandwidth_gbps"] if memory["model"] == "limit" else dram["mtps"] * dram["bus_bits"] / 8 * memory["channels"] / 1e3
     if one.status == 0 and gbps > allowed * (1 + 1e-12):
         return f"{gbps} GB/s of {allowed}"
     return None

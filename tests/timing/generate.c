@@ -331,14 +331,32 @@ size_t any_isa_program(uint32_t *words) {
 
 /* --- configurations --- */
 
+/* The fields in any order, and some of the column's bits below all others. */
+static double any_mapping(void) {
+  unsigned fields[] = {TRAX_DRAM_ROW, TRAX_DRAM_RANK, TRAX_DRAM_BANK, TRAX_DRAM_COLUMN, TRAX_DRAM_CHANNEL};
+  double mapping = TRAX_DRAM_PART(5, TRAX_DRAM_COLUMN, any(1, 6));
+  for (unsigned i = 0; i < 5; i++) {
+    const unsigned other = any(i, 4), field = fields[other];
+    fields[other] = fields[i];
+    fields[i] = field;
+    mapping += TRAX_DRAM_PART(i, field, 0);
+  }
+  return mapping;
+}
+
 /* Mostly small, sometimes anything; between least and most. */
 static double any_value(const struct trax_config_key *key) {
-  const double most = strcmp(key->unit, "cycles") == 0 && key->most > 300 ? 300 : key->most;
+  const bool time = strcmp(key->unit, "cycles") == 0 || strcmp(key->unit, "ticks") == 0;
+  const double most = time && key->most > 300 ? 300 : key->most;
   switch (key->kind) {
   case TRAX_KIND_FLAG:
     return any(0, 1);
   case TRAX_KIND_POLICY:
     return any(0, TRAX_REPLACEMENT_COUNT - 1);
+  case TRAX_KIND_MODEL:
+    return any(0, TRAX_MEMORY_MODEL_COUNT - 1);
+  case TRAX_KIND_MAPPING:
+    return any_mapping();
   case TRAX_KIND_POWER:
     if (key->least == 0) /* what may be absent */
       return any(0, 1) ? 0 : (double)(1u << any(0, 16));
@@ -351,13 +369,7 @@ static double any_value(const struct trax_config_key *key) {
 }
 
 static void set_value(struct trax_config *config, const struct trax_config_key *key, double value) {
-  void *member = (char *)config + key->offset;
-  if (key->kind == TRAX_KIND_FLAG)
-    *(bool *)member = value != 0;
-  else if (key->kind == TRAX_KIND_REAL)
-    *(double *)member = round(value * 1000) / 1000;
-  else
-    *(uint32_t *)member = (uint32_t)value;
+  trax_config_put(config, key, key->kind == TRAX_KIND_REAL ? round(value * 1000) / 1000 : value);
 }
 
 struct trax_config any_machine(uint32_t tms, uint32_t tps) {
@@ -382,6 +394,49 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
   if (config.tp.branch_bubble_cycles % 3 == 2)
     config.tp.branch_bubble_cycles = 1; /* seldom met by chance, and a case of its own: no step may be taken for quick */
   return config;
+}
+
+static uint32_t seldom_large(uint32_t least, uint32_t small, uint32_t most) {
+  return seldom(4) ? any(least, most) : any(least, small);
+}
+
+/* DRAM with any timing; the caches may be any. */
+static void any_dram(struct trax_config *config) {
+  const struct trax_config before = *config;
+  for (unsigned tries = 0; tries < 50; tries++) {
+    *config = before;
+    config->memory.model = TRAX_MEMORY_DRAM;
+    config->memory.channels = any_power(1, 8);
+    config->dram.mtps = seldom(3) ? any(1, 8000) : 400 * any(1, 8);
+    config->dram.bus_bits = any_power(8, 128);
+    config->dram.burst_length = any_power(2, 32);
+    config->dram.ranks = any_power(1, 4);
+    config->dram.banks = any_power(1, 16);
+    config->dram.row_bytes = any_power(64, 8192);
+    config->dram.mapping = any(0, 1) ? any_mapping() : config->dram.mapping;
+    config->dram.trcd = seldom_large(1, 20, 300);
+    config->dram.trp = seldom_large(1, 20, 300);
+    config->dram.tcl = seldom_large(1, 20, 300);
+    config->dram.tcwl = seldom_large(1, 20, 300);
+    config->dram.tras = seldom_large(1, 50, 300);
+    config->dram.trrd = seldom_large(1, 10, 300);
+    config->dram.tfaw = seldom_large(1, 50, 300);
+    config->dram.twtr = seldom_large(1, 10, 300);
+    config->dram.twr = seldom_large(1, 20, 300);
+    config->dram.trtp = seldom_large(1, 10, 300);
+    config->dram.tturn = seldom_large(0, 4, 300);
+    config->dram.trfc = seldom_large(1, 100, 500);
+    config->dram.trefi = seldom(3) ? 0 : config->dram.trfc + any(1, 3000);
+    config->dram.reads = seldom_large(1, 8, TRAX_DRAM_MAX_QUEUE);
+    config->dram.writes = seldom_large(1, 8, TRAX_DRAM_MAX_QUEUE);
+    config->dram.batch_from = any(1, config->dram.writes);
+    config->dram.batch_to = any(0, config->dram.batch_from - 1);
+    config->dram.write_wait = seldom_large(0, 200, 5000);
+    config->dram.cap = seldom_large(0, 4, 100);
+    if (trax_config_validate(config, NULL) == TRAX_OK)
+      return;
+  }
+  *config = before;
 }
 
 static uint32_t longer(uint32_t a, uint32_t b) {
@@ -461,6 +516,10 @@ struct trax_config any_config(uint32_t tms, uint32_t tps) {
   config.memory.write_combining = any(0, 1);
   if (any(0, 1))
     beyond_the_paper(&config);
+  config.dcache.fill_cycles = seldom(3) ? any(1, 8) : 0;
+  config.memory.atomic_interval_cycles = seldom(4) ? any(1, 40) : 0;
+  if (seldom(3))
+    any_dram(&config);
   return config;
 }
 

@@ -15,6 +15,8 @@ enum {
 
 extern uint64_t random_state;
 uint32_t any(uint32_t least, uint32_t most);
+/* A power of two times least. */
+uint32_t any_power(uint32_t least, uint32_t most);
 
 /* A thread touches only its own words, and others' only through atomic increments of its own counter. At most BODY + 64
    instructions. */

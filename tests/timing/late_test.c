@@ -84,7 +84,7 @@ static void reference_controller(const struct transfers *transfers, uint32_t cha
   tm = (struct trax_ref_tm){.config = &config, .queue = queue, .places = REQUESTS};
   for (unsigned i = 0; i < REQUESTS; i++)
     queue[i] = (struct trax_ref_request){.kind = WRITE, .bytes = 64, .stage = AT_CHANNEL};
-  trax_ref_controller_create(&chip.controller, &config);
+  assert_true(trax_ref_controller_create(&chip.controller, &config, NULL));
   const uint64_t end = transfers->begin + transfers->over[REQUESTS - 1];
   for (uint64_t t = transfers->begin; t < end; t++) {
     trax_ref_controller_cycle(&chip, t);

@@ -126,12 +126,13 @@ void print_case(const struct random_case *c, FILE *out) {
   for (size_t i = 0; i < trax_config_key_count; i++) {
     const struct trax_config_key *key = &trax_config_keys[i];
     const double value = trax_config_value(&c->config, key);
+    char word[TRAX_CONFIG_WORD];
     if (value == trax_config_value(&initial, key))
       continue;
     if (key->kind == TRAX_KIND_FLAG)
       fprintf(out, " --set %s=%s", key->name, value != 0 ? "true" : "false");
-    else if (key->kind == TRAX_KIND_POLICY)
-      fprintf(out, " --set %s=%s", key->name, trax_replacements[(size_t)value].word);
+    else if (trax_config_has_words(key))
+      fprintf(out, " --set %s=%s", key->name, trax_config_value_word(key, value, word));
     else
       fprintf(out, " --set %s=%.12g", key->name, value);
   }

@@ -21,7 +21,7 @@ from mutants_list import MUTANTS
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HAND = ["pipeline", "fetch", "units", "memory", "atomics", "faults"]
-TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {})]
+TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {}), (["timing-dram-test"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
 TESTS += [(["timing-beyond-test"], {})]
 TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {}),

@@ -252,6 +252,10 @@ const struct rule *timing_rules(size_t *count) {
        "104 105 106 210 211 212 213 214 215 216", "icache_miss=104 wait_memory=103", U(LUI, 1, 1), S(SW, 1, 1, 0),
        I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(ADDI, 3, 0, 9), S(SW, 3, 1, 0), I(LW, 4, 1, 0), I(ADDI, 5, 4, -9),
        B(BEQ, 5, 0, 8), NOP, HALT);
+  /* The line of 105 is there in 209 and takes its banks in 209..211; the word is usable in 209. */
+  RULE("Data cache", "a line takes its banks for dcache.fill_cycles", FAR, "dcache.fill_cycles=3", 215, NONE,
+       "104 105 209 212 213 214", "icache_miss=104 wait_memory=103 dcache_bank_conflict=2", U(LUI, 1, 1),
+       I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 3, 1, 4), R(ADD, 0, 3, 3), HALT);
   RULE("Data cache", "loads past the cache ask for no bank", FAR, "chip.tps_per_tm=4", 107, NONE,
        "104 105 106 / 104 105 106 / 104 105 106 / 104 105 106", "icache_miss=416", U(LUI, 1, 1), I(LWNT, 2, 1, 0),
        HALT);
@@ -425,6 +429,10 @@ const struct rule *timing_rules(size_t *count) {
        "104 105 269 270 / 104 105 461 462 / 108 109 333 334 / 108 109 525 526 / 112 113 397 398 / 112 113 589 590",
        "icache_miss=648 wait_atomic=1914", U(LUI, 1, 1), I(AINC, 2, 1, 0), R(ADD, 3, 2, 2), HALT);
   /* 105 takes half a cycle, 106 as well: there in 206 and 207. The second got 1. */
+  /* The unit takes them in 106 and 116. */
+  RULE("Memory controller", "a channel's increments are memory.atomic_interval_cycles apart", FAR,
+       "memory.atomic_interval_cycles=10", 218, NONE, "104 105 106 216 217", "icache_miss=104 wait_atomic=109",
+       U(LUI, 1, 1), I(AINC, 2, 1, 0), I(AINC, 3, 1, 0), B(BNE, 3, 0, 8), NOP, HALT);
   RULE("Memory controller", "increments happen in the order of service", FAR, "", 209, NONE, "104 105 106 207 208",
        "icache_miss=104 wait_atomic=100", U(LUI, 1, 1), I(AINC, 2, 1, 0), I(AINC, 3, 1, 0), B(BNE, 3, 0, 8), NOP, HALT);
 
@@ -438,6 +446,25 @@ const struct rule *timing_rules(size_t *count) {
   RULE("Memory controller", "requests for different channels do not wait for each other", FAR, "memory.channels=2", 227,
        NONE, "108 109 110 111 219 225 226", "icache_miss=108 wait_memory=112", U(LUI, 1, 1), I(LW, 2, 1, 0),
        I(LW, 3, 1, 64), I(LW, 4, 1, 256), R(ADD, 5, 4, 4), R(ADD, 6, 3, 3), HALT);
+
+
+  /* --- DRAM: a tick is a cycle; a line takes trcd + tcl + 8 = 35, and 100 --- */
+  RULE("DRAM", "a line comes after activation, access and data", FAR, "memory.model=dram dram.mtps=1000 dram.trefi=0",
+       273, NONE, "135 136 271 272", "icache_miss=135 wait_memory=134", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 0, 2, 2),
+       HALT);
+  /* The row is open: 20 after the request of 272, and 100. */
+  RULE("DRAM", "of an open row it comes without the activation", FAR,
+       "memory.model=dram dram.mtps=1000 dram.trefi=0", 394, NONE, "135 136 271 272 392 393",
+       "icache_miss=135 wait_memory=253", U(LUI, 1, 1), I(LW, 2, 1, 0), R(ADD, 0, 2, 2), I(LW, 3, 1, 64),
+       R(ADD, 0, 3, 3), HALT);
+  /* Taken in 137 and 138. */
+  RULE("DRAM", "an increment needs no burst", FAR, "memory.model=dram dram.mtps=1000 dram.trefi=0", 240, NONE,
+       "135 136 137 238 239", "icache_miss=135 wait_atomic=100", U(LUI, 1, 1), I(AINC, 2, 1, 0), I(AINC, 3, 1, 0),
+       B(BNE, 3, 0, 8), NOP, HALT);
+  /* A word takes a burst: 4 + 4 after the other. */
+  RULE("DRAM", "a word takes a burst", FAR, "memory.model=dram dram.mtps=1000 dram.trefi=0", 274, NONE,
+       "135 136 137 271 272 273", "icache_miss=135 wait_memory=133", U(LUI, 1, 1), I(LWNT, 2, 1, 0), I(LWNT, 3, 1, 4),
+       R(ADD, 0, 3, 3), R(ADD, 0, 2, 2), HALT);
 
   /* --- Faults --- */
   RULE("Faults", "the rest of the cycle happens", NEAR, "chip.tps_per_tm=2 " LOCKSTEP, 4, NULL_PAGE, "1 2 / 1 2 3",

@@ -54,7 +54,8 @@ const char *const *trax_config_presets(void);
 bool trax_config_is_preset(const char *name);
 /* Returns the value of a key, 0 or 1 for a flag, NaN if there is no such key. */
 double trax_config_get(const trax_config *config, const char *key);
-/* Returns the value of a key whose values are words, as "dcache.replacement". NULL: there is no such key. */
+/* Returns the value of a key whose values are words, as "dcache.replacement", valid until the thread's next call. NULL:
+   there is no such key. */
 const char *trax_config_word(const trax_config *config, const char *key);
 /* Returns the first key behind `after` (NULL: of all) whose value is not the default. NULL: there is none. */
 const char *trax_config_next_change(const trax_config *config, const char *after);

@@ -18,6 +18,7 @@ from .workloads import PAPER, find_workload, no_workload
 CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8x64".split()  # in the order of Table 2
 PAPERS_PROGRAMS = "paper"  # the set that a sweep has which names no programs
 MODES = ("exact", "quick")
+WORD = r"[A-Za-z][\w.:-]*"  # of a key whose values are words
 # Of pictures with fewer pixels than this so many slots must be simulated that little is saved (docs/sampling.md): --quick makes them smaller instead,
 # by so much that all experiments take less than ten minutes on two cores.
 QUICK_PIXELS, QUICK_SIDE = 640 * 360, 0.4
@@ -138,7 +139,7 @@ class Reader(Fields):
                 self.fail(place, f"--{taken} is what trax-eval says itself")
             if not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value for value in values):
                 self.fail(place, f"expected a text, a number, true (given), false (left out) or a list of them, is {canonical(values)}")
-        elif not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value.isalpha() for value in values):
+        elif not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and re.fullmatch(WORD, value) for value in values):
             self.fail(place, f"expected a number, a word or a list of them, is {canonical(values)}")
         return [(key, value) for value in values]
 
