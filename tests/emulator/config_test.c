@@ -460,6 +460,61 @@ static void test_relations_between_keys(void **state) {
   }
 }
 
+/* With memory.model = dram; without it none of this matters. */
+static void test_relations_of_dram(void **state) {
+  (void)state;
+  static const struct {
+    const char *key, *value, *message;
+  } cases[] = {{"memory.channels", "3", "memory.channels is 3; with memory.model = dram it must be a power of two"},
+               {"dram.batch_from", "33", "dram.batch_from is 33; it must not be more than dram.writes = 32"},
+               {"dram.batch_to", "24", "dram.batch_to is 24; it must be less than dram.batch_from = 24"},
+               {"dram.trefi", "104", "dram.trefi is 104; it must be 0 or more than dram.trfc = 104"},
+               {"dram.row_bytes", "64", "dram.mapping is \"row:rank:bank:column:channel:column3\"; column has 1 bits"},
+               {"dram.mapping", "bank:row:rank:channel:column", NULL},
+               {"dram.mapping", "column:row:rank:bank:channel", "32 bytes lie together"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    trax_config *config = trax_config_create();
+    trax_error error = {.message = ""};
+    assert_int_equal(trax_config_set(config, cases[i].key, cases[i].value, &error), TRAX_OK);
+    assert_int_equal(trax_config_check(config, &error), TRAX_OK);
+    assert_int_equal(trax_config_set(config, "memory.model", "dram", &error), TRAX_OK);
+    if (cases[i].message) {
+      assert_int_equal(trax_config_check(config, &error), TRAX_ERROR);
+      expect_message(&error, cases[i].message);
+    } else {
+      assert_int_equal(trax_config_check(config, &error), TRAX_OK);
+    }
+    trax_config_destroy(config);
+  }
+}
+
+static void test_presets_of_dram(void **state) {
+  (void)state;
+  static const struct {
+    const char *name;
+    double gbps;
+  } presets[] = {{"lpddr2-1066", 8.528}, {"lpddr3-1600", 12.8}, {"lpddr4-3200", 25.6}};
+  trax_config *config = trax_config_create();
+  trax_error error;
+  for (size_t i = 0; i < 3; ++i) {
+    char text[128];
+    const int length =
+        snprintf(text, sizeof text, "dram: { cap = 3; preset = \"%s\"; trcd = 77; };\nmemory: { model = \"dram\"; };",
+                 presets[i].name);
+    write_file(text, (size_t)length);
+    assert_int_equal(trax_config_load(config, file_name, &error), TRAX_OK);
+    assert_int_equal(trax_config_check(config, &error), TRAX_OK);
+    assert_true(trax_memory_gbps(config) == presets[i].gbps);
+    assert_int_equal(config->dram.trcd, 77); /* it comes after the preset */
+    assert_int_equal(config->dram.cap, 16);
+    assert_round_trip(config);
+  }
+  refuse("dram.preset", "lpddr3-160",
+         "(did you mean lpddr3-1600?); allowed are lpddr2-1066, lpddr3-1600 and lpddr4-3200");
+  load_text("\ndram: { preset = 5; };", 22, ":2: dram.preset is \"5\"");
+  trax_config_destroy(config);
+}
+
 /* Every file made by cutting or damaging a good one is read or refused, never anything worse. */
 static void test_damaged_files(void **state) {
   (void)state;
@@ -501,6 +556,8 @@ int main(void) {
       cmocka_unit_test(test_missing_files),
       cmocka_unit_test(test_good_files),
       cmocka_unit_test(test_relations_between_keys),
+      cmocka_unit_test(test_relations_of_dram),
+      cmocka_unit_test(test_presets_of_dram),
       cmocka_unit_test(test_damaged_files),
   };
   int descriptor = memfd_create("test", 0);
