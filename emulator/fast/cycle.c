@@ -248,9 +248,11 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_fast_tm *ftm, const bool w
   return winners;
 }
 
-/* Returns those of the TPs whose bank is being filled; bit: the planes of the banks' numbers. */
-static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_fast_tm *ftm, uint64_t requesters, uint64_t *bit,
-                                                           uint64_t t) {
+/* Returns those of the TPs whose bank is being filled; the bits are planes of the banks' numbers. (Passed one by one,
+   since an array of them must not leave grant().) */
+static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_fast_tm *ftm, uint64_t requesters, uint64_t bit0,
+                                                           uint64_t bit1, uint64_t bit2, uint64_t t) {
+  uint64_t bit[TRAX_FAST_BANK_BITS] = {bit0, bit1, bit2};
   uint64_t found = 0;
   trax_fast_transpose(&ftm->heads, ftm->wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
   trax_fast_transpose(&ftm->heads, ftm->wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
@@ -377,7 +379,8 @@ static ALWAYS_INLINE uint64_t grant(struct trax_fast_tm *ftm, const bool wide, s
   if (requesters) {
     uint64_t hits, filling = 0;
     if (__builtin_expect(tm->dcache.all_fills_end > t, false))
-      filling = in_filling_banks(ftm, requesters, bit + TRAX_STEP_BANK_SHIFT, t);
+      filling = in_filling_banks(ftm, requesters, bit[TRAX_STEP_BANK_SHIFT], bit[TRAX_STEP_BANK_SHIFT + 1],
+                                 bit[TRAX_STEP_BANK_SHIFT + 2], t);
     won = grant_banks(ftm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT, &hits);
     refused->bank = requesters & ~won;
     if (ftm->serial_hits)

@@ -22,6 +22,8 @@ LATENCIES = ["tp.int_latency_cycles", "tp.local_latency_cycles", "tp.branch_bubb
              "fpu.compare_latency_cycles", "fpu.convert_latency_cycles", "int_mul.latency_cycles", "special.latency_cycles",
              "dcache.hit_latency_cycles"]
 ONE_LINE = ["icache.bytes=64", "icache.line_bytes=64", "icache.ways=1", "dcache.bytes=64", "dcache.line_bytes=64", "dcache.ways=1"]
+DRAM = ["memory.model=dram"]
+DRAM_TIMES = ("trcd", "trp", "tcl", "tcwl", "tras", "trrd", "tfaw", "twtr", "twr", "trtp", "tturn")
 # Name, TMs and TPs of each, keys.
 MACHINES = [
     ("defaults", (2, 16), []),
@@ -59,6 +61,12 @@ MACHINES = [
     ("16 channels, 0.01 GB/s", (2, 4), ["memory.channels=16", "memory.bandwidth_gbps=0.01", "l2.bytes=4096"]),
     ("16 channels, 1000 GB/s", (4, 8), ["memory.channels=16", "memory.bandwidth_gbps=1000", "memory.latency_cycles=0"]),
     ("increments of 100,000", (2, 2), ["memory.atomic_latency_cycles=100000"]),
+    ("DRAM, one of everything", (2, 8), [*DRAM, "dram.banks=1", "dram.reads=1", "dram.writes=1", "dram.batch_from=1", "dram.batch_to=0", "dram.cap=0"]),
+    ("DRAM, 16 channels", (4, 8), [*DRAM, "memory.channels=16", "dram.ranks=4", "dram.banks=32", "dram.reads=256", "dram.writes=256", "dram.batch_from=256"]),
+    ("DRAM, 100,000 MT/s", (2, 8), [*DRAM, "dram.mtps=100000", "memory.latency_cycles=0"]),
+    ("DRAM, 100 MT/s", (1, 2), [*DRAM, "dram.mtps=100", "l2.bytes=4096"]),
+    ("DRAM, 1000 ticks each", (1, 2), [*DRAM, *(f"dram.{key}=1000" for key in DRAM_TIMES), "dram.trfc=10000", "dram.trefi=10001"]),
+    ("fills of 64, increments of 1000", (2, 8), ["dcache.fill_cycles=64", "memory.atomic_interval_cycles=1000"]),
     ("64 units of a group", (2, 16), ["fpu.adders_per_cluster=64", "fpu.multipliers_per_cluster=64", "int_mul.units_per_group=64"]),
     ("1 MHz", (2, 16), ["chip.clock_mhz=1"]),
     ("100 GHz", (1, 8), ["chip.clock_mhz=100000"]),
