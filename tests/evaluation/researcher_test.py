@@ -174,6 +174,10 @@ def test_new_sweep(program, scratch):
     for words, message in ((("asked.json",), "is there already"), (("asked.txt",), "expected NAME.json"), (("none/x.json",), "no such folder"), (("early.json", "x"), "the answers ended early")):
         run = ask(*words)
         check(run.returncode == 1 and message in run.stderr, f"new-sweep {words}: {run.returncode}: {run.stderr}")
+    run = subprocess.run([program, "new-sweep", "early.json"], cwd=mine, input=b"\xff\n", capture_output=True, timeout=100, env=os.environ | {"PYTHONIOENCODING": "utf-8:strict"})
+    check(run.returncode == 1 and b"are no text" in run.stderr, f"answers that are no text: {run.stderr}")
+    run = ask("early.json", "", "", "", "", "", "", "8x8", "icache.banks", "[" * 100000, "icache.banks", "1e999", "x" * 300, "1")
+    check(run.returncode == 1 and "Traceback" not in run.stderr, f"odd answers: {run.stderr}")
     check(sorted(path.name for path in mine.iterdir()) == sorted([*(path.name for path in (HERE / "researcher").iterdir()), "asked.json"]), "new-sweep left other files")
 
 

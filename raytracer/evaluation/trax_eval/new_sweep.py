@@ -22,7 +22,7 @@ def value_of(text):
     """A number, true or false, or the text as it is."""
     try:
         value = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         return text
     return value if isinstance(value, (bool, int, float)) else text
 
@@ -33,7 +33,10 @@ def ask(question, default, out):
     try:
         answer = input().strip()
     except EOFError:
+        out.write("\n")
         raise Problem("new-sweep: the answers ended early; nothing was written") from None
+    except UnicodeDecodeError:
+        raise Problem("new-sweep: the answers are no text") from None
     return answer or default
 
 
