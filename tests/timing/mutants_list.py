@@ -400,5 +400,5 @@ MUTANTS = [
     ("fast/dcache.c", "(*end > t ? *end : t) + config->dcache.fill_cycles", "t + config->dcache.fill_cycles"),
     ("fast/dcache.c", "i < words && i < dcache->banks; i++", "i < dcache->banks; i++"),
     ("fast/cycle.c", "ftm->tm->dcache.fills_end[bank] > t", "ftm->tm->dcache.fills_end[bank] > t + 1"),
-    ("reference/data_cache.c", "filling ? -1 : ", ""),
+    ("reference/data_cache.c", "filling ? -1 : ", "filling && !filling ? -1 : "),
 ]
