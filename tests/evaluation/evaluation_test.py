@@ -247,7 +247,7 @@ REFUSED = [
     ('{"name": "x", "set": [{"name": "a", "program": "paper"}]}', "set.program: is a set of programs; a variant has one"),
     ('{"name": "x", "set": [{"name": "a", "program": 1}]}', "set.program: expected the name"),
     ('{"name": "x", "set": [{"name": "a"}], "reference": "b"}', 'reference: "b" is neither a variant nor a program of this sweep; "a", "ours", "era" are'),
-    ('{"name": "x", "table": 1}', "table[0]: expected an object"),
+    ('{"name": "x", "table": 1}', "table: expected an object or a list of objects"),
     ('{"name": "x", "error": 1}', "error: expected true or false"),
     ('{"name": "x", "mode": "quick", "programs": "ours", "hits": true}', "mode: series, lockstep"),
     ('{"name": "x", "error": true}', 'programs: error and hits need programs that are "specialised"'),
