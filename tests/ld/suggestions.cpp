@@ -4,10 +4,10 @@
    RUN: %clang -x c -DDEFINES -c %s -o defines.o && %clang -x c -DLIBRARY -c %s -o library.o && llvm-ar rc lib.a library.o
    RUN: %clangxx -O1 -DNEEDS -c %s -o needs.o && %clangxx -DOTHER -c %s -o other.o
    RUN: not %trax_ld needs.o other.o defines.o lib.a -e main -o no 2>&1 | FileCheck %s --implicit-check-not=error: --implicit-check-not=">>>"
-   CHECK: error: {{.*}}: undefined symbol '_Z10c_functioni' (in function 'main')
+   CHECK: error: {{.*}}: undefined symbol 'c_function(int)' (in function 'main')
    CHECK-NEXT: >>> did you mean to declare 'c_function' as extern "C"? 'c_function' is defined
    CHECK: error: {{.*}}: undefined symbol 'cpp_function'
-   CHECK-NEXT: >>> did you mean to define 'cpp_function' as extern "C"? '_Z12cpp_functioni' is defined
+   CHECK-NEXT: >>> did you mean to define 'cpp_function' as extern "C"? 'cpp_function(int)' is defined
    CHECK: error: {{.*}}: undefined symbol 'transposde'
    CHECK-NEXT: >>> did you mean 'transposed'?
    CHECK: error: {{.*}}: undefined symbol 'insrted'
