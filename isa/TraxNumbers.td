@@ -14,7 +14,7 @@ class TraxNumbers<string macro, string prefix, list<string> names, int first = 0
 }
 
 def SpecialRegisters : TraxNumbers<"TRAX_SPECIAL_REGISTERS", "TRAX_SR", ["thread", "tm", "tp", "threads", "cycle", "cycleh"]>;
-def Traps : TraxNumbers<"TRAX_TRAPS", "TRAX_TRAP", ["exit", "putc", "abort", "rays", "items", "puts", "kinds"]>;
+def Traps : TraxNumbers<"TRAX_TRAPS", "TRAX_TRAP", ["exit", "putc", "abort", "rays", "items", "puts", "kinds", "host"]>;
 def Fences : TraxNumbers<"TRAX_FENCES", "TRAX_FENCE", ["r", "w", "rw"], 1>; // bits: rw is both
 
 class NumberOf<TraxNumbers numbers, string name> {

@@ -220,16 +220,18 @@ static trax_parsed parse_letters(struct parser *parser, const char *text, trax_e
   return TRAX_PARSED_RUN;
 }
 
-trax_parsed trax_command_parse(const trax_command *command, void *target, int *count, char **arguments,
-                               trax_error *error) {
+static trax_parsed parse(const trax_command *command, void *target, int *count, char **arguments, bool to_operand,
+                         trax_error *error) {
   struct parser parser = {.command = command, .target = target, .count = *count, .next = 1, .arguments = arguments};
   int rest = 0;
   for (bool only_names = false; parser.next < parser.count;) {
     char *text = arguments[parser.next++];
     trax_parsed parsed = TRAX_PARSED_RUN;
-    if (only_names || text[0] != '-' || text[1] == '\0')
+    if (only_names || text[0] != '-' || text[1] == '\0') {
       arguments[rest++] = text;
-    else if (strcmp(text, "--") == 0)
+      while (to_operand && parser.next < parser.count)
+        arguments[rest++] = arguments[parser.next++];
+    } else if (strcmp(text, "--") == 0)
       only_names = true;
     else
       parsed = text[1] == '-' ? parse_name(&parser, text + 2, error) : parse_letters(&parser, text + 1, error);
@@ -239,6 +241,16 @@ trax_parsed trax_command_parse(const trax_command *command, void *target, int *c
   arguments[rest] = NULL;
   *count = rest;
   return TRAX_PARSED_RUN;
+}
+
+trax_parsed trax_command_parse(const trax_command *command, void *target, int *count, char **arguments,
+                               trax_error *error) {
+  return parse(command, target, count, arguments, false, error);
+}
+
+trax_parsed trax_command_parse_to_operand(const trax_command *command, void *target, int *count, char **arguments,
+                                          trax_error *error) {
+  return parse(command, target, count, arguments, true, error);
 }
 
 /* --- help and files --- */

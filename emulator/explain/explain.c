@@ -132,7 +132,7 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   if (!explain->open_spans || !explain->places)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
   for (size_t i = 0; i < threads; i++)
-    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->machine->entry;
+    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = trax_machine_entry_of(explain->machine, (uint32_t)i);
   for (unsigned i = 0; i < KINDS; i++)
     if (is_wanted(&explain->options, i)) {
       struct trax_reader *reader = &explain->readers[explain->reader_count];

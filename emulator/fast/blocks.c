@@ -68,3 +68,9 @@ void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {
     trax_fast_roll_back(fast);
   trax_fast_set_written(&fast->blocks, address);
 }
+
+void trax_fast_range_written(void *fast, uint32_t address, uint32_t bytes) {
+  for (uint64_t at = address >> TRAX_BLOCK_SHIFT << TRAX_BLOCK_SHIFT; at < address + (uint64_t)bytes;
+       at += 1u << TRAX_BLOCK_SHIFT)
+    trax_fast_block_written(fast, (uint32_t)at);
+}

@@ -72,6 +72,8 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
   if (!fast)
     return trax_fail(error, "out of memory");
   fast->chip = chip;
+  machine->calls.before_write = trax_fast_range_written;
+  machine->calls.engine = fast;
   fast->burst = machine->observer ? 1 : TRAX_BURST;
   const size_t bytes = chip->tms * sizeof *fast->tm; /* a multiple of the alignment, as aligned_alloc requires */
   fast->tm = aligned_alloc(_Alignof(struct trax_fast_tm), bytes);
@@ -90,6 +92,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
 static void destroy(struct trax_fast *fast) {
   if (!fast)
     return;
+  fast->chip->machine->calls.before_write = NULL;
   for (uint32_t i = 0; fast->tm && i < fast->chip->tms; i++) {
     free(fast->tm[i].tp);
     free(fast->tm[i].count_deltas);

@@ -31,6 +31,7 @@
 #define trax_fast_blocks_create TRAX_FAST_NAME(trax_fast_blocks_create, TRAX_FAST_VARIANT)
 #define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
 #define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
+#define trax_fast_range_written TRAX_FAST_NAME(trax_fast_range_written, TRAX_FAST_VARIANT)
 #define trax_fast_roll_back TRAX_FAST_NAME(trax_fast_roll_back, TRAX_FAST_VARIANT)
 #define trax_fast_schedule_check TRAX_FAST_NAME(trax_fast_schedule_check, TRAX_FAST_VARIANT)
 #define trax_fast_export TRAX_FAST_NAME(trax_fast_export, TRAX_FAST_VARIANT)
@@ -268,6 +269,8 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* To be called before a store or atomic increment writes to a global address: rolls back all TPs if a burst has loaded
    from its block. */
 void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
+/* The same for the blocks of a range, before a host call writes it outside epochs; `fast` is a struct trax_fast. */
+void trax_fast_range_written(void *fast, uint32_t address, uint32_t bytes);
 /* Rolls every TP back to what it has issued; all heads execute at issue then. */
 void trax_fast_roll_back(struct trax_fast *fast);
 

@@ -38,8 +38,8 @@ trax_status trax_tm_create(struct trax_tm *tm, uint32_t number, struct trax_chip
     return trax_fail(error, "out of memory");
 
   for (uint32_t i = 0; i < tps; i++) {
-    tm->tp[i].pc = machine->entry;
-    tm->tp[i].inst = trax_text_at(tm->text, machine->entry);
+    tm->tp[i].pc = trax_machine_entry_of(machine, number * tps + i);
+    tm->tp[i].inst = trax_text_at(tm->text, tm->tp[i].pc);
   }
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;

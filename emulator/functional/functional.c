@@ -144,7 +144,7 @@ static bool execute(struct chip *chip, struct thread *thread) {
     const uint32_t value_ = (VALUE);                                                                                   \
     if ((CODE) == TRAX_TRAP_EXIT)                                                                                      \
       end_thread(chip, thread, (int32_t)value_);                                                                       \
-    else if ((kind = trax_trap(&chip->machine->space, thread->local, stats, chip->output, value_, (int32_t)(CODE))))   \
+    else if ((kind = trax_trap(chip->machine, thread->local, stats, chip->output, value_, (int32_t)(CODE))))   \
       address = value_;                                                                                                \
   } while (0)
 #define FENCE(KIND) ((void)(KIND))
@@ -270,7 +270,7 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   if (!complete)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->threads; i++) {
-    chip->thread[i].pc = run->machine->entry;
+    chip->thread[i].pc = trax_machine_entry_of(run->machine, i);
     chip->thread[i].number = i;
     chip->thread[i].tm = i / tps;
     chip->thread[i].tp = i % tps;

@@ -2,12 +2,14 @@
 
      struct header
      deflate stream (zlib) of: the state's layout (engine/layout.h); the fields of its sections (machine/section.h);
-     then the pages of memory that differ from their contents before cycle 0, each after its number in 4 bytes
+     then the pages of memory that differ from their contents before cycle 0, each after its number in 4 bytes; then the
+   state of the program's host calls (calls/state.c)
 
    Before cycle 0, memory holds the program and its buffers. So a run can only be resumed with the same program, buffers
    and configuration: the header has a digest of configuration and memory. */
 #include "host/checkpoint.h"
 
+#include "calls/calls.h"
 #include "engine/layout.h"
 #include "engine/run.h"
 #include "trax/input.h"
@@ -21,7 +23,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 4, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
+enum { PAGE = 4096, VERSION = 5, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
 
 static const char magic[8] = "TRAXckpt";
 
@@ -36,6 +38,7 @@ struct header {
   uint64_t compressed; /* bytes that follow */
   uint64_t run[2];     /* digest of configuration, segments, entry and memory before cycle 0 */
   uint64_t layouts;    /* entries */
+  uint64_t calls;      /* bytes of the state of host calls */
   uint64_t body[2];    /* digest of the header, with zero here, and of the bytes that follow */
 };
 
@@ -108,6 +111,7 @@ static XXH128_hash_t digest_run(const struct trax_checkpoint *checkpoint) {
     XXH3_128bits_update(state, numbers, sizeof numbers);
   }
   XXH3_128bits_update(state, &machine->entry, sizeof machine->entry);
+  XXH3_128bits_update(state, &machine->other_entry, sizeof machine->other_entry);
   XXH3_128bits_update(state, checkpoint->pages, machine->space.size / PAGE * sizeof *checkpoint->pages);
   const XXH128_hash_t digest = XXH3_128bits_digest(state);
   XXH3_freeState(state);
@@ -137,7 +141,7 @@ struct content {
 
 static void add(void *context, const void *bytes, size_t size) {
   struct content *content = context;
-  if (content->failed)
+  if (content->failed || !size)
     return;
   if (content->count + size > content->capacity) {
     const size_t larger = 2 * (content->count + size);
@@ -191,6 +195,12 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
   memcpy(header.magic, magic, sizeof magic);
   visit_pages(&run->machine->space, add_page, &content);
   header.pages = content.pages;
+  uint8_t *calls;
+  size_t calls_size;
+  content.failed |= !trax_calls_save(run->machine, &calls, &calls_size);
+  add(&content, calls, calls_size);
+  header.calls = calls_size;
+  free(calls);
   header.run[0] = checkpoint->run.low64;
   header.run[1] = checkpoint->run.high64;
   uLongf size = compressBound(content.count);
@@ -205,6 +215,8 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
     header.body[1] = digest.high64;
     status = write_file(checkpoint->options.write, &header, body, error);
     checkpoint->written = t;
+    if (status == TRAX_OK) /* a run that is resumed from here on finds the files as they then are */
+      status = trax_calls_commit(run->machine, error);
   }
   free(body);
   free(content.bytes);
@@ -269,10 +281,10 @@ static trax_status expand_file(struct trax_checkpoint *checkpoint, const trax_in
   if (header->run[0] != checkpoint->run.low64 || header->run[1] != checkpoint->run.high64)
     return refuse(path, "a checkpoint of another program, machine, or buffer", error);
   if (header->pages > checkpoint->machine->space.size / PAGE || header->layouts > TRAX_MOST_LAYOUTS ||
-      header->state / MOST_EXPANSION > header->compressed)
+      header->state / MOST_EXPANSION > header->compressed || header->calls / MOST_EXPANSION > header->compressed)
     return refuse(path, "damaged: it is too short for the sizes in its header", error);
   uLongf size = header->layouts * sizeof(struct trax_layout) + header->state +
-                (uint64_t)header->pages * (PAGE + sizeof(uint32_t));
+                (uint64_t)header->pages * (PAGE + sizeof(uint32_t)) + header->calls;
   const uLongf expected = size;
   checkpoint->content = malloc(size);
   if (!checkpoint->content ||
@@ -348,6 +360,9 @@ static trax_status resume(void *context, struct trax_run *run, trax_error *error
       return refuse(checkpoint->options.resume, "a page lies outside memory", error);
     take(&reader, run->machine->space.bytes + (size_t)number * PAGE, PAGE);
   }
+  trax_error reason;
+  if (trax_calls_restore(run->machine, reader.bytes, header->calls, &reason) != TRAX_OK)
+    return refuse(checkpoint->options.resume, reason.message, error);
   if (run->engine->check(run->chip, header->cycle, wrong))
     return trax_fail(error, "%s: its state cannot be: %s", checkpoint->options.resume, wrong);
   trax_run_import(run, header->cycle);
@@ -372,6 +387,7 @@ trax_status trax_checkpoint_begin(struct trax_checkpoint **result, trax_machine 
     return trax_fail(error, "out of memory");
   }
   checkpoint->machine = machine;
+  trax_calls_defer(machine);
   checkpoint->options = *options;
   checkpoint->pages = pages;
   checkpoint->written = TRAX_NEVER;

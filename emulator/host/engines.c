@@ -1,6 +1,7 @@
 /* The table of engines, and the run of a machine by one of them. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "host/engines.h"
+#include "calls/calls.h"
 #include "engine/run.h"
 #include "fast/chip.h"
 #include "functional/functional.h"
@@ -110,7 +111,11 @@ static double host_seconds(void) {
 
 static trax_status create_run(struct run *run, struct trax_machine *machine, const struct trax_engine *engine,
                               trax_error *error) {
-  if (trax_run_create(&run->run, machine, engine, &run->options, error) != TRAX_OK)
+  const trax_run_options *options = &run->options;
+  const struct trax_calls_streams streams = {options->input, options->output,
+                                             options->errors ? options->errors : options->output, options->interrupt};
+  if (trax_calls_begin(machine, &streams, error) != TRAX_OK ||
+      trax_run_create(&run->run, machine, engine, &run->options, error) != TRAX_OK)
     return TRAX_ERROR;
   if (machine->prepare && machine->prepare(machine->prepare_context, &run->run, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -160,7 +165,8 @@ static trax_status complete(struct trax_machine *machine, trax_error *error) {
     return TRAX_ERROR;
   machine->at_limit = machine->status == TRAX_STUCK && options->max_cycles &&
                       (!engine->is_timed || machine->stats.cycles >= options->max_cycles);
-  if (trax_stats_collect(machine, engine->is_timed && !options->slots, error) != TRAX_OK)
+  if (trax_stats_collect(machine, engine->is_timed && !options->slots, error) != TRAX_OK ||
+      trax_calls_end(machine, machine->status == TRAX_OK, error) != TRAX_OK)
     return machine->status = TRAX_ERROR;
   return report_outcome(machine, &run->run, error);
 }

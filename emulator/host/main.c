@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "gdb/gdb.h"
@@ -53,6 +54,14 @@ static trax_status configure(trax_config *config, const struct trax_options *opt
   return trax_config_check(config, error);
 }
 
+/* The first argument is the program's name, wherever its file is. */
+static trax_status set_arguments(trax_machine *machine, const struct trax_options *options, trax_error *error) {
+  const char *slash = strrchr(options->program, '/');
+  options->arguments[0] = (char *)(slash ? slash + 1 : options->program);
+  return trax_machine_set_arguments(machine, (const char *const *)options->arguments, (size_t)options->argument_count,
+                                    error);
+}
+
 static trax_status load(trax_machine *machine, const struct trax_options *options, trax_error *error) {
   trax_status status = options->manifest ? trax_manifest_load(options->manifest, machine, error)
                                          : trax_machine_load_elf(machine, options->program, error);
@@ -74,6 +83,13 @@ static trax_status load(trax_machine *machine, const struct trax_options *option
       status = trax_fail(error, "--dump %s: a picture of %ux%u has %llu bytes, and the buffer has %u", dump->name,
                          dump->width, dump->height, (unsigned long long)dump->width * dump->height * 4, size);
   }
+  for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; ++i)
+    if (options->assignments[i].kind == TRAX_ASSIGN_DIR)
+      status = trax_machine_allow(machine, options->assignments[i].name, options->assignments[i].value, error);
+  if (status == TRAX_OK && options->arguments)
+    status = set_arguments(machine, options, error);
+  if (status == TRAX_OK && options->main_on_thread_0)
+    status = trax_machine_main_on_thread_0(machine, error);
   if (status == TRAX_OK && options->signature)
     status = trax_machine_check_signature(machine, error);
   return status;
@@ -106,6 +122,8 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
   trax_progress_line_begin(&line, "trax-sim", options->quiet);
   struct trax_run_progress progress = {.line = &line, .step = "running"};
   trax_run_options run_options = {.output = stdout,
+                                  .input = stdin,
+                                  .errors = stderr,
                                   .max_cycles = options->max_cycles,
                                   .total_items = options->total_items,
                                   .interrupt = &trax_signal,

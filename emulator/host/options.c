@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "host/engines.h"
+#include "program/program.h"
 #include "trax/output.h"
 
 enum { MOST_PIXELS = 16384 }; /* of a side of a picture */
@@ -83,6 +84,23 @@ static trax_status parse_scene(void *target, const trax_option *option, const ch
   return status;
 }
 
+static trax_status parse_dir(void *target, const trax_option *option, const char *value, trax_error *error) {
+  const char *colons = strstr(value, "::");
+  const size_t length = colons ? (size_t)(colons - value) : strlen(value);
+  if (length == 0 || (colons && !colons[2]))
+    return trax_option_refuse(option, value, error, "is not of the form %s", option->argument);
+  return append(target, (struct trax_assignment){.kind = TRAX_ASSIGN_DIR}, value, length, colons ? colons + 2 : value,
+                error);
+}
+
+static trax_status parse_main_on(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct trax_options *options = target;
+  options->main_on_thread_0 = strcmp(value, "0") == 0;
+  return options->main_on_thread_0 || strcmp(value, "all") == 0
+             ? TRAX_OK
+             : trax_option_refuse(option, value, error, "is neither 0 nor all");
+}
+
 static trax_status parse_engine(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_options *options = target;
   trax_error reason;
@@ -154,6 +172,11 @@ static const trax_option rows[] = {
      .meaning = "write the buffer SYMBOL to a file after the run; FILE.png:WxH: as a picture, 4 bytes a pixel"},
     {"signature", .argument = "FILE", OUTPUT(signature),
      .meaning = "write the words from begin_signature to end_signature, and the fault, after the run"},
+    TRAX_OPTION_GROUP("Program"),
+    {"dir", .argument = "FOLDER[::NAME]", .parse = parse_dir,
+     .meaning = "let the program read and write files in FOLDER, which it sees as NAME"},
+    {"main-on", .argument = "THREADS", .parse = parse_main_on,
+     .meaning = "threads that call main: 0, the first alone, or all (default)"},
     TRAX_OPTION_GROUP("Run"),
     {"engine", .argument = "NAME", .parse = parse_engine,
      .meaning = "fast (default), reference (the same, slower) or functional (no time)"},
@@ -228,9 +251,10 @@ static const trax_option rows[] = {
 
 static const trax_command command = {
     .name = "trax-sim",
-    .synopsis = "[OPTION...] PROGRAM|MANIFEST.json",
+    .synopsis = "[OPTION...] PROGRAM [ARGUMENT...]\n[OPTION...] MANIFEST.json",
     .description = "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
-                   "output is standard output, and its exit status is that of trax-sim. A manifest\n"
+                   "output is standard output, and its exit status is that of trax-sim. What follows\n"
+                   "PROGRAM is for its main, or options if main has no parameters. A manifest\n"
                    "names program, buffers and machine (docs/manifest.md); options are added to it.",
     .rows = rows,
     .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
@@ -348,15 +372,32 @@ static trax_status take_manifest(struct trax_options *options, trax_error *error
   return TRAX_OK;
 }
 
+/* Whether what follows the program is for its main. A file that cannot be read is reported when it is loaded. */
+static bool takes_arguments(const char *program) {
+  trax_error ignored;
+  trax_image *image = trax_manifest_is(program) ? NULL : trax_image_open(program, &ignored);
+  const bool takes = image && trax_image_symbol(image, TRAX_ARGUMENTS_SYMBOL);
+  if (image)
+    trax_image_close(image);
+  return takes;
+}
+
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
   *options = (struct trax_options){0};
   trax_engine_find(NULL, &options->engine, error);
-  const trax_parsed parsed = trax_command_parse(&command, options, &count, arguments, error);
+  trax_parsed parsed = trax_command_parse_to_operand(&command, options, &count, arguments, error);
+  options->program = parsed == TRAX_PARSED_RUN && count > 0 ? arguments[0] : NULL;
+  if (count > 1 && options->program && takes_arguments(options->program)) {
+    options->arguments = arguments;
+    options->argument_count = count;
+  } else if (options->program) {
+    parsed = trax_command_parse(&command, options, &count, arguments, error);
+  }
   if (parsed != TRAX_PARSED_RUN)
     return parsed;
-  options->program = count > 0 ? arguments[0] : NULL;
-  if (count > 1)
-    trax_fail(error, "two programs, %s and %s: a program takes no arguments", arguments[0], arguments[1]);
+  if (options->program && !options->arguments && count > 0)
+    trax_fail(error, "'%s' follows %s, whose main has no parameters: it takes no arguments", arguments[0],
+              options->program);
   else if (!options->program && !options->print_config)
     trax_fail(error, "no program is given");
   else if (take_manifest(options, error) == TRAX_OK && check_engine(options, error) == TRAX_OK &&

@@ -12,13 +12,13 @@
 #include "trax/manifest.h"
 #include "trax/options.h"
 
-/* NAME=VALUE of --set, --bind, --alloc, --dump. */
+/* NAME=VALUE of --set, --bind, --alloc, --dump; folder and name of --dir. */
 struct trax_assignment {
   char *name;
   const char *value; /* in name's allocation, after its NUL */
   uint32_t bytes;    /* of --alloc */
   uint32_t width, height; /* of --dump: a picture of this size; 0: the bytes as they are */
-  enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP } kind;
+  enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP, TRAX_ASSIGN_DIR } kind;
 };
 
 struct trax_options {
@@ -26,6 +26,9 @@ struct trax_options {
   const char *program, *config, *stats, *report, *post_mortem, *gdb_symbols, *signature; /* NULL: not given */
   struct trax_assignment *assignments; /* in the order of the command line */
   size_t assignment_count;
+  char **arguments; /* of the program, its name being the first; NULL: none are given */
+  int argument_count;
+  bool main_on_thread_0;
   uint64_t max_cycles, watchdog, total_items; /* 0: not given */
   struct trax_explain_options explain;
   const struct trax_engine *engine;

@@ -45,6 +45,8 @@ void trax_machine_destroy(trax_machine *machine) {
     if (watch->release)
       watch->release(watch->context);
   }
+  if (machine->calls.destroy)
+    machine->calls.destroy(machine->calls.context);
   if (machine->host_destroy)
     machine->host_destroy(machine->host);
   trax_space_destroy(&machine->space);
@@ -70,7 +72,7 @@ trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry,
   }
   if (!executable || entry % 4)
     return trax_fail(error, "entry point 0x%08x is not an instruction in an executable segment", entry);
-  machine->entry = entry;
+  machine->entry = machine->other_entry = entry;
   machine->has_program = true;
   return TRAX_OK;
 }

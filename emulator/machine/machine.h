@@ -7,6 +7,7 @@
 #include "machine/config.h"
 #include "machine/fast_path.h"
 #include "machine/fault.h"
+#include "machine/host_call.h"
 #include "machine/observer.h"
 #include "machine/stats.h"
 #include "trax/emulator.h"
@@ -17,7 +18,8 @@ struct trax_watch;
 struct trax_machine {
   struct trax_config config; /* a copy */
   struct trax_space space;
-  uint32_t entry;
+  uint32_t entry;       /* at which thread 0 starts */
+  uint32_t other_entry; /* at which the others start */
   bool has_program; /* trax_machine_set_entry was called */
   bool has_run;
 
@@ -26,6 +28,8 @@ struct trax_machine {
   void (*host_destroy)(void *host);
 
   struct trax_watch *watches; /* the first; NULL: none (machine/watch.h) */
+
+  struct trax_host_calls calls; /* of the trap `host` */
 
   const struct trax_observer *observer; /* of the run; NULL: none (machine/observer.h) */
 
@@ -54,6 +58,10 @@ trax_status trax_machine_map(struct trax_machine *machine, uint32_t address, uin
                              uint8_t **host, trax_error *error);
 /* Sets the address at which all threads start. Error: it is not a multiple of 4 in an executable segment. */
 trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry, trax_error *error);
+
+static inline uint32_t trax_machine_entry_of(const struct trax_machine *machine, uint32_t thread) {
+  return thread ? machine->other_entry : machine->entry;
+}
 
 /* Adds the counts that follow from the operations issued. To be called once, at the run's end. */
 void trax_stats_derive(struct trax_tm_stats *stats, const struct trax_config *config);

@@ -36,8 +36,8 @@ static void count_kinds(struct trax_tm_stats *stats, uint32_t counts) {
 #undef COUNT
 }
 
-trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, struct trax_tm_stats *stats,
-                          FILE *output, uint32_t value, int32_t code) {
+trax_fault_kind trax_trap(const struct trax_machine *machine, uint8_t *local, struct trax_tm_stats *stats, FILE *output,
+                          uint32_t value, int32_t code) {
   switch (code) {
   case TRAX_TRAP_PUTC:
     if (output)
@@ -53,10 +53,12 @@ trax_fault_kind trax_trap(const struct trax_space *space, const uint8_t *local, 
     stats->items += value;
     break;
   case TRAX_TRAP_PUTS:
-    return put_string(space, local, value, output);
+    return put_string(&machine->space, local, value, output);
   case TRAX_TRAP_KINDS:
     count_kinds(stats, value);
     break;
+  case TRAX_TRAP_HOST:
+    return trax_host_trap(machine, local, value);
   }
   return TRAX_FAULT_NONE;
 }

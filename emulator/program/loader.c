@@ -19,15 +19,13 @@ static uint64_t align_up(uint64_t value, uint64_t alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
 
-static void store_word(struct trax_machine *machine, uint32_t address, uint32_t value) {
+void trax_host_store_word(struct trax_machine *machine, uint32_t address, uint32_t value) {
   for (unsigned i = 0; i < 4; ++i)
     machine->space.bytes[address + i] = (uint8_t)(value >> 8 * i);
 }
 
-/* Finds an object of at least `bytes` bytes in the program's data, which the host may fill; NULL with *error set
-   otherwise. */
-static const struct trax_symbol *host_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
-                                             trax_error *error) {
+const struct trax_symbol *trax_host_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
+                                           trax_error *error) {
   const struct trax_host *host = trax_host_of(machine);
   const char *path = trax_image_path(host->image);
   const struct trax_symbol *symbol = trax_image_symbol(host->image, name);
@@ -84,10 +82,10 @@ static trax_status fill_words(struct trax_machine *machine, trax_error *error) {
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i) {
     if (!trax_image_symbol(host->image, words[i].name))
       continue;
-    const struct trax_symbol *symbol = host_object(machine, words[i].name, 4, error);
+    const struct trax_symbol *symbol = trax_host_object(machine, words[i].name, 4, error);
     if (!symbol)
       return TRAX_ERROR;
-    store_word(machine, symbol->address, (uint32_t)words[i].value);
+    trax_host_store_word(machine, symbol->address, (uint32_t)words[i].value);
   }
   return TRAX_OK;
 }
@@ -154,6 +152,18 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   if (trax_machine_set_entry(machine, trax_image_entry(image), &reason) != TRAX_OK)
     return trax_fail(error, "%s: %s", path, reason.message);
   place_stacks(machine);
+  return fill_words(machine, error) == TRAX_OK ? trax_host_name_program(machine, error) : TRAX_ERROR;
+}
+
+trax_status trax_host_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error) {
+  struct trax_host *host = trax_host_of(machine);
+  if (bytes > host->memory_end - host->free_address)
+    return trax_fail(error, "%llu bytes of memory are free after the program: raise memory.size_mib",
+                     (unsigned long long)(host->memory_end - host->free_address));
+  *address = (uint32_t)host->free_address;
+  host->free_address = align_up(host->free_address + bytes, TRAX_GRANULE);
+  if (host->free_address > host->memory_end)
+    host->free_address = host->memory_end;
   return fill_words(machine, error);
 }
 
@@ -175,7 +185,7 @@ static trax_status check_bind(struct trax_machine *machine, const char *symbol, 
     return trax_fail(error, "buffer %s: the program has run already", symbol);
   if (find_buffer(host, symbol))
     return trax_fail(error, "buffer %s is bound twice", symbol);
-  if (!host_object(machine, symbol, 8, error))
+  if (!trax_host_object(machine, symbol, 8, error))
     return TRAX_ERROR;
   struct trax_bound_buffer *buffers = realloc(host->buffers, (host->buffer_count + 1) * sizeof *buffers);
   if (!buffers)
@@ -200,8 +210,8 @@ static trax_status finish_bind(struct trax_machine *machine, const char *symbol,
     return trax_fail(error, "buffer %s: out of memory", symbol);
   uint32_t address = (uint32_t)host->free_address;
   const struct trax_symbol *object = trax_image_symbol(host->image, symbol);
-  store_word(machine, object->address, address);
-  store_word(machine, object->address + 4, bytes);
+  trax_host_store_word(machine, object->address, address);
+  trax_host_store_word(machine, object->address + 4, bytes);
   host->buffers[host->buffer_count++] = (struct trax_bound_buffer){name, address, bytes};
   host->free_address = align_up(host->free_address + bytes, TRAX_GRANULE);
   if (filled && host->free_address - address > machine->space.input_bytes) {

@@ -22,6 +22,21 @@ struct trax_host {
 /* docs/abi.md, "Registers" */
 extern const char *const trax_register_names[TRAX_NUM_REGISTERS];
 
+/* --- loader.c, for arguments.c --- */
+/* Finds an object of at least `bytes` bytes in the program's data, which the host may fill; NULL with *error set
+   otherwise. */
+const struct trax_symbol *trax_host_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
+                                           trax_error *error);
+void trax_host_store_word(struct trax_machine *machine, uint32_t address, uint32_t value);
+/* Takes memory behind image and buffers, where the heap begins. Error: there is too little. */
+trax_status trax_host_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error);
+
+/* --- arguments.c --- */
+/* The library's object for argc and argv, which programs have whose main uses them. */
+#define TRAX_ARGUMENTS_SYMBOL "__trax_arguments"
+/* Gives a main with parameters the program's name alone. */
+trax_status trax_host_name_program(struct trax_machine *machine, trax_error *error);
+
 /* The machine's host part; NULL before a program is loaded. */
 static inline struct trax_host *trax_host_of(const struct trax_machine *machine) {
   return machine->host;

@@ -27,7 +27,7 @@ static void end(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t status)
 
 static trax_fault_kind trap(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint32_t value, uint32_t code) {
   if (code != TRAX_TRAP_EXIT)
-    return trax_trap(&tm->machine->space, tp->local, tm->stats, tm->output, value, (int32_t)code);
+    return trax_trap(tm->machine, tp->local, tm->stats, tm->output, value, (int32_t)code);
   end(tm, tp, value);
   return TRAX_FAULT_NONE;
 }

@@ -22,7 +22,7 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
                                      config->icache.ways, TRAX_REPLACE_FIFO);
   for (uint32_t i = 0; i < tm->tps; i++) {
     tm->tp[i].number = i;
-    tm->tp[i].pc = machine->entry;
+    tm->tp[i].pc = trax_machine_entry_of(machine, number * tm->tps + i);
   }
   return complete;
 }

@@ -105,6 +105,8 @@ CASES = {
     "window": Case(["100:200"] + WINDOW, file_holds("trace.txt", "[0-9]"), bad=("100", "200:100", "x:y", "1:", "-1:5", "1:2:3")),
     "window-tms": Case(["0"] + WINDOW, file_holds("trace.txt", "addi"), bad=("x", "0-", "3-1", "99", ",", "-1")),
     "window-tps": Case(["0"] + WINDOW, file_holds("trace.txt", "addi"), bad=("x", "0-", "3-1", "99", ",", "-1")),
+    "dir": Case([".", "--dir", ".::name"], None, bad=("none", "hello.elf", "::x", ".::")),
+    "main-on": Case(["all"], None, bad=("1", "-1", "x", "")),
     "max-cycles": Case(["1000"], says("not ended after 1000 cycles"), "spin.elf", 124, NUMBERS + ("0",)),
     "watchdog": Case(["1000"], says("no thread has ended"), "idle.elf", 124, NUMBERS + ("0",)),
     "progress-total": Case(["1000"], None, bad=NUMBERS + ("0",)),

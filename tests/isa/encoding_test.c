@@ -33,7 +33,7 @@ static void *check_range(void *argument) {
       }
     trax_inst inst = trax_decode(word);
     bool beyond_limit = (match == TRAX_OP_RDSR && (word & 0xFFFFu) >= 6) ||
-                        (match == TRAX_OP_TRAP && (word & 0xFFFFu) >= 7) ||
+                        (match == TRAX_OP_TRAP && (word & 0xFFFFu) >= 8) ||
                         (match == TRAX_OP_FENCE && (word & 0xFFFFu) - 1 >= 3);
     if (matches > 1)
       r->ambiguous++, r->example = word;
@@ -82,7 +82,7 @@ static void test_all_words(void **state) {
   for (int op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
     unsigned free_bits = (unsigned)__builtin_popcount(~trax_op_table[op].mask);
     expected += op == TRAX_OP_RDSR    ? UINT64_C(32) * 6
-                : op == TRAX_OP_TRAP  ? UINT64_C(32) * 7
+                : op == TRAX_OP_TRAP  ? UINT64_C(32) * 8
                 : op == TRAX_OP_FENCE ? 3
                                       : UINT64_C(1) << free_bits;
   }

@@ -119,6 +119,9 @@ trap r4, puts
 # CHECK: trap r4, kinds
 # ENC-SAME: encoding: [0x06,0x00,0x04,0xa4]
 trap r4, kinds
+# CHECK: trap r4, host
+# ENC-SAME: encoding: [0x07,0x00,0x04,0xa4]
+trap r4, host
 # CHECK: trap r4, exit
 # ENC-SAME: encoding: [0x00,0x00,0x04,0xa4]
 trap r4, 0
@@ -151,6 +154,7 @@ halt
 # OBJ: 74: a0800005 rdsr r4, cycleh
 # OBJ: 94: a4040005 trap r4, puts
 # OBJ: 98: a4040006 trap r4, kinds
-# OBJ: a4: ac000001 fence r
-# OBJ: ac: ac000003 fence rw
-# OBJ: b4: a8000000 halt
+# OBJ: 9c: a4040007 trap r4, host
+# OBJ: a8: ac000001 fence r
+# OBJ: b0: ac000003 fence rw
+# OBJ: b8: a8000000 halt

@@ -142,6 +142,8 @@ static uint32_t any_racing_operation(unsigned left) {
   case 7:
     return any(0, 1) ? any(0, 2) ? NOP : any_fence() : U(RDSR, rd, (int32_t)any(0, 5));
   case 8:
+    if (any(0, 19) == 0) /* a call that there is not, or reads or writes nothing: its result is stored */
+      return T(base, TRAX_TRAP_HOST);
     return any(0, 5) ? NOP : T(ra, any(0, 2) ? any(0, 1) ? rays_trap(ra) : TRAX_TRAP_ITEMS : TRAX_TRAP_PUTC);
   case 9:
     return any(0, 60) ? NOP : any(0, 1) ? T(ra, TRAX_TRAP_EXIT) : HALT;

@@ -83,6 +83,17 @@ trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, co
 trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
                                      trax_error *error);
 
+/* Gives main its arguments, of which the first is the program's name; without this call it has only its name, that of
+   the file. Before the run. Errors: there are others and main has no parameters; out of memory. */
+trax_status trax_machine_set_arguments(trax_machine *machine, const char *const *arguments, size_t count,
+                                       trax_error *error);
+/* Allows the program to read and write files in a folder of the host, which it sees as `name`. Error: there is no such
+   folder. */
+trax_status trax_machine_allow(trax_machine *machine, const char *folder, const char *name, trax_error *error);
+/* Only thread 0 calls main; the others wait for trax_start_threads or, in a program without it, end. Before the run.
+   Error: the program does not begin with the library's start code. */
+trax_status trax_machine_main_on_thread_0(trax_machine *machine, trax_error *error);
+
 /* Finds a bound buffer for a caller who computes addresses or fills it in place, before the run. */
 trax_status trax_machine_buffer(trax_machine *machine, const char *symbol, uint32_t *address, uint8_t **bytes,
                                 uint32_t *size, trax_error *error);
@@ -131,6 +142,8 @@ typedef struct trax_slot_sampling {
 
 typedef struct trax_run_options {
   FILE *output;                                                 /* guest output; NULL discards it */
+  FILE *input;                                                  /* of trax_host_calls; read past stdio; NULL: empty */
+  FILE *errors;                                                 /* standard error of these; NULL: output */
   uint64_t max_cycles;                                          /* 0: no limit */
   uint64_t total_items;                                         /* for progress */
   void (*progress)(void *context, const trax_progress *status); /* about ten times a second; may be NULL */

@@ -173,6 +173,16 @@ static void put_string(struct model_execution *execution, uint32_t address) {
       fputc((int)model_load(machine, execution->thread, (uint32_t)i, 1, false), machine->output);
 }
 
+/* There are no calls here: the answer is -38, as of a number that is none. */
+static void host_call(struct model_execution *execution, uint32_t address) {
+  const uint32_t last = address + 20;
+  if (may(execution, address, 4, MODEL_STORE) && (last < address || !may(execution, last, 4, MODEL_STORE)))
+    execution->fault = execution->fault && last >= address ? execution->fault : MODEL_FAULT_UNMAPPED;
+  else if (!execution->fault)
+    store(execution, address, (uint32_t)-38, 4, false);
+  execution->fault_address = address;
+}
+
 static uint32_t trap(struct model_execution *execution, const uint32_t *argument) {
   const uint32_t value = argument[0];
   switch (argument[1]) {
@@ -194,6 +204,9 @@ static uint32_t trap(struct model_execution *execution, const uint32_t *argument
     put_string(execution, value);
     break;
   case 6: /* kinds */
+    break;
+  case 7: /* host: there is no call */
+    host_call(execution, value);
     break;
   default:
     execution->fault = MODEL_FAULT_ILLEGAL;

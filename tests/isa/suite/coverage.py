@@ -37,7 +37,7 @@ def conditions(inst, constants):
                     "misaligned-pc", "order of faults"]
     elif inst.format == "T":
         codes = [name[len("TRAX_TRAP_"):].lower() for name in constants if name.startswith("TRAX_TRAP_") and name != "TRAX_TRAP_COUNT"]
-        applies += ["every ra", "ra is r0", "bystanders", "unknown number", *_FAULTS] + [f"code {code}" for code in codes]
+        applies += ["every ra", "ra is r0", "bystanders", "unknown number", *_FAULTS, "misaligned", "readonly"] + [f"code {code}" for code in codes]
     elif inst.format == "F":
         kinds = [name[len("TRAX_FENCE_"):].lower() for name in constants if name.startswith("TRAX_FENCE_")]
         applies += ["bystanders", "unknown number"] + [f"kind {kind}" for kind in kinds]

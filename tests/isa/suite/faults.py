@@ -196,6 +196,11 @@ def trap_program(inst, constants):
     for name, address, condition in (("null", 0, "null"), ("null_last", NULL_END - 1, "null"), ("end", MEMORY_END, "unmapped"),
                                      ("far", 0x80000000, "unmapped"), ("stack", LOCAL - 1, "stack")):
         program.entry(f"puts_{name}", condition, [inst.text(a="r4", i=puts)], [("r4", address)])
+    host = constants["TRAX_TRAP_HOST"]
+    for name, address, condition in (("null", 0, "null"), ("end", MEMORY_END, "unmapped"), ("part", MEMORY_END - 20, "unmapped"),
+                                     ("stack", LOCAL - 4, "stack"), ("odd", "message+1", "misaligned"), ("local_end", -20, "unmapped"),
+                                     ("constant", "message", "readonly")):
+        program.entry(f"host_{name}", condition, [inst.text(a="r4", i=host)], [("r4", address)])
     fill = ["addi r6, r0, 64", f"addi r5, r0, {-16}"] + [f"sb r6, {k}(r5)" for k in range(16)]
     program.entry("puts_local_end", "unmapped", [*fill, inst.text(a="r5", i=puts)])
     program.link.append(f"--section-start=.last={MEMORY_END - 64:#x}")

@@ -67,7 +67,7 @@ def read_special(inst, constants):
 
 def trapping(inst, constants):
     """Each code; those that end the thread or the machine have images of their own (faults.py has abort)."""
-    codes = {name: constants[f"TRAX_TRAP_{name}"] for name in ("EXIT", "PUTC", "ABORT", "RAYS", "ITEMS", "PUTS", "KINDS")}
+    codes = {name: constants[f"TRAX_TRAP_{name}"] for name in ("EXIT", "PUTC", "ABORT", "RAYS", "ITEMS", "PUTS", "KINDS", "HOST")}
     if sorted(codes.values()) != list(range(constants["TRAX_TRAP_COUNT"])):
         raise ValueError("a trap has no test: add it to tests/isa/suite/system.py")
     program = Program(inst.mnemonic, inst.mnemonic)
@@ -99,6 +99,16 @@ def trapping(inst, constants):
         program.emit(f"sb r0, {start + length}(r0)", f"addi r4, r0, {start}", inst.text(a="r4", i=codes["PUTS"]))
         program.output += b"local"[:length]
         program.case("code puts")
+    program.data += [".p2align 2"]
+    program.sections += ['  .section .block, "aw", @progbits', "  .p2align 2", "host_call: .word 0, 1, 2, 3, 4, 5"]
+    program.address("r4", "host_call")
+    program.emit(inst.text(a="r4", i=codes["HOST"]), "lw r5, 0(r4)", "lw r6, 4(r4)")
+    program.store("r5")
+    program.store("r6")
+    program.case("code host")
+    program.emit("sw r0, -24(r0)", "addi r4, r0, -24", inst.text(a="r4", i=codes["HOST"]), "lw r5, -24(r0)")  # the last words of local memory
+    program.store("r5")
+    program.case("code host")
     program.fill(lambda n: 0x01010101 * n)
     for name in ("RAYS", "ITEMS", "KINDS"):
         for a in ("r0", "r7"):

@@ -3,21 +3,21 @@
 # RUN: not test -e %t.out
 
 # too small
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, -1
 
 # too large
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
-trap r4, 7
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
+trap r4, 8
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, 65536
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, 0x100000000
 
 # wrong kind
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, r5
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, thread
 # CHECK: {{.*}}.s:[[#@LINE+1]]:6: error: operand must be a register
 trap 4, 0
@@ -37,15 +37,15 @@ trap r4, exit, 0
 trap r4, 1(r5)
 
 # misspelled
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, quit
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, Exit
 
 # modifier
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, %lo(exit)
 
 # symbol
-# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds or a number in the range [0, 6]
+# CHECK: {{.*}}.s:[[#@LINE+1]]:10: error: trap code must be exit, putc, abort, rays, items, puts, kinds, host or a number in the range [0, 7]
 trap r4, symbol

@@ -91,6 +91,9 @@ typedef enum trax_parsed {
    "--" ends the options. */
 trax_parsed trax_command_parse(const trax_command *command, void *target, int *count, char **arguments,
                                trax_error *error);
+/* The same up to the first argument that is not an option; what follows it is not read. */
+trax_parsed trax_command_parse_to_operand(const trax_command *command, void *target, int *count, char **arguments,
+                                          trax_error *error);
 void trax_command_help(const trax_command *command, FILE *out);
 /* Every command has the options --help-man and --help-completion, too, which print these: its page for man(1), and a
    script that completes its options in bash. */
