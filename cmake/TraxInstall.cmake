@@ -11,6 +11,7 @@ endforeach()
 set(runtime ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/trax)
 install(DIRECTORY ${runtime}/include DESTINATION lib/trax)
 install(FILES ${runtime}/crt0.o ${runtime}/crt0-global-stack.o ${runtime}/libc.a ${runtime}/libm.a ${runtime}/libgcc.a
+              ${runtime}/libpthread.a ${runtime}/libdl.a ${runtime}/librt.a
               ${runtime}/COPYING.NEWLIB ${runtime}/trax-toolchain.cmake ${runtime}/trax-meson.ini ${runtime}/stock-clang.cfg
         DESTINATION lib/trax)
 

@@ -27,6 +27,13 @@ set(CMAKE_EXECUTABLE_SUFFIX_C .elf)
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
 set(CMAKE_CROSSCOMPILING_EMULATOR "${TRAX_PREFIX}/bin/trax-sim")
 
+# Code has fixed addresses whatever a project asks for. CMake sets these later, and then reads this file once more.
+set(CMAKE_USER_MAKE_RULES_OVERRIDE "${CMAKE_CURRENT_LIST_FILE}")
+foreach(language C CXX)
+  set(CMAKE_${language}_COMPILE_OPTIONS_PIC "")
+  set(CMAKE_${language}_COMPILE_OPTIONS_PIE "")
+endforeach()
+
 # find_package(trax) in the project.
 set(trax_DIR "${TRAX_PREFIX}/lib/cmake/trax" CACHE PATH "Where traxConfig.cmake is")
 

@@ -81,10 +81,10 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
   EmitToStreamer(*OutStreamer, Inst);
 }
 
-/// Where main looks at argv the linker takes the array from the library, for crt0 (docs/abi.md, "Program start").
+/// Where main looks at argc or argv the linker takes them from the library, for crt0 (docs/abi.md, "Program start").
 void TraxAsmPrinter::emitEndOfAsmFile(Module &M) {
   const Function *Main = M.getFunction("main");
-  if (Main && !Main->isDeclaration() && Main->arg_size() > 1 && !Main->getArg(1)->use_empty())
+  if (Main && !Main->isDeclaration() && any_of(Main->args(), [](const Argument &A) { return !A.use_empty(); }))
     OutStreamer->emitSymbolAttribute(OutContext.getOrCreateSymbol("__trax_argv"), MCSA_Global);
 }
 

@@ -20,9 +20,17 @@ uint32_t ld_add_string(ld_context *ctx, ld_string_table *table, const char *text
 
 /* --- symbols --- */
 
+/* Whether the loader reads or fills in what the symbol names (docs/abi.md), so that --strip-all keeps it. */
+static bool is_loaders(const ld_symbol *symbol) {
+  return ld_starts_with(symbol->name, "__trax_") &&
+         (symbol->type != STT_FUNC || strcmp(symbol->name, "__trax_others") == 0);
+}
+
 static bool is_wanted(const ld_context *ctx, const ld_symbol *symbol) {
   if (symbol->kind == LD_UNDEFINED || symbol->kind == LD_LAZY || symbol->type == STT_SECTION ||
       ld_symbol_is_dropped(symbol, 0))
+    return false;
+  if (ctx->options.strip_all && !is_loaders(symbol))
     return false;
   if (symbol->binding == STB_LOCAL && ld_starts_with(symbol->name, ".L"))
     return false;
@@ -163,14 +171,14 @@ bool ld_build_image(ld_context *ctx) {
   ld_string_table header_names = {0};
   ld_symbol_table symbols = {0};
   size_t symbols_offset = 0, names_offset = 0;
-  bool strip = ctx->options.strip_all;
   collect_headers(ctx, &headers, &header_names);
   if (headers.count + 3 >= SHN_LORESERVE) {
     ld_error(ctx, "more than %d output sections", SHN_LORESERVE - 4);
     return false;
   }
+  collect_symbols(ctx, &symbols);
+  bool strip = ctx->options.strip_all && symbols.entries.count == 1;
   if (!strip) {
-    collect_symbols(ctx, &symbols);
     Elf32_Shdr *header = add_table(ctx, &headers, &header_names, ".symtab", SHT_SYMTAB,
                                    symbols.entries.count * sizeof(Elf32_Sym), sizeof(Elf32_Word));
     header->sh_link = (Elf32_Word)headers.count; /* the next section, .strtab */

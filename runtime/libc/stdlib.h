@@ -7,6 +7,8 @@
 #define __need_wchar_t
 #include <stddef.h>
 
+#include <alloca.h>
+
 #define EXIT_SUCCESS 0
 #define EXIT_FAILURE 1
 #define RAND_MAX 0x7FFFFFFF
@@ -70,8 +72,37 @@ int rand(void);
 void srand(unsigned seed);
 int rand_r(unsigned *seed);
 
-/* Characters are bytes. */
-#define MB_CUR_MAX ((size_t)1)
+/* Multibyte characters are those of UTF-8. */
+#define MB_CUR_MAX ((size_t)4)
+
+int mblen(const char *bytes, size_t count);
+int mbtowc(wchar_t *__restrict c, const char *__restrict bytes, size_t count);
+int wctomb(char *bytes, wchar_t c);
+size_t mbstowcs(wchar_t *__restrict to, const char *__restrict from, size_t count);
+size_t wcstombs(char *__restrict to, const wchar_t *__restrict from, size_t count);
+
+/* glibc's numbers; one sequence for all threads. */
+long random(void);
+void srandom(unsigned seed);
+/* The numbers that POSIX asks for. */
+double drand48(void);
+double erand48(unsigned short state[3]);
+long lrand48(void);
+long nrand48(unsigned short state[3]);
+long mrand48(void);
+long jrand48(unsigned short state[3]);
+void srand48(long seed);
+unsigned short *seed48(unsigned short state[3]);
+
+void qsort_r(void *base, size_t count, size_t size, int (*compare)(const void *, const void *, void *), void *context);
+int posix_memalign(void **memory, size_t alignment, size_t size);
+void *memalign(size_t alignment, size_t size);
+void *reallocarray(void *memory, size_t count, size_t size);
+
+char *getenv(const char *name); /* NULL: there is no environment */
+int system(const char *command); /* 0 for NULL: there is no command processor */
+char *realpath(const char *__restrict path, char *__restrict resolved); /* the path as it is, if there is such a file */
+int mkstemp(char *pattern);
 
 #ifdef __cplusplus
 }

@@ -45,6 +45,23 @@ size_t strxfrm(char *__restrict to, const char *__restrict from, size_t size);
 char *strerror(int number);
 char *strdup(const char *string); /* by malloc */
 char *strndup(const char *string, size_t size);
+size_t strlcpy(char *__restrict to, const char *__restrict from, size_t size);
+size_t strlcat(char *__restrict to, const char *__restrict from, size_t size);
+char *strsep(char **__restrict rest, const char *__restrict separators);
+char *strchrnul(const char *string, int c);
+char *strcasestr(const char *string, const char *part);
+void *rawmemchr(const void *memory, int byte);
+int strerror_r(int number, char *to, size_t size);
+char *strsignal(int number);
+int bcmp(const void *a, const void *b, size_t size);
+void bcopy(const void *from, void *to, size_t size);
+void bzero(void *memory, size_t size);
+void explicit_bzero(void *memory, size_t size);
+char *index(const char *string, int c);
+char *rindex(const char *string, int c);
+int ffs(int x);
+int ffsl(long x);
+int ffsll(long long x);
 
 #ifdef __cplusplus
 }

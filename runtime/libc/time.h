@@ -1,5 +1,6 @@
 /* C's time, as far as the machine knows it: clock() gives the nanoseconds that its cycles so far take at the chip's
-   clock, or -1 if the loader did not say what that is. There is no time of day. */
+   clock, or -1 if the loader did not say what that is. The time of day is the same: the machine starts at the beginning
+   of 1970, in UTC, so that a run gives the same every time. */
 #ifndef TRAX_TIME_H
 #define TRAX_TIME_H
 
@@ -7,8 +8,11 @@
 #define __need_NULL
 #include <stddef.h>
 
+#ifndef TRAX_TIME_T
+#define TRAX_TIME_T
 typedef long long time_t;
 typedef long long clock_t;
+#endif
 
 #define CLOCKS_PER_SEC ((clock_t)1000000000)
 
@@ -25,7 +29,27 @@ struct tm {
 extern "C" {
 #endif
 
+#define CLOCK_REALTIME 0
+#define CLOCK_MONOTONIC 1
+#define CLOCK_PROCESS_CPUTIME_ID 2
+#define TIME_UTC 1
+typedef int clockid_t;
+
 clock_t clock(void);
+time_t time(time_t *seconds);
+int clock_gettime(clockid_t clock, struct timespec *now);
+int clock_getres(clockid_t clock, struct timespec *step);
+int timespec_get(struct timespec *now, int base);
+int nanosleep(const struct timespec *duration, struct timespec *left); /* waits for so much simulated time */
+struct tm *gmtime(const time_t *seconds); /* each thread has a struct tm and a text of its own */
+struct tm *localtime(const time_t *seconds);
+struct tm *gmtime_r(const time_t *__restrict seconds, struct tm *__restrict parts);
+struct tm *localtime_r(const time_t *__restrict seconds, struct tm *__restrict parts);
+time_t mktime(struct tm *parts);
+time_t timegm(struct tm *parts);
+char *asctime(const struct tm *parts);
+char *ctime(const time_t *seconds);
+size_t strftime(char *__restrict to, size_t size, const char *__restrict format, const struct tm *__restrict parts);
 double difftime(time_t end, time_t start);
 
 #ifdef __cplusplus

@@ -4,7 +4,7 @@
 
 #ifdef __trax__
 
-void __trax_start(void);
+void __trax_prepare(void);
 
 extern void (*const __init_array_start[])(void);
 extern void (*const __init_array_end[])(void);
@@ -21,7 +21,7 @@ void __trax_end_construction(void) {
     store_shared(&construction, ENDED);
 }
 
-void __trax_start(void) {
+void __trax_prepare(void) {
   const unsigned *from = __tdata_load;
   for (unsigned *to = __tdata_start; to < __tdata_end; to++)
     *to = *from++;
@@ -44,5 +44,8 @@ void __trax_start(void) {
     acquire_fence();
   }
 }
+
+/* What crt0 calls, unless arguments.S does and calls __trax_prepare. */
+__attribute__((weak, alias("__trax_prepare"))) void __trax_start(void);
 
 #endif

@@ -6,7 +6,7 @@
 void perror(const char *text) {
   const char *message = strerror(errno);
   if (text && *text)
-    iprintf("%s: %s\n", text, message);
+    fiprintf(stderr, "%s: %s\n", text, message);
   else
-    puts(message);
+    fiprintf(stderr, "%s\n", message);
 }

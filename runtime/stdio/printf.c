@@ -1,5 +1,5 @@
 /* printf and its relatives. They alone name the code that formats doubles: a program that uses only those of iprintf.c
-   does not contain it. */
+   does not contain it. Those of a stream are weak, as in put.c. */
 #include "format.h"
 
 #include <stdio.h>
@@ -16,12 +16,12 @@ int printf(const char *restrict format, ...) {
   return count;
 }
 
-int vfprintf(FILE *restrict stream, const char *restrict format, va_list arguments) {
+__attribute__((weak)) int vfprintf(FILE *restrict stream, const char *restrict format, va_list arguments) {
   (void)stream;
   return trax_print(format, arguments, trax_format_double);
 }
 
-int fprintf(FILE *restrict stream, const char *restrict format, ...) {
+__attribute__((weak)) int fprintf(FILE *restrict stream, const char *restrict format, ...) {
   (void)stream;
   va_list arguments;
   va_start(arguments, format);

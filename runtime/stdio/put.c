@@ -1,21 +1,24 @@
-/* Unformatted output. */
+/* Unformatted output. Functions of a stream are weak: these know standard output alone, and stream.c has others for
+   programs with other streams. */
 #include "format.h"
 
 #include "../internal/machine.h"
 
 #include <stdio.h>
 
+#define WEAK __attribute__((weak))
+
 int putchar(int c) {
   machine_put_char(c);
   return (unsigned char)c;
 }
 
-int putc(int c, FILE *stream) {
+WEAK int putc(int c, FILE *stream) {
   (void)stream;
   return putchar(c);
 }
 
-int fputc(int c, FILE *stream) {
+WEAK int fputc(int c, FILE *stream) {
   (void)stream;
   return putchar(c);
 }
@@ -37,7 +40,7 @@ int puts(const char *string) {
   return 1;
 }
 
-int fputs(const char *restrict string, FILE *restrict stream) {
+WEAK int fputs(const char *restrict string, FILE *restrict stream) {
   (void)stream;
   trax_lock_output();
   put_string(string);
@@ -45,7 +48,7 @@ int fputs(const char *restrict string, FILE *restrict stream) {
   return 1;
 }
 
-size_t fwrite(const void *restrict memory, size_t size, size_t count, FILE *restrict stream) {
+WEAK size_t fwrite(const void *restrict memory, size_t size, size_t count, FILE *restrict stream) {
   (void)stream;
   trax_lock_output();
   const char *end = (const char *)memory + size * count;
@@ -55,7 +58,7 @@ size_t fwrite(const void *restrict memory, size_t size, size_t count, FILE *rest
   return size ? count : 0;
 }
 
-int fflush(FILE *stream) {
+WEAK int fflush(FILE *stream) {
   (void)stream;
   return 0;
 }

@@ -47,3 +47,11 @@ int tolower(int c) {
 int toupper(int c) {
   return islower(c) ? c - 32 : c;
 }
+
+int isascii(int c) {
+  return (unsigned)c < 128;
+}
+
+int toascii(int c) {
+  return c & 0x7F;
+}

@@ -73,22 +73,3 @@ size_t strxfrm(char *restrict to, const char *restrict from, size_t size) {
     memcpy(to, from, length < size ? length + 1 : size);
   return length;
 }
-
-char *strerror(int number) {
-  switch (number) {
-  case 0:
-    return "no error";
-  case EDOM:
-    return "argument outside of the domain";
-  case ERANGE:
-    return "result out of range";
-  case EILSEQ:
-    return "illegal sequence of bytes";
-  case EINVAL:
-    return "invalid argument";
-  case ENOMEM:
-    return "out of memory";
-  default:
-    return "unknown error";
-  }
-}

@@ -52,7 +52,6 @@ int rt_strcoll(const char *, const char *);
 size_t rt_strxfrm(char *, const char *, size_t);
 char *rt_strerror(int);
 char *rt_strndup(const char *, size_t);
-void rt_perror(const char *);
 long long rt_clock(void);
 int rt_rand(void);
 int rt_rand_r(unsigned *);
@@ -230,13 +229,9 @@ static void more_string_functions(void **unused) {
   for (char *token = rt_strtok(text, " ,"), *want = strtok_r(copy, " ,", &rest); token || want;
        token = rt_strtok(NULL, " ,"), want = strtok_r(NULL, " ,", &rest))
     assert_string_equal(token, want);
-  assert_string_equal(rt_strerror(ERANGE), "result out of range");
-  assert_string_equal(rt_strerror(12345), "unknown error");
-  host_output_size = 0;
-  rt_errno = EDOM;
-  rt_perror("sqrt");
-  rt_perror("");
-  assert_string_equal(host_output, "sqrt: argument outside of the domain\nargument outside of the domain\n");
+  assert_string_equal(rt_strerror(ERANGE), strerror(ERANGE));
+  assert_string_equal(rt_strerror(ENOENT), strerror(ENOENT));
+  assert_string_equal(rt_strerror(12345), "Unknown error");
   unsigned seed = 0;
   rt_srand(0);
   for (int i = 0; i < 100; i++) /* one sequence, in the caller's word or the thread's own */

@@ -1,0 +1,27 @@
+/* The time of day, as <time.h> has it. */
+#ifndef TRAX_SYS_TIME_H
+#define TRAX_SYS_TIME_H
+
+#include <sys/types.h>
+#include <time.h>
+
+struct timeval {
+  time_t tv_sec;
+  suseconds_t tv_usec;
+};
+struct timezone {
+  int tz_minuteswest, tz_dsttime;
+};
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+int gettimeofday(struct timeval *__restrict now, void *__restrict zone);
+int utimes(const char *path, const struct timeval times[2]); /* files have no times: does nothing */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,63 @@
+/* What POSIX has here: files by descriptor, and the options of a command line. */
+#ifndef TRAX_UNISTD_H
+#define TRAX_UNISTD_H
+
+#define __need_size_t
+#define __need_NULL
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+#include <getopt.h>
+
+#define STDIN_FILENO 0
+#define STDOUT_FILENO 1
+#define STDERR_FILENO 2
+#ifndef SEEK_SET
+#define SEEK_SET 0
+#define SEEK_CUR 1
+#define SEEK_END 2
+#endif
+#define F_OK 0
+#define X_OK 1
+#define W_OK 2
+#define R_OK 4
+#define _SC_PAGESIZE 1
+#define _SC_NPROCESSORS_ONLN 2
+#define _SC_CLK_TCK 3
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+ssize_t read(int descriptor, void *memory, size_t size);
+ssize_t write(int descriptor, const void *memory, size_t size);
+int close(int descriptor);
+off_t lseek(int descriptor, off_t offset, int origin);
+int ftruncate(int descriptor, off_t size);
+int fsync(int descriptor);
+int isatty(int descriptor);
+int access(const char *path, int mode);
+int unlink(const char *path);
+int rmdir(const char *path);
+char *getcwd(char *to, size_t size); /* "/": names are those that the user gave to folders */
+int chdir(const char *path);         /* fails */
+int chown(const char *path, uid_t owner, gid_t group); /* files have no owners: does nothing */
+int fchown(int descriptor, uid_t owner, gid_t group);
+__attribute__((noreturn)) void _exit(int status);
+pid_t getpid(void);
+uid_t getuid(void);
+uid_t geteuid(void);
+gid_t getgid(void);
+gid_t getegid(void);
+int gethostname(char *name, size_t size); /* "trax" */
+long sysconf(int name);
+/* They wait for so much simulated time. */
+unsigned sleep(unsigned seconds);
+int usleep(useconds_t microseconds);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+/* Wide characters: Unicode, as UTF-8 in multibyte strings. There are no streams of wide characters. */
+#ifndef TRAX_WCHAR_H
+#define TRAX_WCHAR_H
+
+#define __need_size_t
+#define __need_NULL
+#define __need_wchar_t
+#include <stddef.h>
+
+typedef __WINT_TYPE__ wint_t;
+#ifndef TRAX_MBSTATE_T
+#define TRAX_MBSTATE_T
+typedef struct {
+  unsigned __state;
+} mbstate_t;
+#endif
+
+#define WEOF ((wint_t)-1)
+#ifndef WCHAR_MAX
+#define WCHAR_MAX __WCHAR_MAX__
+#define WCHAR_MIN (-WCHAR_MAX - 1)
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+size_t wcslen(const wchar_t *string);
+size_t wcsnlen(const wchar_t *string, size_t size);
+wchar_t *wcscpy(wchar_t *__restrict to, const wchar_t *__restrict from);
+wchar_t *wcsncpy(wchar_t *__restrict to, const wchar_t *__restrict from, size_t size);
+wchar_t *wcscat(wchar_t *__restrict to, const wchar_t *__restrict from);
+wchar_t *wcsncat(wchar_t *__restrict to, const wchar_t *__restrict from, size_t size);
+int wcscmp(const wchar_t *a, const wchar_t *b);
+int wcsncmp(const wchar_t *a, const wchar_t *b, size_t size);
+int wcscoll(const wchar_t *a, const wchar_t *b);
+wchar_t *wcschr(const wchar_t *string, wchar_t c);
+wchar_t *wcsrchr(const wchar_t *string, wchar_t c);
+wchar_t *wcsstr(const wchar_t *string, const wchar_t *part);
+wchar_t *wcspbrk(const wchar_t *string, const wchar_t *set);
+size_t wcsspn(const wchar_t *string, const wchar_t *set);
+size_t wcscspn(const wchar_t *string, const wchar_t *set);
+wchar_t *wcsdup(const wchar_t *string);
+wchar_t *wmemcpy(wchar_t *__restrict to, const wchar_t *__restrict from, size_t size);
+wchar_t *wmemmove(wchar_t *to, const wchar_t *from, size_t size);
+wchar_t *wmemset(wchar_t *to, wchar_t c, size_t size);
+int wmemcmp(const wchar_t *a, const wchar_t *b, size_t size);
+wchar_t *wmemchr(const wchar_t *memory, wchar_t c, size_t size);
+int wcwidth(wchar_t c); /* 1, 0 for the null character, -1 for control characters */
+
+wint_t btowc(int c);
+int wctob(wint_t c);
+int mbsinit(const mbstate_t *state);
+size_t mbrlen(const char *__restrict bytes, size_t count, mbstate_t *__restrict state);
+size_t mbrtowc(wchar_t *__restrict c, const char *__restrict bytes, size_t count, mbstate_t *__restrict state);
+size_t wcrtomb(char *__restrict bytes, wchar_t c, mbstate_t *__restrict state);
+size_t mbsrtowcs(wchar_t *__restrict to, const char **__restrict from, size_t count, mbstate_t *__restrict state);
+size_t wcsrtombs(char *__restrict to, const wchar_t **__restrict from, size_t count, mbstate_t *__restrict state);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,7 +1,0 @@
-/* There are no files. */
-#include <stdio.h>
-
-int remove(const char *path) {
-  (void)path;
-  return -1;
-}
