@@ -6,6 +6,7 @@
     c of PATH (any language)              a part of that file of the sources
     sh long, console long                 commands that take minutes or need files that are not here; only their options are checked
     sh whole, text whole                  the same, in the tutorial: they need changed sources built anew
+    sh recipe                             what the test clang/recipes.test runs
     output                                what a program prints, shown to explain it
     c, python, ... alone                  shown to explain something
     nothing, and first `$ trax-...`       what that command prints; the test commands-help compares it"""
@@ -44,6 +45,8 @@ def kind(words, text):
         return "help" if text.startswith("$ trax-") else None
     if words[-1] in ("long", "whole") and len(words) == 2 and words[0] in ("sh", "text", "console"):
         return words[-1]
+    if words == ["sh", "recipe"]:
+        return "shown"
     if words in (["sh"], ["text"]):
         return words[0]
     if len(words) == 1:

@@ -1,6 +1,6 @@
 """Runs a recipe of docs/compiler.md as it stands there: recipe.py PAGE DIR HEADING...
 
-Under each `### HEADING`, in their order: a block `sh` is run by a shell that stops at the first error; of any other block the first line,
+Under each `### HEADING`, in their order: a block `sh recipe` is run by a shell that stops at the first error; of any other block the first line,
 `# NAME`, says which file it is. DIR in both is the installation."""
 
 import re
@@ -12,7 +12,7 @@ with open(page, encoding="utf-8") as file:
     text = file.read()
 for heading in headings:
     section = re.search(rf"^### {re.escape(heading)}\n(.*?)(?=^##|\Z)", text, re.M | re.S)
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```", section[1] if section else "", re.M | re.S)
+    blocks = re.findall(r"^```(\w+)(?: recipe)?\n(.*?)^```", section[1] if section else "", re.M | re.S)
     if not blocks:
         sys.exit(f"recipe.py: {page} has no recipe '{heading}'")
     for kind, block in blocks:
