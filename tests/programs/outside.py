@@ -136,9 +136,9 @@ PROGRAMS = [
     Program("brotli", "brotli", "brotli", [Case(["-k", "data.txt"]), Case(["-c", "-q", "5"], text(60)), Case(["-d", "missing"])], cmake=[],
             target="brotli", files=DATA),
     # --- renderers ---
-    Program("tachyon", "tachyon", "compile/linux/tachyon", [Case(["scene.dat", "-format", "PPM", "-o", "out.ppm", "-nosave"]),
+    Program("tachyon", "tachyon", "compile/linux/tachyon", [Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
                                                            Case(["scene.dat", "-format", "TARGA", "-o", "out.tga", "-res", "32", "24"])],
-            [["make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2", "LIBS=-L. -ltachyon -lm", "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]], files={"scene.dat": SCENE}, noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds"),
+            [["make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2 -DBsd", "LIBS=-L. -ltachyon -lm", "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]], files={"scene.dat": SCENE}, noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds"),
     Program("potrace", "potrace", "src/potrace", [Case(["-s", "picture.pbm", "-o", "out.svg"]), Case(["-b", "pgm", "picture.pbm", "-o", "out.pgm"])],
             [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--disable-zlib"], ["make", "-C", "src", "potrace"]],
             files={"picture.pbm": b"P1\n24 24\n" + b"".join(b"1 " if (x - 12) ** 2 + (y - 12) ** 2 < 100 else b"0 " for y in range(24) for x in range(24))}),

@@ -110,6 +110,7 @@ MUTANTS = [
     ("fast/issue.c", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/issue.c", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
     ("fast/head.c", "if (!ftp->atomics) {", "if (1) {"),
+    ("fast/fast.c", "machine->calls.before_write = trax_fast_range_written;", "machine->calls.before_write = NULL;"),
     ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))", "if (0)"),
     ("fast/fast.h", "= TRAX_BLOCK_WRITTEN;", "= 0;"),
     ("fast/fast.h", "    blocks->input_bytes = 0;", "    (void)blocks;"),
