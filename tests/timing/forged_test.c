@@ -20,7 +20,7 @@ enum { MOST_NAMES = 256, MOST_PIECES = 1 << 20, MOST_BYTES = 1 << 24, STOP = 400
 struct header {
   char magic[8];
   uint32_t version, pages;
-  uint64_t cycle, state, compressed, run[2], layouts, body[2];
+  uint64_t cycle, state, compressed, run[2], layouts, calls, body[2];
 };
 
 struct piece {
@@ -106,7 +106,7 @@ static void read_file(void) {
   const size_t size = fread(bytes, 1, sizeof bytes, file);
   fclose(file);
   memcpy(&header, bytes, sizeof header);
-  uLongf expected = layout_bytes + header.state + header.pages * (uint64_t)4100;
+  uLongf expected = layout_bytes + header.state + header.pages * (uint64_t)4100 + header.calls;
   content = realloc(content, expected);
   damaged = realloc(damaged, expected);
   assert_int_equal(uncompress(content, &expected, bytes + sizeof header, size - sizeof header), Z_OK);
