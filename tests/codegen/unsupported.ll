@@ -23,9 +23,9 @@ define i32 @register_number(i32 %n) {
   %r = call i32 @__builtin_trax_rdsr(i32 %n)
   ret i32 %r
 }
-; CHECK: error: {{.*}} in function trap_code {{.*}}: trap code must be a constant below 7
+; CHECK: error: {{.*}} in function trap_code {{.*}}: trap code must be a constant below 8
 define void @trap_code() {
-  call void @__builtin_trax_trap(i32 0, i32 7)
+  call void @__builtin_trax_trap(i32 0, i32 8)
   ret void
 }
 ; CHECK: error: {{.*}} in function convention {{.*}}: unsupported calling convention
