@@ -20,8 +20,10 @@ int main(int argc, char **argv) {
   struct trax_scene scene = {0};
   trax_error error;
   char path[4096];
-  if (argc < 2)
+  if (argc < 2 || argv[1][0] == '-') {
+    fprintf(stderr, "usage: render-gallery DIRECTORY [PARTS]\n");
     return 2;
+  }
   gallery_mesh(&mesh, argc > 2 ? (unsigned)atoi(argv[2]) : GALLERY_ALL);
   build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
   mkdir(argv[1], 0777); /* what went wrong is told where it is written to */
