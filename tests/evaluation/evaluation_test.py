@@ -121,8 +121,8 @@ def test_sweep(evaluation, scratch):
     check(found and evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", "--quick", "--dry-run").stdout.startswith("0 of"), "quick runs are kept")
     # A picture that is small by the sweep gets smaller instead, and stands beside the larger one.
     for mode in ([], ["--quick"]):
-        check(evaluation.run(dict(SMALL, series=0, set={}), "smaller", *mode).returncode == 0, f"a small picture, {mode}")
-    check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(16, 10, "exact"), (40, 24, "exact")], "sizes of small pictures")
+        check(evaluation.run(dict(SMALL, series=0, set={}, size="96x54"), "smaller", *mode).returncode == 0, f"a small picture, {mode}")
+    check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(80, 45, "exact"), (96, 54, "exact")], "sizes of small pictures")
     # What needs every cycle stays exact. Pixels in lockstep: one thread wastes nothing.
     run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "quick")
     for one in evaluation.results("lockstep")["runs"]:
@@ -229,8 +229,9 @@ def test_options(evaluation, scratch):
         run = evaluation.run(seeds, "measured", *mode, "--dry-run")  # where the scene has been imported
         check(f"{runs} of {runs} runs are missing" in run.stdout, f"seeds of samples, {mode}: {run.stdout}{run.stderr}")
     sweep = dict(SMALL, series=0, chips="1x32", set={"trax-scene --leaf": [1, 4]})
-    run = evaluation.run(sweep, "options", "--quick", "--dry-run")
-    check(run.stdout.count(" 16x10\n") == 2, f"--quick makes the pictures smaller: {run.stdout}{run.stderr}")
+    for size, smaller in (("60x34", "60x34"), ("320x180", "80x45"), ("640x360", "640x360"), ("1280x720", "960x540")):
+        run = evaluation.run(dict(sweep, size=size), "options", "--quick", "--dry-run")
+        check(run.stdout.count(f" {smaller}\n") == 2, f"--quick makes of {size} {smaller}: {run.stdout}{run.stderr}")
 
 
 REFUSED = [

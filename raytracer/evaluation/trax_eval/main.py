@@ -52,8 +52,8 @@ variable TRAX_SCENES, or else ./scenes).
       --slurm-options T --runner slurm: more options for sbatch
       --mode WHICH      exact or quick, instead of what the sweep says
       --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
-                        with intervals (trax-render --sampled); pictures of less than 640x360, if --size is not
-                        given, have a sixth of their pixels instead, all of which are simulated
+                        with intervals (trax-render --sampled). If --size is not given, pictures have three quarters of
+                        their sides; those of less than 640x360 are 80 pixels wide, and all of them is simulated
       --dry-run         prints the runs that are missing, and ends; imports no scene and writes nothing
       --report          writes the page, too: report.html in the folder of results
       --all             every experiment that is about a figure of the paper, and the page
@@ -160,6 +160,8 @@ def evaluate(options, tools, data, command):
     plans, labels, without = [], {}, 0
     with tempfile.TemporaryDirectory(prefix="trax-eval.") as scratch:
         planner = Planner(out, tools, folder, options.quiet, options.dry_run, scratch)
+        if not options.dry_run:
+            planner.import_all(sweeps, options.jobs)
         for sweep in sweeps:
             keys = {point: planner.key(sweep, point) for point in sweep.points}
             plans.append((sweep, keys))

@@ -7,7 +7,7 @@ from .fields import installed
 from .inputs import prepare_inputs
 from .jobs import key_of, make_job, write_job
 from .programs import Program, build
-from .scenes import order_options, scene_file
+from .scenes import import_scenes, order_options, plan_scene
 from .sweep import CHIPS, option_of, option_words
 from .util import Problem, hash_value
 
@@ -59,6 +59,7 @@ class Planner:
     def __init__(self, out, tools, folder, quiet, only_look, scratch):
         self.out, self.tools, self.folder, self.quiet, self.only_look, self.scratch = out, tools, folder, quiet, only_look, scratch
         self.made = {}
+        self.not_imported = {}  # path of a scene file: why it could not be made
 
     def once(self, what, function):
         if what not in self.made:
@@ -85,16 +86,48 @@ class Planner:
 
         return self.once(("program", program), make)
 
+    def scene(self, sweep, point):
+        """(path, command): the scene file, and what makes it."""
+        scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
+        options = tuple(point.options("trax-scene", workload))
+        own = bool(workload["scene"]) or any(option_of(key) and option_of(key)[0] == "trax-scene" for key, _ in point.settings)
+        machine = point.chip_file, point.machine()
+        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if point.program.specialised else []  # it is made for a machine, as trax-render has it
+        return self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order), own),
+                         lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], own))
+
+    def import_all(self, sweeps, jobs):
+        """The scenes of all sweeps, several at the same time."""
+        commands = {}
+        for sweep in sweeps:
+            for point in sweep.points:
+                try:
+                    path, command = self.scene(sweep, point)
+                except Problem:
+                    continue  # told when its runs are planned
+                if command:
+                    commands[path] = command
+        self.note("scenes")
+        self.not_imported = import_scenes(commands, jobs)
+
+    def scene_file(self, sweep, point):
+        """None if it is only looked at and has not been imported."""
+        path, _ = self.scene(sweep, point)
+
+        def check():
+            if path in self.not_imported:
+                raise Problem(f"{point.scene}: {self.not_imported[path]}")
+
+        self.once(("imported", path), check)
+        return path if path.exists() else None
+
     def inputs(self, sweep, point):
         scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
         machine = point.chip_file, point.machine()
-        imported, rendered = (tuple(point.options(tool, workload)) for tool in ("trax-scene", "trax-render"))
+        rendered = tuple(point.options("trax-render", workload))
         sampling = tuple(word for word in rendered if word.startswith("--sample-") and point.mode == "quick")  # all of an exact picture is simulated
         rendered = tuple(word for word in rendered if not word.startswith("--sample-"))
-        own = bool(workload["scene"]) or any(option_of(key) and option_of(key)[0] == "trax-scene" for key, _ in point.settings)
-        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if program.specialised else []  # it is made for a machine, as trax-render has it
-        path = self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), imported, tuple(order), own),
-                         lambda: scene_file(self.out, self.tools, self.folder, scene, [*order, *imported], own, self.only_look))
+        path = self.scene_file(sweep, point)
         if path is None:
             return None
         whole = point.mode == "quick" or point.error or point.hits

@@ -4,7 +4,7 @@ import os
 import pathlib
 
 from .fields import Fields, find_file, read_fields, unknown
-from .tools import run_tool
+from .tools import run_tools
 from .util import Problem, hash_file, hash_value
 
 KEYS = ("name", "title", "meshes", "view", "licence", "paper")
@@ -66,27 +66,27 @@ def order_options(dcache_bytes):
     return [] if lines == PAPERS_LINES else ["--cache-lines", str(lines)]
 
 
-def scene_file(out, tools, directory, scene, options, own, only_look=False):
-    """The scene file of a scene; imported once for the same meshes, options and importer. NAME.trax in the directory comes first, unless there are
-    options of its own, those of a workload or a sweep. only_look: None if it has not been imported."""
+def plan_scene(out, tools, directory, scene, options, own):
+    """The scene file of a scene, and the command that makes it: imported once for the same meshes, options and importer. NAME.trax in the directory comes
+    first, unless there are options of its own, those of a workload or a sweep."""
     name = scene["name"]
     built = directory / f"{name}.trax"
     if built.is_file() and not own:
-        return built.resolve()
+        return built.resolve(), None
     meshes = [find_mesh(directory, mesh, scene["folder"]) for mesh in scene["meshes"]]
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
-    if only_look and not any((out / "scenes").glob("*.trax")):
-        return None
     key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
-    if only_look and not path.exists():
-        return None
-    if not path.exists():
+    return path, [tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", str(path)]
+
+
+def import_scenes(commands, jobs):
+    """Those that are not there yet of {path: command}. Returns what went wrong, by path."""
+    missing = {path: command for path, command in commands.items() if not path.exists()}
+    for path in missing:
         path.parent.mkdir(parents=True, exist_ok=True)
-        run = run_tool([tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", path])
-        if run.returncode != 0:
-            raise Problem(f"{name}: {run.stderr.strip() or f'trax-scene ended with status {run.returncode}'}")
-    return path
+    runs = zip(missing, run_tools(list(missing.values()), jobs))
+    return {path: run.stderr.strip() or f"trax-scene ended with status {run.returncode}" for path, run in runs if run.returncode != 0}
 
 
 def mesh_files(directory, name):

@@ -19,9 +19,9 @@ CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8
 PAPERS_PROGRAMS = "paper"  # the set that a sweep has which names no programs
 MODES = ("exact", "quick")
 WORD = r"[A-Za-z][\w.:-]*"  # of a key whose values are words
-# Of pictures with fewer pixels than this so many slots must be simulated that little is saved (docs/sampling.md): --quick makes them smaller instead,
-# by so much that all experiments take less than ten minutes on two cores.
-QUICK_PIXELS, QUICK_SIDE = 640 * 360, 0.4
+# --quick: so that all experiments take less than ten minutes on two cores. Of pictures with fewer pixels than QUICK_PIXELS so many slots must be
+# simulated that little is saved (docs/sampling.md): they become narrow instead, and all of them is simulated. Larger ones are sampled.
+QUICK_PIXELS, QUICK_WIDTH, QUICK_SIDE = 640 * 360, 80, 0.75
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
 KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep",
         "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
@@ -224,9 +224,19 @@ def parse_size(text):
     return size if 0 < max(size) <= 16384 else None
 
 
+def quick_size(text, mode):
+    """The size and the mode of a picture that --quick makes instead."""
+    width, height = parse_size(text)
+    if width * height < QUICK_PIXELS:
+        scale, mode = min(1, QUICK_WIDTH / width), "exact"
+    else:
+        scale = QUICK_SIDE if width * height > QUICK_PIXELS else 1
+    return f"{round(width * scale)}x{max(1, round(height * scale))}", mode
+
+
 def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_scenes=None, only_variants=None):
     """The sweep in a file. size, mode, programs and chips: what the command line says instead of the file; programs are names, and Programs that take the
-    place of the sweep's. only_scenes, only_variants: the others are left out, but for the reference. With the mode "quick" a small picture, whose size the command line does not say, has a sixth of its pixels, and is simulated exactly."""
+    place of the sweep's. only_scenes, only_variants: the others are left out, but for the reference. With the mode "quick" pictures are smaller, if the command line does not say their size."""
     reader = Reader(path, read_json(path, TEXT_LIMIT), KEYS)
     value = reader.value
     name = reader.name()
@@ -260,9 +270,8 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
         if "mode" in value and chosen_mode != "exact" and not mode:
             reader.fail("mode", 'series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need "exact"')
         chosen_mode = "exact"
-    if mode == "quick" and not size and not lockstep and not ray_kinds and math.prod(parse_size(chosen_size)) < QUICK_PIXELS:
-        chosen_mode = "exact"
-        chosen_size = "x".join(str(max(1, round(QUICK_SIDE * side))) for side in parse_size(chosen_size))
+    if mode == "quick" and not size and not ray_kinds:
+        chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)
     scenes = {name: scene for name, scene in reader.scenes().items() if only_scenes is None or name in only_scenes}
     chips = reader.chips() if chips is None else {chip: "" for chip in chips}
     groups = {program: [variant for variant in variants if not variant[1]] for program in chosen_programs}

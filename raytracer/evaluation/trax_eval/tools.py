@@ -4,8 +4,12 @@ import functools
 import pathlib
 import re
 import subprocess
+import tempfile
+import time
 
 from .util import Problem, hash_file
+
+POLL_SECONDS = 0.05
 
 
 def run_tool(command, **where):
@@ -18,6 +22,31 @@ def run_tool(command, **where):
         process.wait()
         raise
     return subprocess.CompletedProcess(command, process.returncode, out, errors)
+
+
+def run_tools(commands, jobs):
+    """As run_tool, several at the same time; the finished processes in the commands' order."""
+    running, finished = {}, {}
+    waiting = list(enumerate(commands))
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                place, command = waiting.pop(0)
+                said = tempfile.TemporaryFile()
+                running[place] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
+            time.sleep(POLL_SECONDS)
+            for place in [place for place, (process, _) in running.items() if process.poll() is not None]:
+                process, said = running.pop(place)
+                said.seek(0)
+                finished[place] = subprocess.CompletedProcess(commands[place], process.returncode, "", said.read().decode(errors="replace"))
+                said.close()
+    except BaseException:
+        for process, _ in running.values():
+            process.terminate()
+        for process, _ in running.values():
+            process.wait()
+        raise
+    return [finished[place] for place in range(len(commands))]
 
 
 class Tools:
