@@ -36,8 +36,8 @@ for variable in ("ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"):
         config.environment[variable] = os.environ[variable]
 
 
-def program(name, *arguments):
-    return " ".join([os.path.join(config.trax_bin, name), *arguments])
+def program(name, *arguments, folder=config.trax_bin):
+    return " ".join([os.path.join(folder, name), *arguments])
 
 
 config.substitutions += [
@@ -47,9 +47,9 @@ config.substitutions += [
     ("%trax_sim", program("trax-sim")),
     ("%trax_ld", program("trax-ld")),
     ("%trax_mc", program("trax-mc")),
-    ("%trax_llc", program("trax-llc", "-verify-machineinstrs")),
+    ("%trax_llc", program("trax-llc", "-verify-machineinstrs", folder=config.trax_test_bin)),
     ("%trax_objdump", program("trax-objdump")),
-    ("%unwind_test", program("unwind-test")),
+    ("%unwind_test", program("unwind-test", folder=config.trax_test_bin)),
     ("%runtime", os.path.join(config.trax_build_root, "lib", "trax")),
     ("%trax_bin", config.trax_bin),
     ("%trax_source", config.trax_source_root),

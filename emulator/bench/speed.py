@@ -62,7 +62,7 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             arguments_of_program = prepare(options, scene, scratch)
             how_far = ["--no-reference"] if options.whole else ["--max-cycles", options.max_cycles]
-            run = subprocess.run([(options.bin / "engine-bench").resolve(), "--chips", options.chips, *how_far,
+            run = subprocess.run([(options.bin / "../tests/bin/engine-bench").resolve(), "--chips", options.chips, *how_far,
                                   "--repeats", options.repeats, *arguments_of_program],
                                  cwd=scratch, text=True, stdout=subprocess.PIPE)
         rows = run.stdout.splitlines()

@@ -46,7 +46,7 @@ def printed(*words):
 
 
 with tempfile.TemporaryDirectory() as work:
-    subprocess.run([os.path.join(bindir, "emulator-programs"), work], check=True)
+    subprocess.run([os.path.join(bindir, "../tests/bin/emulator-programs"), work], check=True)
     source = os.path.join(work, "a.c")
     with open(source, "w") as file:
         file.write(PROGRAM)

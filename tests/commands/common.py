@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 BIN = sys.argv[1]
+TEST_BIN = os.path.join(BIN, "..", "tests", "bin")
 VERSION = sys.argv[2]
 failures = 0
 
@@ -16,9 +17,14 @@ def fail(text):
     print(f"FAILED: {text}", flush=True)
 
 
+def path_of(program):
+    path = os.path.join(BIN, program)
+    return path if os.path.exists(path) else os.path.join(TEST_BIN, program)
+
+
 def run(program, *words, **how):
     how = {"stdin": subprocess.DEVNULL, "timeout": 120} | how
-    return subprocess.run([f"{BIN}/{program}", *words], capture_output=True, text=True, **how)
+    return subprocess.run([path_of(program), *words], capture_output=True, text=True, **how)
 
 
 def contents():

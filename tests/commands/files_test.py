@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import zlib
 
-from common import BIN, accepted, end, fail, refused
+from common import BIN, TEST_BIN, accepted, end, fail, refused
 
 INPUT, TWICE = "is an input and the output", "is written twice"
 # What a mesh refers to is known when it has been read; an ending that no writer has is refused before.
@@ -69,7 +69,7 @@ def option(name, *more):
 
 
 def simulator():
-    subprocess.run([f"{BIN}/emulator-programs", "."], check=True)
+    subprocess.run([f"{TEST_BIN}/emulator-programs", "."], check=True)
     write("in.bin", "0123456789abcdef")
     write("chip.cfg", accepted("trax-sim", "--print-config").stdout)
     words = ["--config", "chip.cfg", "--bind", "input=in.bin", "--alloc", "output=16", "copy.elf"]

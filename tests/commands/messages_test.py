@@ -8,18 +8,21 @@ import os
 import re
 import tempfile
 
-from common import BIN, VERSION, accepted, end, fail, refused, run
+from common import BIN, TEST_BIN, VERSION, accepted, end, fail, path_of, refused, run
 
-PROGRAMS = ["clang", "clang++", "trax-clang", "trax-clang++", "trax-compare", "trax-eval", "trax-ld", "trax-llc", "trax-mc", "trax-objdump",
-            "trax-render", "trax-scene", "trax-sim", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "trax-accuracy", "engine-bench"]
+USERS = ["clang", "clang++", "trax-clang", "trax-clang++", "trax-compare", "trax-eval", "trax-ld", "trax-mc", "trax-objdump", "trax-render",
+         "trax-scene", "trax-sim"]
+OTHERS = ["trax-llc", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "trax-accuracy", "engine-bench"]
 
 
 def versions():
-    found = {name for name in os.listdir(BIN) if name.startswith("trax-") and not name.endswith(("-replay", "-fuzzer"))}
-    if not found <= set(PROGRAMS):
-        fail(f"programs that are not asked: {found - set(PROGRAMS)}")
-    for name in PROGRAMS:
-        if not os.path.exists(f"{BIN}/{name}"):
+    if not set(os.listdir(BIN)) <= set(USERS):
+        fail(f"build/bin has more than the user's programs: {set(os.listdir(BIN)) - set(USERS)}")
+    found = {name for name in os.listdir(TEST_BIN) if name.startswith("trax-") and not name.endswith(("-replay", "-fuzzer"))}
+    if not found <= set(OTHERS):
+        fail(f"programs that are not asked: {found - set(OTHERS)}")
+    for name in USERS + OTHERS:
+        if not os.path.exists(path_of(name)):
             continue
         out = accepted(name, "--version").stdout
         if not re.search(rf"(^|[ ]){re.escape(VERSION)}([ ,\n]|$)", out, re.MULTILINE):

@@ -113,8 +113,8 @@ class Commands:
             word = f"build/bin/{word}"
         if word in ("trax-eval", "build/bin/trax-eval"):
             return self.evaluation
-        if word.startswith("build/bin/"):
-            program = self.binaries / word[len("build/bin/"):]
+        if word.startswith(("build/bin/", "build/tests/bin/")):
+            program = self.build / word[len("build/"):]
             if not program.exists():
                 raise Failure(f"there is no {word}")
             return help_of(program)

@@ -24,7 +24,7 @@ def setUpModule():
     global folder
     folder = tempfile.TemporaryDirectory()
     os.chdir(folder.name)
-    subprocess.run([f"{BIN}/emulator-programs", "."], check=True)
+    subprocess.run([f"{BIN}/../tests/bin/emulator-programs", "."], check=True)
 
 
 def tearDownModule():

@@ -30,7 +30,7 @@ def main():
     failures = 0
     allowed = sorted(os.sched_getaffinity(0))
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([BIN / "emulator-programs", folder], check=True)
+        subprocess.run([BIN / "../tests/bin/emulator-programs", folder], check=True)
         sim = [str(BIN / "trax-sim"), "--quiet", "--config", "4x32"]
         cases = [("one processor", [*sim, "idle.elf"], allowed[:1], lambda n: n == 1),
                  ("three threads asked for", [*sim, "--host-threads", "3", "idle.elf"], allowed[:1], lambda n: n == 3),

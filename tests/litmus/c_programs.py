@@ -46,7 +46,7 @@ def threaded():
 def result(options, model, machine, binary, seed=None):
     tms, tps = machine.split("x")
     environment = os.environ | ({} if seed is None else {"TRAX_SEED": seed})
-    done = subprocess.run([os.path.join(options.build, "bin", model), "--tms", tms, "--tps", tps, "--memory-mib", "64", "--limit", str(LIMIT), binary],
+    done = subprocess.run([os.path.join(options.build, "tests", "bin", model), "--tms", tms, "--tps", tps, "--memory-mib", "64", "--limit", str(LIMIT), binary],
                           env=environment, capture_output=True, check=False)
     return done.returncode, done.stdout, done.stderr.decode(errors="replace").replace("trax-isa-model", "")
 

@@ -33,7 +33,7 @@ def compiled(options, name, level, runs, relaxed, directory):
 def outcomes(options, binary, machine, seed, broken="none"):
     """(runs, weak, broken), or what went wrong."""
     tms, tps = machine.split("x")
-    done = subprocess.run([os.path.join(options.build, "bin", "isa-weak-model"), "--tms", tms, "--tps", tps, "--limit", "2000000000", binary],
+    done = subprocess.run([os.path.join(options.build, "tests", "bin", "isa-weak-model"), "--tms", tms, "--tps", tps, "--limit", "2000000000", binary],
                           env=os.environ | {"TRAX_SEED": str(seed), "TRAX_BREAK": broken}, capture_output=True, text=True, timeout=SECONDS,
                           check=False)
     counts = re.fullmatch(r"(\d+) runs: (\d+) weak, (\d+) broken\n", done.stdout)

@@ -68,12 +68,12 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="the number of the first (default: 0)")
     parser.add_argument("--group", choices=list(GROUPS), help="one group only")
     parser.add_argument("--host-only", action="store_true", help="not on the TP")
-    parser.add_argument("--bin", default=os.path.join(build, "bin"), help="the folder of trax-sim and the compiled sweeps")
+    parser.add_argument("--bin", default=os.path.join(build, "bin"), help="the folder of trax-sim, beside tests/bin of the compiled sweeps")
     parser.add_argument("--machine", default="1x32", help="trax-sim's --config")
     options = parser.parse_args()
 
     def program(name):
-        return os.path.join(options.bin, name)
+        return os.path.join(options.bin, name if name == "trax-sim" else f"../tests/bin/{name}")
 
     hardware = Program("hardware", [program("sweep-hardware")])
     sources = Program("runtime on the host", [program("sweep-runtime")])

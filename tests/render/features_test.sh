@@ -24,7 +24,7 @@ for number in 1 2 3 4 5 6 7 8 9 10 11 12; do
   else
     options=$(echo "$options" | sed 's/--seed 3//')
   fi
-  "$bin/render-gallery" made $parts || fail "render-gallery $parts"
+  "$bin/../tests/bin/render-gallery" made $parts || fail "render-gallery $parts"
   # By twos: lights of the view file, or the one that frames have.
   [ $((number % 2)) -eq 1 ] && options="$options --view made/gallery.view"
   [ $((number % 3)) -eq 1 ] && options="$options --one-sided"

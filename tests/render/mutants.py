@@ -69,7 +69,7 @@ def make(folder, build):
     for test, program, macros in TESTS:
         compiled = folder / f"{test}.o"
         subprocess.run([*COMPILE, *macros, "-c", folder / program, "-o", compiled], check=True)
-        words = command(build, f"bin/{test}")
+        words = command(build, f"tests/bin/{test}")
         if test == "render-light-test":
             words = [word for word in words if not word.endswith("light_test.c.o")]
         words[words.index("-o") + 1] = folder / test

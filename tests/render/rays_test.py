@@ -112,7 +112,7 @@ def corner_occlusion():
 def compare_occlusion():
     """With everything else that a picture may have: the same bits from all three programs, and Embree's picture."""
     for parts, words in ((0, []), (63, []), (63, ["--samples", "4", "--smooth"]), (63, ["--one-sided", "--float", "--seed", "7"])):
-        call("render-gallery", "made", parts)
+        call("../tests/bin/render-gallery", "made", parts)
         words = ["made/gallery.trax", *words, "--occlusion", "4", "--ambient", "0.6", "--occlusion-reach", "0.3", "--size", "40x28", "--config", "1x32"]
         result = call("trax-render", *words, "--compare", "-o", "x.png")
         check(re.search("^twin        identical in every bit$", result.stdout, re.M), parts, words, result.stdout)

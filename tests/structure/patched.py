@@ -77,7 +77,7 @@ def build(source, scratch, launcher):
     run("cmake", "-S", scratch, "-B", f"{scratch}/build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=-O1",
         "-DCMAKE_CXX_FLAGS=-O1", *launchers)
     run("ninja", "-C", f"{scratch}/build", "-j2", *TARGETS)
-    run(f"{scratch}/build/bin/emulator-programs", scratch)
+    run(f"{scratch}/build/tests/bin/emulator-programs", scratch)
 
 
 def settings(keys):
@@ -100,7 +100,8 @@ class Patched:
             print(text)
 
     def run(self, program, *arguments):
-        return run(os.path.join(self.scratch, "build", "bin", program), *arguments, cwd=self.scratch)
+        folder = "bin" if program == "trax-sim" else "tests/bin"
+        return run(os.path.join(self.scratch, "build", folder, program), *arguments, cwd=self.scratch)
 
     def engines_agree(self, keys, count):
         print(self.run("timing-engines-test", "--count", count, "--jobs", 2, *settings(keys)).strip())

@@ -18,7 +18,7 @@ def layout(program):
 
 
 def main():
-    program = os.path.join(SCRATCH, "build", "bin", "timing-rollback-test")
+    program = os.path.join(SCRATCH, "build", "tests", "bin", "timing-rollback-test")
     with open(os.path.join(SCRATCH, patched.ADDED), encoding="utf-8") as file:
         names = file.read().split()
     print(f"a field is added to {' '.join(names)}")

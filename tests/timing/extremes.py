@@ -104,7 +104,7 @@ def random_cases(options, chip, keys):
     sets = [f"--set={key}" for key in [f"chip.tms={chip[0]}", f"chip.tps_per_tm={chip[1]}", *keys]]
     if chip[0] * chip[1] > 128:
         return "-"  # more threads than their programs have memory for
-    done = subprocess.run([os.path.join(options.bin, "timing-engines-test"), "--seed", str(options.seed), "--count", str(options.random), *sets],
+    done = subprocess.run([os.path.join(options.bin, "../tests/bin/timing-engines-test"), "--seed", str(options.seed), "--count", str(options.random), *sets],
                           capture_output=True, text=True, timeout=1200, check=False)
     return "equal" if done.returncode == 0 else done.stdout + done.stderr
 

@@ -53,7 +53,7 @@ def first_failure(tree):
     """The number of the first test that fails; None if none does."""
     for i, (command, environment) in enumerate(TESTS):
         try:
-            status = subprocess.run([tree / "build/bin" / command[0], *command[1:]], cwd=tree, env=os.environ | environment,
+            status = subprocess.run([tree / "build/tests/bin" / command[0], *command[1:]], cwd=tree, env=os.environ | environment,
                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=10 * SECONDS, preexec_fn=limit).returncode
         except subprocess.TimeoutExpired:
             status = "timeout"

@@ -147,7 +147,7 @@ static void print_table(FILE *out) {
   const char *chapter = "";
   fprintf(out,
           "# The rules of time, one by one\n\n"
-          "What `build/bin/timing-rules-test` prints; a test compares. Each row is a rule of [timing.md](timing.md), a "
+          "What `build/tests/bin/timing-rules-test` prints; a test compares. Each row is a rule of [timing.md](timing.md), a "
           "machine\n"
           "and a program that shows it, the cycles in which each thread's instructions are issued and the length of "
           "the run, both\n"

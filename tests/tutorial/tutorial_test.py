@@ -71,7 +71,7 @@ def check_changes(source, build, scratch):
                       ("manual", source / "docs/isa.md")):
         out = scratch / what
         template = ["-template", tree / "isa/isa.md.in"] if what == "manual" else []
-        run(build / "bin/trax-isa-gen", f"-gen={what}", *template, "-I", tree / "isa", "-I", include, tree / "isa/Isa.td", "-o", out)
+        run(build / "tests/bin/trax-isa-gen", f"-gen={what}", *template, "-I", tree / "isa", "-I", include, tree / "isa/Isa.td", "-o", out)
         made[what] = out.read_text()
         lost = [line for line in old.read_text().splitlines() if line not in set(made[what].splitlines())]
         if what != "manual" and lost:

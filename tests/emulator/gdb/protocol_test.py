@@ -31,7 +31,7 @@ def setUpModule():
         elf = path(name)
         subprocess.run([f"{BIN}/clang", "--target=trax", "-O1", "-g", "-o", elf, f"{HERE}/{name}.c"], check=True)
         symbols[name] = read_symbols(elf)
-    subprocess.run([f"{BIN}/emulator-programs", work.name], check=True)
+    subprocess.run([f"{BIN}/../tests/bin/emulator-programs", work.name], check=True)
 
 
 def tearDownModule():

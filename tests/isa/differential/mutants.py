@@ -85,7 +85,7 @@ def is_noticed(options, manual, begin, end, statement):
     with tempfile.NamedTemporaryFile("w", suffix=".md", encoding="utf-8") as file:
         file.write(manual[:begin] + statement + manual[end:])
         file.flush()
-        result = subprocess.run([os.path.join(options.bin, "isa-differential"), "--manual", file.name, "--stop",
+        result = subprocess.run([os.path.join(options.bin, "../tests/bin/isa-differential"), "--manual", file.name, "--stop",
                                  "--seed", str(options.seed), "--count", str(options.count)],
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600, check=False)
     if result.returncode == 1 and "isa-differential:" in result.stderr:

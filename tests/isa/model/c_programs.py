@@ -59,7 +59,7 @@ def check(options, source, directory):
     if compiled.returncode:
         return compiled.stderr
     try:
-        result = subprocess.run([os.path.join(options.build, "bin", "trax-isa-model"), *machine, binary],
+        result = subprocess.run([os.path.join(options.build, "tests", "bin", "trax-isa-model"), *machine, binary],
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=SECONDS, check=False)
     except subprocess.TimeoutExpired:
         return f"it did not end in {SECONDS} s"

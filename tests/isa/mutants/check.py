@@ -133,7 +133,7 @@ def main():
     options = parser.parse_args()
     if options.every < 0 or options.jobs < 1:
         parser.error("--every is 0 or more, --jobs is 1 or more")
-    program = options.build / "bin/trax-isa-mutants"
+    program = options.build / "tests/bin/trax-isa-mutants"
     if not program.exists() or not (options.build / "isa-suite/suite.json").exists():
         sys.exit(f"{options.build}: ninja -C {options.build} trax-isa-mutants isa-suite comes first")
     tests = options.build / f"isa-mutants.{os.getpid()}"

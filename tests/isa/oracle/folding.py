@@ -232,8 +232,8 @@ def main():
     parser.add_argument("--flags", default="", help="more flags for the compiler: to see that differences are found")
     options = parser.parse_args()
     build = options.build.resolve()
-    cases = all_cases(build / "bin/isa-oracle-sweep", options.pairs, options.operation)
-    ask(build / "bin/isa-oracle", cases)
+    cases = all_cases(build / "tests/bin/isa-oracle-sweep", options.pairs, options.operation)
+    ask(build / "tests/bin/isa-oracle", cases)
     in_c = [case for case in cases if case.c]
     with tempfile.TemporaryDirectory() as folder:
         compiler = Compiler(build, pathlib.Path(folder), options.flags.split())

@@ -31,7 +31,7 @@ def output(command):
 
 class Oracle:
     def __init__(self, folder):
-        self.name, self.program = "the oracle", os.path.join(folder, "isa-oracle-sweep")
+        self.name, self.program = "the oracle", os.path.join(folder, "../tests/bin/isa-oracle-sweep")
 
     def run(self, first, count, bits, verbose=0):
         return output([self.program] + [str(n) for n in (first, count, bits, verbose)])
@@ -41,7 +41,7 @@ class Engine:
     def __init__(self, folder, engine, machine, bits):
         self.name, self.bits = engine, bits
         self.command = [os.path.join(folder, "trax-sim"), "--quiet", "--engine", engine, "--config", machine]
-        self.program = os.path.join(folder, "isa-oracle-sweep.elf")
+        self.program = os.path.join(folder, "../tests/bin/isa-oracle-sweep.elf")
 
     def run(self, first, count, bits, verbose=0):
         with tempfile.TemporaryDirectory() as folder:

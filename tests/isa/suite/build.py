@@ -149,7 +149,7 @@ def main():
         return
     temporary = options.folder + ".new"
     shutil.rmtree(temporary, ignore_errors=True)
-    builder = Builder(options.tools, options.model or os.path.join(options.tools, "trax-isa-model"), temporary)
+    builder = Builder(options.tools, options.model or os.path.join(options.tools, "../tests/bin/trax-isa-model"), temporary)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         tests = [test for tests in pool.map(builder.make, made) for test in tests]
     shutil.rmtree(builder.sources)

@@ -126,7 +126,7 @@ def main():
         check()
         return
     if options.measure:
-        subprocess.run([options.bin / "trax-accuracy", "--output", MEASURED], check=True)
+        subprocess.run([options.bin / "../tests/bin/trax-accuracy", "--output", MEASURED], check=True)
     update(options)
 
 

@@ -58,7 +58,7 @@ def run(command):
 
 def unit_errors(bin_directory, stride):
     """{(operation, bits): {column: number}}; LATENCIES is filled too."""
-    rows = list(csv.DictReader(run([bin_directory / "precision-units", stride]).splitlines()))
+    rows = list(csv.DictReader(run([bin_directory / "../tests/bin/precision-units", stride]).splitlines()))
     LATENCIES.update({(model, int(r["bits"])): int(r[model]) for r in rows for model in MODELS})
     return {(r["operation"], int(r["bits"])): {k: float(v) for k, v in r.items() if k not in ("operation", *MODELS)} for r in rows}
 

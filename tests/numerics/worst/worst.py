@@ -33,7 +33,7 @@ def functions():
 
 
 def measure(options):
-    command = [options.bin / "math64-worst", "--count", str(options.count), "--seed", str(options.seed), "--start", FOUND]
+    command = [options.bin / "../tests/bin/math64-worst", "--count", str(options.count), "--seed", str(options.seed), "--start", FOUND]
 
     def search(name):
         return subprocess.run([*command, name], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, check=True).stdout.decode()

@@ -57,7 +57,7 @@ def make(folder, build):
         compile_query(build, f"lib/trax/{program.name}", folder, folder / program.name)
     for program in ("trax-raytracer.elf", "trax-raytracer-exact.elf"):
         shutil.copy(build / "lib/trax" / program, folder)
-    link = command(build, "bin/render-extreme")
+    link = command(build, "tests/bin/render-extreme")
     for i, word in enumerate(link):
         if word.endswith("/query.c.o"):
             link[i] = folder / f"{i}.o"
