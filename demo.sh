@@ -38,8 +38,10 @@ case $scene in
 esac
 
 "$here/setup.sh" --programs
+setup_time=$SECONDS
 mkdir -p "$here/out"
 "$here/build/bin/trax-render" "$mesh" "${view[@]}" --config 4x32 --size 640x360 \
   -o "$here/out/demo.png" --stats "$here/out/demo.json" "$@"
 echo "demo: picture: $here/out/demo.png"
 echo "demo: report:  $here/out/demo.json"
+echo "demo: done in $SECONDS s: $setup_time s for packages and programs, $((SECONDS - setup_time)) s for the picture"

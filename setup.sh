@@ -1,16 +1,19 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing, configures and builds into build/. A second run takes seconds.
-#   ./setup.sh             everything, with the tests and what they need
-#   ./setup.sh --programs  what it takes to compile, run and render; ./demo.sh uses it
-#   --quiet                says nothing but errors
-# Works as root and with sudo. JOBS=N sets the number of build jobs (default: all cores).
+# Usage: ./setup.sh [--programs] [--quiet]
+# Installs the packages that are missing, configures and builds into build/. A second run takes seconds.
+#   --programs  only what it takes to compile, run and render; ./demo.sh uses it
+#   --quiet     says nothing but errors
+#   --help      says this
+# Without --programs, the tests and what they need come too; ./test.sh uses it. Programs are in build/bin, what tests need in build/tests/bin.
+# Works as root and with sudo, on Debian 12 and 13. The names of packages are also those of Ubuntu 24.04 as far as known; it was not tried there.
+# JOBS=N sets the number of build jobs (default: all cores).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 quiet='' programs=''
 for argument in "$@"; do
   case $argument in
-    -h|--help) sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    -h|--help) sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     --quiet) quiet=1 ;;
     --programs) programs=1 ;;
     *) echo "setup.sh: unknown option '$argument' (--programs, --quiet, --help)" >&2; exit 1 ;;
@@ -19,7 +22,7 @@ done
 say() { [ -n "$quiet" ] || echo "setup: $*"; }
 die() { echo "setup.sh: error: $*" >&2; exit 1; }
 
-# A|B is the first that the distribution has: Debian 12, Debian 13.
+# A|B is the first that the distribution has: Debian 12, Debian 13, Ubuntu 24.04.
 packages=(
   cmake ninja-build gcc g++ pkg-config python3                            # to build
   llvm-19-dev libclang-19-dev libclang-common-19-dev libc++-19-dev
@@ -32,11 +35,11 @@ test_packages=(
   make git llvm-19 llvm-19-tools clang-19                                 # the tutorial applies a patch with git
   libcmocka-dev libmpfr-dev gdb gdb-multiarch
   gnuplot-nox                                                             # the evaluation's figures
-  parallel chromium                                                       # runs handed to GNU parallel; the evaluation's page in a browser
+  parallel 'chromium|chromium-browser'                                    # runs handed to GNU parallel; the evaluation's page in a browser
   slurmctld slurmd slurm-client                                           # the same by Slurm; its services do nothing without a configuration
   clangd-19 clang-tidy-19 meson                                           # recipes of docs/compiler.md
-  csmith libcsmith-dev 'lib32gcc-12-dev|lib32gcc-14-dev' libc6-dev-i386   # random programs, and a host of 32 bits
-  qemu-user lld-19 'gcc-12-source|gcc-14-source' gcc-multilib libclang-rt-19-dev  # longer checks: code quality, gcc's torture, fuzzers
+  csmith libcsmith-dev gcc-multilib libc6-dev-i386                        # random programs, and a host of 32 bits
+  qemu-user lld-19 gcc-12-source libclang-rt-19-dev                        # longer checks: code quality, gcc's torture, fuzzers
 )
 [ -n "$programs" ] || packages+=("${test_packages[@]}")
 
@@ -68,17 +71,22 @@ if [ ${#missing[@]} -gt 0 ]; then
   find_missing "${packages[@]}" # alternatives are known now
   say "installing ${#missing[@]} packages and what they need: ${missing[*]}"
   install install -q -y --no-install-recommends "${missing[@]}" || { tail -n 15 "$log" >&2; die "apt-get install failed"; }
-  say "$(sed -nE 's/.* ([0-9]+) newly installed.*/\1 packages are new/p; s/^After this operation, (.*) of additional.*/\1/p' "$log" | paste -sd, | sed 's/,/, /g'), in $((SECONDS - begin)) s"
+  # apt's own words: so many are new, so much to fetch, so much afterwards.
+  new=$(sed -nE 's/.* ([0-9]+) newly installed.*/\1/p' "$log")
+  fetched=$(sed -nE 's/^Need to get ([^ /]+)[^ ]* ([kMG]?B).*/\1 \2/p' "$log")
+  size=$(sed -nE 's/^After this operation, (.*) of additional.*/\1/p' "$log")
+  packages_time="$((SECONDS - begin)) s for ${new:-0} packages (${fetched:-0 B} fetched, ${size:-0 B} installed)"
 else
-  say "all packages are installed"
+  packages_time="0 s for packages, which are all installed"
 fi
 
+configure_time=0
 # Configure again only where there is no usable build folder or tests are wanted for the first time: ninja itself notices changed CMake files.
 configure() {
   begin=$SECONDS
   mkdir -p build
   cmake --preset release "$@" >build/configure.log 2>&1 || { cat build/configure.log >&2; die "cmake failed"; }
-  say "configured build/, in $((SECONDS - begin)) s"
+  configure_time=$((SECONDS - begin))
 }
 if [ ! -f build/build.ninja ]; then
   if [ -n "$programs" ]; then configure -DTRAX_TESTS=OFF; else configure; fi
@@ -95,4 +103,4 @@ if [ -t 1 ] && [ -z "$quiet" ]; then
 else
   ninja -C build -j "${JOBS:-$(nproc)}" "$target" >build/build.log 2>&1 || { tail -n 60 build/build.log >&2; die "the build failed; all of it is in build/build.log"; }
 fi
-say "done, in $((SECONDS - begin)) s: programs are in build/bin"
+say "done in $SECONDS s: $packages_time, $configure_time s for configuring, $((SECONDS - begin)) s for building"

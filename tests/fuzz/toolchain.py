@@ -78,7 +78,7 @@ def require_host_compiler(work):
     for command in ([*HOST_COMPILER, source, "-o", work / "host"], [work / "host"]):
         result = run(command)
         if result.status != 0:
-            raise SetupError("the host cannot compile and run 32-bit programs: install lib32gcc-12-dev libc6-dev-i386 "
+            raise SetupError("the host cannot compile and run 32-bit programs: install gcc-multilib libc6-dev-i386 "
                              f"(./setup.sh does)\n  {result.command}\n  {result.reason()}")
 
 
