@@ -23,6 +23,10 @@ class Failure(Exception):
     """What ends the program with a message."""
 
 
+class Unavailable(Exception):
+    """Why this host cannot count."""
+
+
 def run(command):
     """Run a command; return what it printed to standard output and to standard error."""
     try:
@@ -126,6 +130,12 @@ def check_counter(machine):
     counts = [build_and_run(machine, BENCH / "counted_loop.c", 1, [f"-DITERATIONS={n}"])[2] for n in (100000, 200000)]
     if counts[1] - counts[0] != 300000:
         raise Failure(f"the counter of {machine.name} finds {counts[1] - counts[0]} instructions in a loop of 300000")
+
+
+def check_plugins():
+    """Debian 13's qemu-user is linked statically, and so takes no plugins."""
+    if "-plugin" not in run(["qemu-riscv32", "-help"])[0]:
+        raise Unavailable("this qemu-riscv32 takes no -plugin, by which RISC-V's instructions are counted; Debian 12's does")
 
 
 def check_programs(build):
