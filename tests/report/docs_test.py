@@ -190,7 +190,7 @@ class DocsTest(unittest.TestCase):
         self.assertIn("1e-04", figure.text().replace("0.0001", "1e-04"))
 
     def test_descriptions(self):
-        for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), (3, "table: expected an object or a list of objects"), ([{}, 3], "table: expected an object or a list of objects"),
+        for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), ({"values": [{"name": "mrps", "as": "x"}]}, "allowed are"), ({"summary": "mean"}, "allowed are geometric mean, least, greatest"), (3, "table: expected an object or a list of objects"), ([{}, 3], "table: expected an object or a list of objects"),
                                ([{"id": "a"}, {"id": "a"}], "the same id")):
             made = example.stranger()
             made["sweeps"][0]["table"] = table
@@ -217,6 +217,66 @@ class DocsTest(unittest.TestCase):
         made["sweeps"][0]["table"] = {"rows": "chip", "columns": ["scene", "variant"], "relative": {"variant": "as it is"}, "as": "times", "only": {"variant": "sorted", "chip": ["tiny"]}}
         table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
         self.assertEqual([row[:3] for row in rows_of("\n".join(table.lines(False)))], [["chip", "cube, sorted", "dragon, sorted"], ["tiny", "1.25", "1.25"]])
+
+    def test_relations(self):
+        """Per cent and times instead of figures, figures beside them, and what a row has in all."""
+        made = example.stranger()
+        made["sweeps"][0]["table"] = {"rows": "variant", "columns": "scene", "where": {"chip": "4x32"}, "relative": {"variant": "as it is"}, "as": "percent", "summary": ["geometric mean", "least", "greatest"],
+                                      "values": [{"name": "mrps", "title": "rate"}]}
+        made["runs"][3]["stats"]["mrps"] = 30.0  # the cube, sorted: 30 for 20, beside the dragon's 12.5 for 10
+        table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
+        self.assertEqual([row[:6] for row in rows_of("\n".join(table.lines(False)))],
+                         [["variant", "cube", "dragon", "geometric mean", "least", "greatest"], ["as it is", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %"], ["sorted", "+50.0 %", "+25.0 %", "+36.9 %", "+25.0 %", "+50.0 %"]])
+        made["sweeps"][0]["table"] |= {"values": [{"name": "mrps", "as": "figure"}, {"name": "mrps", "title": "rate", "as": "times"}], "summary": "greatest"}
+        table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
+        self.assertEqual(rows_of("\n".join(table.lines(False)))[2][:7], ["sorted", "30.0", "1.50", "12.5", "1.25", "30.0", "1.50"])
+        made["runs"][3].update(status="failed", error="x", stats=None, values=None)
+        table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
+        self.assertEqual(rows_of("\n".join(table.lines(False)))[2][:7], ["sorted", "-", "-", "12.5", "1.25", "-", "-"])
+
+    def test_own_sweeps(self):
+        """What a page's file has of a sweep that comes with trax is its name: the tables are those of the sweep's file."""
+        made = example.complete()
+        for sweep in made["sweeps"]:
+            sweep["file"] = f"/anywhere/lib/trax/evaluation/sweeps/{sweep['name']}.json"
+        self.page.write_text(page_of("table2-bytes-era", "lockstep"))
+        self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
+        self.assertEqual([set(sweep) for sweep in json.loads(self.data.read_text())["sweeps"]], [{"name"}] * 2)
+        self.assertIn("bandwidth in use", self.page.read_text())
+        self.data.write_text(self.data.read_text().replace('{"name":"lockstep"}', '{"name":"no-such"}'))
+        status, said = self.docs("--check", self.page)
+        self.assertEqual((status, said.count("\n")), (1, 1))
+        self.assertIn("no-such.json", said)
+
+    def test_folder(self):
+        """A folder stands for its pages that have blocks."""
+        for name in ("one", "two"):
+            (self.folder / f"{name}.md").write_text("<!-- trax-eval data: both.json -->\n" + page_of("table2-era" if name == "one" else "plot fpu-sharing"))
+        (self.folder / "three.md").write_text("No block.\n")
+        self.assertEqual(self.docs(self.results(example.complete()), self.folder), (0, ""))
+        self.assertEqual(self.docs("--check", self.folder), (0, ""))
+        self.assertTrue((self.folder / "both-fpu-sharing.svg").exists())
+        (self.folder / "two.md").write_text((self.folder / "two.md").read_text().replace("mrps against", "rays against"))
+        status, said = self.docs("--check", self.folder)
+        self.assertEqual((status, said.count("\n")), (1, 1))
+        self.assertIn("two.md", said)
+
+    def test_estimates(self):
+        """A quick run is compared with the exact run of the same job: the error, whether its interval holds, and the host's time."""
+        made = example.complete()
+        quick = []
+        for run in [run for run in made["runs"] if "table2" in run["experiments"] and run["program"] == "era" and run["scene"] == "dragon" and run["config"] in ("1x32", "4x32")]:
+            exact = run["stats"]["mrps"]
+            factor = 1.1 if run["config"] == "1x32" else 0.98
+            quick.append({**run, "key": run["key"] + "q", "mode": "quick", "host_seconds": 1.0, "set": {**run["set"], "trax-render --sample-seed": 3}, "stats": {**run["stats"], "mrps": factor * exact},
+                          "values": {**run["values"], "mrps_low": 0.97 * factor * exact, "mrps_high": 1.03 * factor * exact}, "points": None})
+            run["host_seconds"] = 8.0
+        made["runs"] += quick
+        self.page.write_text(page_of("estimates-table2"))
+        self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
+        rows = rows_of(self.page.read_text())
+        self.assertEqual(next(row for row in rows if row[0] == "era"), ["era", "dragon", "2", "1", "6.0 %", "10.0 %", "3.0 %", "2.00 s", "16.0 s", "8.0"])
+        self.assertEqual(self.docs("--check", self.page), (0, ""))
 
     def test_missing(self):
         """A mean with a run that is not there is not a mean of the others."""

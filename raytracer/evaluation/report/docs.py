@@ -1,33 +1,34 @@
 """trax-eval docs: the tables and plots of the pages of docs, written from files of results.
 
-    trax-eval docs [RESULTS.json...] PAGE.md...
+    trax-eval docs [--anew] [RESULTS.json...] PAGE.md...
     trax-eval docs --check PAGE.md...
 
 What stands in a page between `<!-- trax-eval NAME: begin -->` and `<!-- trax-eval NAME: end -->` is the table of that name, or with `plot NAME` the plot, an SVG
 file beside the page. Names are those of the report's tables and of sweeps; a sweep's plot has the sweep's name. The figures are those of PAGE.json (another file if
 the page has `<!-- trax-eval data: FILE -->`), which holds what the tables need and nothing else. Runs of RESULTS.json take the
-place of those of the same sweep, program, workload, size and mode in that file; with --anew of the same sweep. Pages that share a file are given together. --check writes nothing, and ends with status 1 if a block or a plot is not what the file gives."""
+place of those of the same sweep, program, workload, size and mode in that file; with --anew of the same sweep and program. Pages that share a file are given together;
+a folder stands for its pages that have blocks. --check writes nothing, and ends with status 1 if a block or a plot is not what the file gives."""
 
 import argparse
 import itertools
-import json
+import os
 import pathlib
 import re
 import sys
 
-from trax_eval.util import Problem, check_files, read_json, write_file
+from trax_eval.util import Problem, check_files, write_file
 
-from . import rays, tables
+from . import estimates, rays, tables
 from .charts import all_figures, sweep_figure
-from .claims import claims
+from .claims import UNKNOWN, claims
+from .data import compact, merged, read_data, results_of, without
 from .plots import PlotError, standalone
-from .results import ASKED, HERE, Paper, Results, ResultsError, read_results
+from .results import ASKED, HERE, Paper, ResultsError, read_results
 
 MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
 ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")
 DATA = re.compile(r"<!-- trax-eval data: (\S+) -->")
 LIMIT = 1 << 24  # bytes of a page
-DIGITS = 6  # of what is no whole number
 
 
 class Page:
@@ -61,8 +62,16 @@ class Builder:
             ASKED.clear()
             makers = tables.makers(results, paper, sweep)
             self.add(makers, sweep, ASKED.copy())
-        self.add([lambda: tables.claims_table(claims(results, paper, results.programs()), results.programs()), lambda: tables.described(results, paper),
+            if made := estimates.of_sweep(results, sweep):
+                self.add([made], sweep, {})
+        self.add([self.claims, lambda: tables.described(results, paper),
                   lambda: tables.hardware(results, paper), lambda: rays.gain_table(results), lambda: rays.kinds_table(results)], None, {})
+
+    def claims(self):
+        """Of programs that are no sweep's variants, the claims of which something is known."""
+        programs = [name for name in self.results.programs() if any(run.program == name and not run.variant for run in self.results.runs)]
+        judged = claims(self.results, self.paper, programs)
+        return tables.claims_table([claim for claim in judged if any(claim.verdicts[name][0] != UNKNOWN for name in programs)], programs)
 
     def add(self, makers, sweep, before):
         """before: what was asked for to know which tables there are; each needs it of its own runs."""
@@ -115,86 +124,13 @@ class Builder:
         origin = self.origin(sweep, asked)
         if not name.startswith("plot "):
             return f"{origin}:\n\n{made.without_empty().markdown()}"
-        path = page.path.parent / f"{page.path.stem}-{made.identity}.svg"
+        path = page.data.with_name(f"{page.data.stem}-{made.identity}.svg")
         files[path] = standalone(made)
-        return f"**{made.title}.** {origin}:\n\n![{made.title}]({path.name})\n"
+        return f"**{made.title}.** {origin}:\n\n![{made.title}]({os.path.relpath(path, page.path.parent)})\n"
 
 
-def _digits(value):
-    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
-
-
-def _kept(run, names, source):
-    """Of a run's record what says which run it is, and the figures of these names, flat: stats.mrps, values.area_units."""
-    record = run.record
-    kept = {name: record[name] for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status") if record.get(name)}
-    if any((point["config"], point["set"], point.get("variant", run.variant)) != (run.config, run.set, run.variant) for point in run.points):
-        kept["points"] = [{name: point.get(name, "") for name in ("experiment", "variant", "config", "set")} for point in run.points]
-    for name in sorted(names):
-        part, path = ("values", [name.removeprefix("values.")]) if name.startswith("values.") else ("stats", name.split("."))
-        value = record.get(part)
-        for key in path:
-            value = value.get(key) if isinstance(value, dict) else None
-        if value is not None and not isinstance(value, dict) and (value or not name.endswith(".count")):
-            kept[f"{part}.{'.'.join(path)}"] = _digits(value)
-    return {**kept, "source": source}
-
-
-def read_data(path):
-    """A page's file of results: its runs stand as tables, each with the names of its columns."""
-    document, runs = read_json(path), []
-    try:
-        for table in document["tables"]:
-            for row in table["runs"]:
-                run = {"experiments": table["experiments"], "stats": {}, "values": {}}
-                for name, value in zip(table["names"], row, strict=True):
-                    if value is None:
-                        continue
-                    part, _, rest = name.partition(".")
-                    path_of = [part, *([rest] if part == "values" else rest.split(".") if rest else [])]
-                    place = run
-                    for key in path_of[:-1]:
-                        place = place.setdefault(key, {})
-                    place[path_of[-1]] = value
-                runs.append(run)
-        return {**{name: value for name, value in document.items() if name != "tables"}, "runs": runs}
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise ResultsError(f"{path}: is no file that trax-eval docs wrote: {error!r}") from None
-
-
-def without(document, is_dropped):
-    """A page's document without the runs of some sweeps: is_dropped(name of the sweep, run)."""
-    runs = []
-    for run in document.get("runs", []):
-        left = [name for name in run["experiments"] if not is_dropped(name, run)]
-        if left:
-            points = [point for point in run.get("points", []) if point["experiment"] in left]
-            runs.append({**run, "experiments": left, **({"points": points} if points else {})})
-    return {**document, "runs": runs}
-
-
-def merged(old, new):
-    """One document with the sweeps of both. The new one's runs take the place of those of the same sweep, program, workload, size and mode."""
-    def place(name, run):
-        return name, run.get("program"), run.get("workload") or "", str(run.get("size")), run.get("mode")
-
-    taken = {place(name, run) for run in new.get("runs") or [] for name in run.get("experiments") or []}
-    old = without(old, lambda name, run: place(name, run) in taken)
-    sources, runs = [*old.get("sources", [])], old["runs"]
-    shift = len(sources)
-    sources += new.get("sources") or [new]
-    runs = runs + [{**run, "source": run.get("source", 0) + shift} for run in new.get("runs") or []]
-    both = {}
-    for kind in ("programs", "scenes", "workloads", "sweeps"):
-        entries = {entry.get("name"): entry for document in (old, new) for entry in document.get(kind) or []}
-        both[kind] = list(entries.values())
-    return {"format": "trax-eval-results", "version": 2, "sources": sources, **both, "runs": runs}
-
-
-def compact(document, pages, paper):
-    """What the pages' blocks need of it, a run in a line."""
-    results = Results(document)
-    builder = Builder(results, paper)
+def needs(pages, builder):
+    """What the pages' blocks show: names of figures by the places of runs, and names of sweeps."""
     needed, sweeps = {}, set()
     for page in pages:
         for name in page.names:
@@ -202,37 +138,29 @@ def compact(document, pages, paper):
             for index, names in asked.items():
                 needed.setdefault(index, set()).update(names)
             sweeps.update(builder.sweeps_of(sweep, asked))
-    runs, measured = [], {(run.program, run.workload, run.experiments[0]) for run in results.runs if run.index in needed and run.experiments}
-    for run in results.runs:
-        if sweeps & set(run.experiments) and (run.index in needed or not run.done and (run.program, run.workload, run.experiments[0]) in measured):
-            kept = _kept(run, needed.get(run.index, ()), run.record.get("source", 0))
-            if "points" in kept:
-                kept["points"] = [point for point in kept["points"] if point["experiment"] in sweeps]
-            runs.append(([name for name in run.experiments if name in sweeps], kept))
-    sources, grouped = [], {}
-    for experiments, kept in runs:
-        source = {name: document["sources"][kept["source"]].get(name) for name in ("trax", "created")}
-        sources += [] if source in sources else [source]
-        kept["source"] = sources.index(source)
-        grouped.setdefault(tuple(experiments), []).append(kept)
-    names = {kind: set(results.named(kind)) for kind in ("programs", "scenes", "workloads")}
-    lists = {"sources": sources,
-             **{kind: [entry for entry in document.get(kind) or [] if entry.get("name") in names[kind]] for kind in names},
-             "sweeps": [{key: value for key, value in sweep.items() if key != "file" and value not in (None, "", [])} for sweep in results.sweeps if sweep["name"] in sweeps]}
+    return needed, sweeps
 
-    def text(value):
-        return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
 
-    def listed(entries):
-        return "[\n" + ",\n".join(entries) + "\n]"
+def renew(data, sources, pages, paper, anew):
+    """Writes the file of results of some pages, with the runs of the sources."""
+    document = read_data(data) if data.exists() else {}
+    added = [read_results(name).document for name in sources]
+    if anew:
+        places = {(name, run.get("program")) for new in added for run in new.get("runs") or [] for name in run.get("experiments") or []}
+        document = without(document, lambda name, run: (name, run.get("program")) in places)
+    for new in added:
+        document = merged(document, new)
+    results = results_of(document)
+    write_file(data, compact(document, results, *needs(pages, Builder(results, paper))))
 
-    parts = [f'"{key}": {listed(map(text, entries))}' for key, entries in lists.items()]
-    groups = []
-    for experiments, rows in grouped.items():
-        columns = list(dict.fromkeys(name for kept in rows for name in kept))
-        groups.append(f'{{"experiments":{text(experiments)},\n"names":{text(columns)},\n"runs":{listed(text([kept.get(name) for name in columns]) for kept in rows)}}}')
-    parts.append(f'"tables": {listed(groups)}')
-    return '{"format": "trax-eval-results", "version": 2,\n' + ",\n".join(parts) + "}\n"
+
+def pages_of(names):
+    """The pages of these names; of a folder those that have blocks."""
+    pages = []
+    for name in names:
+        folder = pathlib.Path(name)
+        pages += [Page(path) for path in sorted(folder.glob("*.md")) if MARK.search(path.read_text(encoding="utf-8"))] if folder.is_dir() else [Page(name)]
+    return pages
 
 
 def write_pages(pages, paper, check):
@@ -240,7 +168,7 @@ def write_pages(pages, paper, check):
     stale, builders = [], {}
     for page in pages:
         if page.data not in builders:
-            builders[page.data] = Builder(Results(read_data(page.data)), paper)
+            builders[page.data] = Builder(results_of(read_data(page.data)), paper)
         builder, files = builders[page.data], {}
 
         def replaced(match):
@@ -264,26 +192,19 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="RESULTS.json or PAGE.md")
     parser.add_argument("--check", action="store_true", help="write nothing; status 1 if a block is not what the file gives")
-    parser.add_argument("--anew", action="store_true", help="earlier runs of the sweeps of RESULTS.json are dropped, whatever their size")
+    parser.add_argument("--anew", action="store_true", help="earlier runs of the sweeps and programs of RESULTS.json are dropped, whatever their size")
     options = parser.parse_args(arguments)
     try:
-        wrong = [name for name in options.files if not name.endswith((".json", ".md"))]
-        if wrong:
-            raise ResultsError(f"{wrong[0]}: expected RESULTS.json or PAGE.md")
         sources, paper = [name for name in options.files if name.endswith(".json")], Paper(HERE.parent / "paper")
-        pages = [Page(name) for name in options.files if name.endswith(".md")]
+        wrong = [name for name in options.files if not name.endswith((".json", ".md")) and not pathlib.Path(name).is_dir()]
+        if wrong:
+            raise ResultsError(f"{wrong[0]}: expected RESULTS.json, PAGE.md or a folder of pages")
+        pages = pages_of(name for name in options.files if not name.endswith(".json"))
         if not pages or options.check and sources:
             raise ResultsError("no page was named" if not pages else "--check takes pages only")
         check_files(sources, [page.path for page in pages])
-        if sources:
-            for data in dict.fromkeys(page.data for page in pages):
-                document, added = read_data(data) if data.exists() else {}, [read_results(name).document for name in sources]
-                if options.anew:
-                    names = {name for new in added for run in new.get("runs") or [] for name in run.get("experiments") or []}
-                    document = without(document, lambda name, run: name in names)
-                for new in added:
-                    document = merged(document, new)
-                write_file(data, compact(document, [page for page in pages if page.data == data], paper))
+        for data in dict.fromkeys(page.data for page in pages) if sources else ():
+            renew(data, sources, [page for page in pages if page.data == data], paper, options.anew)
         stale = write_pages(pages, paper, options.check)
     except (Problem, ResultsError, PlotError) as error:
         print(f"trax-eval docs: error: {error}", file=sys.stderr)

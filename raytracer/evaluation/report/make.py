@@ -14,7 +14,7 @@ import urllib.parse
 
 from trax_eval.util import Problem, check_files
 
-from . import rays, tables
+from . import estimates, rays, tables
 from .charts import all_figures
 from .claims import AGREES, DIFFERS, claims, median, table2_deviations
 from .markup import Html, el, join, table
@@ -133,14 +133,14 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
     def figures(prefix):
         return el("div", *(shown for identity, shown in drawn.items() if identity.startswith(prefix)), class_="figures")
 
-    estimates = tables.sampled(results)
+    sampled = estimates.every(results)
     sections = [("summary", "Summary", [summary(results, paper, judged), table(tables.claims_table(judged, programs)) if programs else None]),
                 ("tables", "The paper's tables", map(table, [tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs), tables.table3(results, paper)])),
                 ("scaling", "Scaling", [el("p", "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."), figures("scaling-"),
                                         el("details", el("summary", "As tables"), *(table(make(results, paper, program)) for make in (tables.speedups, tables.table1_scenes) for program in programs))]),
                 ("stalls", "Where the time goes", [el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")]),
                 ("units", "Hardware and bandwidth", [figures("memory-"), table(tables.hardware(results, paper)), table(tables.described(results, paper))]),
-                ("error", "Error and run time", [figures("error-"), table(estimates) if estimates else None])]
+                ("error", "Error and run time", [figures("error-"), table(sampled) if sampled else None])]
     if rays.groups(results):
         sections.insert(2, ("rays", "What MIMD gains as rays lose coherence", [el("p", rays.EXPLAINED), figures("rays-"), table(rays.gain_table(results)),
                                                                            el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))]))

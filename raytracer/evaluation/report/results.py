@@ -102,6 +102,11 @@ class Run:
             value = value.get(part) if isinstance(value, dict) else None
         return number(value)
 
+    def host(self):
+        """Seconds of the host, as a figure that a page shows; docs leave out what happens to be known of others."""
+        ASKED.setdefault(self.index, set()).add("host_seconds")
+        return self.host_seconds
+
     def setting(self, name):
         """The configuration's value of a key, true and false as 1 and 0, or the number of threads."""
         if name == "threads":

@@ -3,11 +3,14 @@
 import copy
 import functools
 import itertools
+import math
 
 from .results import ResultsError, deviation, mean, number, ratio
 from .table import Cell, Table, duration, figure, number as shown_number, percent, share
 
-KEYS = ("id", "title", "each", "rows", "columns", "values", "mean", "where", "only", "relative", "as")
+KEYS = ("id", "title", "each", "rows", "columns", "values", "mean", "where", "only", "relative", "as", "summary")
+AS = ("change", "times", "percent", "figure")
+SUMMARIES = {"geometric mean": lambda values: math.prod(values) ** (1 / len(values)) if min(values) > 0 else None, "least": min, "greatest": max}
 NAMED = ("program", "workload", "kind", "variant", "chip", "size", "mode", "scene")
 # Titles of figures; those that are shares are shown in per cent.
 TITLES = {"mrps": "MRPS", "cycles": "cycles", "rays": "rays", "memory.bandwidth_gbps": "GB/s", "values.bytes_per_ray": "bytes/ray", "values.flops_per_ray": "FLOPs/ray", "gflops": "GFLOPS",
@@ -18,10 +21,10 @@ OF_KINDS = ["kind.count", "kind.mrps", "kind.bytes_per_ray", "kind.energy_per_ra
 
 
 class Value:
-    """What a table shows of a run: a statistic, or an object with its `name` and what it is divided by (`per`), `title`, `digits`, `percent`, and with `paper` also
-    the rate in the paper's Table 2."""
+    """What a table shows of a run: a statistic, or an object with its `name` and what it is divided by (`per`), `title`, `digits`, `percent`, how it is compared (`as`),
+    and with `paper` also the rate in the paper's Table 2."""
 
-    def __init__(self, given):
+    def __init__(self, given, compared=AS[0]):
         given = {"name": given} if isinstance(given, str) else given
         self.name, self.per = given["name"], given.get("per")
         last = self.name.rsplit(".", 1)[-1]
@@ -29,7 +32,7 @@ class Value:
         known = TITLES.get(self.name) or SHARES.get(self.name) or lanes or self.name.removeprefix("values.").removeprefix("kind.")
         self.title = given.get("title") or known + (f" / {self.per.removeprefix('values.')}" if self.per else "")
         self.percent = given.get("percent", bool(lanes) or self.name in SHARES)
-        self.digits, self.paper = given.get("digits", 3), given.get("paper", False)
+        self.digits, self.paper, self.compared = given.get("digits", 3), given.get("paper", False), given.get("as", compared)
 
     def of(self, run):
         def one(name):
@@ -52,7 +55,7 @@ def checked(given, where):
         if key not in KEYS:
             raise ResultsError(f"{where}: unknown key \"{key}\"; allowed are {', '.join(KEYS)}")
     spec = dict(given)
-    for key in ("each", "rows", "columns", "mean", "values"):
+    for key in ("each", "rows", "columns", "mean", "values", "summary"):
         if key in spec:
             spec[key] = spec[key] if isinstance(spec[key], list) else [spec[key]]
             if not all(isinstance(entry, str) or key == "values" and isinstance(entry, dict) and isinstance(entry.get("name"), str) for entry in spec[key]):
@@ -60,8 +63,11 @@ def checked(given, where):
     for key in ("where", "only", "relative"):
         if not isinstance(spec.get(key, {}), dict):
             raise ResultsError(f"{where}.{key}: expected an object of axes and values")
-    if spec.get("as", "change") not in ("change", "times"):
-        raise ResultsError(f"{where}.as: allowed are \"change\" and \"times\"")
+    for compared in [spec.get("as", AS[0]), *(value.get("as", AS[0]) for value in spec.get("values", []) if isinstance(value, dict))]:
+        if compared not in AS:
+            raise ResultsError(f"{where}.as: allowed are {', '.join(AS)}")
+    if [name for name in spec.get("summary", []) if name not in SUMMARIES]:
+        raise ResultsError(f"{where}.summary: allowed are {', '.join(SUMMARIES)}")
     if not all(isinstance(spec.get(key, ""), str) for key in ("id", "title")):
         raise ResultsError(f"{where}: id and title are texts")
     return spec
@@ -127,6 +133,13 @@ class Axes:
         return sorted(places, key=lambda place: [order[key].index(value) for key, value in zip(keys, place)])
 
 
+def relation(value, times):
+    """How many times another figure one is, instead of both."""
+    if value.compared == "times":
+        return figure(times, value.digits)
+    return Cell(None if times is None else percent(times - 1, signed=True, digits=1), None if times is None else times - 1)
+
+
 def _is_one(value, wanted):
     return str(value).lower() in [str(one).lower() for one in (wanted if isinstance(wanted, list) else [wanted])]
 
@@ -139,7 +152,7 @@ def _build(results, paper, sweep, spec, runs, identity, title):
     rows += [key for key in axes.varying if key not in (*rows, *columns, *mean_over, *spec.get("each", []))]  # whatever differs is told apart
     if not rows:
         rows, columns = ["scene"], [key for key in columns if key != "scene"]
-    values = [Value(given) for given in spec["values"]]
+    values = [Value(given, spec.get("as", AS[0]) if spec.get("relative") else "figure") for given in spec["values"]]
     fixed = [str(axes.order[key][0]) for key in NAMED if key not in (*rows, *columns, *mean_over, *spec.get("each", [])) and len(axes.order[key]) == 1 and axes.order[key][0]]
     title += (f": {values[0].title}" if columns and len(values) == 1 else "") + (f" ({', '.join(fixed)})" if fixed else "")
     groups, reference = {}, spec.get("relative")
@@ -149,21 +162,27 @@ def _build(results, paper, sweep, spec, runs, identity, title):
     def found(row, column, value):
         return mean(value.of(run) for run in groups.get((row, column), []))
 
-    def base(row, column, value):
-        """Of the runs that this cell is relative to: the same but for the axes that `relative` names."""
+    def times(row, column, value):
+        """Of what the runs have that this cell is relative to: the same but for the axes that `relative` names."""
         def at(place, keys):
             return tuple(reference.get(key, one) for key, one in zip(keys, place))
 
-        return found(at(row, rows), at(column, columns), value)
+        return ratio(found(row, column, value), found(at(row, rows), at(column, columns), value)) if reference else None
 
     def cell(row, column, value):
-        got = found(row, column, value)
-        times = ratio(got, base(row, column, value)) if reference else None
-        if spec.get("as") == "times":
-            return figure(times)
         some = groups.get((row, column), [])
-        below = percent(times - 1, signed=True, digits=1) if times is not None else interval_text(some[0]) if value.name == "mrps" and len(some) == 1 else ""
-        return value.cell(got, below=below, link=f"#run-{some[0].index}" if len(some) == 1 else "")
+        if value.compared in ("times", "percent"):
+            return relation(value, times(row, column, value))
+        quotient = times(row, column, value) if value.compared == "change" else None
+        below = percent(quotient - 1, signed=True, digits=1) if quotient is not None else interval_text(some[0]) if value.name == "mrps" and len(some) == 1 else ""
+        return value.cell(found(row, column, value), below=below, link=f"#run-{some[0].index}" if len(some) == 1 else "")
+
+    def summary(row, value, name):
+        """Of the row's cells; missing if one of them is."""
+        is_relative = value.compared in ("times", "percent")
+        parts = [(times if is_relative else found)(row, column, value) for column in column_places]
+        whole = None if not parts or None in parts else SUMMARIES[name](parts)
+        return relation(value, whole) if is_relative else value.cell(whole)
 
     def shown(place, keys):
         return all(_is_one(part, spec["only"][key]) for key, part in zip(keys, place) if key in spec.get("only", {}))
@@ -173,6 +192,8 @@ def _build(results, paper, sweep, spec, runs, identity, title):
     for column, value in itertools.product(column_places, values):
         name = ", ".join(str(part) if key in NAMED else f"{key} {part}" for key, part in zip(columns, column))
         head += [(f"{name}: {value.title}" if name and len(values) > 1 else name or value.title, "n"), *([("paper", "n"), ("deviation", "n")] if value.paper else [])]
+    summaries = list(itertools.product(spec.get("summary", []), values))
+    head += [(f"{name}: {value.title}" if len(values) > 1 else name, "n") for name, value in summaries]
     body = []
     for row in row_places:
         cells = [figure(part, 6) if number(part) is not None else Cell(str(part) or "-", str(part)) for part in row]
@@ -182,6 +203,7 @@ def _build(results, paper, sweep, spec, runs, identity, title):
                 wanted = results.published(paper, *next(((run.scene, run.config) for run in groups.get((row, column), [])), ("", "")))
                 off = deviation(found(row, column, value), wanted)
                 cells += [figure(wanted, style="paper"), Cell(percent(off, signed=True, digits=1), off)]
+        cells += [summary(row, value, name) for name, value in summaries]
         hosts = {run.index: run.host_seconds or 0 for column in column_places for run in groups.get((row, column), [])}
         body.append(cells + [duration(sum(hosts.values()) or None)])
     notes = ([f"Means over {' and '.join(mean_over)}."] if mean_over else []) + ([f"Relative to {', '.join(f'{key} {value}' for key, value in reference.items())}."] if reference else [])

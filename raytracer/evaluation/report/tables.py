@@ -151,24 +151,20 @@ def of_the_text(results, paper):
 
 def table3(results, paper):
     programs = results.programs()
-    columns = [("chip", "t"), ("threads", "n")]
-    for what in ("dragon", "average"):
-        for measure in (f"{what}, 8 GB/s", f"{what}, 16 GB/s", f"{what}, gain"):
-            columns += [(f"{measure}, {name}", "n") for name in ("paper", *programs)]
+    columns = [("chip", "t"), ("scene", "t")] + [(f"{measure}, {name}", "n") for measure in ("8 GB/s", "16 GB/s", "gain") for name in ("paper", *programs)]
     rows = []
     for chip, wanted in paper.table3.items():
-        row = [Cell(chip, paper.threads(chip)), figure(paper.threads(chip))]
         for what in ("dragon", "average"):
+            row = [Cell(chip, paper.threads(chip)), words(what)]
+            scenes = [results.columns["dragon"]] if what == "dragon" else results.papers
             rates = []  # at both bandwidths: the paper's and those of the programs
             for bandwidth in (8.0, 16.0):
                 papers = wanted.get(f"{what}_{bandwidth:g}gbs_mrps")
-                scenes = [results.columns["dragon"]] if what == "dragon" else results.papers
                 rates.append([papers, *(mean(results.figure("mrps", program, scene, chip, bandwidth) for scene in scenes) for program in programs)])
                 links = [results.cell(program, scenes[0], chip, bandwidth) if what == "dragon" else None for program in programs]
                 row += [published(papers), *(measured(run, papers) if run else compared(value, papers, 4) for run, value in zip(links, rates[-1][1:]))]
             gain, *gains = (ratio(after, before) for before, after in zip(*rates))
-            row += [figure(gain, style="paper"), *(compared(value, gain) for value in gains)]
-        rows.append(row)
+            rows.append([*row, figure(gain, style="paper"), *(compared(value, gain) for value in gains)])
     return Table("table3", "Table 3: 8 and 16 GB/s, million rays per second", columns, rows)
 
 
@@ -224,30 +220,6 @@ def _binds(run):
     parts = [(part, label) for (style, label, _), (_, part, _) in zip(CAUSES, shares(run) or []) if style not in (10, 18) and part]
     longest, label = max(parts, default=(0, ""))
     return words("bandwidth" if used >= 0.95 else label if longest > 0.10 else "nothing")
-
-
-def sampled(results):
-    """Each sampled or quick run beside the exact run of the same job, where there is one."""
-    def job(run):
-        return run.program, run.scene, run.config, run.size, tuple(sorted(map(str, run.set.items())))
-
-    exact = {job(run): run for run in results.runs if run.done and run.mode == "exact"}
-    columns = [("mode", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"),
-               ("inside", "t"), ("host, estimate", "n"), ("host, exact", "n")]
-    rows, inside, known = [], 0, 0
-    for run in results.runs:
-        if not run.done or run.mode == "exact":
-            continue
-        true = exact.get(job(run))
-        value, interval = true.get("mrps") if true else None, run.interval()
-        holds = None if value is None or interval is None else interval[0] <= value <= interval[1]
-        known += holds is not None
-        inside += bool(holds)
-        error = deviation(run.get("mrps"), value)
-        rows.append([words(run.mode), words(run.program), words(run.scene), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
-                     Cell(f"{number(interval[0])} to {number(interval[1])}" if interval else None), figure(value), Cell(percent(error, signed=True, digits=1), error),
-                     Cell(None if holds is None else "yes" if holds else "no", None if holds is None else str(holds)), duration(run.host_seconds), duration(true.host_seconds if true else None)])
-    return Table("sampled", "Estimates and their intervals", columns, rows, f"The interval held the exact figure in {inside} of {known} cases where it is known.") if rows else None
 
 
 def run_table(results, paper, link, configurations):

@@ -23,6 +23,8 @@ def effective(point, tools):
     """Without settings that are what the machine has anyway, so that equal machines are called equal."""
     kept = []
     for pair in point.settings:
+        if pair[0].startswith("trax-render --sample-") and point.mode == "exact":  # all of it is simulated
+            continue
         if not option_of(pair[0]):
             rest = tuple(other for other in point.machine() if other[0] != pair[0])
             base = tuple(other for other in point.program.settings if other[0] == pair[0])

@@ -1,0 +1,65 @@
+"""Quick runs beside the exact runs of the same jobs."""
+
+import functools
+
+from .results import deviation, mean, number, ratio
+from .table import Cell, Table, duration, figure, percent, words
+from .table import number as shown_number
+
+
+class Estimate:
+    """A sampled or quick run, its interval, and the exact run of the same job, where there is one."""
+
+    def __init__(self, run, exact):
+        self.run, self.exact, self.interval = run, exact, run.interval()
+        self.value = exact.get("mrps") if exact else None
+        self.holds = None if self.value is None or self.interval is None else self.interval[0] <= self.value <= self.interval[1]
+        self.error = deviation(run.get("mrps"), self.value)
+
+
+def _job(run):
+    settings = tuple(sorted(str(item) for item in run.set.items() if not item[0].startswith("trax-render --sample-")))
+    return run.program, run.scene, run.config, run.size, settings
+
+
+def estimates(runs):
+    exact = {_job(run): run for run in runs if run.done and run.mode == "exact"}
+    return [Estimate(run, exact.get(_job(run))) for run in runs if run.done and run.mode != "exact"]
+
+
+def every(results):
+    """A row for each."""
+    columns = [("mode", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"),
+               ("inside", "t"), ("host, estimate", "n"), ("host, exact", "n")]
+    rows, found = [], estimates(results.runs)
+    for one in found:
+        run, interval, holds = one.run, one.interval, one.holds
+        rows.append([words(run.mode), words(run.program), words(run.scene), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
+                     Cell(f"{shown_number(interval[0])} to {shown_number(interval[1])}" if interval else None), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
+                     Cell(None if holds is None else "yes" if holds else "no", None if holds is None else str(holds)), duration(run.host_seconds), duration(one.exact.host_seconds if one.exact else None)])
+    known = [one.holds for one in found if one.holds is not None]
+    return Table("sampled", "Estimates and their intervals", columns, rows, f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known.") if rows else None
+
+
+def _summary(name, runs):
+    """A row for each program and scene."""
+    groups = {}
+    for one in estimates(runs):
+        if one.error is not None:
+            groups.setdefault((one.run.program, one.run.scene), []).append(one)
+    columns = [("program", "t"), ("scene", "t"), ("estimates", "n"), ("intervals that hold the exact figure", "n"), ("mean error", "n"), ("greatest error", "n"), ("mean half of the interval", "n"),
+               ("host, estimates", "n"), ("host, exact", "n"), ("exact / estimates", "n")]
+    rows = []
+    for (program, scene), found in groups.items():
+        errors = [abs(one.error) for one in found]
+        half = mean(ratio(one.interval[1] - one.interval[0], 2 * one.run.get("mrps")) if one.interval else None for one in found)
+        ours, exact = (sum(number(seconds) or 0 for seconds in times) or None for times in ([one.run.host() for one in found], [one.exact.host() for one in found]))
+        rows.append([words(program), words(scene), figure(len(found)), figure(sum(bool(one.holds) for one in found)), Cell(percent(mean(errors), digits=1), mean(errors)),
+                     Cell(percent(max(errors), digits=1), max(errors)), Cell(percent(half, digits=1), half), duration(ours), duration(exact), figure(ratio(exact, ours), 2)])
+    return Table(f"estimates-{name}", f"Estimates beside exact runs: {name}", columns, rows)
+
+
+def of_sweep(results, sweep):
+    """What makes the summary of a sweep's estimates, or None."""
+    runs = [run for run in results.runs if sweep.get("name") in run.experiments]
+    return functools.partial(_summary, sweep["name"], runs) if any(run.mode != "exact" for run in runs) else None
