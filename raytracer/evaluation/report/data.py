@@ -23,10 +23,9 @@ def _kept(run, names, source):
     kept = {name: record[name] for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status") if record.get(name)}
     if any((point["config"], point["set"], point.get("variant", run.variant)) != (run.config, run.set, run.variant) for point in run.points):
         kept["points"] = [{name: point.get(name, "") for name in ("experiment", "variant", "config", "set")} for point in run.points]
-    if "host_seconds" in names:
-        kept["host_seconds"] = _rounded(run.host_seconds)
-    for name in sorted(names - {"host_seconds"}):
-        part, path = ("values", [name.removeprefix("values.")]) if name.startswith("values.") else ("stats", name.split("."))
+    for name in sorted(names):
+        first, _, rest = name.partition(".")
+        part, path = (first, [rest]) if first in ("values", "host") else ("stats", name.split("."))
         value = record.get(part)
         for key in path:
             value = value.get(key) if isinstance(value, dict) else None

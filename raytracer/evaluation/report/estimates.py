@@ -2,7 +2,7 @@
 
 import functools
 
-from .results import deviation, mean, number, ratio
+from .results import deviation, mean, ratio
 from .table import Cell, Table, duration, figure, percent, words
 from .table import number as shown_number
 
@@ -41,19 +41,21 @@ def every(results):
     return Table("sampled", "Estimates and their intervals", columns, rows, f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known.") if rows else None
 
 
-def _summary(name, runs):
+def _summary(name, results, runs):
     """A row for each program and scene."""
-    groups = {}
+    groups = {(program, scene): [] for program in results.programs() for scene in results.scenes()}
     for one in estimates(runs):
         if one.error is not None:
-            groups.setdefault((one.run.program, one.run.scene), []).append(one)
+            groups[one.run.program, one.run.scene].append(one)
     columns = [("program", "t"), ("scene", "t"), ("estimates", "n"), ("intervals that hold the exact figure", "n"), ("mean error", "n"), ("greatest error", "n"), ("mean half of the interval", "n"),
-               ("host, estimates", "n"), ("host, exact", "n"), ("exact / estimates", "n")]
+               ("processor, estimates", "n"), ("processor, exact", "n"), ("exact / estimates", "n")]
     rows = []
     for (program, scene), found in groups.items():
+        if not found:
+            continue
         errors = [abs(one.error) for one in found]
         half = mean(ratio(one.interval[1] - one.interval[0], 2 * one.run.get("mrps")) if one.interval else None for one in found)
-        ours, exact = (sum(number(seconds) or 0 for seconds in times) or None for times in ([one.run.host() for one in found], [one.exact.host() for one in found]))
+        ours, exact = (None if None in times else sum(times) for times in ([one.run.processor_seconds() for one in found], [one.exact.processor_seconds() for one in found]))
         rows.append([words(program), words(scene), figure(len(found)), figure(sum(bool(one.holds) for one in found)), Cell(percent(mean(errors), digits=1), mean(errors)),
                      Cell(percent(max(errors), digits=1), max(errors)), Cell(percent(half, digits=1), half), duration(ours), duration(exact), figure(ratio(exact, ours), 2)])
     return Table(f"estimates-{name}", f"Estimates beside exact runs: {name}", columns, rows)
@@ -62,4 +64,4 @@ def _summary(name, runs):
 def of_sweep(results, sweep):
     """What makes the summary of a sweep's estimates, or None."""
     runs = [run for run in results.runs if sweep.get("name") in run.experiments]
-    return functools.partial(_summary, sweep["name"], runs) if any(run.mode != "exact" for run in runs) else None
+    return functools.partial(_summary, sweep["name"], results, runs) if any(run.mode != "exact" for run in runs) else None
