@@ -1,3 +1,4 @@
+#include "explain/page.h"
 #include "explain/places.h"
 #include "explain/span.h"
 #include "explain/table.h"
@@ -94,18 +95,19 @@ bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, ui
 
 static const struct {
   size_t file, other_file, third_file; /* offsets in the options; the reader is created if one of the files is given */
+  bool in_page;                         /* also if the page is wanted */
   trax_status (*create)(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 } kinds[] = {
 #define FILE_OF(MEMBER) offsetof(struct trax_explain_options, MEMBER)
-    {FILE_OF(profile), FILE_OF(folded), FILE_OF(annotate), trax_profile_create},
-    {FILE_OF(trace), FILE_OF(trace), FILE_OF(trace), trax_trace_create},
-    {FILE_OF(konata), FILE_OF(konata), FILE_OF(konata), trax_konata_create},
-    {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), trax_perfetto_create},
-    {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), trax_heat_create},
-    {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), trax_items_create},
-    {FILE_OF(ray_kinds), FILE_OF(ray_kinds), FILE_OF(ray_kinds), trax_ray_kinds_create},
-    {FILE_OF(lockstep), FILE_OF(lockstep), FILE_OF(lockstep), trax_lockstep_create},
-    {FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), trax_lockstep_rays_create},
+    {FILE_OF(profile), FILE_OF(folded), FILE_OF(annotate), true, trax_profile_create},
+    {FILE_OF(trace), FILE_OF(trace), FILE_OF(trace), false, trax_trace_create},
+    {FILE_OF(konata), FILE_OF(konata), FILE_OF(konata), false, trax_konata_create},
+    {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), false, trax_perfetto_create},
+    {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), true, trax_heat_create},
+    {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), false, trax_items_create},
+    {FILE_OF(ray_kinds), FILE_OF(ray_kinds), FILE_OF(ray_kinds), true, trax_ray_kinds_create},
+    {FILE_OF(lockstep), FILE_OF(lockstep), FILE_OF(lockstep), false, trax_lockstep_create},
+    {FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), false, trax_lockstep_rays_create},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -115,7 +117,7 @@ static const char *file_at(const struct trax_explain_options *options, size_t of
 
 static bool is_wanted(const struct trax_explain_options *options, unsigned kind) {
   return file_at(options, kinds[kind].file) || file_at(options, kinds[kind].other_file) ||
-         file_at(options, kinds[kind].third_file);
+         file_at(options, kinds[kind].third_file) || (options->explore && kinds[kind].in_page);
 }
 
 bool trax_explain_wanted(const struct trax_explain_options *options) {
@@ -145,9 +147,10 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
       return TRAX_ERROR;
     explain->reader_count++;
   }
-  if (explain->options.series && trax_series_create(explain, error) != TRAX_OK)
+  if (explain->options.series &&
+      trax_series_create(&explain->series, explain, explain->options.series, error) != TRAX_OK)
     return TRAX_ERROR;
-  return TRAX_OK;
+  return explain->options.explore ? trax_series_create(&explain->page_series, explain, NULL, error) : TRAX_OK;
 }
 
 static trax_status check_window(const struct trax_explain *explain, trax_error *error) {
@@ -198,10 +201,18 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++)
     if (explain->readers[i].finish(explain->readers[i].self, &reason) != TRAX_OK && status == TRAX_OK)
       status = trax_fail(error, "%s", reason.message);
-  if (explain->series && trax_series_finish(explain, &reason) != TRAX_OK && status == TRAX_OK)
+  if (explain->series && trax_series_finish(explain->series, &reason) != TRAX_OK && status == TRAX_OK)
+    status = trax_fail(error, "%s", reason.message);
+  if (explain->options.explore && !explain->out_of_memory && trax_page_write(explain, &reason) != TRAX_OK &&
+      status == TRAX_OK)
     status = trax_fail(error, "%s", reason.message);
   trax_explain_discard(explain);
   return status;
+}
+
+void trax_explain_picture(struct trax_explain *explain, const struct trax_explore_picture *picture) {
+  if (explain)
+    explain->picture = *picture;
 }
 
 void trax_explain_discard(struct trax_explain *explain) {
@@ -210,7 +221,9 @@ void trax_explain_discard(struct trax_explain *explain) {
   explain->machine->observer = NULL;
   for (unsigned i = 0; i < explain->reader_count; i++)
     explain->readers[i].destroy(explain->readers[i].self);
-  trax_series_destroy(explain);
+  trax_series_destroy(explain->series);
+  trax_series_destroy(explain->page_series);
+  trax_pixels_destroy(explain->pixels);
   for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
     free(explain->open_spans[i].charges);
   free(explain->open_spans);

@@ -1,5 +1,5 @@
 /* Memory heat: accesses by object, and by 64 bytes of global memory. */
-#include "explain/span.h"
+#include "explain/page.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -138,20 +138,32 @@ static void put_counts(FILE *out, const struct heat_counts *counts) {
 
 #define COLUMNS "loads,stores,atomics,load_bytes,store_bytes,hits,misses,merged,combined"
 
-static trax_status write_objects(const struct heat *heat, trax_error *error) {
-  trax_output output;
-  if (trax_output_open(&output, heat->explain->options.heat, error) != TRAX_OK)
-    return TRAX_ERROR;
-  fprintf(output.file, "object,address,bytes," COLUMNS "\n");
+static trax_status put_objects(const void *self, FILE *out, trax_error *error) {
+  const struct heat *heat = self;
+  (void)error;
+  fprintf(out, "object,address,bytes," COLUMNS "\n");
   for (size_t i = 0; i < heat->object_count; i++) {
     const struct object *object = &heat->objects[i];
     if (!object->counts.loads && !object->counts.stores && !object->counts.atomics)
       continue;
-    fprintf(output.file, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin,
-            object->end - object->begin);
-    put_counts(output.file, &object->counts);
-    fputc('\n', output.file);
+    fprintf(out, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin, object->end - object->begin);
+    put_counts(out, &object->counts);
+    fputc('\n', out);
   }
+  return TRAX_OK;
+}
+
+static trax_status put_members(void *self, FILE *out, trax_error *error) {
+  if (((struct heat *)self)->out_of_memory)
+    return trax_fail(error, "out of memory for the memory heat");
+  return trax_page_text(out, "heat", put_objects, self, error);
+}
+
+static trax_status write_objects(const struct heat *heat, trax_error *error) {
+  trax_output output;
+  if (trax_output_open(&output, heat->explain->options.heat, error) != TRAX_OK)
+    return TRAX_ERROR;
+  put_objects(heat, output.file, error);
   return trax_output_commit(&output, error);
 }
 
@@ -202,6 +214,6 @@ trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *r
     destroy(heat);
     return trax_fail(error, "out of memory for the memory heat");
   }
-  *reader = (struct trax_reader){.self = heat, .span = add_span, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = heat, .span = add_span, .put_members = put_members, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -1,5 +1,6 @@
 /* The cost of each item, and the place of its result. */
-#include "explain/span.h"
+#include "explain/kinds.h"
+#include "explain/page.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 
 struct item_thread {
   uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the current item */
+  uint64_t rays[TRAX_RAY_KIND_COUNT];
   uint64_t begin, until;
   uint32_t place;
 };
@@ -38,12 +40,23 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
                                       .begin = thread->begin,
                                       .end = end,
                                       .instructions = thread->cycles[TRAX_CAUSE_ISSUED],
-                                      .cycles = thread->cycles};
+                                      .cycles = thread->cycles,
+                                      .rays = thread->rays};
   if (items->item)
     items->item(items->item_context, &cost, last);
+  if (items->explain->pixels)
+    trax_pixels_add(items->explain->pixels, &cost, last);
   if (items->output.file)
     write_item(items->output.file, &cost, last);
   *thread = (struct item_thread){.begin = end, .until = end, .place = TRAX_NO_PLACE};
+}
+
+/* Counts the rays that a trap reports. */
+static void add_rays(struct item_thread *thread, const struct trax_span *span) {
+  if (span->inst.imm == TRAX_TRAP_RAYS)
+    thread->rays[TRAX_RAY_KIND_COUNT - 1] += span->issue->result;
+  for (unsigned kind = 0; span->inst.imm == TRAX_TRAP_KINDS && kind < TRAX_RAY_KIND_COUNT; kind++)
+    thread->rays[kind] += span->issue->result >> kind * TRAX_KIND_BITS & ((1u << TRAX_KIND_BITS) - 1);
 }
 
 static void add_span(void *self, const struct trax_span *span) {
@@ -59,7 +72,9 @@ static void add_span(void *self, const struct trax_span *span) {
   }
   thread->cycles[TRAX_CAUSE_ISSUED]++;
   thread->until++;
-  if (span->inst.op == TRAX_OP_TRAP && span->inst.imm == TRAX_TRAP_ITEMS)
+  if (span->inst.op == TRAX_OP_TRAP)
+    add_rays(thread, span);
+  if (trax_ends_item(span))
     end_item(items, span->thread, thread->until, false);
   else if (trax_op_table[span->inst.op].flags & TRAX_IS_STORE &&
            span->issue->address - items->buffer_begin < items->buffer_bytes)
@@ -98,6 +113,9 @@ static trax_status find_buffer(struct items *items, trax_error *error) {
     if (strcmp(host->buffers[i].symbol, options->item_buffer) == 0) {
       items->buffer_begin = host->buffers[i].address;
       items->buffer_bytes = host->buffers[i].bytes;
+      if (options->explore &&
+          !(items->explain->pixels = trax_pixels_create(host->buffers[i].bytes / options->item_bytes)))
+        return trax_fail(error, "out of memory for the cost of %u pixels", host->buffers[i].bytes / options->item_bytes);
       return TRAX_OK;
     }
   return trax_fail(error, "no buffer %s is bound, to which items store", options->item_buffer);

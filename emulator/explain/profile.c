@@ -193,6 +193,7 @@ trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader
   profile->contexts[profile->context_count++] = (struct trax_profile_context){0, 0};
   for (uint64_t i = 0; i < threads; i++)
     profile->threads[i].latest = UINT32_MAX;
-  *reader = (struct trax_reader){.self = profile, .span = add_span, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){
+      .self = profile, .span = add_span, .put_members = trax_profile_put_members, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

@@ -3,6 +3,7 @@
    the row `rest` what belongs to no instruction: lines of the instruction cache, and transfers of stores, which are
    combined. */
 #include "explain/kinds.h"
+#include "explain/page.h"
 #include "report/energy.h"
 
 #include <inttypes.h>
@@ -122,9 +123,8 @@ static double share(double a, double b) {
   return b > 0 ? a / b : 0;
 }
 
-static void write_row(const struct ray_kinds *rays, const char *name, const struct trax_tm_stats *row, uint64_t count,
+static void write_row(const struct ray_kinds *rays, FILE *out, const char *name, const struct trax_tm_stats *row, uint64_t count,
                       double joules) {
-  FILE *out = rays->output.file;
   const struct trax_machine *machine = rays->explain->machine;
   uint64_t cycles = 0;
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -152,8 +152,9 @@ static void subtract(struct trax_tm_stats *from, const struct trax_tm_stats *sta
     to[i] -= ((const uint64_t *)stats)[i];
 }
 
-static trax_status finish(void *self, trax_error *error) {
-  struct ray_kinds *rays = self;
+static trax_status put_table(const void *self, FILE *out, trax_error *error) {
+  const struct ray_kinds *rays = self;
+  (void)error;
   const struct trax_machine *machine = rays->explain->machine;
   const struct trax_config *config = &machine->config;
   const struct trax_tm_stats *total = &machine->stats.total;
@@ -161,18 +162,30 @@ static trax_status finish(void *self, trax_error *error) {
   const double all = trax_energy_of(&machine->stats, config).total;
   struct trax_tm_stats rest = *total;
   double rest_energy = all;
-  write_head(rays->output.file);
+  write_head(out);
   for (unsigned kind = 0; kind < KINDS; kind++) {
     struct trax_stats row = {.total = rays->kinds[kind]};
     trax_stats_derive(&row.total, config);
     const double joules = trax_energy_of(&row, config).total;
     subtract(&rest, &row.total);
     rest_energy -= joules;
-    write_row(rays, kind == TRAX_NO_RAY ? "none" : trax_ray_kind_names[kind], &row.total,
+    write_row(rays, out, kind == TRAX_NO_RAY ? "none" : trax_ray_kind_names[kind], &row.total,
               kind == TRAX_NO_RAY ? 0 : counted[kind], joules);
   }
-  write_row(rays, "rest", &rest, 0, rest_energy);
-  write_row(rays, "all", total, total->rays, all);
+  write_row(rays, out, "rest", &rest, 0, rest_energy);
+  write_row(rays, out, "all", total, total->rays, all);
+  return TRAX_OK;
+}
+
+static trax_status put_members(void *self, FILE *out, trax_error *error) {
+  return trax_page_text(out, "ray_kinds", put_table, self, error);
+}
+
+static trax_status finish(void *self, trax_error *error) {
+  struct ray_kinds *rays = self;
+  if (!rays->output.file)
+    return TRAX_OK;
+  put_table(rays, rays->output.file, error);
   return trax_output_commit(&rays->output, error);
 }
 
@@ -191,11 +204,12 @@ trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_read
   rays->working = malloc(explain->machine->stats.threads);
   if (!rays->working)
     trax_fail(error, "out of memory for the kinds of rays");
-  if (!rays->working || trax_output_open(&rays->output, explain->options.ray_kinds, error) != TRAX_OK) {
+  if (!rays->working || (explain->options.ray_kinds &&
+                         trax_output_open(&rays->output, explain->options.ray_kinds, error) != TRAX_OK)) {
     destroy(rays);
     return TRAX_ERROR;
   }
   memset(rays->working, TRAX_NO_RAY, explain->machine->stats.threads);
-  *reader = (struct trax_reader){.self = rays, .span = add_step, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){.self = rays, .span = add_step, .put_members = put_members, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

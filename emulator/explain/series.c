@@ -1,24 +1,40 @@
-/* Series: for each interval of cycles, rows of the counters' increases, for the chip and for each TM. */
-#include "explain/span.h"
+/* Series: for each interval of cycles, rows of the counters' increases, for the chip and for each TM. Those for a file
+   are written at once. Those for the page are kept, and when there are too many, pairs of them become one and the
+   interval twice as long. */
+#include "explain/page.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct series {
-  struct trax_watch watch;
-  struct trax_explain *explain;
-  trax_output output;
-  uint64_t begin;                 /* of the next row */
-  struct trax_tm_stats *previous; /* [tms] */
-  struct trax_memory_stats previous_memory;
+enum { PAGE_INTERVALS = 256, PAGE_FIRST_INTERVAL = 64 }; /* at most so many; cycles of the first ones */
+
+/* The increases of one interval. */
+struct interval {
+  uint64_t begin, end;
+  struct trax_memory_stats memory;
+  struct trax_tm_stats *tms; /* [tms] */
+  uint32_t *queued;          /* [tms]: requests in the memory queue at the end */
 };
 
-/* Writes a row. memory: the chip's; NULL for a TM. */
-static void put_row(struct series *series, const char *tm, uint64_t end, const struct trax_tm_stats *stats,
+struct trax_series {
+  struct trax_watch watch;
+  struct trax_explain *explain;
+  uint64_t length;                /* cycles of an interval */
+  trax_output output;             /* closed for the page */
+  uint64_t begin;                 /* of the next interval */
+  struct trax_tm_stats *previous; /* [tms] */
+  struct trax_memory_stats previous_memory;
+  struct interval *intervals; /* [PAGE_INTERVALS]; of a file only the first, the latest one */
+  size_t count;               /* kept for the page */
+};
+
+/* --- rows --- */
+
+/* memory: the chip's; NULL for a TM. */
+static void put_row(FILE *out, const struct interval *interval, const char *tm, const struct trax_tm_stats *stats,
                     const struct trax_memory_stats *memory, uint32_t queue) {
-  FILE *out = series->output.file;
-  fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s", series->begin, end, tm);
+  fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s", interval->begin, interval->end, tm);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
     fprintf(out, ",%" PRIu64, stats->cycles[cause]);
 #define COUNT(ID, NAME, UNIT, MEANING)                                                                                 \
@@ -47,6 +63,33 @@ static void put_head(FILE *out) {
   fprintf(out, ",memory.queue\n");
 }
 
+/* Adds structures of 64-bit counters; subtracts them with sign -1. */
+static void add(void *sum, const void *stats, size_t bytes, int sign) {
+  uint64_t *to = sum;
+  const uint64_t *terms = stats;
+  for (size_t i = 0; i < bytes / sizeof *to; i++)
+    to[i] += sign < 0 ? -terms[i] : terms[i];
+}
+
+/* The rows of an interval: the chip, then its TMs. */
+static void put_interval(const struct trax_series *series, const struct interval *interval, FILE *out) {
+  const uint32_t tms = series->explain->machine->config.chip.tms;
+  struct trax_tm_stats total = {0};
+  uint32_t queued = 0;
+  for (uint32_t tm = 0; tm < tms; tm++) {
+    add(&total, &interval->tms[tm], sizeof total, 1);
+    queued += interval->queued[tm];
+  }
+  put_row(out, interval, "all", &total, &interval->memory, queued);
+  for (uint32_t tm = 0; tm < tms; tm++) {
+    char name[16];
+    snprintf(name, sizeof name, "%u", tm);
+    put_row(out, interval, name, &interval->tms[tm], NULL, interval->queued[tm]);
+  }
+}
+
+/* --- intervals --- */
+
 /* Returns the counters of a TM so far, with the TPs' charges added up. */
 static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32_t tm) {
   struct trax_tm_stats stats = machine->tm_stats[tm];
@@ -58,90 +101,128 @@ static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32
   return stats;
 }
 
-/* Subtracts structures of 64-bit counters. */
-static void subtract(void *from, const void *stats, size_t bytes) {
-  uint64_t *to = from;
-  const uint64_t *terms = stats;
-  for (size_t i = 0; i < bytes / sizeof *to; i++)
-    to[i] -= terms[i];
+static void end_interval(struct trax_series *series, struct interval *interval, const struct trax_run *run,
+                         uint64_t end) {
+  const struct trax_machine *machine = series->explain->machine;
+  interval->begin = series->begin;
+  interval->end = end;
+  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
+    struct trax_tm_stats counted = counts_of(machine, tm);
+    if (run) /* after the run, the derived counters are complete */
+      trax_stats_derive(&counted, &machine->config);
+    interval->tms[tm] = counted;
+    add(&interval->tms[tm], &series->previous[tm], sizeof counted, -1);
+    series->previous[tm] = counted;
+    interval->queued[tm] = run ? trax_run_queued(run, tm, end) : 0;
+  }
+  interval->memory = machine->stats.memory;
+  add(&interval->memory, &series->previous_memory, sizeof interval->memory, -1);
+  series->previous_memory = machine->stats.memory;
+  series->begin = end;
 }
 
-static void put_rows(struct series *series, const struct trax_run *run, uint64_t end) {
-  const struct trax_machine *machine = series->explain->machine;
-  struct trax_tm_stats total = {0}, *rows = calloc(machine->config.chip.tms, sizeof *rows);
-  uint32_t queued = 0;
-  if (!rows) {
-    series->explain->out_of_memory = true;
+/* Makes one interval of each two. */
+static void join_pairs(struct trax_series *series) {
+  const uint32_t tms = series->explain->machine->config.chip.tms;
+  for (size_t i = 0; i < PAGE_INTERVALS / 2; i++) {
+    struct interval *first = &series->intervals[2 * i], *second = first + 1;
+    for (uint32_t tm = 0; tm < tms; tm++) {
+      add(&first->tms[tm], &second->tms[tm], sizeof *first->tms, 1);
+      first->queued[tm] = second->queued[tm];
+    }
+    add(&first->memory, &second->memory, sizeof first->memory, 1);
+    first->end = second->end;
+    const struct interval joined = *first;
+    *first = series->intervals[i]; /* so that no array is lost */
+    series->intervals[i] = joined;
+  }
+  series->count = PAGE_INTERVALS / 2;
+  series->length *= 2;
+}
+
+static void next_interval(struct trax_series *series, const struct trax_run *run, uint64_t end) {
+  if (series->output.file) {
+    end_interval(series, &series->intervals[0], run, end);
+    put_interval(series, &series->intervals[0], series->output.file);
     return;
   }
-  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
-    const struct trax_tm_stats now = counts_of(machine, tm);
-    rows[tm] = now;
-    if (run) /* after the run, the derived counters are complete */
-      trax_stats_derive(&rows[tm], &machine->config);
-    const struct trax_tm_stats counted = rows[tm];
-    subtract(&rows[tm], &series->previous[tm], sizeof rows[tm]);
-    series->previous[tm] = counted;
-    for (size_t i = 0; i < sizeof total / sizeof(uint64_t); i++)
-      ((uint64_t *)&total)[i] += ((const uint64_t *)&rows[tm])[i];
-    queued += run ? trax_run_queued(run, tm, end) : 0;
-  }
-  struct trax_memory_stats memory = machine->stats.memory;
-  subtract(&memory, &series->previous_memory, sizeof memory);
-  series->previous_memory = machine->stats.memory;
-  put_row(series, "all", end, &total, &memory, queued);
-  for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
-    char name[16];
-    snprintf(name, sizeof name, "%u", tm);
-    put_row(series, name, end, &rows[tm], NULL, run ? trax_run_queued(run, tm, end) : 0);
-  }
-  series->begin = end;
-  free(rows);
+  if (series->count == PAGE_INTERVALS)
+    join_pairs(series);
+  end_interval(series, &series->intervals[series->count++], run, end);
 }
 
 static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
-  struct series *series = watch->context;
+  struct trax_series *series = watch->context;
   trax_run_settle(run, t);
-  put_rows(series, run, t);
-  watch->next = t + series->explain->options.series_interval;
+  next_interval(series, run, t);
+  watch->next = t + series->length;
   return TRAX_OK;
 }
 
-trax_status trax_series_create(struct trax_explain *explain, trax_error *error) {
-  struct series *series = calloc(1, sizeof *series);
+/* --- creation and end --- */
+
+static bool create_intervals(struct trax_series *series, size_t count) {
+  const uint32_t tms = series->explain->machine->config.chip.tms;
+  series->previous = calloc(tms, sizeof *series->previous);
+  series->intervals = calloc(PAGE_INTERVALS, sizeof *series->intervals);
+  bool complete = series->previous && series->intervals;
+  for (size_t i = 0; complete && i < count; i++) {
+    series->intervals[i].tms = calloc(tms, sizeof *series->intervals[i].tms);
+    series->intervals[i].queued = calloc(tms, sizeof *series->intervals[i].queued);
+    complete = series->intervals[i].tms && series->intervals[i].queued;
+  }
+  return complete;
+}
+
+trax_status trax_series_create(struct trax_series **result, struct trax_explain *explain, const char *path,
+                               trax_error *error) {
+  struct trax_series *series = *result = calloc(1, sizeof *series);
   if (!series)
     return trax_fail(error, "out of memory");
-  explain->series = &series->watch;
+  series->explain = explain;
   if (!explain->options.series_interval)
     explain->options.series_interval = TRAX_SERIES_INTERVAL;
-  series->explain = explain;
-  series->previous = calloc(explain->machine->config.chip.tms, sizeof *series->previous);
-  if (!series->previous)
+  series->length = path ? explain->options.series_interval : PAGE_FIRST_INTERVAL;
+  if (!create_intervals(series, path ? 1 : PAGE_INTERVALS))
     return trax_fail(error, "out of memory for the series");
-  if (trax_output_open(&series->output, explain->options.series, error) != TRAX_OK)
+  if (path && trax_output_open(&series->output, path, error) != TRAX_OK)
     return TRAX_ERROR;
-  put_head(series->output.file);
-  series->watch = (struct trax_watch){.next = explain->options.series_interval, .inspect = inspect, .context = series};
+  if (path)
+    put_head(series->output.file);
+  series->watch = (struct trax_watch){.next = series->length, .inspect = inspect, .context = series};
   trax_machine_watch(explain->machine, &series->watch);
   return TRAX_OK;
 }
 
-trax_status trax_series_finish(struct trax_explain *explain, trax_error *error) {
-  struct series *series = (struct series *)explain->series;
-  if (explain->machine->stats.cycles > series->begin)
-    put_rows(series, NULL, explain->machine->stats.cycles);
-  if (explain->out_of_memory)
-    return trax_fail(error, "out of memory for the series");
-  return trax_output_commit(&series->output, error);
+trax_status trax_series_finish(struct trax_series *series, trax_error *error) {
+  if (series->explain->machine->stats.cycles > series->begin)
+    next_interval(series, NULL, series->explain->machine->stats.cycles);
+  return series->output.file ? trax_output_commit(&series->output, error) : TRAX_OK;
 }
 
-void trax_series_destroy(struct trax_explain *explain) {
-  struct series *series = (struct series *)explain->series;
+static trax_status put_rows(const void *self, FILE *out, trax_error *error) {
+  const struct trax_series *series = self;
+  (void)error;
+  put_head(out);
+  for (size_t i = 0; i < series->count; i++)
+    put_interval(series, &series->intervals[i], out);
+  return TRAX_OK;
+}
+
+trax_status trax_series_put_members(struct trax_series *series, FILE *out, trax_error *error) {
+  return trax_page_text(out, "series", put_rows, series, error);
+}
+
+void trax_series_destroy(struct trax_series *series) {
   if (!series)
     return;
-  trax_machine_unwatch(explain->machine, &series->watch);
+  trax_machine_unwatch(series->explain->machine, &series->watch);
   trax_output_discard(&series->output);
+  for (size_t i = 0; series->intervals && i < PAGE_INTERVALS; i++) {
+    free(series->intervals[i].tms);
+    free(series->intervals[i].queued);
+  }
+  free(series->intervals);
   free(series->previous);
   free(series);
-  explain->series = NULL;
 }

@@ -33,6 +33,8 @@ struct trax_reader {
   void (*span)(void *self, const struct trax_span *span);
   /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM; may be NULL. */
   void (*arrival)(void *self, const struct trax_arrival *arrival);
+  /* Writes the reader's members of the page's data (explain/page.h); NULL: it has none. */
+  trax_status (*put_members)(void *self, FILE *out, trax_error *error);
   /* Called after the last span: writes the reader's files. */
   trax_status (*finish)(void *self, trax_error *error);
   void (*destroy)(void *self);
@@ -48,7 +50,9 @@ struct trax_explain {
   unsigned reader_count;
   struct trax_arrival *arrivals; /* those of which the readers have not been notified yet */
   size_t arrival_count, arrival_capacity;
-  struct trax_watch *series; /* NULL: none */
+  struct trax_series *series, *page_series; /* NULL: none */
+  struct trax_explore_picture picture;      /* of the page; width 0: none */
+  struct trax_pixels *pixels;               /* for it; NULL: items store to no buffer that is known */
   bool out_of_memory;        /* spans or arrivals were lost */
 };
 
@@ -69,8 +73,12 @@ trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reade
 trax_status trax_lockstep_rays_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 
 /* --- series.c: a watch, not a reader --- */
-trax_status trax_series_create(struct trax_explain *explain, trax_error *error);
-trax_status trax_series_finish(struct trax_explain *explain, trax_error *error);
-void trax_series_destroy(struct trax_explain *explain);
+/* path: the file of the rows; NULL: they are for the page, a limited number whatever the length of the run. */
+trax_status trax_series_create(struct trax_series **series, struct trax_explain *explain, const char *path,
+                               trax_error *error);
+trax_status trax_series_finish(struct trax_series *series, trax_error *error);
+/* Writes the rows that are for the page, after trax_series_finish. */
+trax_status trax_series_put_members(struct trax_series *series, FILE *out, trax_error *error);
+void trax_series_destroy(struct trax_series *series); /* which may be NULL */
 
 #endif

@@ -226,14 +226,14 @@ json_t *trax_config_json(const struct trax_config *config) {
   return NULL;
 }
 
-static trax_status dump(const trax_machine *machine, FILE *out, trax_error *error) {
+trax_status trax_stats_put_json(const trax_machine *machine, bool host, FILE *out, trax_error *error) {
   if (!machine->has_run)
     return trax_fail(error, "no statistics: the machine has not run");
   struct document document = {json_object(), false};
   json_t *root = document.root;
-  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_host *loaded = trax_host_of(machine);
   put(&document, root, "trax_sim", json_string(TRAX_VERSION));
-  put(&document, root, "program", text_value(host ? trax_image_path(host->image) : ""));
+  put(&document, root, "program", text_value(loaded ? trax_image_path(loaded->image) : ""));
   put(&document, root, "status", json_string(trax_ending_name(machine)));
   put(&document, root, "partial", json_boolean(machine->status != TRAX_OK));
   put(&document, root, "exit_status",
@@ -242,6 +242,10 @@ static trax_status dump(const trax_machine *machine, FILE *out, trax_error *erro
   if (machine->status == TRAX_FAULT)
     put_fault(&document, machine);
   trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, &document);
+  if (!host) {
+    json_object_del(root, "host_seconds");
+    json_object_del(root, "instructions_per_host_second");
+  }
   if (machine->stats.sampling.is_sampled)
     put_sampling(&document, machine);
   put_identity(&document, machine);
@@ -263,7 +267,7 @@ trax_status trax_stats_write_json(const trax_machine *machine, const char *path,
     return TRAX_ERROR;
   /* trax_output_commit reports a failed write with its reason. */
   trax_error reason;
-  if (dump(machine, output.file, &reason) != TRAX_OK && !ferror(output.file)) {
+  if (trax_stats_put_json(machine, true, output.file, &reason) != TRAX_OK && !ferror(output.file)) {
     trax_output_discard(&output);
     return trax_fail(error, "%s: %s", path, reason.message);
   }

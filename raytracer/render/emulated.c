@@ -199,6 +199,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     struct trax_costs costs = {0};
     struct trax_run_progress shown = {.line = progress, .step = "rendering"};
     struct trax_simulated_options run = {.explain = &options->explain,
+                                         .is_twin = !options->program && !options->source,
                                          .run = {.output = stderr,
                                                  .total_items = (uint64_t)frame->params->width * frame->params->height,
                                                  .progress = trax_run_progress_show,

@@ -246,6 +246,17 @@ trax_status trax_costs_write_picture(const struct trax_costs *costs, const struc
                                      const char *path, trax_error *error);
 void trax_costs_print(const struct trax_costs *costs, const struct trax_cost_summary *summary, FILE *out);
 
+/* --- visits.c: how many nodes and triangles the rays of each pixel visit --- */
+
+struct trax_visits {
+  uint32_t *nodes, *triangles; /* of the pixels, row by row; NULL: not known */
+};
+
+/* The twin's, if its picture is this one; otherwise it is another program's, and they are not known. */
+trax_status trax_visits_count(struct trax_visits *visits, const struct trax_picture *picture,
+                              const struct trax_frame *frame, struct trax_render_run *run, trax_error *error);
+void trax_visits_release(struct trax_visits *visits);
+
 /* --- simulated.c: the program on a machine made by the caller, which keeps it for its statistics --- */
 
 struct trax_explain_options;
@@ -254,6 +265,7 @@ struct trax_simulated_options {
   trax_run_options run;
   const struct trax_explain_options *explain; /* NULL: nothing is explained */
   struct trax_costs *costs;                   /* to fill; NULL: not wanted */
+  bool is_twin;                               /* the program visits the nodes and triangles that the twin does */
 };
 
 /* What the program's buffer `paths` takes on this machine; 0: nothing uses it. */

@@ -6,22 +6,43 @@
 
 #include <string.h>
 
-static trax_status run(trax_machine *machine, const struct trax_frame *frame,
-                       const struct trax_simulated_options *options, trax_error *error) {
-  struct trax_explain_options wanted = options->explain ? *options->explain : (struct trax_explain_options){0};
-  struct trax_explain *explain;
-  if (options->costs) {
-    wanted.item_buffer = "image";
-    wanted.item_bytes = trax_frame_image_bytes(frame) / (frame->params->width * frame->params->height);
-  }
-  if (trax_explain_begin(&explain, machine, &wanted, error) != TRAX_OK)
+static trax_status take_picture(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
+                                const struct trax_simulated_options *options, trax_error *error) {
+  const int exit_status = trax_machine_exit_status(machine);
+  if (exit_status != 0)
+    return trax_fail(error, "the program ended with status %d", exit_status);
+  if (options->run.slots)
+    return TRAX_OK;
+  const uint8_t *bytes;
+  uint32_t size;
+  if (trax_machine_read_buffer(machine, "image", &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
-  if (options->costs)
-    trax_explain_items(explain, trax_costs_add, options->costs);
-  const trax_status status = trax_machine_run(machine, &options->run, error);
+  return trax_picture_take(picture, frame, bytes, error);
+}
+
+/* Writes what explains the run; the page has the picture, and what its rays visited. */
+static trax_status end_explanation(struct trax_explain *explain, const struct trax_picture *picture,
+                                   const struct trax_frame *frame, const struct trax_simulated_options *options,
+                                   trax_error *error) {
+  struct trax_visits visits = {0};
+  struct trax_explore_picture shown = {.width = picture->width, .height = picture->height, .pixels = picture->pixels};
+  trax_status status = TRAX_OK;
+  if (options->explain && options->explain->explore && options->is_twin) {
+    struct trax_render_run twin = {.interrupt = options->run.interrupt};
+    status = trax_visits_count(&visits, picture, frame, &twin, error);
+  }
+  if (visits.nodes) {
+    shown.counts[0] = (struct trax_explore_counts){"nodes", "nodes", "nodes of the tree that its rays visited",
+                                                   visits.nodes};
+    shown.counts[1] = (struct trax_explore_counts){"triangles", "triangles", "triangles that its rays were tested with",
+                                                   visits.triangles};
+  }
+  trax_explain_picture(explain, &shown);
   if (status == TRAX_OK)
-    return trax_explain_end(explain, error);
-  trax_explain_discard(explain);
+    status = trax_explain_end(explain, error);
+  else
+    trax_explain_discard(explain);
+  trax_visits_release(&visits);
   return status;
 }
 
@@ -90,16 +111,21 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
 
 trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
                                const struct trax_simulated_options *options, trax_error *error) {
-  trax_status status = run(machine, frame, options, error);
-  if (status != TRAX_OK)
-    return status;
-  const int exit_status = trax_machine_exit_status(machine);
-  if (exit_status != 0)
-    return trax_fail(error, "the program ended with status %d", exit_status);
-  if (options->run.slots)
-    return TRAX_OK;
-  const uint8_t *bytes;
-  uint32_t size;
-  status = trax_machine_read_buffer(machine, "image", &bytes, &size, error);
-  return status == TRAX_OK ? trax_picture_take(picture, frame, bytes, error) : status;
+  struct trax_explain_options wanted = options->explain ? *options->explain : (struct trax_explain_options){0};
+  struct trax_explain *explain;
+  if (options->costs || wanted.explore) {
+    wanted.item_buffer = "image";
+    wanted.item_bytes = trax_frame_image_bytes(frame) / (frame->params->width * frame->params->height);
+  }
+  if (trax_explain_begin(&explain, machine, &wanted, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (options->costs)
+    trax_explain_items(explain, trax_costs_add, options->costs);
+  trax_status status = trax_machine_run(machine, &options->run, error);
+  if (status == TRAX_OK)
+    status = take_picture(picture, frame, machine, options, error);
+  if (status == TRAX_OK)
+    return end_explanation(explain, picture, frame, options, error);
+  trax_explain_discard(explain);
+  return status;
 }

@@ -1,4 +1,4 @@
-/* Explanations of a run besides its statistics: profiles, traces, time lines, memory heat, costs of items, series
+/* Explanations of a run besides its statistics: a page, profiles, traces, time lines, memory heat, costs of items, series
    (docs/explaining.md). They are deterministic and the same with both timed engines.
 
      struct trax_explain *explain;
@@ -18,6 +18,7 @@ struct trax_explain;
 
 struct trax_explain_options {
   /* Files to write; NULL: not wanted. "-" is standard output. */
+  const char *explore;       /* a page in HTML that explains the whole run */
   const char *profile;       /* thread-cycles by function and source line */
   const char *folded;        /* by call stack, for flame graphs */
   const char *annotate;      /* by instruction */
@@ -63,6 +64,7 @@ struct trax_item_cost {
   uint64_t begin, end; /* cycles */
   uint64_t instructions;
   const uint64_t *cycles; /* by cause, in the order of trax_stats_cause */
+  const uint64_t *rays;   /* by kind, in the order of trax/ray_kinds.h */
 };
 #define TRAX_NO_PLACE UINT32_MAX
 
@@ -70,6 +72,21 @@ struct trax_item_cost {
    once for each thread with `last` set and place TRAX_NO_PLACE, for the charges after the thread's last item. */
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context);
+
+/* The picture of the page: item_buffer has its pixels, row by row. */
+struct trax_explore_picture {
+  uint32_t width, height;
+  const uint32_t *pixels; /* R, G, B, A in the bytes from the lowest */
+  /* What the caller has counted for each pixel besides; `values` is NULL behind the last. */
+  struct trax_explore_counts {
+    const char *name, *unit, *meaning;
+    const uint32_t *values;
+  } counts[4];
+};
+
+/* To be called before trax_explain_end, until which what `picture` points to must stay valid. Without this call, and if
+   no page is wanted, the page has no picture. */
+void trax_explain_picture(struct trax_explain *explain, const struct trax_explore_picture *picture);
 
 #ifdef __cplusplus
 }

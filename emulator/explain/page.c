@@ -1,0 +1,136 @@
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#include "explain/page.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+/* --- JSON --- */
+
+void trax_page_quote(FILE *out, const char *text, size_t size) {
+  fputc('"', out);
+  for (size_t i = 0; i < size; i++) {
+    const unsigned char c = (unsigned char)text[i];
+    if (c == '"' || c == '\\')
+      fprintf(out, "\\%c", c);
+    else if (c == '\n')
+      fputs("\\n", out);
+    else if (c < 0x20)
+      fprintf(out, "\\u%04x", c);
+    else
+      fputc(c, out);
+  }
+  fputc('"', out);
+}
+
+trax_status trax_page_text(FILE *out, const char *name,
+                           trax_status (*put)(const void *self, FILE *out, trax_error *error), const void *self,
+                           trax_error *error) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *memory = open_memstream(&text, &size);
+  if (!memory)
+    return trax_fail(error, "out of memory for the page");
+  trax_status status = put(self, memory, error);
+  if (fclose(memory) != 0 && status == TRAX_OK)
+    status = trax_fail(error, "out of memory for the page");
+  if (status == TRAX_OK) {
+    fprintf(out, "\"%s\": ", name);
+    trax_page_quote(out, text, size);
+    fputs(",\n", out);
+  }
+  free(text);
+  return status;
+}
+
+/* --- figures: name, unit, meaning, group, of which the statistics have the values --- */
+
+static void put_figure(void *context, const struct trax_figure *figure) {
+  FILE *out = context;
+  const char *const texts[] = {figure->name, figure->unit, figure->meaning};
+  fputs("[", out);
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+    trax_page_quote(out, texts[i], strlen(texts[i]));
+    fputs(", ", out);
+  }
+  fprintf(out, "%d],\n", (int)figure->group);
+}
+
+static void put_figures(const struct trax_machine *machine, FILE *out) {
+  fputs("\"figures\": [\n", out);
+  trax_figures_visit(&machine->stats, NULL, &machine->config, put_figure, out);
+  fputs("null],\n", out);
+}
+
+/* --- the script elements --- */
+
+static void put_base64(FILE *out, const uint8_t *bytes, size_t size) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (size_t i = 0; i < size; i += 3) {
+    const size_t left = size - i;
+    const uint32_t word = (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) |
+                          (left > 2 ? bytes[i + 2] : 0);
+    fputc(digits[word >> 18], out);
+    fputc(digits[word >> 12 & 63], out);
+    fputc(left > 1 ? digits[word >> 6 & 63] : '=', out);
+    fputc(left > 2 ? digits[word & 63] : '=', out);
+  }
+}
+
+static trax_status put_script(FILE *out, const char *name, const char *bytes, size_t size, trax_error *error) {
+  uLongf packed_size = compressBound(size);
+  uint8_t *packed = malloc(packed_size);
+  if (!packed || compress(packed, &packed_size, (const Bytef *)bytes, size) != Z_OK) {
+    free(packed);
+    return trax_fail(error, "out of memory for the page");
+  }
+  fprintf(out, "<script type=\"application/octet-stream\" id=\"%s\">", name);
+  put_base64(out, packed, packed_size);
+  fputs("</script>\n", out);
+  free(packed);
+  return TRAX_OK;
+}
+
+static trax_status put_members(struct trax_explain *explain, FILE *out, trax_error *error) {
+  fputs("{\"stats\": ", out);
+  trax_status status = trax_stats_put_json(explain->machine, false, out, error);
+  fputs(",\n", out);
+  put_figures(explain->machine, out);
+  for (unsigned i = 0; i < explain->reader_count && status == TRAX_OK; i++)
+    if (explain->readers[i].put_members)
+      status = explain->readers[i].put_members(explain->readers[i].self, out, error);
+  return status == TRAX_OK ? trax_series_put_members(explain->page_series, out, error) : status;
+}
+
+trax_status trax_page_write(struct trax_explain *explain, trax_error *error) {
+  char *texts[2] = {NULL, NULL};
+  size_t sizes[2] = {0, 0};
+  FILE *members = open_memstream(&texts[0], &sizes[0]), *columns = open_memstream(&texts[1], &sizes[1]);
+  trax_status status = members && columns ? trax_series_finish(explain->page_series, error)
+                                          : trax_fail(error, "out of memory for the page");
+  if (status == TRAX_OK)
+    status = put_members(explain, members, error);
+  if (status == TRAX_OK)
+    status = trax_pixels_put(explain->pixels, &explain->picture, members, columns, error);
+  if (members && (fputs("\"end\": null}\n", members) == EOF || fclose(members) != 0) && status == TRAX_OK)
+    status = trax_fail(error, "out of memory for the page");
+  if (columns && fclose(columns) != 0 && status == TRAX_OK)
+    status = trax_fail(error, "out of memory for the page");
+  trax_output output = {0};
+  if (status == TRAX_OK)
+    status = trax_output_open(&output, explain->options.explore, error);
+  if (status == TRAX_OK) {
+    fputs(trax_page_begin, output.file);
+    status = put_script(output.file, "data", texts[0], sizes[0], error);
+    if (status == TRAX_OK)
+      status = put_script(output.file, "pixels", texts[1], sizes[1], error);
+    fputs(trax_page_end, output.file);
+    if (status == TRAX_OK)
+      status = trax_output_commit(&output, error);
+    else
+      trax_output_discard(&output);
+  }
+  free(texts[0]);
+  free(texts[1]);
+  return status;
+}

@@ -1,0 +1,31 @@
+/* The page of --explore: explain/page/ has its text, style and script; the readers write its data as members of one
+   JSON object. A table that is also a file of its own is a member of the same text. */
+#ifndef TRAX_EXPLAIN_PAGE_H
+#define TRAX_EXPLAIN_PAGE_H
+
+#include "explain/span.h"
+
+/* Writes `"name": text`, followed by a comma: put() writes the text. */
+trax_status trax_page_text(FILE *out, const char *name,
+                           trax_status (*put)(const void *self, FILE *out, trax_error *error), const void *self,
+                           trax_error *error);
+/* Writes a text as JSON. Bytes that are not UTF-8 stay as they are. */
+void trax_page_quote(FILE *out, const char *text, size_t size);
+
+/* Writes the file, after all readers have finished. */
+trax_status trax_page_write(struct trax_explain *explain, trax_error *error);
+
+/* The page up to its data, and behind them; of the build. */
+extern const char *const trax_page_begin, *const trax_page_end;
+
+/* --- pixels.c: what each item cost, by its place --- */
+struct trax_pixels;
+struct trax_pixels *trax_pixels_create(size_t places); /* NULL: out of memory */
+void trax_pixels_destroy(struct trax_pixels *pixels);  /* which may be NULL */
+void trax_pixels_add(struct trax_pixels *pixels, const struct trax_item_cost *cost, bool last);
+/* Writes a member that describes columns of numbers, and the columns, each number as LEB128. Without a picture it writes
+   nothing. */
+trax_status trax_pixels_put(const struct trax_pixels *pixels, const struct trax_explore_picture *picture, FILE *members,
+                            FILE *columns, trax_error *error);
+
+#endif

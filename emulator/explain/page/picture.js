@@ -1,0 +1,128 @@
+// The picture, what each pixel cost, and a pixel's story.
+
+// From 0 to what one pixel in a hundred exceeds; the colours of trax-render --cost-picture.
+const RAMP = [[0, 0, 0], [40, 40, 220], [160, 30, 170], [240, 110, 20], [255, 230, 60], [255, 255, 255]];
+function rampAt(share) {
+  const place = Math.min(share, 1) * (RAMP.length - 1), step = Math.min(Math.floor(place), RAMP.length - 2), part = place - step;
+  return RAMP[step].map((from, channel) => from + (RAMP[step + 1][channel] - from) * part);
+}
+
+function drawPicture({ stats, run, causes, columns }) {
+  const section = byId("picture");
+  if (!run.picture) { section.remove(); return; }
+  const { width, height } = run.picture, pixels = width * height;
+  const sum = (parts) => { const total = new Float64Array(pixels); for (const part of parts) for (let i = 0; i < pixels; i++) total[i] += part.values[i]; return total; };
+  const inGroup = (group) => Object.values(columns).filter((column) => column.group === group);
+  const cycles = sum(inGroup("causes")), kinds = inGroup("rays"), counts = inGroup("counts");
+  const rays = kinds.length ? sum(kinds) : null;
+
+  // --- what can be shown ---
+  const shown = [{ name: "cycles", unit: "cycles", meaning: "of its thread, since the thread's pixel before", values: cycles }];
+  for (const column of inGroup("causes")) shown.push(column.name === "issued" ? { ...column, name: "instructions", unit: "instructions", meaning: "issued" } : { ...column, unit: "cycles" });
+  if (rays) shown.push({ name: "rays", unit: "rays", meaning: "of all kinds", values: rays });
+  for (const column of kinds) shown.push({ ...column, name: `rays: ${column.name}` });
+  shown.push(...counts);
+  if (columns.begin) shown.push({ name: "time", unit: "cycle", meaning: "in which its thread began with it", values: columns.begin.values });
+  for (const one of shown) {
+    const sorted = Float64Array.from(one.values).sort();
+    Object.assign(one, { sorted, white: sorted[pixels - 1 - Math.floor(pixels / 100)] || sorted[pixels - 1] || 1 });
+  }
+  const costs = shown[0], meanOf = (values) => values.reduce((total, value) => total + value, 0) / pixels;
+
+  // --- pictures ---
+  const seen = byId("picture-seen"), cost = byId("picture-cost");
+  const paint = (canvas, colour) => {
+    canvas.width = width;
+    canvas.height = height;
+    const image = new ImageData(width, height);
+    for (let i = 0; i < pixels; i++) {
+      const [r, g, b] = colour(i);
+      image.data.set([r, g, b, 255], 4 * i);
+    }
+    canvas.base = image;
+    canvas.getContext("2d").putImageData(image, 0, 0);
+  };
+  const channels = ["red", "green", "blue"].map((name) => {
+    const differences = columns[`picture.${name}`].values, values = new Uint8Array(pixels);
+    for (let i = 0, value = 0; i < pixels; i++) values[i] = value = (value + differences[i]) & 255;
+    return values;
+  });
+  paint(seen, (i) => channels.map((channel) => channel[i]));
+  let now = costs;
+  const choice = byId("picture-what");
+  choice.append(...shown.map((one, i) => element("option", { value: i }, one.name)));
+  const redraw = () => {
+    now = shown[choice.value];
+    paint(cost, (i) => rampAt(now.values[i] / now.white));
+    const ramp = element("canvas", { width: 256, height: 1, "aria-hidden": "true" }), line = new ImageData(256, 1);
+    for (let i = 0; i < 256; i++) line.data.set([...rampAt(i / 255), 255], 4 * i);
+    ramp.getContext("2d").putImageData(line, 0, 0);
+    byId("picture-scale").replaceChildren(element("span", { class: "ramp" }, "0", ramp, `${whole(now.white)} ${now.unit} and more`),
+      `${now.name}: ${now.meaning}. Least ${whole(now.sorted[0])}, median ${whole(now.sorted[pixels >> 1])}, most ${whole(now.sorted[pixels - 1])}; one pixel in a hundred is beyond the last colour.`);
+    mark();
+  };
+
+  // --- a pixel ---
+  let at = -1, pinned = -1;
+  const mark = () => {
+    for (const canvas of [seen, cost]) {
+      const context = canvas.getContext("2d");
+      context.putImageData(canvas.base, 0, 0);
+      for (const [number, colour] of [[pinned, "#ff2d95"], [at === pinned ? -1 : at, "#00e5ff"]]) {
+        if (number < 0) continue;
+        const size = Math.max(5, Math.round(width / 60)) | 1;
+        context.strokeStyle = colour;
+        context.lineWidth = Math.max(1, width / 400);
+        context.strokeRect(number % width - (size >> 1) + 0.5, Math.floor(number / width) - (size >> 1) + 0.5, size - 1, size - 1);
+      }
+    }
+  };
+  const beyond = (one, value) => { let low = 0, high = pixels; while (low < high) { const middle = (low + high) >> 1; if (one.sorted[middle] < value) low = middle + 1; else high = middle; } return low / pixels; };
+  const story = (i) => {
+    const place = `(${i % width}, ${Math.floor(i / width)})`, thread = columns.thread.values[i] - 1;
+    if (thread < 0) { byId("story").replaceChildren(element("h3", {}, `Pixel ${place}`), element("p", {}, "The run ended before this pixel.")); return; }
+    const tps = stats.configuration.chip.tps_per_tm, begin = columns.begin ? columns.begin.values[i] : 0;
+    const facts = [`${whole(cycles[i])} cycles`, `more than ${percent(beyond(costs, cycles[i]))} of the pixels`, `mean ${whole(meanOf(cycles))}`];
+    const table = element("table", { id: "story-table" }), own = Object.fromEntries(inGroup("causes").map((column) => [column.name, column.values[i]]));
+    byId("story").replaceChildren(element("h3", {}, `Pixel ${place}: ${facts.join(", ")}`),
+      element("p", {}, `Thread ${thread} (TM ${Math.floor(thread / tps)}, TP ${thread % tps}), cycles ${whole(begin)} to ${whole(begin + cycles[i])}. `,
+        ...[rays ? `${whole(rays[i])} rays${kinds.length > 1 ? ` (${kinds.filter((kind) => kind.values[i]).map((kind) => `${whole(kind.values[i])} ${kind.name}`).join(", ")})` : ""}` : "",
+          ...counts.map((count) => `${whole(count.values[i])} ${count.name}`), `${whole(own.issued ?? 0)} instructions`].filter((part) => part).join(", ") + "."),
+      stack(causes, own, cycles[i]), element("div", { class: "scroll" }, table));
+    fillTable("story-table", "", [["cause"], ["cycles", "n"], ["share", "n"], ["of the mean pixel's", "n"]], causes.filter(({ name }) => own[name]).sort((a, b) => own[b.name] - own[a.name]).map(({ name, colour }) => {
+      const mean = meanOf(columns[`causes.${name}`].values);
+      return [[element("span", {}, element("i", { class: "swatch", style: `--c: ${colour}` }), name), name], [whole(own[name]), own[name]], [percent(own[name] / cycles[i]), own[name]], [`${digits(own[name] / mean, 2)} times`, own[name] / mean]];
+    }));
+  };
+  const pin = (i) => { pinned = i; mark(); if (i < 0) hint(); else story(i); };
+  const hint = () => byId("story").replaceChildren(element("p", { class: "soft" }, "No pixel is chosen."));
+  const move = (i, x, y) => { at = i; mark(); tell(`(${i % width}, ${Math.floor(i / width)})\n${now.name} ${whole(now.values[i])}${now === costs ? "" : `\ncycles ${whole(cycles[i])}`}`, x, y); };
+  for (const canvas of [seen, cost]) {
+    const under = (event) => {
+      const box = canvas.getBoundingClientRect(), x = Math.floor((event.clientX - box.x) / box.width * width), y = Math.floor((event.clientY - box.y) / box.height * height);
+      return Math.max(0, Math.min(height - 1, y)) * width + Math.max(0, Math.min(width - 1, x));
+    };
+    canvas.addEventListener("pointermove", (event) => move(under(event), event.clientX, event.clientY));
+    for (const leaving of ["pointerleave", "blur"]) canvas.addEventListener(leaving, () => { at = -1; mark(); untell(); });
+    canvas.addEventListener("click", (event) => pin(under(event)));
+    canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key], from = at >= 0 ? at : pinned >= 0 ? pinned : (height >> 1) * width + (width >> 1);
+      if (step) {
+        const far = event.shiftKey ? 10 : 1, x = Math.max(0, Math.min(width - 1, from % width + far * step[0])), y = Math.max(0, Math.min(height - 1, Math.floor(from / width) + far * step[1])), box = canvas.getBoundingClientRect();
+        move(y * width + x, box.x + (x + 0.5) * box.width / width, box.y + (y + 0.5) * box.height / height);
+      } else if (event.key === "Enter" || event.key === " ") pin(from);
+      else if (event.key === "Escape") { pin(-1); untell(); } else return;
+      event.preventDefault();
+    });
+  }
+  choice.addEventListener("change", redraw);
+  redraw();
+
+  const ranking = Array.from(cycles.keys()).sort((a, b) => cycles[b] - cycles[a] || a - b).slice(0, 10);
+  fillTable("costliest", "The costliest pixels", [["pixel"], ["cycles", "n"], ["causes", "wide"], ...counts.map((count) => [count.name, "n"])], ranking.map((i) => [
+    [element("button", { type: "button", onclick: () => pin(i) }, `(${i % width}, ${Math.floor(i / width)})`), i], [whole(cycles[i]), cycles[i]],
+    stack(causes, Object.fromEntries(inGroup("causes").map((column) => [column.name, column.values[i]])), cycles[ranking[0]]), ...counts.map((count) => [whole(count.values[i]), count.values[i]])]));
+  const elsewhere = Object.values(run.picture.elsewhere).reduce((total, part) => total + part, 0);
+  byId("picture-sum").textContent = `The pixels took ${whole(stats.thread_cycles - elsewhere)} thread-cycles; ${whole(elsewhere)} belong to no pixel: after a thread's last.`;
+  pin(ranking[0]);
+}
