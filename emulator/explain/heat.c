@@ -29,6 +29,7 @@ struct heat {
   struct trax_explain *explain;
   struct object *objects; /* by address, not overlapping */
   size_t object_count;
+  struct object *parts; /* of the page */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
   bool out_of_memory;
 };
@@ -78,6 +79,16 @@ static bool list_objects(struct heat *heat) {
   return true;
 }
 
+static bool list_parts(struct heat *heat) {
+  const struct trax_explain_options *options = &heat->explain->options;
+  heat->parts = calloc(options->part_count + 1, sizeof *heat->parts);
+  for (size_t i = 0; heat->parts && i < options->part_count; i++)
+    heat->parts[i] = (struct object){.name = options->parts[i].name,
+                                     .begin = options->parts[i].address,
+                                     .end = (uint64_t)options->parts[i].address + options->parts[i].bytes};
+  return heat->parts != NULL;
+}
+
 static struct object *object_at(const struct heat *heat, uint32_t address) {
   size_t low = 0, high = heat->object_count - 1;
   while (low < high) { /* the first object that ends after the address */
@@ -122,6 +133,9 @@ static void add_span(void *self, const struct trax_span *span) {
   if (!span->issue || !op->access_bytes)
     return;
   const uint32_t address = span->issue->address;
+  for (size_t i = 0; i < heat->explain->options.part_count; i++)
+    if (address >= heat->parts[i].begin && address < heat->parts[i].end)
+      count(&heat->parts[i].counts, op->flags, op->access_bytes, span->issue->outcome);
   count(&object_at(heat, address)->counts, op->flags, op->access_bytes, span->issue->outcome);
   struct heat_counts *line =
       heat->explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
@@ -138,25 +152,38 @@ static void put_counts(FILE *out, const struct heat_counts *counts) {
 
 #define COLUMNS "loads,stores,atomics,load_bytes,store_bytes,hits,misses,merged,combined"
 
-static trax_status put_objects(const void *self, FILE *out, trax_error *error) {
-  const struct heat *heat = self;
-  (void)error;
+static void put_table(const struct object *objects, size_t count, FILE *out) {
   fprintf(out, "object,address,bytes," COLUMNS "\n");
-  for (size_t i = 0; i < heat->object_count; i++) {
-    const struct object *object = &heat->objects[i];
+  for (size_t i = 0; i < count; i++) {
+    const struct object *object = &objects[i];
     if (!object->counts.loads && !object->counts.stores && !object->counts.atomics)
       continue;
     fprintf(out, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin, object->end - object->begin);
     put_counts(out, &object->counts);
     fputc('\n', out);
   }
+}
+
+static trax_status put_objects(const void *self, FILE *out, trax_error *error) {
+  const struct heat *heat = self;
+  (void)error;
+  put_table(heat->objects, heat->object_count, out);
+  return TRAX_OK;
+}
+
+static trax_status put_parts(const void *self, FILE *out, trax_error *error) {
+  const struct heat *heat = self;
+  (void)error;
+  put_table(heat->parts, heat->explain->options.part_count, out);
   return TRAX_OK;
 }
 
 static trax_status put_members(void *self, FILE *out, trax_error *error) {
   if (((struct heat *)self)->out_of_memory)
     return trax_fail(error, "out of memory for the memory heat");
-  return trax_page_text(out, "heat", put_objects, self, error);
+  if (trax_page_text(out, "heat", put_objects, self, error) != TRAX_OK)
+    return TRAX_ERROR;
+  return trax_page_text(out, "parts", put_parts, self, error);
 }
 
 static trax_status write_objects(const struct heat *heat, trax_error *error) {
@@ -202,6 +229,7 @@ static void destroy(void *self) {
   for (uint32_t page = 0; page < PAGES; page++)
     free(heat->pages[page]);
   free(heat->objects);
+  free(heat->parts);
   free(heat);
 }
 
@@ -210,7 +238,7 @@ trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *r
   if (!heat)
     return trax_fail(error, "out of memory");
   heat->explain = explain;
-  if (!list_objects(heat)) {
+  if (!list_objects(heat) || !list_parts(heat)) {
     destroy(heat);
     return trax_fail(error, "out of memory for the memory heat");
   }

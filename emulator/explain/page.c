@@ -92,7 +92,13 @@ static trax_status put_script(FILE *out, const char *name, const char *bytes, si
 }
 
 static trax_status put_members(struct trax_explain *explain, FILE *out, trax_error *error) {
-  fputs("{\"stats\": ", out);
+  fputs("{", out);
+  if (explain->options.title) {
+    fputs("\"title\": ", out);
+    trax_page_quote(out, explain->options.title, strlen(explain->options.title));
+    fputs(",\n", out);
+  }
+  fputs("\"stats\": ", out);
   trax_status status = trax_stats_put_json(explain->machine, false, out, error);
   fputs(",\n", out);
   put_figures(explain->machine, out);

@@ -8,6 +8,7 @@
 #include "gdb/gdb.h"
 #include "host/options.h"
 #include "host/png.h"
+#include "host/shown.h"
 #include "report/backtrace.h"
 #include "report/watchdog.h"
 #include "trax/output.h"
@@ -218,6 +219,17 @@ static trax_status write_symbols(const struct trax_options *options, trax_error 
   return options->gdb_symbols ? trax_gdb_write_symbols(options->program, options->gdb_symbols, error) : TRAX_OK;
 }
 
+static trax_status end_explanation(struct trax_shown *shown, trax_machine *machine, struct trax_explain *explain,
+                                   trax_error *error) {
+  trax_status status = explain ? trax_shown_give(shown, machine, explain, error) : TRAX_OK;
+  if (status == TRAX_OK)
+    status = trax_explain_end(explain, error);
+  else
+    trax_explain_discard(explain);
+  trax_shown_release(shown);
+  return status;
+}
+
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
   catch_signals();
@@ -234,8 +246,12 @@ static int simulate(const trax_config *config, const struct trax_options *option
     trax_machine_destroy(machine);
     return EXIT_SUCCESS;
   }
+  struct trax_explain_options wanted = options->explain;
+  struct trax_shown shown = {0};
   if (status == TRAX_OK)
-    status = trax_explain_begin(&explain, machine, &options->explain, &error);
+    status = trax_shown_find(&shown, &wanted, options, machine, &error);
+  if (status == TRAX_OK)
+    status = trax_explain_begin(&explain, machine, &wanted, &error);
   if (status != TRAX_OK) {
     trax_machine_destroy(machine);
     return complain(&error);
@@ -267,7 +283,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
   }
   if (status == TRAX_ERROR || !machine->has_run)
     trax_explain_discard(explain);
-  else if (trax_explain_end(explain, &write_error) != TRAX_OK)
+  else if (end_explanation(&shown, machine, explain, &write_error) != TRAX_OK)
     result = complain(&write_error);
   if (status != TRAX_ERROR && machine->has_run && options->post_mortem &&
       write_post_mortem(post_mortem, options->post_mortem, &write_error) != TRAX_OK)

@@ -264,6 +264,22 @@ bool trax_manifest_output(const trax_manifest *manifest, size_t i, const char **
   return false;
 }
 
+bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, uint32_t *width, uint32_t *height,
+                           bool *is_float) {
+  enum { MOST_PIXELS = 16384 }; /* of a side */
+  const json_t *picture = json_object_get(manifest->root, "picture");
+  const char *layout = json_string_value(json_object_get(picture, "layout"));
+  const json_int_t across = json_integer_value(json_object_get(picture, "width")),
+                   down = json_integer_value(json_object_get(picture, "height"));
+  *symbol = json_string_value(json_object_get(picture, "buffer"));
+  if (!*symbol || !layout || across < 1 || across > MOST_PIXELS || down < 1 || down > MOST_PIXELS)
+    return false;
+  *width = (uint32_t)across;
+  *height = (uint32_t)down;
+  *is_float = strcmp(layout, "rgb float32") == 0;
+  return *is_float || strcmp(layout, "rgba uint8") == 0;
+}
+
 /* As trax_config_set takes it. */
 static trax_status value_text(const struct place *place, char text[TRAX_CONFIG_WORD], trax_error *error) {
   if (json_is_string(place->value))

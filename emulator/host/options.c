@@ -193,7 +193,7 @@ static const trax_option rows[] = {
     {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
     {"help-stats", .kind = TRAX_OPTION_SHOW, .show = trax_stats_describe, .meaning = "describe every statistic, and end"},
     TRAX_OPTION_GROUP("What explains a run"),
-    {"explore", .argument = "FILE.html", OUTPUT(explain.explore), .endings = "html",
+    {"explore", .argument = "FILE.html", OUTPUT(explain.explore),
      .meaning = "one page that explains the whole run, for a browser"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
     {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),

@@ -181,6 +181,19 @@ static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct
   return trax_picture_sampling_init(sampling, picture, frame, program, machine, &twin, error);
 }
 
+/* What is rendered, in a line. */
+static const char *describe(char *text, size_t size, const struct options *options, const struct trax_frame *frame) {
+  const char *slash = strrchr(options->meshes[0], '/');
+  char more[32] = "", view[128] = "";
+  if (options->mesh_count > 1)
+    snprintf(more, sizeof more, " and %zu more", options->mesh_count - 1);
+  if (options->view)
+    snprintf(view, sizeof view, ", view %.100s", options->view);
+  snprintf(text, size, "%.200s%s%s, %ux%u", slash ? slash + 1 : options->meshes[0], more, view, frame->params->width,
+           frame->params->height);
+  return text;
+}
+
 /* One picture by one program. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_view *view,
@@ -198,7 +211,9 @@ static trax_status run_program(struct trax_picture *picture, const struct option
   if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
     struct trax_run_progress shown = {.line = progress, .step = "rendering"};
+    char title[512];
     struct trax_simulated_options run = {.explain = &options->explain,
+                                         .title = describe(title, sizeof title, options, frame),
                                          .is_twin = !options->program && !options->source,
                                          .run = {.output = stderr,
                                                  .total_items = (uint64_t)frame->params->width * frame->params->height,

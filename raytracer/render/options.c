@@ -101,7 +101,7 @@ static const trax_option rows[] = {
      .meaning = "host threads of engines fast and native (default: all processors)"},
     TRAX_OPTION_GROUP("What the run took"),
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
-    {"explore", .argument = "FILE.html", OUTPUT(explain.explore, "html"),
+    {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile, NULL),
      .meaning = "writes thread-cycles by function and by source line"},

@@ -265,6 +265,7 @@ struct trax_simulated_options {
   trax_run_options run;
   const struct trax_explain_options *explain; /* NULL: nothing is explained */
   struct trax_costs *costs;                   /* to fill; NULL: not wanted */
+  const char *title;                          /* of the page that explains the run; NULL: the program's name */
   bool is_twin;                               /* the program visits the nodes and triangles that the twin does */
 };
 

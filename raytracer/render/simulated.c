@@ -109,6 +109,27 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
   return status;
 }
 
+/* The sections of the scene in the machine's memory, if it has them. */
+static size_t list_parts(struct trax_explore_part parts[TRAX_SCENE_SECTIONS], trax_machine *machine) {
+  static const char *const names[TRAX_SCENE_SECTIONS] = {
+      [TRAX_SCENE_NODES] = "scene: nodes",       [TRAX_SCENE_TRIANGLES] = "scene: triangles",
+      [TRAX_SCENE_MATERIALS] = "scene: materials", [TRAX_SCENE_SOURCE_IDS] = "scene: source numbers",
+      [TRAX_SCENE_NORMALS] = "scene: normals",   [TRAX_SCENE_UVS] = "scene: texture coordinates",
+      [TRAX_SCENE_TEXTURES] = "scene: textures", [TRAX_SCENE_TEXELS] = "scene: texels"};
+  uint32_t address, size;
+  uint8_t *bytes;
+  trax_error none;
+  size_t count = 0;
+  if (trax_machine_buffer(machine, "scene", &address, &bytes, &size, &none) != TRAX_OK)
+    return 0;
+  const struct trax_scene_header *header = (const struct trax_scene_header *)bytes;
+  for (unsigned kind = 0; kind < TRAX_SCENE_SECTIONS; kind++)
+    if (header->sections[kind].size)
+      parts[count++] = (struct trax_explore_part){names[kind], address + header->sections[kind].offset,
+                                                  header->sections[kind].size};
+  return count;
+}
+
 trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
                                const struct trax_simulated_options *options, trax_error *error) {
   struct trax_explain_options wanted = options->explain ? *options->explain : (struct trax_explain_options){0};
@@ -116,6 +137,12 @@ trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_f
   if (options->costs || wanted.explore) {
     wanted.item_buffer = "image";
     wanted.item_bytes = trax_frame_image_bytes(frame) / (frame->params->width * frame->params->height);
+  }
+  struct trax_explore_part parts[TRAX_SCENE_SECTIONS];
+  if (wanted.explore) {
+    wanted.title = options->title;
+    wanted.parts = parts;
+    wanted.part_count = list_parts(parts, machine);
   }
   if (trax_explain_begin(&explain, machine, &wanted, error) != TRAX_OK)
     return TRAX_ERROR;

@@ -86,6 +86,7 @@ CASES = {
                       "signature.elf", 1, FILES, "b"),
     "stats": Case(["stats.json"], statistic("status", "finished"), bad=FILES, twice="b"),
     "report": Case(["report.txt"], file_holds("report.txt", "Thread-cycles by cause"), bad=FILES, twice="b"),
+    "explore": Case(["out.txt"], file_holds("out.txt", "<!doctype html>"), bad=FILES, twice="b"),
     "profile": Case(["out.txt"], file_holds("out.txt", "outer|mix|_start|[0-9]"), bad=FILES, twice="b"),
     "profile-folded": Case(["out.txt"], file_holds("out.txt", r" \d+\n"), bad=FILES, twice="b"),
     "annotate": Case(["out.txt"], file_holds("out.txt", "addi"), bad=FILES, twice="b"),

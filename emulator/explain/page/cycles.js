@@ -4,15 +4,16 @@ const locationOf = (run, line) => line.slice(line.lastIndexOf("/") + 1);
 
 function drawHead({ stats, run, causes, lines }) {
   const chip = stats.configuration.chip, program = stats.program.slice(stats.program.lastIndexOf("/") + 1);
-  document.title = `${program} on ${chip.tms}x${chip.tps_per_tm}: ${whole(stats.cycles)} cycles`;
-  byId("title").textContent = `${program} on ${chip.tms}x${chip.tps_per_tm}`;
+  const title = `${run.title ?? program} on ${chip.tms}x${chip.tps_per_tm}`;
+  document.title = `${title}: ${whole(stats.cycles)} cycles`;
+  byId("title").textContent = title;
   const dram = stats.configuration.memory.model === "dram";
   byId("about").textContent = `${whole(stats.threads)} threads at ${chip.clock_mhz} MHz, ${dram ? "DRAM" : `${stats.configuration.memory.bandwidth_gbps} GB/s off-chip`}; ` +
     `${stats.status}${stats.exit_status === null ? "" : `, exit status ${stats.exit_status}`}; trax ${stats.trax_sim}`;
   const tiles = [
     ["Cycles", whole(stats.cycles), scaled(stats.seconds, "s"), "cycles"],
     stats.rays ? ["Rays per second", `${digits(stats.mrps)} M`, `${whole(stats.rays)} rays`, "mrps"] : null,
-    ["Threads that issue", percent(stats.issue.utilisation), `${whole(stats.instructions)} instructions, ${digits(stats.instructions_per_cycle)} a cycle`, "issue.utilisation"],
+    ["Issue utilisation", percent(stats.issue.utilisation), `${whole(stats.instructions)} instructions, ${digits(stats.instructions_per_cycle)} a cycle`, "issue.utilisation"],
     ["Off-chip memory", `${digits(stats.memory.bandwidth_gbps)} GB/s`, `${percent(stats.memory.utilisation)} of the peak; ${bytesText(stats.memory.bytes)}`, "memory.bandwidth_gbps"],
     ["Data cache", percent(stats.dcache.hit_rate), `of ${whole(stats.dcache.hits + stats.dcache.misses + stats.dcache.merged)} loads hit`, "dcache.hit_rate"],
     ["Power on the chip", scaled(stats.energy.average_power, "W"), stats.rays ? `${scaled(stats.energy.per_ray, "J")} a ray; a lower bound` : `${scaled(stats.energy.total, "J")}; a lower bound`, "energy.average_power"],
@@ -39,15 +40,16 @@ function drawCauses({ stats, causes }) {
   const cyclesOf = (tm) => Object.values(tm.causes).reduce((sum, cycles) => sum + cycles, 0);
   fillTable("tms-table", "By TM", [["TM"], ["causes", "wide"], ["issued", "n"], ["d-cache hits", "n"], ["rays", "n"]], stats.tms.map((tm) => [
     [`TM ${tm.tm}`, tm.tm], stack(causes, tm.causes, cyclesOf(tm)), [percent(tm.issue.utilisation), tm.issue.utilisation], [percent(tm.dcache.hit_rate), tm.dcache.hit_rate], [whole(tm.rays), tm.rays]]));
+  byId("threads").open = stats.threads <= 128;
   byId("threads").addEventListener("toggle", () => {
     if (byId("threads-bars").firstChild) return;
-    for (const tm of stats.tms) for (const tp of tm.tps) byId("threads-bars").append(element("div", {}, `${tm.tm}.${tp.tp}`, stack(causes, tp.causes, stats.cycles, "thin")));
+    for (const tm of stats.tms) byId("threads-bars").append(element("div", {}, `TM ${tm.tm}`, ...tm.tps.map((tp) => stack(causes, tp.causes, stats.cycles, "thin", false, `TM ${tm.tm}, TP ${tp.tp}: `))));
   });
 }
 
 // --- over time ---
 
-const WIDTH = 1100, LEFT = 58, RIGHT = 12;
+const WIDTH = 1100, LEFT = 48, RIGHT = 12;
 
 function ticksOf(most, count) {
   const step = 10 ** Math.floor(Math.log10(most / count || 1)), factor = [1, 2, 5, 10].find((one) => most / (one * step) <= count) ?? 10;
@@ -62,9 +64,9 @@ function chart(place, title, rows, end, height, most, unit, draw, told, width = 
     svg.append(shape("line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y(tick), y2: y(tick) }), shape("text", { x: LEFT - 6, y: y(tick) + 4, "text-anchor": "end" }, `${digits(tick)}${unit}`));
   }
   draw(svg, x, y);
-  const last = ticksOf(end, width > 800 ? 10 : 5);
+  const last = ticksOf(end, width > 800 ? 10 : 4);
   for (const tick of last) svg.append(shape("text", { x: x(tick), y: height - 8, "text-anchor": tick ? "middle" : "start" }, tick ? scaled(tick, "") : "0"));
-  svg.append(shape("text", { x: width - RIGHT, y: height - 8, "text-anchor": "end", class: x(last.at(-1)) > width - 110 ? "hidden" : "" }, x(last.at(-1)) > width - 110 ? "" : "cycles"));
+  if (x(last.at(-1)) < width - 70) svg.append(shape("text", { x: width - RIGHT, y: height - 8, "text-anchor": "end" }, "cycles"));
   svg.append(shape("line", { class: "axis", x1: LEFT, x2: width - RIGHT, y1: y(0), y2: y(0) }));
   const cursor = shape("line", { class: "cursor", y1: top, y2: height - bottom, visibility: "hidden" });
   svg.append(cursor);
@@ -89,7 +91,7 @@ function chart(place, title, rows, end, height, most, unit, draw, told, width = 
     if (step) { point(at + step); event.preventDefault(); }
     if (event.key === "Escape") leave();
   });
-  place.append(element("figure", {}, svg, element("figcaption", {}, title)));
+  place.append(element("figure", {}, element("figcaption", {}, title), svg));
 }
 
 const steps = (rows, x, y) => rows.map((row) => `${x(row.begin).toFixed(1)} ${y(row).toFixed(1)} ${x(row.end).toFixed(1)} ${y(row).toFixed(1)}`).join(" ");
@@ -121,15 +123,15 @@ function drawTime({ stats, causes, series }) {
       [all ? "Off-chip memory (GB/s)" : "Requested from memory (GB/s)", (row) => moved(row) / seconds(row) / 1e9, "", peak],
       ["Loads that hit in the data cache (%)", (row) => loads(row) ? 100 * row["dcache.hits"] / loads(row) : 0, " %", 0, 100],
       ["Million rays per second", (row) => row.rays / seconds(row) / 1e6, ""],
-      ["Requests in the memory queues at the interval's end", (row) => row["memory.queue"], ""],
+      ["Requests in the memory queues", (row) => row["memory.queue"], ""],
     ];
     for (const [title, value, unit, bound, top] of curves) {
       const most = top ?? 1.05 * Math.max(bound || 0, ...rows.map(value));
       if (!(most > 0)) continue;
-      chart(byId("time-lines"), title + (bound ? `; dashed: the peak, ${bound} GB/s` : ""), rows, end, 150, most, unit, (svg, x, y) => {
+      chart(byId("time-lines"), title + (bound ? "; dashed: the peak" : ""), rows, end, 130, most, unit, (svg, x, y) => {
         if (bound) svg.append(shape("line", { class: "bound", x1: x(0), x2: x(end), y1: y(bound), y2: y(bound) }));
         svg.append(shape("polyline", { class: "curve", points: steps(rows, x, (row) => y(value(row))) }));
-      }, (row) => `${title}: ${digits(value(row))}`, 560);
+      }, (row) => `${title}: ${digits(value(row))}${unit}`, 340);
     }
   };
   choice.addEventListener("change", draw);

@@ -62,6 +62,7 @@ function scaled(value, unit, places = 3) {
   return `${digits(value / factor, places)} ${prefix}${unit}`;
 }
 const bytesText = (value) => scaled(value, "B");
+const sizeText = (value) => value >= 2 ** 20 ? `${digits(value / 2 ** 20)} MiB` : value >= 1024 ? `${digits(value / 1024)} KiB` : `${value} B`; // of memories
 const valueText = (value, unit) => typeof value !== "number" ? String(value) : unit === "fraction" ? percent(value) : unit === "J" || unit === "W" || unit === "s" ? scaled(value, unit) :
   Number.isInteger(value) ? whole(value) : digits(value, 6);
 
@@ -143,9 +144,9 @@ function causesOf(stats, figures) {
 }
 
 // A bar of causes; cycles: by name. whole: what its full width is.
-function stack(causes, cycles, total, kind = "", labels = false) {
+function stack(causes, cycles, total, kind = "", labels = false, whose = "") {
   return element("div", { class: `stack ${kind}`, "aria-hidden": "true" }, ...causes.filter(({ name }) => cycles[name] > 0).map(({ name, colour }) => {
     const share = cycles[name] / total, text = `${name} ${percent(share)}`;
-    return element("i", { style: `--c: ${colour}; width: ${100 * share}%`, "data-tip": `${text}\n${whole(cycles[name])} thread-cycles` }, labels && share > 0.055 ? element("span", {}, text) : undefined);
+    return element("i", { style: `--c: ${colour}; width: ${100 * share}%`, "data-tip": `${whose}${text}\n${whole(cycles[name])} thread-cycles` }, labels && share > 0.05 ? element("span", {}, share > 0.14 ? text : percent(share)) : undefined);
   }));
 }

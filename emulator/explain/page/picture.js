@@ -82,14 +82,14 @@ function drawPicture({ stats, run, causes, columns }) {
     const place = `(${i % width}, ${Math.floor(i / width)})`, thread = columns.thread.values[i] - 1;
     if (thread < 0) { byId("story").replaceChildren(element("h3", {}, `Pixel ${place}`), element("p", {}, "The run ended before this pixel.")); return; }
     const tps = stats.configuration.chip.tps_per_tm, begin = columns.begin ? columns.begin.values[i] : 0;
-    const facts = [`${whole(cycles[i])} cycles`, `more than ${percent(beyond(costs, cycles[i]))} of the pixels`, `mean ${whole(meanOf(cycles))}`];
+    const facts = [`${whole(cycles[i])} cycles`, beyond(costs, cycles[i]) * pixels >= pixels - 1 ? "the costliest" : `more than ${(Math.floor(1000 * beyond(costs, cycles[i])) / 10).toFixed(1)} % of the pixels`, `mean ${whole(meanOf(cycles))}`];
     const table = element("table", { id: "story-table" }), own = Object.fromEntries(inGroup("causes").map((column) => [column.name, column.values[i]]));
     byId("story").replaceChildren(element("h3", {}, `Pixel ${place}: ${facts.join(", ")}`),
       element("p", {}, `Thread ${thread} (TM ${Math.floor(thread / tps)}, TP ${thread % tps}), cycles ${whole(begin)} to ${whole(begin + cycles[i])}. `,
         ...[rays ? `${whole(rays[i])} rays${kinds.length > 1 ? ` (${kinds.filter((kind) => kind.values[i]).map((kind) => `${whole(kind.values[i])} ${kind.name}`).join(", ")})` : ""}` : "",
           ...counts.map((count) => `${whole(count.values[i])} ${count.name}`), `${whole(own.issued ?? 0)} instructions`].filter((part) => part).join(", ") + "."),
       stack(causes, own, cycles[i]), element("div", { class: "scroll" }, table));
-    fillTable("story-table", "", [["cause"], ["cycles", "n"], ["share", "n"], ["of the mean pixel's", "n"]], causes.filter(({ name }) => own[name]).sort((a, b) => own[b.name] - own[a.name]).map(({ name, colour }) => {
+    fillTable("story-table", "", [["cause"], ["cycles", "n"], ["share", "n"], ["against the mean pixel", "n"]], causes.filter(({ name }) => own[name]).sort((a, b) => own[b.name] - own[a.name]).map(({ name, colour }) => {
       const mean = meanOf(columns[`causes.${name}`].values);
       return [[element("span", {}, element("i", { class: "swatch", style: `--c: ${colour}` }), name), name], [whole(own[name]), own[name]], [percent(own[name] / cycles[i]), own[name]], [`${digits(own[name] / mean, 2)} times`, own[name] / mean]];
     }));

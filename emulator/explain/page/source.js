@@ -24,7 +24,7 @@ function drawSource({ stats, run, causes, lines }) {
   const totalOf = (line) => line.total / stats.thread_cycles, files = new Map();
   for (const line of lines) files.set(line.name ? fileOf(line.name) : "", (files.get(line.name ? fileOf(line.name) : "") ?? 0) + line.total);
   const ranked = [...files.entries()].sort((a, b) => b[1] - a[1]), textOf = (name) => (run.sources[fileOf(name)] ?? "").split("\n")[numberOf(name) - 1]?.trim() ?? "";
-  fillTable("lines-table", "The costliest lines", [["line"], ["share", "n"], ["causes", "bar"], ["instructions", "n"], ["loads that hit", "n"], ["text", "code"]], lines.filter((line) => line.name).slice(0, 12).map((line) => [
+  fillTable("lines-table", "The costliest lines", [["line"], ["share", "n"], ["causes", "bar"], ["instructions", "n"], ["loads that hit", "n"], ["text", "clip"]], lines.filter((line) => line.name).slice(0, 12).map((line) => [
     [element("button", { type: "button", class: "code", onclick: () => run.openLine(line.name) }, locationOf(run, line.name)), line.name], [percent(totalOf(line)), line.total],
     stack(causes, line.cycles, lines.find((one) => one.name).total), [whole(line.issued), line.issued], [line.loads ? percent(line.hits / line.loads) : "", line.loads ? line.hits / line.loads : -1], element("code", {}, textOf(line.name))]));
 

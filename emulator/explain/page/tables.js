@@ -5,12 +5,12 @@ function drawHardware({ stats, figures, causes }) {
   const meanings = new Map(figures.map(([name, unit, meaning]) => [name, { unit, meaning }]));
   const units = figures.map(([name]) => name.match(/^(\w+)\.utilisation$/)?.[1]).filter((name) => name && !["issue", "memory", "l2"].includes(name) && stats[name].operations !== undefined);
   const range = (values) => `${percent(Math.min(...values))} to ${percent(Math.max(...values))}`;
-  fillTable("units-table", "Shared units", [["unit"], ["busy", "n"], ["", "bar"], ["of TMs", "n"], ["operations", "n"], ["refused", "n"]], units.map((unit) => [
+  fillTable("units-table", "Shared units", [["unit"], ["busy", "n"], ["", "bar"], ["least and most busy TM", "n"], ["operations", "n"], ["threads refused", "n"]], units.map((unit) => [
     [element("span", { "data-tip": meanings.get(`${unit}.utilisation`).meaning }, unit), unit], [percent(stats[unit].utilisation), stats[unit].utilisation], partBar(stats[unit].utilisation),
     [range(stats.tms.map((tm) => tm[unit].utilisation)), 0], [whole(stats[unit].operations), stats[unit].operations], [percent(share(stats.causes[`${unit}_conflict`] ?? 0)), stats.causes[`${unit}_conflict`] ?? 0]]));
 
-  const caches = [["instruction", stats.icache, `${bytesText(config.icache.bytes)}`], ["data", stats.dcache, `${bytesText(config.dcache.bytes)}`]];
-  if (config.l2?.bytes) caches.push(["second level", stats.l2, bytesText(config.l2.bytes)]);
+  const caches = [["instruction", stats.icache, sizeText(config.icache.bytes)], ["data", stats.dcache, sizeText(config.dcache.bytes)]];
+  if (config.l2?.bytes) caches.push(["second level", stats.l2, sizeText(config.l2.bytes)]);
   fillTable("caches-table", "Caches", [["cache"], ["size", "n"], ["hits", "n"], ["", "bar"], ["lookups", "n"], ["misses", "n"], ["merged", "n"]], caches.map(([name, cache, size]) => [
     name, size, [percent(cache.hit_rate), cache.hit_rate], partBar(cache.hit_rate, "var(--cache)"), [whole(cache.hits + cache.misses + cache.merged), cache.hits], [whole(cache.misses), cache.misses], [whole(cache.merged), cache.merged]]));
 
@@ -20,7 +20,7 @@ function drawHardware({ stats, figures, causes }) {
   rows.push(["at the chip's pins", [bytesText(stats.memory.bytes), stats.memory.bytes], partBar(stats.memory.utilisation, "var(--memory)"), [`${percent(stats.memory.utilisation)} of the time`, 0]]);
   if (stats.channels.length > 1) for (const one of stats.channels) rows.push([`channel ${one.channel}`, [bytesText(one.bytes), one.bytes], partBar(one.utilisation, "var(--memory)"), [`${percent(one.utilisation)} of the time`, 0]]);
   for (const [name, unit, meaning] of figures.filter(([one]) => one.startsWith("dram."))) rows.push([`DRAM: ${meaning}`, [`${whole(figure(stats, name))} ${unit}`, figure(stats, name)], "", ""]);
-  fillTable("memory-table", `Off-chip memory: ${digits(stats.memory.bandwidth_gbps)} GB/s`, [["bytes"], ["", "n"], ["", "bar"], ["", "n"]], rows, false);
+  fillTable("memory-table", `Off-chip memory: ${digits(stats.memory.bandwidth_gbps)} GB/s`, [["what"], ["bytes", "n"], ["", "bar"], ["share", "n"]], rows, false);
 
   const parts = figures.filter(([name]) => name.startsWith("energy.") && !["energy.total", "energy.off_chip", "energy.average_power", "energy.per_ray"].includes(name)).map(([name, , meaning]) => [meaning, figure(stats, name)]);
   const energies = parts.filter(([, value]) => value).sort((a, b) => b[1] - a[1]).map(([meaning, value]) => [meaning, [scaled(value, "J"), value], partBar(value / stats.energy.total), [percent(value / stats.energy.total), value]]);
@@ -29,13 +29,16 @@ function drawHardware({ stats, figures, causes }) {
 }
 
 function drawObjects({ run }) {
-  const objects = rowsOf(run.heat).sort((a, b) => (b.loads + b.stores + b.atomics) - (a.loads + a.stores + a.atomics)), most = Math.max(1, ...objects.map((one) => one.loads + one.stores + one.atomics));
+  // A bound buffer and the object of 8 bytes that says where it is have one name. A buffer's parts stand below it.
+  const listed = rowsOf(run.heat), parts = rowsOf(run.parts), descriptors = new Set(listed.filter((one) => one.bytes === 8 && listed.some((other) => other !== one && other.object === one.object)));
+  for (const one of descriptors) one.object += " (its address)";
+  const objects = [...listed, ...parts].sort((a, b) => (b.loads + b.stores + b.atomics) - (a.loads + a.stores + a.atomics)), most = Math.max(1, ...objects.map((one) => one.loads + one.stores + one.atomics));
   if (!objects.length) { byId("objects").remove(); return; }
-  const cached = (one) => one.hits + one.misses + one.merged;
-  fillTable("objects-table", "Accesses to memory", [["object"], ["address", "n"], ["size", "n"], ["accesses", "n"], ["", "bar"], ["loads", "n"], ["hit", "n"], ["misses", "n"], ["merged", "n"], ["loaded", "n"], ["stores", "n"], ["stored", "n"], ["increments", "n"]],
+  const some = (value, text = whole) => value ? text(value) : "", cached = (one) => one.hits + one.misses + one.merged;
+  fillTable("objects-table", parts.length ? "Accesses to memory; a row such as scene: nodes is a part of the buffer scene" : "Accesses to memory", [["object"], ["address", "n"], ["size", "n"], ["accesses", "n"], ["", "bar"], ["loads", "n"], ["hit", "n"], ["misses", "n"], ["merged", "n"], ["loaded", "n"], ["stores", "n"], ["stored", "n"], ["increments", "n"]],
     objects.map((one) => [[element("code", {}, one.object), one.object], one.address, [bytesText(one.bytes), one.bytes], [whole(one.loads + one.stores + one.atomics), one.loads + one.stores + one.atomics],
-      partBar((one.loads + one.stores + one.atomics) / most), [whole(one.loads), one.loads], [cached(one) ? percent(one.hits / cached(one)) : "", cached(one) ? one.hits / cached(one) : -1], [whole(one.misses), one.misses], [whole(one.merged), one.merged],
-      [bytesText(one.load_bytes), one.load_bytes], [whole(one.stores), one.stores], [bytesText(one.store_bytes), one.store_bytes], [whole(one.atomics), one.atomics]]));
+      partBar((one.loads + one.stores + one.atomics) / most), [some(one.loads), one.loads], [cached(one) ? percent(one.hits / cached(one)) : "", cached(one) ? one.hits / cached(one) : -1], [some(one.misses), one.misses], [some(one.merged), one.merged],
+      [some(one.load_bytes, bytesText), one.load_bytes], [some(one.stores), one.stores], [some(one.store_bytes, bytesText), one.store_bytes], [some(one.atomics), one.atomics]]));
 }
 
 function drawRays({ stats, run, causes }) {
@@ -45,7 +48,7 @@ function drawRays({ stats, run, causes }) {
     "This program counts a pixel's rays together, at its end: all its work stands in the row none. trax-render --mark-rays counts each ray where it begins.";
   fillTable("rays-table", "By kind", [["kind"], ["rays", "n"], ["million a second", "n"], ["of thread-cycles", "n"], ["causes", "bar"], ["issued", "n"], ["cycles a ray", "n"], ["bytes a ray", "n"], ["energy a ray", "n"]], kinds.map((one) => {
     const cause = Object.fromEntries(causes.map(({ name }) => [name, one[name]])), some = one.rays > 0 && one.thread_cycles > 0;
-    return [one.kind, [whole(one.rays), one.rays], [some ? digits(one.mrps) : "", some ? one.mrps : -1], [percent(one.thread_cycles / stats.thread_cycles), one.thread_cycles], stack(causes, cause, stats.thread_cycles),
+    return [one.kind, [one.rays ? whole(one.rays) : "", one.rays], [some ? digits(one.mrps) : "", some ? one.mrps : -1], [percent(one.thread_cycles / stats.thread_cycles), one.thread_cycles], stack(causes, cause, stats.thread_cycles),
       [one.thread_cycles ? percent(one.utilisation) : "", one.utilisation], [some ? whole(one.thread_cycles / one.rays) : "", some ? one.thread_cycles / one.rays : -1], [some ? digits(one.bytes_per_ray) : "", some ? one.bytes_per_ray : -1], [some ? scaled(one.energy_per_ray, "J") : "", some ? one.energy_per_ray : -1]];
   }));
 }

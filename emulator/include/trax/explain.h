@@ -42,6 +42,15 @@ struct trax_explain_options {
   /* An item's place is the address of its last store to this buffer, as an offset in units of item_bytes. */
   const char *item_buffer; /* NULL: none */
   uint32_t item_bytes;
+  /* Of the page: its title (NULL: the program's name), and parts of buffers that are to be counted as objects. */
+  const char *title;
+  const struct trax_explore_part *parts;
+  size_t part_count;
+};
+
+struct trax_explore_part {
+  const char *name;
+  uint32_t address, bytes;
 };
 
 enum { TRAX_SERIES_INTERVAL = 10000 };
@@ -49,7 +58,7 @@ enum { TRAX_SERIES_INTERVAL = 10000 };
 /* Whether the options want any explanation. */
 bool trax_explain_wanted(const struct trax_explain_options *options);
 
-/* Copies the options, but not their strings. *explain is NULL if nothing is wanted, and on an error. */
+/* Copies the options, but not what they point to. *explain is NULL if nothing is wanted, and on an error. */
 trax_status trax_explain_begin(struct trax_explain **explain, trax_machine *machine,
                                const struct trax_explain_options *options, trax_error *error);
 /* Writes the files and releases explain, which may be NULL. */

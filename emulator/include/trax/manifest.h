@@ -51,6 +51,10 @@ void trax_manifest_inputs(const trax_manifest *manifest, trax_files *files);
 /* The i-th buffer that is written after the run, and where to; false behind the last one. */
 bool trax_manifest_output(const trax_manifest *manifest, size_t i, const char **symbol, const char **path);
 
+/* The buffer that is a picture, and its size; false if none is named, or with members that are not understood. */
+bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, uint32_t *width, uint32_t *height,
+                           bool *is_float);
+
 trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *config, trax_error *error);
 /* Loads the program and binds the buffers, if their files have the sizes and hashes that the manifest says. */
 trax_status trax_manifest_load(const trax_manifest *manifest, trax_machine *machine, trax_error *error);
