@@ -19,6 +19,10 @@ def SLT  : InstR<1, 8, "slt", UnitInt, [{ RD = trax_signed(RA) < trax_signed(RB)
 def SLTU : InstR<1, 9, "sltu", UnitInt, [{ RD = RA < RB; }], "1 if ra is less than rb as unsigned numbers, else 0.">;
 def CMOVNZ : InstCMov<1, 10, "cmovnz", [{ if (RB != 0) RD = RA; }], "rd becomes ra if rb is not zero, else it keeps its value.">;
 def CMOVZ  : InstCMov<1, 11, "cmovz", [{ if (RB == 0) RD = RA; }], "rd becomes ra if rb is zero, else it keeps its value.">;
+def MIN  : InstR<1, 12, "min", UnitInt, [{ RD = trax_signed(RA) < trax_signed(RB) ? RA : RB; }], "The lesser operand, as signed numbers.">;
+def MAX  : InstR<1, 13, "max", UnitInt, [{ RD = trax_signed(RA) < trax_signed(RB) ? RB : RA; }], "The greater operand, as signed numbers.">;
+def MINU : InstR<1, 14, "minu", UnitInt, [{ RD = RA < RB ? RA : RB; }], "The lesser operand, as unsigned numbers.">;
+def MAXU : InstR<1, 15, "maxu", UnitInt, [{ RD = RA < RB ? RB : RA; }], "The greater operand, as unsigned numbers.">;
 
 //--- integer multiply: opcode 2 ---------------------------------------------
 def MUL   : InstR<2, 0, "mul", UnitIntMul, [{ RD = RA * RB; }], "Low word of the product.">;

@@ -34,7 +34,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   setOperationAction({ISD::ROTL, ISD::ROTR, ISD::BSWAP, ISD::BITREVERSE, ISD::CTPOP, ISD::CTLZ, ISD::CTTZ,
                       ISD::CTLZ_ZERO_UNDEF, ISD::CTTZ_ZERO_UNDEF, ISD::ABS},
                      MVT::i32, Expand);
-  setOperationAction({ISD::SMIN, ISD::SMAX, ISD::UMIN, ISD::UMAX}, MVT::i32, Expand);
+  setOperationAction({ISD::SMIN, ISD::SMAX, ISD::UMIN, ISD::UMAX}, MVT::i32, Legal);
   setOperationAction(ISD::SIGN_EXTEND_INREG, MVT::i1, Expand);
   setOperationAction(ISD::SELECT_CC, {MVT::i32, MVT::f32}, Expand);
   for (MVT VT : {MVT::i8, MVT::i16, MVT::i32})
@@ -274,6 +274,43 @@ SDValue TraxTargetLowering::performAddCombine(SDNode *N, DAGCombinerInfo &DCI) c
   return DAG.getNode(TraxISD::ADD_LO, DL, MVT::i32, Hi, WithOffset(TraxII::MO_LO));
 }
 
+/// A choice between two floats by a comparison of their words is the lesser or the greater word.
+static SDValue lesserOrGreaterWord(SDNode *N, SelectionDAG &DAG) {
+  SDValue Condition = N->getOperand(0), True = N->getOperand(1), False = N->getOperand(2);
+  if (N->getValueType(0) != MVT::f32 || Condition.getOpcode() != ISD::SETCC)
+    return SDValue();
+  SDValue A = Condition.getOperand(0), B = Condition.getOperand(1);
+  if (A.getOpcode() != ISD::BITCAST || B.getOpcode() != ISD::BITCAST || A.getValueType() != MVT::i32)
+    return SDValue();
+  ISD::CondCode CC = cast<CondCodeSDNode>(Condition.getOperand(2))->get();
+  if (A.getOperand(0) == False && B.getOperand(0) == True)
+    CC = ISD::getSetCCSwappedOperands(CC);
+  else if (A.getOperand(0) != True || B.getOperand(0) != False)
+    return SDValue();
+  unsigned Opcode;
+  switch (CC) {
+  case ISD::SETLT:
+  case ISD::SETLE:
+    Opcode = ISD::SMIN;
+    break;
+  case ISD::SETGT:
+  case ISD::SETGE:
+    Opcode = ISD::SMAX;
+    break;
+  case ISD::SETULT:
+  case ISD::SETULE:
+    Opcode = ISD::UMIN;
+    break;
+  case ISD::SETUGT:
+  case ISD::SETUGE:
+    Opcode = ISD::UMAX;
+    break;
+  default:
+    return SDValue();
+  }
+  return DAG.getBitcast(MVT::f32, DAG.getNode(Opcode, SDLoc(N), MVT::i32, A, B));
+}
+
 /// A choice between two constants that differ by a power of two is a shifted comparison: a conditional move would need
 /// both in registers, and destroy one.
 SDValue TraxTargetLowering::performSelectCombine(SDNode *N, DAGCombinerInfo &DCI) const {
@@ -307,6 +344,8 @@ SDValue TraxTargetLowering::PerformDAGCombine(SDNode *N, DAGCombinerInfo &DCI) c
   case ISD::ADD:
     return performAddCombine(N, DCI);
   case ISD::SELECT:
+    if (SDValue Word = lesserOrGreaterWord(N, DCI.DAG))
+      return Word;
     return performSelectCombine(N, DCI);
   default:
     return SDValue();

@@ -58,9 +58,8 @@ define i32 @select_sge(i32 %a, i32 %b, i32 %t, i32 %f) {
   ret i32 %r
 }
 ; CHECK-LABEL: max:
-; CHECK: slt r12, r5, r4
-; CHECK: cmovz r4, r5, r12
-; CHECK: ret
+; CHECK: max r4, r4, r5
+; CHECK-NEXT: ret
 define i32 @max(i32 %a, i32 %b) {
   %r = call i32 @llvm.smax.i32(i32 %a, i32 %b)
   ret i32 %r

@@ -83,8 +83,8 @@ def check_energy(stats):
     registers = {"r": 3, "r1": 2, "cmov": 4, "store": 2, "u": 1, "none": 0}
     kinds = {"cmov": ["cmovnz", "cmovz"], "store": ["sb", "sh", "sw", "swnt", "beq", "bne", "blt", "bge", "bltu", "bgeu"],
              "u": ["lui", "jal", "rdsr", "trap"], "none": ["halt"],
-             "r": ["add", "sub", "and", "or", "xor", "sll", "srl", "sra", "slt", "sltu", "mul", "mulh", "mulhu", "fadd", "fsub",
-                   "fmin", "fmax", "feq", "flt", "fle", "fmul", "fdiv"]}
+             "r": ["add", "sub", "and", "or", "xor", "sll", "srl", "sra", "slt", "sltu", "min", "max", "minu",
+                   "maxu", "mul", "mulh", "mulhu", "fadd", "fsub", "fmin", "fmax", "feq", "flt", "fle", "fmul", "fdiv"]}
     kind_of = {name: kind for kind, names in kinds.items() for name in names}
     accesses = sum(number * registers[kind_of.get(name, "r1")] for name, number in count.items())
     icache, dcache, local, memory = (stats[name] for name in ("icache", "dcache", "local", "memory"))

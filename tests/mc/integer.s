@@ -74,3 +74,27 @@ cmovz r4, r5, r6
 # CHECK: cmovz r31, r0, r1
 # ENC-SAME: encoding: [0x0b,0x08,0xe0,0x07]
 cmovz r31, r0, r1
+# CHECK: min r4, r5, r6
+# ENC-SAME: encoding: [0x0c,0x30,0x85,0x04]
+min r4, r5, r6
+# CHECK: min r31, r0, r1
+# ENC-SAME: encoding: [0x0c,0x08,0xe0,0x07]
+min r31, r0, r1
+# CHECK: max r4, r5, r6
+# ENC-SAME: encoding: [0x0d,0x30,0x85,0x04]
+max r4, r5, r6
+# CHECK: max r31, r0, r1
+# ENC-SAME: encoding: [0x0d,0x08,0xe0,0x07]
+max r31, r0, r1
+# CHECK: minu r4, r5, r6
+# ENC-SAME: encoding: [0x0e,0x30,0x85,0x04]
+minu r4, r5, r6
+# CHECK: minu r31, r0, r1
+# ENC-SAME: encoding: [0x0e,0x08,0xe0,0x07]
+minu r31, r0, r1
+# CHECK: maxu r4, r5, r6
+# ENC-SAME: encoding: [0x0f,0x30,0x85,0x04]
+maxu r4, r5, r6
+# CHECK: maxu r31, r0, r1
+# ENC-SAME: encoding: [0x0f,0x08,0xe0,0x07]
+maxu r31, r0, r1

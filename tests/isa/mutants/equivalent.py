@@ -8,6 +8,8 @@ EQUIVALENT = [
     ("jal: bit 31 of the result is lost", "memory ends below 2 GiB"),
     ("jalr: bit 31 of the result is lost", "memory ends below 2 GiB"),
     ("rdsr: bit 31 of the result is lost", "no number is so large, but the cycle after 2^31 cycles"),
+    ("m[ai][nx]: <= for <", "either of two equal words is the result"),
+    ("m[ai][nx]u: <= for <", "either of two equal words is the result"),
     ("feq: two negative numbers are compared by magnitude", "they are equal if their magnitudes are"),
     ("fcvt.wu.s: downwards", "the same for what is not negative, and the rest gives 0"),
     ("trap: rays *", "the host counts, and no signature shows it"),

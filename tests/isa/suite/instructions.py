@@ -29,8 +29,8 @@ _memory = Row()
 
 ROWS = {
     "ADD": _integer, "SUB": _integer, "AND": _integer, "OR": _integer, "XOR": _integer, "SLL": _integer, "SRL": _integer,
-    "SRA": _integer, "SLT": _integer, "SLTU": _integer, "CMOVNZ": _integer, "CMOVZ": _integer, "MUL": _integer, "MULH": _integer,
-    "MULHU": _integer,
+    "SRA": _integer, "SLT": _integer, "SLTU": _integer, "CMOVNZ": _integer, "CMOVZ": _integer,
+    "MIN": _integer, "MAX": _integer, "MINU": _integer, "MAXU": _integer, "MUL": _integer, "MULH": _integer, "MULHU": _integer,
     "FADD": _sum, "FSUB": _sum, "FMUL": Row(operands.FLOATS, operands.products()), "FDIV": Row(operands.FLOATS, operands.quotients()),
     "FMIN": _comparison, "FMAX": _comparison, "FEQ": _comparison, "FLT": _comparison, "FLE": _comparison,
     "FRSQRT": Row(operands.reciprocal_root_operands()),
