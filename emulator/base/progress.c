@@ -7,6 +7,8 @@
 
 #define REDRAW_SECONDS 0.1
 
+static trax_progress_line *drawn; /* the line that is on the terminal */
+
 double trax_seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -17,8 +19,11 @@ void trax_progress_line_begin(trax_progress_line *line, const char *program, boo
   *line = (trax_progress_line){.terminal = !quiet && isatty(STDERR_FILENO) ? stderr : NULL, .program = program};
 }
 
-static void print_time_left(FILE *out, double seconds) {
-  const unsigned long whole = (unsigned long)(seconds + 0.5);
+/* The larger of both times. */
+static void print_time_left(FILE *out, double rest, double waited) {
+  const unsigned long whole = (unsigned long)((rest > waited ? rest : waited) + 0.5);
+  if (whole == 0)
+    return;
   if (whole >= 3600)
     fprintf(out, ", %lu:%02lu:%02lu left", whole / 3600, whole / 60 % 60, whole % 60);
   else
@@ -34,6 +39,9 @@ static bool is_due(trax_progress_line *line, const char *step, double fraction, 
     line->drawn_at = is_new ? 0 : line->drawn_at;
     snprintf(line->step, sizeof line->step, "%s", step);
   }
+  if (is_new || fraction != line->latest)
+    line->moved_at = now;
+  line->latest = fraction;
   return now - line->drawn_at >= REDRAW_SECONDS;
 }
 
@@ -50,13 +58,14 @@ bool trax_progress_line_show(trax_progress_line *line, const char *step, double 
     return false;
   line->drawn_at = now;
   line->drawn = true;
+  drawn = line;
   fprintf(out, "\r%s: %s", line->program, line->step);
   if (detail)
     fprintf(out, ", %.300s", detail);
   if (fraction >= 0)
     fprintf(out, ", %.1f %%", 100 * (fraction < 1 ? fraction : 1));
-  if (line->first >= 0 && fraction > line->first && fraction <= 1 && now - line->begun > 2 * REDRAW_SECONDS)
-    print_time_left(out, (now - line->begun) * (1 - fraction) / (fraction - line->first));
+  if (line->first >= 0 && fraction > line->first && fraction < 1 && now - line->begun > 2 * REDRAW_SECONDS)
+    print_time_left(out, (now - line->begun) * (1 - fraction) / (fraction - line->first), now - line->moved_at);
   fprintf(out, "\033[K"); /* erases the rest of a longer line before */
   fclose(out);
   fputs(text, line->terminal);
@@ -70,6 +79,12 @@ void trax_progress_line_clear(trax_progress_line *line) {
     fflush(line->terminal);
   }
   line->drawn = false;
+  drawn = drawn == line ? NULL : drawn;
+}
+
+void trax_progress_clear_drawn(void) {
+  if (drawn)
+    trax_progress_line_clear(drawn);
 }
 
 static ssize_t write_beside(void *cookie, const char *bytes, size_t size) {

@@ -11,6 +11,7 @@
 #include "host/shown.h"
 #include "report/backtrace.h"
 #include "report/watchdog.h"
+#include "trax/message.h"
 #include "trax/output.h"
 #include "trax/run_progress.h"
 #include "trax/signals.h"
@@ -38,7 +39,10 @@ static void catch_signals(void) {
 static int complain(const trax_error *error) {
   fflush(stdout);
   const bool interrupted = trax_signal && !reader_gone;
-  fprintf(stderr, "trax-sim: %s%s\n", interrupted ? "" : "error: ", error->message);
+  if (interrupted)
+    fprintf(stderr, "trax-sim: %s\n", error->message);
+  else
+    trax_message("trax-sim", TRAX_MESSAGE_ERROR, "%s", error->message);
   return interrupted ? EXIT_SIGNAL + trax_signal : EXIT_ERROR;
 }
 
@@ -307,7 +311,7 @@ int main(int count, char **arguments) {
   struct trax_options options;
   const trax_parsed parsed = trax_options_parse(&options, count, arguments, &error);
   if (parsed == TRAX_PARSED_WRONG) {
-    fprintf(stderr, "trax-sim: error: %s (--help lists the options)\n", error.message);
+    trax_message("trax-sim", TRAX_MESSAGE_ERROR, "%s (--help lists the options)", error.message);
     trax_options_free(&options);
     return EXIT_ERROR;
   }
@@ -316,7 +320,7 @@ int main(int count, char **arguments) {
   if (parsed == TRAX_PARSED_DONE) {
     result = flush_standard_output(EXIT_SUCCESS);
   } else if (!config) {
-    fprintf(stderr, "trax-sim: error: out of memory\n");
+    trax_message("trax-sim", TRAX_MESSAGE_ERROR, "out of memory");
   } else if (configure(config, &options, &error) != TRAX_OK) {
     complain(&error);
   } else if (options.print_config) {

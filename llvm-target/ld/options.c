@@ -19,6 +19,7 @@ typedef enum option_id {
   OPT_NO_DEMANGLE,
   OPT_FATAL_WARNINGS,
   OPT_GC,
+  OPT_HEADING, /* no option: its help stands above those that follow */
   OPT_HELP,
   OPT_KEYWORD,
   OPT_LIBRARY,
@@ -67,55 +68,62 @@ typedef struct option {
 
 /* clang-format off */
 static const option option_table[] = {
+    {"", NONE, OPT_HEADING, NULL, "Files"},
     {"o", JOINED, OPT_OUTPUT, "FILE", "write the executable to FILE (default a.out)"},
     {"output", VALUE, OPT_OUTPUT, "FILE", NULL},
-    {"e", JOINED, OPT_ENTRY, "SYMBOL", "start at SYMBOL or at an address (default _start)"},
-    {"entry", VALUE, OPT_ENTRY, "SYMBOL", NULL},
-    {"r", NONE, OPT_RELOCATABLE, NULL, "make one relocatable object instead of an executable"},
-    {"relocatable", NONE, OPT_RELOCATABLE, NULL, NULL},
     {"L", JOINED, OPT_LIBRARY_PATH, "DIR", "search DIR for libraries"},
     {"library-path", VALUE, OPT_LIBRARY_PATH, "DIR", NULL},
     {"l", JOINED, OPT_LIBRARY, "NAME", "link libNAME.a, or the file NAME if written -l:NAME"},
     {"library", VALUE, OPT_LIBRARY, "NAME", NULL},
+    {"whole-archive", NONE, OPT_WHOLE_ARCHIVE, NULL, "take every member of the archives that follow"},
+    {"no-whole-archive", NONE, OPT_NO_WHOLE_ARCHIVE, NULL, "take only needed members (default)"},
+    {"", NONE, OPT_HEADING, NULL, "What is linked"},
+    {"e", JOINED, OPT_ENTRY, "SYMBOL", "start at SYMBOL or at an address (default _start)"},
+    {"entry", VALUE, OPT_ENTRY, "SYMBOL", NULL},
+    {"r", NONE, OPT_RELOCATABLE, NULL, "make one relocatable object instead of an executable"},
+    {"relocatable", NONE, OPT_RELOCATABLE, NULL, NULL},
     {"u", JOINED, OPT_UNDEFINED, "SYMBOL", "take and keep the definition of SYMBOL"},
     {"undefined", VALUE, OPT_UNDEFINED, "SYMBOL", NULL},
     {"defsym", VALUE, OPT_DEFSYM, "NAME=VALUE", "define NAME as a sum of numbers and at most one symbol"},
     {"wrap", VALUE, OPT_WRAP, "SYMBOL", "references to SYMBOL go to __wrap_SYMBOL, those to __real_SYMBOL to SYMBOL"},
     {"allow-multiple-definition", NONE, OPT_ALLOW_MULTIPLE, NULL, "of several definitions of a symbol take the first"},
-    {"whole-archive", NONE, OPT_WHOLE_ARCHIVE, NULL, "take every member of the archives that follow"},
-    {"no-whole-archive", NONE, OPT_NO_WHOLE_ARCHIVE, NULL, "take only needed members (default)"},
     {"gc-sections", NONE, OPT_GC, NULL, "drop sections that the program cannot reach"},
     {"no-gc-sections", NONE, OPT_NO_GC, NULL, "keep all sections (default)"},
     {"print-gc-sections", NONE, OPT_PRINT_GC, NULL, "print the dropped sections"},
     {"no-print-gc-sections", NONE, OPT_NO_PRINT_GC, NULL, NULL},
+    {"", NONE, OPT_HEADING, NULL, "Symbols and debug information"},
     {"s", NONE, OPT_STRIP_ALL, NULL, "leave out symbols and debug information"},
     {"strip-all", NONE, OPT_STRIP_ALL, NULL, NULL},
     {"S", NONE, OPT_STRIP_DEBUG, NULL, "leave out debug information"},
     {"strip-debug", NONE, OPT_STRIP_DEBUG, NULL, NULL},
+    {"", NONE, OPT_HEADING, NULL, "Layout"},
     {"Ttext", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put the image at ADDRESS (default 0x1000; a multiple of 64)"},
     {"Tdata", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put .data at ADDRESS, a multiple of 64, and what follows behind it"},
     {"Tbss", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put .bss at ADDRESS, likewise"},
     {"section-start", VALUE, OPT_SECTION_START, "NAME=ADDRESS", "put the section NAME at ADDRESS, likewise"},
     {"symbol-ordering-file", VALUE, OPT_ORDERING, "FILE", "put the sections of the symbols that FILE lists first, in its order"},
+    {"", NONE, OPT_HEADING, NULL, "What is reported"},
     {"Map", VALUE, OPT_MAP, "FILE", "write a map of the image to FILE, - for standard output"},
     {"M", NONE, OPT_MAP_STDOUT, NULL, "print the map"},
     {"print-map", NONE, OPT_MAP_STDOUT, NULL, NULL},
     {"print-memory-usage", NONE, OPT_PRINT_MEMORY, NULL, "print the sizes of text, data and local memory"},
     {"print-stack", NONE, OPT_PRINT_STACK, NULL, "print the deepest path of calls, and what has no bound"},
-    {"stack-check", VALUE, OPT_STACK_CHECK, "MODE", "a stack too deep for its room: error (default), warn or none"},
-    {"no-stack-check", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
-    {"no-check-stack", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
-    {"z", JOINED, OPT_KEYWORD, "stack-size=N", "the stack's room is N bytes (default: what local memory has left)"},
     {"t", NONE, OPT_TRACE, NULL, "print the files that are linked"},
     {"trace", NONE, OPT_TRACE, NULL, NULL},
     {"verbose", NONE, OPT_TRACE, NULL, NULL},
-    {"error-limit", VALUE, OPT_ERROR_LIMIT, "N", "show at most N errors (default 20; 0: all)"},
     {"demangle", NONE, OPT_DEMANGLE, NULL, NULL},
     {"no-demangle", NONE, OPT_NO_DEMANGLE, NULL, "print names of C++ as they stand in the files"},
+    {"error-limit", VALUE, OPT_ERROR_LIMIT, "N", "show at most N errors (default 20; 0: all)"},
     {"fatal-warnings", NONE, OPT_FATAL_WARNINGS, NULL, "warnings are errors"},
     {"no-fatal-warnings", NONE, OPT_NO_FATAL_WARNINGS, NULL, NULL},
     {"w", NONE, OPT_NO_WARNINGS, NULL, "no warnings"},
     {"no-warnings", NONE, OPT_NO_WARNINGS, NULL, NULL},
+    {"", NONE, OPT_HEADING, NULL, "Stack"},
+    {"stack-check", VALUE, OPT_STACK_CHECK, "MODE", "a stack too deep for its room: error (default), warn or none"},
+    {"no-stack-check", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
+    {"no-check-stack", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
+    {"z", JOINED, OPT_KEYWORD, "stack-size=N", "the stack's room is N bytes (default: what local memory has left)"},
+    {"", NONE, OPT_HEADING, NULL, "Other"},
     {"v", NONE, OPT_V, NULL, "print the version, then link if there is something to link"},
     {"version", NONE, OPT_VERSION, NULL, "print the version"},
     {"V", NONE, OPT_V, NULL, NULL},
@@ -155,11 +163,13 @@ static const option option_table[] = {
 
 void ld_print_help(FILE *out) {
   fputs("usage: trax-ld [options] file...\n"
-        "Links relocatable objects and archives into an executable for the TP.\n\n",
+        "Links relocatable objects and archives into an executable for the TP.\n",
         out);
   for (size_t i = 0; i < OPTION_COUNT; i++) {
     const option *option = &option_table[i];
-    if (!option->help || option->id == OPT_REJECTED)
+    if (option->id == OPT_HEADING)
+      fprintf(out, "\n%s:\n", option->help);
+    if (!option->help || option->id == OPT_REJECTED || option->id == OPT_HEADING)
       continue;
     size_t length = strlen(option->name);
     char spelled[64];
@@ -169,9 +179,9 @@ void ld_print_help(FILE *out) {
              : option->argument == JOINED ? " "
                                           : "=",
              option->metavar ? option->metavar : "");
-    fprintf(out, "  %-26s %s\n", spelled, option->help);
+    fprintf(out, "  %-29s  %s\n", spelled, option->help);
   }
-  fputs("  @FILE                      read options from FILE\n", out);
+  fprintf(out, "  %-29s  %s\n", "@FILE", "read options from FILE");
 }
 
 /* The option that argument spells, with its value in *value where it is joined; NULL if none. */
@@ -307,6 +317,7 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   ld_options *options = &ctx->options;
   switch (option->id) {
   case OPT_ACCEPTED:
+  case OPT_HEADING:
     break;
   case OPT_DEFSYM:
     add_defsym(ctx, value);

@@ -2,6 +2,7 @@
 #include "ld.h"
 
 #include "trax/input.h"
+#include "trax/message.h"
 #include "trax/output.h"
 #include "trax/signals.h"
 
@@ -30,7 +31,7 @@ void *ld_alloc(ld_context *ctx, size_t size) {
     size_t chunk_size = rounded > LD_CHUNK_SIZE / 4 ? rounded : LD_CHUNK_SIZE;
     struct ld_chunk *fresh = rounded < size ? NULL : calloc(1, sizeof *fresh + chunk_size);
     if (!fresh) {
-      fprintf(stderr, "trax-ld: error: out of memory (%zu bytes wanted)\n", size);
+      trax_message("trax-ld", TRAX_MESSAGE_ERROR, "out of memory (%zu bytes wanted)", size);
       longjmp(ctx->out_of_memory, 1);
     }
     fresh->size = chunk_size;
@@ -136,8 +137,8 @@ uintptr_t ld_map_find(const ld_map *map, const void *key, size_t length) {
 
 /* --- diagnostics --- */
 
-static void print_message(ld_context *ctx, const char *severity, const char *format, va_list args) {
-  fprintf(stderr, "trax-ld: %s: %s\n", severity, ld_demangle(ctx, vformat(ctx, format, args)));
+static void print_message(ld_context *ctx, trax_message_kind kind, const char *format, va_list args) {
+  trax_message("trax-ld", kind, "%s", ld_demangle(ctx, vformat(ctx, format, args)));
 }
 
 void ld_error(ld_context *ctx, const char *format, ...) {
@@ -146,7 +147,7 @@ void ld_error(ld_context *ctx, const char *format, ...) {
     return;
   va_list args;
   va_start(args, format);
-  print_message(ctx, "error", format, args);
+  print_message(ctx, TRAX_MESSAGE_ERROR, format, args);
   va_end(args);
 }
 
@@ -156,7 +157,7 @@ void ld_warning(ld_context *ctx, const char *format, ...) {
   ctx->warning_count++;
   va_list args;
   va_start(args, format);
-  print_message(ctx, "warning", format, args);
+  print_message(ctx, TRAX_MESSAGE_WARNING, format, args);
   va_end(args);
 }
 

@@ -2,12 +2,15 @@
 #include "ToolSupport.h"
 #include "LLVMTrax.h"
 #include "trax/files.h"
+#include "trax/message.h"
 #include "trax/version.h"
 #include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/CommandLine.h"
 #include "llvm/Support/Path.h"
 #include "llvm/Support/WithColor.h"
 #include "llvm/Support/raw_ostream.h"
+
+#include <unistd.h>
 
 using namespace llvm;
 
@@ -16,6 +19,8 @@ static std::string ToolName = "trax";
 const Target &trax::startTool(int Argc, char **Argv, StringRef Overview) {
   ToolName = sys::path::filename(Argv[0]).str();
   LLVMInitializeTrax();
+  WithColor::setAutoDetectFunction(
+      [](const raw_ostream &OS) { return trax_has_colours(&OS == &outs() ? STDOUT_FILENO : STDERR_FILENO); });
   cl::SetVersionPrinter(
       [](raw_ostream &OS) { OS << ToolName << " " TRAX_VERSION " (TRaX toolchain), LLVM " LLVM_VERSION_STRING "\n"; });
   cl::ParseCommandLineOptions(Argc, Argv, Overview);

@@ -34,16 +34,21 @@ using namespace llvm;
 
 enum class FileType { Assembly, Object };
 
-static cl::opt<std::string> Input(cl::Positional, cl::desc("<input file>"), cl::init("-"));
-static cl::opt<std::string> Output("o", cl::desc("Output file"), cl::value_desc("file"), cl::init("-"));
-static cl::opt<FileType> Filetype("filetype", cl::desc("What to write:"), cl::init(FileType::Assembly),
+static cl::OptionCategory Category("Options of trax-mc");
+
+static cl::opt<std::string> Input(cl::Positional, cl::desc("<input file>"), cl::init("-"), cl::cat(Category));
+static cl::opt<std::string> Output("o", cl::desc("Output file"), cl::value_desc("file"), cl::init("-"),
+                                   cl::cat(Category));
+static cl::opt<FileType> Filetype("filetype", cl::desc("What to write:"), cl::cat(Category),
+                                  cl::init(FileType::Assembly),
                                   cl::values(clEnumValN(FileType::Assembly, "asm", "assembly"),
                                              clEnumValN(FileType::Object, "obj", "an ELF object")));
-static cl::opt<bool> ShowEncoding("show-encoding", cl::desc("Print each instruction's bytes"));
-static cl::opt<bool> Disassemble("disassemble", cl::desc("Read bytes, write assembly"));
-static cl::list<std::string> PrinterOptions("M", cl::desc("Printer option: no-aliases"), cl::value_desc("option"));
+static cl::opt<bool> ShowEncoding("show-encoding", cl::desc("Print each instruction's bytes"), cl::cat(Category));
+static cl::opt<bool> Disassemble("disassemble", cl::desc("Read bytes, write assembly"), cl::cat(Category));
+static cl::list<std::string> PrinterOptions("M", cl::desc("Printer option: no-aliases"), cl::value_desc("option"),
+                                            cl::cat(Category));
 static cl::list<std::string> IncludeDirs("I", cl::desc("Directory of .include files"), cl::value_desc("dir"),
-                                         cl::Prefix);
+                                         cl::Prefix, cl::cat(Category));
 
 namespace {
 
@@ -152,6 +157,7 @@ static bool disassemble(const Target &T, Machine &M, raw_pwrite_stream &OS) {
 }
 
 int main(int Argc, char **Argv) {
+  cl::HideUnrelatedOptions(Category);
   const Target &T = trax::startTool(Argc, Argv, "TRaX assembler and disassembler\n");
   trax::checkFiles({Input}, Output);
   ErrorOr<std::unique_ptr<MemoryBuffer>> Buffer = MemoryBuffer::getFileOrSTDIN(Input, /*IsText=*/true);

@@ -18,47 +18,51 @@
 
 using namespace llvm;
 
-static cl::OptionCategory Category("Options of trax-objdump");
+static cl::OptionCategory Listed("What is listed");
+static cl::OptionCategory Shown("How instructions are shown");
+static cl::OptionCategory Limits("Which part is listed");
 
 static cl::list<std::string> Inputs(cl::Positional, cl::OneOrMore, cl::desc("<object, archive or program>..."),
-                                    cl::cat(Category));
+                                    cl::cat(Listed));
 
-#define FLAG(VARIABLE, NAME, DESCRIPTION) static cl::opt<bool> VARIABLE(NAME, cl::desc(DESCRIPTION), cl::cat(Category));
-#define SHORT_FLAG(VARIABLE, LETTER, LONG, DESCRIPTION)                                                                \
-  FLAG(VARIABLE, LONG, DESCRIPTION)                                                                                    \
+#define FLAG(VARIABLE, NAME, CATEGORY, DESCRIPTION)                                                                    \
+  static cl::opt<bool> VARIABLE(NAME, cl::desc(DESCRIPTION), cl::cat(CATEGORY));
+#define SHORT_FLAG(VARIABLE, LETTER, LONG, CATEGORY, DESCRIPTION)                                                      \
+  FLAG(VARIABLE, LONG, CATEGORY, DESCRIPTION)                                                                          \
   static cl::alias VARIABLE##Short(LETTER, cl::desc("Alias for --" LONG), cl::aliasopt(VARIABLE), cl::Grouping,        \
-                                   cl::NotHidden, cl::cat(Category));
+                                   cl::NotHidden, cl::cat(CATEGORY));
 
-SHORT_FLAG(Disassemble, "d", "disassemble", "Instructions of all code; without another option, this one is taken")
-SHORT_FLAG(DisassembleAll, "D", "disassemble-all", "Instructions, and data in hexadecimal")
-SHORT_FLAG(FileHeaders, "f", "file-headers", "The kind of file and where it starts")
-SHORT_FLAG(SectionHeaders, "h", "section-headers", "The sections")
-SHORT_FLAG(LineNumbers, "l", "line-numbers",
+SHORT_FLAG(Disassemble, "d", "disassemble", Listed,
+           "Instructions of all code; without another option, this one is taken")
+SHORT_FLAG(DisassembleAll, "D", "disassemble-all", Listed, "Instructions, and data in hexadecimal")
+SHORT_FLAG(FileHeaders, "f", "file-headers", Listed, "The kind of file and where it starts")
+SHORT_FLAG(SectionHeaders, "h", "section-headers", Listed, "The sections")
+SHORT_FLAG(LineNumbers, "l", "line-numbers", Shown,
            "With the instructions, places in the source (compile with -g); implies -d")
-SHORT_FLAG(ProgramHeaders, "p", "private-headers", "The program headers")
-SHORT_FLAG(Relocations, "r", "reloc", "The relocations; with -d, below what they change")
-SHORT_FLAG(Contents, "s", "full-contents", "The bytes of the sections")
-SHORT_FLAG(Source, "S", "source", "With the instructions, lines of the source; implies -d")
-SHORT_FLAG(Symbols, "t", "syms", "The symbols")
-SHORT_FLAG(AllHeaders, "x", "all-headers", "The same as -f -p -h -t -r")
-FLAG(NoAliases, "no-aliases", "Every instruction under its own mnemonic")
-FLAG(NoLeadingAddr, "no-leading-addr", "No addresses in front of instructions")
-FLAG(NoShowRawInsn, "no-show-raw-insn", "No instructions as numbers")
-FLAG(Units, "units", "With each instruction, the unit that executes it and its latency")
+SHORT_FLAG(ProgramHeaders, "p", "private-headers", Listed, "The program headers")
+SHORT_FLAG(Relocations, "r", "reloc", Listed, "The relocations; with -d, below what they change")
+SHORT_FLAG(Contents, "s", "full-contents", Listed, "The bytes of the sections")
+SHORT_FLAG(Source, "S", "source", Shown, "With the instructions, lines of the source; implies -d")
+SHORT_FLAG(Symbols, "t", "syms", Listed, "The symbols")
+SHORT_FLAG(AllHeaders, "x", "all-headers", Listed, "The same as -f -p -h -t -r")
+FLAG(NoAliases, "no-aliases", Shown, "Every instruction under its own mnemonic")
+FLAG(NoLeadingAddr, "no-leading-addr", Shown, "No addresses in front of instructions")
+FLAG(NoShowRawInsn, "no-show-raw-insn", Shown, "No instructions as numbers")
+FLAG(Units, "units", Shown, "With each instruction, the unit that executes it and its latency")
 
 static cl::list<std::string> OnlySections("section", cl::desc("Only these sections"), cl::value_desc("name"),
-                                          cl::CommaSeparated, cl::cat(Category));
+                                          cl::CommaSeparated, cl::cat(Limits));
 static cl::alias OnlySectionsShort("j", cl::desc("Alias for --section"), cl::aliasopt(OnlySections), cl::NotHidden,
-                                   cl::cat(Category));
+                                   cl::cat(Limits));
 static cl::list<std::string> OnlySymbols("disassemble-symbols",
                                          cl::desc("Only the instructions of these functions; implies -d"),
-                                         cl::value_desc("name"), cl::CommaSeparated, cl::cat(Category));
+                                         cl::value_desc("name"), cl::CommaSeparated, cl::cat(Limits));
 static cl::opt<uint64_t> StartAddress("start-address", cl::desc("No instructions or relocations below this address"),
-                                      cl::value_desc("address"), cl::init(0), cl::cat(Category));
+                                      cl::value_desc("address"), cl::init(0), cl::cat(Limits));
 static cl::opt<uint64_t> StopAddress("stop-address", cl::desc("None at this address or above"),
-                                     cl::value_desc("address"), cl::init(UINT64_MAX), cl::cat(Category));
+                                     cl::value_desc("address"), cl::init(UINT64_MAX), cl::cat(Limits));
 static cl::list<std::string> PrinterOptions("M", cl::desc("Printer option: no-aliases"), cl::value_desc("option"),
-                                            cl::CommaSeparated, cl::cat(Category));
+                                            cl::CommaSeparated, cl::cat(Shown));
 
 static void warn(const std::string &Message) {
   WithColor::warning(errs(), "trax-objdump") << Message << '\n';
@@ -128,7 +132,7 @@ static Error listArchive(const Target &T, StringRef Path, StringRef Bytes, const
 }
 
 int main(int Argc, char **Argv) {
-  cl::HideUnrelatedOptions(Category);
+  cl::HideUnrelatedOptions({&Listed, &Shown, &Limits});
   const Target &T = trax::startTool(Argc, Argv, "TRaX program listing\n");
   trax::ListingOptions Options = readOptions();
   bool Good = true;

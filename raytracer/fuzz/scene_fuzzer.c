@@ -33,7 +33,7 @@ static void render(struct trax_scene *scene, bool paths) {
   struct trax_render_run run = {0};
   trax_error error;
   int exponent;
-  trax_view_frame(&view, scene->header->bounds_min, scene->header->bounds_max, 4 / 3.0f);
+  trax_view_frame(&view, scene, (const float[]){0, 1, 0}, 0, 4 / 3.0f);
   if (trax_normalise(scene, &view, &exponent, &error) != TRAX_OK ||
       trax_frame_init(&frame, scene, &view, &options, &error) != TRAX_OK)
     return;

@@ -1,5 +1,6 @@
 /* trax-compare: do two pictures agree? */
 #include "render.h"
+#include "trax/message.h"
 #include "trax/options.h"
 #include "trax/output.h"
 
@@ -45,7 +46,7 @@ static const trax_command command = {.name = "trax-compare",
                                      .column = 22};
 
 static int fail(const char *message) {
-  fprintf(stderr, "trax-compare: error: %s\n", message);
+  trax_message("trax-compare", TRAX_MESSAGE_ERROR, "%s", message);
   return 1;
 }
 

@@ -171,15 +171,9 @@ static void *render_rows(void *argument) {
   return NULL;
 }
 
-/* The scene's triangles with their own vertices each, so that primID is the triangle's number. */
-static trax_status build_scene(RTCDevice device, struct embree *embree, trax_error *error) {
-  const struct trax_scene *source = embree->frame->scene;
-  RTCScene scene = embree->scene;
+trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  if (source->triangle_count > 0 && embree->exactly) {
-    if (!exact_attach(device, scene, source))
-      return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
-  } else if (source->triangle_count > 0) {
+  if (source->triangle_count > 0) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
                                               3 * (size_t)source->triangle_count);
@@ -199,6 +193,18 @@ static trax_status build_scene(RTCDevice device, struct embree *embree, trax_err
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(scene);
+  enum RTCError failure = rtcGetDeviceError(device);
+  return failure ? trax_fail(error, "Embree could not build the reference scene (error %d)", (int)failure) : TRAX_OK;
+}
+
+static trax_status build_scene(RTCDevice device, struct embree *embree, trax_error *error) {
+  const struct trax_scene *source = embree->frame->scene;
+  if (!embree->exactly || source->triangle_count == 0)
+    return embree_commit(device, embree->scene, source, error);
+  rtcSetSceneFlags(embree->scene, RTC_SCENE_FLAG_ROBUST);
+  if (!exact_attach(device, embree->scene, source))
+    return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
+  rtcCommitScene(embree->scene);
   enum RTCError failure = rtcGetDeviceError(device);
   return failure ? trax_fail(error, "Embree could not build the reference scene (error %d)", (int)failure) : TRAX_OK;
 }

@@ -23,6 +23,9 @@ struct embree {
   uint64_t rays;
 };
 
+/* Builds the scene of the triangles, with vertices of their own each, so that primID is the triangle's number. */
+trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error);
+
 bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit);
 bool embree_blocked(const struct embree *embree, struct double3 origin, struct double3 direction, double distance);
 

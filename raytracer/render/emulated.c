@@ -2,6 +2,7 @@
 
 #include "prepare.h"
 #include "sampled.h"
+#include "trax/message.h"
 #include "trax/run_progress.h"
 
 #include <errno.h>
@@ -75,11 +76,12 @@ static trax_status find_program(struct trax_program *program, const struct optio
   program->specialised = false;
   trax_status status = trax_program_specialise(program, frame, &specialise, note, error);
   if (status == TRAX_OK && program->specialised && *note && !options->quiet)
-    fprintf(stderr, "trax-render: note: %s\n", note);
+    trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", note);
   if (status != TRAX_OK || program->specialised)
     return status;
   if (!options->quiet)
-    fprintf(stderr, "trax-render: note: the general program renders, there is no specialised one: %s\n", note);
+    trax_message("trax-render", TRAX_MESSAGE_NOTE, "the general program renders, there is no specialised one: %s",
+                 note);
   return general_program(program, options, frame, error);
 }
 

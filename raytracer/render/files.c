@@ -1,9 +1,9 @@
 /* What trax-render reads and writes, compared before it begins (trax/files.h). */
 #include "files.h"
 
-#include "inputs.h"
 #include "prepare.h"
 #include "trax/output.h"
+#include "views.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +25,10 @@ static trax_status add_inputs(trax_files *files, const struct options *options, 
   if (options->config && !trax_config_is_preset(options->config))
     trax_files_input(files, NULL, options->config);
   char view[TRAX_PATH_SIZE];
-  if (!options->view || is_camera(options->view))
+  const char *camera;
+  if (known_view(view, options))
+    trax_files_input(files, NULL, view);
+  if (!options->view || is_camera(options->view, &camera))
     return TRAX_OK;
   const trax_status status = find_view(view, options->view, error);
   if (status == TRAX_OK)

@@ -2,6 +2,7 @@
 #include "inputs.h"
 
 #include "emulated.h"
+#include "views.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,10 +39,8 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
       options->engine <= ENGINE_REFERENCE ? emulated_cache_lines(&build.cache_lines, options, error) : TRAX_OK;
   if (status == TRAX_OK)
     status = trax_mesh_import(&mesh, options->meshes, options->mesh_count, &import, &report, error);
-  if (status == TRAX_OK && !options->quiet) {
-    trax_progress_line_clear(progress);
-    trax_import_print_notes(&report, "trax-render", stderr);
-  }
+  if (status == TRAX_OK && !options->quiet)
+    trax_import_print_notes(&report, "trax-render");
   if (status == TRAX_OK)
     status = trax_scene_build(&inputs->scene, &mesh, &build, error);
   inputs->cameras = mesh.cameras;
@@ -76,25 +75,8 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
 
 /* --- views --- */
 
-static const char camera_prefix[] = "file:";
-
-bool is_camera(const char *view) {
-  return strncmp(view, camera_prefix, sizeof camera_prefix - 1) == 0;
-}
-
-trax_status find_view(char path[TRAX_PATH_SIZE], const char *view, trax_error *error) {
-  if (access(view, F_OK) != 0 && !strchr(view, '/')) {
-    if (installed_file(path, "share/trax/views", view, ".view"))
-      return TRAX_OK;
-    return trax_fail(error, "--view %s: there is no such file, and trax comes with no such view", view);
-  }
-  if (snprintf(path, TRAX_PATH_SIZE, "%s", view) >= TRAX_PATH_SIZE)
-    return trax_fail(error, "--view: the path is too long");
-  return TRAX_OK;
-}
-
-static trax_status take_camera(struct trax_view *view, const struct inputs *inputs, const char *name,
-                               trax_error *error) {
+static trax_status take_camera(struct trax_view *view, const struct inputs *inputs, const struct options *options,
+                               const char *name, trax_error *error) {
   for (uint32_t i = 0; i < inputs->camera_count; i++) {
     const struct trax_mesh_camera *camera = &inputs->cameras[i];
     if (*name && strcmp(name, camera->name) != 0)
@@ -107,22 +89,19 @@ static trax_status take_camera(struct trax_view *view, const struct inputs *inpu
     return TRAX_OK;
   }
   if (inputs->camera_count == 0)
-    return trax_fail(error, "--view %s%s: the meshes have no cameras", camera_prefix, name);
-  return trax_fail(error, "--view %s%s: no camera has this name; the first of %u is '%s'", camera_prefix, name,
+    return trax_fail(error, "--view %s: the meshes have no cameras", options->view);
+  return trax_fail(error, "--view %s: no camera has this name; the first of %u is '%s'", options->view,
                    inputs->camera_count, inputs->cameras[0].name);
 }
 
-static trax_status load_view(struct trax_view *view, const struct options *options, const struct inputs *inputs,
-                             trax_error *error) {
-  const struct trax_scene_header *header = inputs->scene.header;
-  const bool camera = options->view && is_camera(options->view);
-  if (!options->view || camera) {
-    trax_view_frame(view, header->bounds_min, header->bounds_max,
-                    (float)options->frame.width / (float)options->frame.height);
-    return camera ? take_camera(view, inputs, options->view + sizeof camera_prefix - 1, error) : TRAX_OK;
-  }
+static trax_status load_view(struct inputs *inputs, const struct options *options, trax_error *error) {
+  struct trax_view *view = &inputs->view;
+  const char *camera;
   char path[TRAX_PATH_SIZE];
-  return find_view(path, options->view, error) == TRAX_OK ? trax_view_read(view, path, error) : TRAX_ERROR;
+  if (options->view && !is_camera(options->view, &camera))
+    return find_view(path, options->view, error) == TRAX_OK ? trax_view_read(view, path, error) : TRAX_ERROR;
+  const trax_status status = default_view(view, &inputs->inside, inputs->choice, &inputs->scene, options, error);
+  return status == TRAX_OK && options->view ? take_camera(view, inputs, options, camera, error) : status;
 }
 
 /* What single options say takes the place of the view's. */
@@ -157,13 +136,15 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
   *inputs = (struct inputs){0};
   trax_status status = load_scene(inputs, options, progress, interrupt, error);
   if (status == TRAX_OK)
-    status = load_view(&inputs->view, options, inputs, error);
+    status = load_view(inputs, options, error);
   if (status == TRAX_OK)
     status = change_view(&inputs->view, &options->camera, error);
   for (int axis = 0; axis < 3 && status == TRAX_OK; axis++) {
     const struct trax_scene_header *header = inputs->scene.header;
-    inputs->centre[axis] = inputs->view.has_look_at ? inputs->view.look_at[axis]
-                                                    : header->bounds_min[axis] * 0.5f + header->bounds_max[axis] * 0.5f;
+    inputs->centre[axis] = inputs->inside ? inputs->view.eye[axis]
+                           : inputs->view.has_look_at
+                               ? inputs->view.look_at[axis]
+                               : header->bounds_min[axis] * 0.5f + header->bounds_max[axis] * 0.5f;
   }
   return status;
 }

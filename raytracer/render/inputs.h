@@ -4,13 +4,16 @@
 
 #include "options.h"
 #include "trax/progress.h"
+#include "views.h"
 
 struct inputs {
   struct trax_scene scene;
   struct trax_mesh_camera *cameras; /* of the meshes */
   uint32_t camera_count;
   struct trax_view view; /* before it orbits; in the scene's unit of length as the files have it */
-  float centre[3];       /* around which it orbits */
+  char choice[VIEW_CHOICE_SIZE]; /* what was chosen for a view, in words; "": nothing */
+  bool inside;           /* of a closed room, which was found to be one */
+  float centre[3];       /* around which it orbits: in a room the eye itself */
 };
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
@@ -18,10 +21,5 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
 /* Of the turntable's picture `number`, from 0. */
 void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
 void inputs_release(struct inputs *inputs);
-
-/* Does --view name a camera of the meshes, and no file? */
-bool is_camera(const char *view);
-/* The file that it names otherwise. */
-trax_status find_view(char path[TRAX_PATH_SIZE], const char *view, trax_error *error);
 
 #endif

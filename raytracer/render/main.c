@@ -6,6 +6,7 @@
 #include "measure.h"
 #include "options.h"
 #include "render.h"
+#include "trax/message.h"
 #include "trax/output.h"
 #include "trax/progress.h"
 #include "trax/signals.h"
@@ -21,7 +22,9 @@ static void on_broken_pipe(int signal_number) {
   reader_gone = 1;
 }
 
-static void print_outputs(const struct options *options, const char *picture) {
+static void print_outputs(const struct options *options, const struct inputs *inputs, const char *picture) {
+  if (*inputs->choice)
+    printf("view        %s\n", inputs->choice);
   if (picture)
     printf("picture     %s\n", picture);
   if (options->stats)
@@ -59,7 +62,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   if (status == TRAX_OK && output)
     status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)
-    print_outputs(options, output);
+    print_outputs(options, inputs, output);
   if (status == TRAX_OK && options->id_picture)
     status = write_hits(options, &frame, progress, error);
   if (status == TRAX_OK && options->compare) {
@@ -102,7 +105,7 @@ int main(int argc, char **argv) {
   trax_parsed parsed = options_parse(&options, argc, argv, &error);
   int exit_status = 0;
   if (parsed == TRAX_PARSED_WRONG) {
-    fprintf(stderr, "trax-render: error: %s\n", error.message);
+    trax_message("trax-render", TRAX_MESSAGE_ERROR, "%s", error.message);
     exit_status = 1;
   } else if (parsed == TRAX_PARSED_RUN) {
     trax_progress_line progress;
@@ -123,7 +126,7 @@ int main(int argc, char **argv) {
       fprintf(stderr, "trax-render: interrupted\n");
       trax_end_by_signal();
     } else if (status != TRAX_OK) {
-      fprintf(stderr, "trax-render: error: %s\n", error.message);
+      trax_message("trax-render", TRAX_MESSAGE_ERROR, "%s", error.message);
       exit_status = 1;
     } else if (!agrees) {
       exit_status = 1;
@@ -134,7 +137,7 @@ int main(int argc, char **argv) {
   if (exit_status == 0 && reader_gone) {
     exit_status = 128 + SIGPIPE;
   } else if (exit_status == 0 && unwritten) {
-    fprintf(stderr, "trax-render: error: %s\n", error.message);
+    trax_message("trax-render", TRAX_MESSAGE_ERROR, "%s", error.message);
     exit_status = 1;
   }
   return exit_status;

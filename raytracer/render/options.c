@@ -2,6 +2,7 @@
 
 #include "trax/scene_options.h"
 #include "values.h"
+#include "views.h"
 
 #include <stdlib.h>
 
@@ -37,12 +38,13 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("View"),
     {"view", .argument = "FILE|NAME", FIELD(view),
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"
-                "without it the whole scene is framed; file:NAME is a camera of a glTF file, file: its\n"
-                "first one"},
+                "file:NAME is a camera of a glTF file, file: its first one; without it the view with\n"
+                "the mesh's name, the inside of a closed room, or all of the scene is shown"},
+    {"views", .kind = TRAX_OPTION_SHOW, .show = print_views, .meaning = "list the views that come with trax, and end"},
     {"eye", .argument = "X,Y,Z", PARSED(take_point, camera.eye), .meaning = "the eye, instead of the view's"},
     {"look-at", .argument = "X,Y,Z", PARSED(take_point, camera.look_at),
      .meaning = "what it looks at, instead of the view's"},
-    {"up", .argument = "X,Y,Z", PARSED(take_point, camera.up), .meaning = "which way is up, instead of the view's"},
+    {"up", .argument = "X,Y,Z", PARSED(take_point, camera.up), .meaning = "which way is up, instead of the view's; a default view turns with it"},
     {"fov", .argument = "DEGREES", PARSED(take_fov, camera.fov), .meaning = "the field of view, instead of the view's"},
     {"light", .argument = "X,Y,Z", PARSED(take_light, camera),
      .meaning = "a point light instead of the view's lights; repeated, they share the light"},

@@ -111,8 +111,7 @@ static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned 
 
 static bool on_progress(void *pointer, double fraction) {
   const struct trax_build_options *options = ((struct build_context *)pointer)->options;
-  if (options->progress)
-    options->progress(options->progress_context, "BVH", fraction);
+  scene_report(options, SCENE_BUILD, fraction);
   if (scene_is_interrupted(options->interrupt))
     scene_cancel_builder();
   return true;
@@ -468,6 +467,9 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     return result;
   const float factor = options->choose_splits ? (splits_suit(mesh) ? TRAX_DEFAULT_SPLITS : 0) : options->splits;
   const bool splits = factor > 1;
+  struct trax_build_options chosen = *options; /* and no longer to be chosen */
+  chosen.splits = factor;
+  options = &chosen;
   struct scene_duplicates duplicates = {0};
   if (splits)
     result = check_emitters(mesh, error);

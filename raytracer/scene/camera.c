@@ -34,42 +34,92 @@ bool scene_make_perpendicular(float up[3], const float direction[3]) {
 
 /* --- automatic framing --- */
 
-void trax_view_frame(struct trax_view *view, const float bounds_min[3], const float bounds_max[3], float aspect) {
+/* By the smallest rotation that takes the y axis to `up`, of unit length. */
+static void turn_up(float v[3], const float up[3]) {
+  if (up[1] < -0.9999f) { /* half a turn, around the z axis of all */
+    v[0] = -v[0], v[1] = -v[1];
+    return;
+  }
+  const float axis[3] = {up[2], 0, -up[0]}, along = (axis[0] * v[0] + axis[2] * v[2]) / (1 + up[1]);
+  const float turned[3] = {up[1] * v[0] + axis[1] * v[2] - axis[2] * v[1] + along * axis[0],
+                           up[1] * v[1] + axis[2] * v[0] - axis[0] * v[2],
+                           up[1] * v[2] + axis[0] * v[1] - axis[1] * v[0] + along * axis[2]};
+  memcpy(v, turned, sizeof turned);
+}
+
+/* How far the scene reaches beyond the planes through the middle that bound a view of a direction: to the right and to
+   the left, upwards and downwards, for each unit of depth by slopes[0] and slopes[1]; and how near it comes. */
+struct extent {
+  double right, left, top, bottom, nearest;
+};
+
+static double along(const float axis[3], const double v[3]) {
+  return axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+}
+
+static struct extent measure(const struct trax_scene *scene, const double middle[3], const float *direction,
+                             const float *up, const float *right, const double slopes[2]) {
+  struct extent extent = {0, 0, 0, 0, 0};
+  bool is_first = true;
+  for (uint32_t i = 0; i < scene->triangle_count; i++) {
+    const float *const corners[3] = {scene->triangles[i].v0, scene->triangles[i].v1, scene->triangles[i].v2};
+    for (int c = 0; c < 3; c++) {
+      const double place[3] = {corners[c][0] - middle[0], corners[c][1] - middle[1], corners[c][2] - middle[2]};
+      const double x = along(right, place), y = along(up, place), z = along(direction, place);
+      const struct extent one = {x - slopes[0] * z, -x - slopes[0] * z, y - slopes[1] * z, -y - slopes[1] * z, z};
+      extent.right = is_first || one.right > extent.right ? one.right : extent.right;
+      extent.left = is_first || one.left > extent.left ? one.left : extent.left;
+      extent.top = is_first || one.top > extent.top ? one.top : extent.top;
+      extent.bottom = is_first || one.bottom > extent.bottom ? one.bottom : extent.bottom;
+      extent.nearest = is_first || one.nearest < extent.nearest ? one.nearest : extent.nearest;
+      is_first = false;
+    }
+  }
+  return extent;
+}
+
+void trax_view_frame(struct trax_view *view, const struct trax_scene *scene, const float up[3], float fov,
+                     float aspect) {
   static const float toward_eye[3] = {0.25f, 0.25f, 1.0f}, toward_light[3] = {-1.0f, 1.6f, 1.2f};
-  enum { fov = 40 };
-  const float pi = 3.14159265f, margin = 1.06f;
-  float centre[3], half[3];
+  const double filled = 0.8, pi = 3.14159265358979323846;
+  const float *low = scene->header->bounds_min, *high = scene->header->bounds_max;
+  double middle[3];
+  float half[3], centre[3], light[3] = {toward_light[0], toward_light[1], toward_light[2]};
   for (int axis = 0; axis < 3; axis++) {
-    half[axis] = bounds_max[axis] * 0.5f - bounds_min[axis] * 0.5f;
-    centre[axis] = bounds_min[axis] * 0.5f + bounds_max[axis] * 0.5f;
+    half[axis] = high[axis] * 0.5f - low[axis] * 0.5f;
+    centre[axis] = low[axis] * 0.5f + high[axis] * 0.5f;
+    middle[axis] = (double)centre[axis];
   }
   float radius = sqrtf(scene_dot(half, half));
   if (!(radius > 0))
     radius = 1;
 
-  *view = (struct trax_view){.up = {0, 1, 0}, .fov = fov, .has_look_at = true};
-  memcpy(view->look_at, centre, sizeof centre);
+  *view = (struct trax_view){.up = {up[0], up[1], up[2]}, .fov = fov > 0 ? fov : 40, .has_look_at = true};
+  if (!scene_normalise(view->up))
+    memcpy(view->up, (const float[]){0, 1, 0}, sizeof view->up);
   for (int axis = 0; axis < 3; axis++)
     view->direction[axis] = -toward_eye[axis];
   scene_normalise(view->direction);
+  scene_normalise(light);
+  turn_up(view->direction, view->up);
+  turn_up(light, view->up);
   scene_make_perpendicular(view->up, view->direction);
   const float *d = view->direction, *u = view->up;
   const float right[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
 
-  /* The least distance at which all eight corners are inside of the picture's four edges. */
-  float tangent = tanf(fov * pi / 360), distance = 0;
-  for (int corner = 0; corner < 8; corner++) {
-    float offset[3];
-    for (int axis = 0; axis < 3; axis++)
-      offset[axis] = corner >> axis & 1 ? half[axis] : -half[axis];
-    float needed = fmaxf(fabsf(scene_dot(offset, u)) / tangent, fabsf(scene_dot(offset, right)) / (tangent * aspect));
-    distance = fmaxf(distance, needed - scene_dot(offset, d));
-  }
-  distance = fmaxf(distance, radius * 0.01f) * margin;
-  float light[3] = {toward_light[0], toward_light[1], toward_light[2]};
-  scene_normalise(light);
+  /* Through the eye go the planes that bound the filled part of the picture; each touches the scene, or those of the
+     direction in which it is smaller are as far from it as each other. */
+  const double tangent = filled * tan((double)view->fov * pi / 360);
+  const double slopes[2] = {tangent * (double)aspect, tangent};
+  const struct extent extent = measure(scene, middle, d, u, right, slopes);
+  double depth = -(extent.right + extent.left) / (2 * slopes[0]);
+  depth = fmin(depth, -(extent.top + extent.bottom) / (2 * slopes[1]));
+  depth = fmin(depth, extent.nearest - 0.01 * (double)radius);
+  const double x = (extent.right - extent.left) / 2, y = (extent.top - extent.bottom) / 2;
   for (int axis = 0; axis < 3; axis++) {
-    view->eye[axis] = centre[axis] - distance * d[axis];
+    const double aside = middle[axis] + x * (double)right[axis] + y * (double)u[axis];
+    view->look_at[axis] = (float)aside;
+    view->eye[axis] = (float)(aside + depth * (double)d[axis]);
     view->light[axis] = centre[axis] + 4 * radius * light[axis];
   }
 }

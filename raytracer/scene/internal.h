@@ -318,6 +318,13 @@ struct scene_links {
 trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
                            trax_error *error);
 
+/* --- phases.c --- */
+
+enum scene_phase { SCENE_BUILD, SCENE_IMPROVE, SCENE_LAY_OUT };
+
+/* fraction: of this phase. options->splits: as it was decided. */
+void scene_report(const struct trax_build_options *options, enum scene_phase phase, double fraction);
+
 /* --- duplicates.c --- */
 
 #define SCENE_NO_DUPLICATE UINT32_MAX

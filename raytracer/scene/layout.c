@@ -380,7 +380,9 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   struct trax_build_options chosen = *options;
   if (chosen.choose_nodes && tree.inner_count)
     chosen.nodes = scene_grid_suits(&tree) ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
+  chosen.splits = tree.split ? TRAX_DEFAULT_SPLITS : 0;
   options = &chosen;
+  scene_report(options, SCENE_LAY_OUT, 0);
   struct palette palette = {0};
   struct scene_order order = {0};
   if (!tree.split)

@@ -1,6 +1,7 @@
 /* Meshes: import in a child process, merge, refuse or drop what no ray can hit. */
 #define _GNU_SOURCE /* memfd_create */
 #include "internal.h"
+#include "trax/message.h"
 #include "trax/signals.h"
 
 #include <errno.h>
@@ -412,7 +413,7 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
   return TRAX_OK;
 }
 
-void trax_import_print_notes(const struct trax_import_report *report, const char *program, FILE *out) {
+void trax_import_print_notes(const struct trax_import_report *report, const char *program) {
   const struct {
     uint64_t count;
     const char *what;
@@ -422,20 +423,20 @@ void trax_import_print_notes(const struct trax_import_report *report, const char
                {report->mended_normals, "triangles have normals that cannot be used, which are computed"},
                {report->mended_uvs, "triangles have texture coordinates that cannot be used"}};
   if (report->missing_files)
-    fprintf(out, "%s: note: %s cannot be read%s: materials go without\n", program, report->first_missing_file,
-            report->missing_files > 1 ? ", nor other files" : "");
+    trax_message(program, TRAX_MESSAGE_NOTE, "%s cannot be read%s: materials go without", report->first_missing_file,
+                 report->missing_files > 1 ? ", nor other files" : "");
   if (report->bad_images)
-    fprintf(out, "%s: note: %s%s: materials go without\n", program, report->first_bad_image,
-            report->bad_images > 1 ? ", and others" : "");
+    trax_message(program, TRAX_MESSAGE_NOTE, "%s%s: materials go without", report->first_bad_image,
+                 report->bad_images > 1 ? ", and others" : "");
   for (size_t i = 0; i < sizeof notes / sizeof *notes; i++)
     if (notes[i].count)
-      fprintf(out, "%s: note: %llu of %llu %s\n", program, (unsigned long long)notes[i].count,
-              (unsigned long long)report->source_triangles, notes[i].what);
+      trax_message(program, TRAX_MESSAGE_NOTE, "%llu of %llu %s", (unsigned long long)notes[i].count,
+                   (unsigned long long)report->source_triangles, notes[i].what);
   if (report->other_primitives)
-    fprintf(out, "%s: note: %llu points and lines are left out\n", program,
-            (unsigned long long)report->other_primitives);
+    trax_message(program, TRAX_MESSAGE_NOTE, "%llu points and lines are left out",
+                 (unsigned long long)report->other_primitives);
   static const char *const unread[] = {"colours of vertices", "normal maps", "transforms of texture coordinates"};
   for (unsigned i = 0; i < sizeof unread / sizeof *unread; i++)
     if (report->unread >> i & 1)
-      fprintf(out, "%s: note: %s are not read\n", program, unread[i]);
+      trax_message(program, TRAX_MESSAGE_NOTE, "%s are not read", unread[i]);
 }

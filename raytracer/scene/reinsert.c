@@ -225,8 +225,8 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, const str
       ranked[i] = (struct ranked){visits(&search, &links->nodes[i].box), i};
     qsort(ranked, links->count, sizeof *ranked, compare_ranked);
     for (uint32_t i = 0; i < links->count && result == TRAX_OK; i++) {
-      if (i % 4096 == 0 && options->progress)
-        options->progress(options->progress_context, "BVH, improved", (pass + (double)i / links->count) / passes);
+      if (i % 4096 == 0)
+        scene_report(options, SCENE_IMPROVE, (pass + (double)i / links->count) / passes);
       if (scene_is_interrupted(options->interrupt))
         result = TRAX_INTERRUPTED;
       else if (ranked[i].node != links->root && !reinsert(&search, ranked[i].node))

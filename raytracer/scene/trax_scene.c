@@ -1,6 +1,7 @@
 /* trax-scene: from mesh files to a scene file. */
 #include "trax_scene.h"
 
+#include "trax/message.h"
 #include "trax/output.h"
 #include "trax/progress.h"
 #include "trax/signals.h"
@@ -158,7 +159,7 @@ static trax_status run(const struct arguments *arguments, trax_progress_line *li
     trax_scene_measure(&figures.tree, &scene);
     size_t count = list_statistics(list, &figures);
     if (!arguments->quiet)
-      trax_import_print_notes(&figures.import, "trax-scene", stderr);
+      trax_import_print_notes(&figures.import, "trax-scene");
     if (arguments->stats)
       print_statistics(list, count, scene.header);
     if (arguments->stats_json)
@@ -169,7 +170,7 @@ static trax_status run(const struct arguments *arguments, trax_progress_line *li
 }
 
 static int complain(const trax_error *error) {
-  fprintf(stderr, "trax-scene: error: %s\n", error->message);
+  trax_message("trax-scene", TRAX_MESSAGE_ERROR, "%s", error->message);
   return 1;
 }
 

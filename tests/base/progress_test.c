@@ -62,6 +62,30 @@ static void test_resumed(void **state) {
   free(text);
 }
 
+/* A step that hangs near its end is not about to end, and its last second says nothing. */
+static void test_near_the_end(void **state) {
+  (void)state;
+  trax_progress_line line = begin();
+  trax_progress_line_show(&line, "building", 0, NULL);
+  shown(&line, "\rtool: building, 0.0 %\033[K");
+  pass(&line, 100);
+  trax_progress_line_show(&line, "building", 0.999, NULL);
+  shown(&line, "\rtool: building, 99.9 %\033[K");
+  pass(&line, 7);
+  line.moved_at -= 7;
+  trax_progress_line_show(&line, "building", 0.999, NULL);
+  shown(&line, "\rtool: building, 99.9 %, 0:07 left\033[K");
+  pass(&line, 1);
+  trax_progress_line_show(&line, "building", 1, NULL);
+  shown(&line, "\rtool: building, 100.0 %\033[K");
+  pass(&line, 60);
+  line.moved_at -= 60;
+  trax_progress_line_show(&line, "building", 1, NULL); /* how long it takes yet is not known */
+  shown(&line, "\rtool: building, 100.0 %\033[K");
+  fclose(line.terminal);
+  free(text);
+}
+
 static void test_nobody(void **state) {
   (void)state;
   trax_progress_line line = {.program = "tool"};
@@ -76,6 +100,6 @@ static void test_nobody(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_line), cmocka_unit_test(test_resumed),
-                                     cmocka_unit_test(test_nobody)};
+                                     cmocka_unit_test(test_near_the_end), cmocka_unit_test(test_nobody)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,10 @@ Usage: messages_test.py BIN VERSION
 """
 
 import os
+import pty
 import re
+import shutil
+import subprocess
 import tempfile
 
 from common import BIN, TEST_BIN, VERSION, accepted, end, fail, path_of, refused, run
@@ -86,9 +89,66 @@ def options():
                 fail(f"{program} {option} is called ambiguous: {ended.stderr}")
 
 
+def on_terminal(program, *words, **environment):
+    """What a program prints on a terminal."""
+    master, slave = pty.openpty()
+    process = subprocess.Popen([f"{BIN}/{program}", *words], stdin=subprocess.DEVNULL, stdout=slave, stderr=slave, env=os.environ | {"TERM": "xterm", "NO_COLOR": ""} | environment)
+    os.close(slave)
+    text = b""
+    while True:
+        try:
+            part = os.read(master, 65536)
+        except OSError:  # the other end is closed
+            part = b""
+        if not part:
+            break
+        text += part
+    os.close(master)
+    process.wait(timeout=60)
+    return text.decode()
+
+
+def colours():
+    """The word `error` is red on a terminal that has colours, unless the user wants none; in a file it never is."""
+    commands = [["trax-sim", "absent"], ["trax-render", "absent.obj", "-o", "x.png"], ["trax-scene", "absent.obj", "-o", "x.trax"], ["trax-compare", "absent", "absent"],
+                ["trax-ld", "absent"], ["trax-mc", "absent"], ["trax-objdump", "absent"], ["trax-eval", "absent"], ["trax-eval", "report", "absent"],
+                ["trax-clang", "absent.c"]]
+    for program, *words in commands:
+        shown = on_terminal(program, *words)
+        if not re.search(r"\033\[[0-9;]*31m *error: ", shown):
+            fail(f"{program} {words}: no colour: {shown!r}")
+        for environment in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+            shown = on_terminal(program, *words, **environment)
+            if "\033[" in shown.replace("\033[K", "") or "error: " not in shown:
+                fail(f"{program} {words} with {environment}: {shown!r}")
+        if "\033" in run(program, *words, env=os.environ | {"TERM": "xterm"}).stderr:
+            fail(f"{program} {words}: a colour in a file")
+
+
+def notes():
+    """A note stands on a line of its own beside the progress, in colour, and once."""
+    with open("thin.obj", "w") as file:
+        file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n")
+    words = ["thin.obj", "-o", "turn.png", "--frames", "3", "--size", "8x6"]
+    shown = on_terminal("trax-render", *words, "--engine", "native")
+    if shown.count("1 of 2 triangles have no area") != 1 or not re.search(r"(^|\n|\033\[K)trax-render: \033\[1;36mnote: \033\[0m1 of 2", shown):
+        fail(f"the note is not there once and by itself: {shown!r}")
+    ended = accepted("trax-render", *words, "--engine", "native")
+    if "note: 1 of 2" not in ended.stderr or "\033" in ended.stderr:
+        fail(f"the note in a file: {ended.stderr!r}")
+    environment = os.environ | {"PATH": "/nowhere", "XDG_CACHE_HOME": os.path.abspath("none")}
+    os.makedirs("lone/bin"), os.makedirs("lone/share")
+    for name in ("lib", "share/trax"):
+        os.symlink(os.path.realpath(f"{BIN}/../{name}"), f"lone/{name}")
+    shutil.copy(f"{BIN}/trax-render", "lone/bin/trax-render")  # without a compiler beside it
+    ended = subprocess.run(["lone/bin/trax-render", *words], capture_output=True, text=True, env=environment)
+    if ended.returncode != 0 or ended.stderr.count("the general program renders") != 1:
+        fail(f"three pictures, and the note is not there once: {ended.stderr}")
+
+
 with tempfile.TemporaryDirectory() as directory:
     os.chdir(directory)
-    for part in (versions, empty_names, options):
+    for part in (versions, empty_names, options, colours, notes):
         part()
     os.chdir("/")
 end()

@@ -247,47 +247,112 @@ static void test_aiming(void **state) {
   assert_contains(error.message, "in which the eye looks");
 }
 
-/* All of a box is in the picture, and its picture fills most of it in one direction. */
+/* A scene of triangles whose corners are among those of a box: the box's diagonals, seen from any side. */
+static void make_box(struct trax_scene *scene, struct trax_scene_header *header, struct trax_triangle triangles[8],
+                     const float box[2][3]) {
+  *header = (struct trax_scene_header){0};
+  *scene = (struct trax_scene){.header = header, .triangles = triangles, .triangle_count = 8};
+  for (int corner = 0; corner < 8; corner++)
+    for (int axis = 0; axis < 3; axis++) {
+      triangles[corner].v0[axis] = box[corner >> axis & 1][axis];
+      triangles[corner].v1[axis] = box[0][axis];
+      triangles[corner].v2[axis] = box[1][axis];
+    }
+  for (int axis = 0; axis < 3; axis++) {
+    header->bounds_min[axis] = box[0][axis];
+    header->bounds_max[axis] = box[1][axis];
+  }
+}
+
+/* All of a scene is in the picture, and takes 80 % of its width or its height, in the middle. */
+static void check_framed(const struct trax_view *view, const struct trax_scene *scene, float aspect) {
+  const float *d = view->direction, *u = view->up;
+  const float right[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
+  const float tangent = tanf(view->fov * 3.14159265f / 360);
+  float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+  check_frame_of_reference(view);
+  for (uint32_t i = 0; i < scene->triangle_count; i++) {
+    float p[3];
+    for (int axis = 0; axis < 3; axis++)
+      p[axis] = scene->triangles[i].v0[axis] - view->eye[axis];
+    const float depth = dot(p, d);
+    assert_true(depth > 0);
+    const float places[2] = {dot(p, right) / (depth * tangent * aspect), dot(p, u) / (depth * tangent)};
+    for (int side = 0; side < 2; side++) {
+      low[side] = fminf(low[side], places[side]);
+      high[side] = fmaxf(high[side], places[side]);
+    }
+  }
+  const int fuller = high[0] - low[0] > high[1] - low[1] ? 0 : 1;
+  if (!(fabsf(high[fuller] - 0.8f) < 1e-3f && fabsf(low[fuller] + 0.8f) < 1e-3f))
+    fail_msg("the picture is filled from %g to %g", (double)low[fuller], (double)high[fuller]);
+  assert_true(high[!fuller] <= 0.801f && low[!fuller] >= -0.801f);
+}
+
 static void test_framing(void **state) {
   (void)state;
   static const float boxes[][2][3] = {{{-1, -1, -1}, {1, 1, 1}},        {{0, 0, 0}, {556, 559, 549}},
                                       {{1000, 0, 0}, {1001, 50, 0.5f}}, {{-5, -0.1f, -5}, {5, 0, 5}},
-                                      {{0, 0, 0}, {0, 3, 0}},           {{-1e-6f, 0, 0}, {1e-6f, 1e-6f, 0}},
-                                      {{0, 0, -1e6f}, {1, 1, 1e6f}}};
-  static const float aspects[] = {0.5f, 1, 16 / 9.0f, 4};
-  for (size_t b = 0; b < sizeof boxes / sizeof boxes[0]; b++)
-    for (size_t a = 0; a < sizeof aspects / sizeof aspects[0]; a++) {
-      struct trax_view view;
-      trax_view_frame(&view, boxes[b][0], boxes[b][1], aspects[a]);
-      check_frame_of_reference(&view);
-      const float *d = view.direction, *u = view.up;
-      const float right[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
-      float tangent = tanf(view.fov * 3.14159265f / 360), widest = 0;
-      for (int corner = 0; corner < 8; corner++) {
-        float p[3];
-        for (int axis = 0; axis < 3; axis++)
-          p[axis] = boxes[b][corner >> axis & 1][axis] - view.eye[axis];
-        float depth = dot(p, d);
-        assert_true(depth > 0);
-        float x = fabsf(dot(p, right)) / (depth * tangent * aspects[a]), y = fabsf(dot(p, u)) / (depth * tangent);
-        assert_true(x <= 1 && y <= 1);
-        widest = fmaxf(widest, fmaxf(x, y));
-      }
-      assert_true(widest > 0.5f);
-    }
-  /* A point has no size to fit. */
-  const float point[3] = {3, 4, 5};
+                                      {{0, 0, 0}, {1, 3, 0}},           {{-1e-6f, 0, 0}, {1e-6f, 1e-6f, 0}}};
+  static const float aspects[] = {0.5f, 1, 16 / 9.0f, 4}, ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {2, 1, -1}};
+  struct trax_scene_header header;
+  struct trax_triangle triangles[8];
+  struct trax_scene scene;
   struct trax_view view;
-  trax_view_frame(&view, point, point, 1);
+  for (size_t b = 0; b < sizeof boxes / sizeof boxes[0]; b++)
+    for (size_t a = 0; a < sizeof aspects / sizeof aspects[0]; a++)
+      for (size_t i = 0; i < sizeof ups / sizeof ups[0]; i++) {
+        make_box(&scene, &header, triangles, boxes[b]);
+        trax_view_frame(&view, &scene, ups[i], i == 1 ? 75 : 0, aspects[a]);
+        check_framed(&view, &scene, aspects[a]);
+        assert_true(view.fov == (i == 1 ? 75 : 40));
+      }
+  /* A point has no size to fit. */
+  static const float point[2][3] = {{3, 4, 5}, {3, 4, 5}};
+  make_box(&scene, &header, triangles, point);
+  trax_view_frame(&view, &scene, ups[0], 0, 1);
   check_frame_of_reference(&view);
   assert_true(view.eye[2] > 5);
 }
 
+/* Eye and light stand to a scene that is turned as they do to the scene. */
+static void test_framing_upwards(void **state) {
+  (void)state;
+  static const float box[2][3] = {{-1, -2, -3}, {4, 5, 6}};
+  static const struct {
+    float up[3];
+    int from[3], sign[3]; /* the axis of the scene with y upwards that has become x, y, z, and in which direction */
+  } turns[] = {{{0, 3, 0}, {0, 1, 2}, {1, 1, 1}},
+               {{0, 0, 1}, {0, 2, 1}, {1, -1, 1}},
+               {{0, 0, -1}, {0, 2, 1}, {1, 1, -1}},
+               {{1, 0, 0}, {1, 0, 2}, {1, -1, 1}},
+               {{0, -1, 0}, {0, 1, 2}, {-1, -1, 1}}};
+  struct trax_scene_header header;
+  struct trax_triangle triangles[8];
+  struct trax_scene scene;
+  struct trax_view plain, turned;
+  make_box(&scene, &header, triangles, box);
+  trax_view_frame(&plain, &scene, turns[0].up, 0, 1.5f);
+  for (size_t i = 0; i < sizeof turns / sizeof turns[0]; i++) {
+    float other[2][3];
+    for (int axis = 0; axis < 3; axis++)
+      for (int side = 0; side < 2; side++)
+        other[side][axis] = turns[i].sign[axis] * box[turns[i].sign[axis] < 0 ? !side : side][turns[i].from[axis]];
+    make_box(&scene, &header, triangles, other);
+    trax_view_frame(&turned, &scene, turns[i].up, 0, 1.5f);
+    for (int axis = 0; axis < 3; axis++) {
+      assert_true(fabsf(turned.eye[axis] - turns[i].sign[axis] * plain.eye[turns[i].from[axis]]) < 1e-4f);
+      assert_true(fabsf(turned.light[axis] - turns[i].sign[axis] * plain.light[turns[i].from[axis]]) < 1e-4f);
+      assert_true(fabsf(turned.up[axis] - turns[i].sign[axis] * plain.up[turns[i].from[axis]]) < 1e-5f);
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_values),        cmocka_unit_test(test_lights),  cmocka_unit_test(test_errors),
-      cmocka_unit_test(test_shipped_views), cmocka_unit_test(test_framing), cmocka_unit_test(test_writing),
-      cmocka_unit_test(test_orbit),         cmocka_unit_test(test_aiming),
+      cmocka_unit_test(test_values),          cmocka_unit_test(test_lights),  cmocka_unit_test(test_errors),
+      cmocka_unit_test(test_shipped_views),   cmocka_unit_test(test_framing), cmocka_unit_test(test_writing),
+      cmocka_unit_test(test_framing_upwards), cmocka_unit_test(test_orbit),   cmocka_unit_test(test_aiming),
   };
   return cmocka_run_group_tests_name("views", tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ import pathlib
 import re
 import sys
 
-from trax_eval.util import Problem, check_files, write_file
+from trax_eval.util import Problem, check_files, complain, write_file
 
 from . import estimates, rays, tables
 from .charts import all_figures, sweep_figure
@@ -207,7 +207,7 @@ def main(arguments=None):
             renew(data, sources, [page for page in pages if page.data == data], paper, options.anew)
         stale = write_pages(pages, paper, options.check)
     except (Problem, ResultsError, PlotError) as error:
-        print(f"trax-eval docs: error: {error}", file=sys.stderr)
+        complain("trax-eval docs", error)
         return 1
     for text in stale:
         print(f"trax-eval docs: {text}", file=sys.stderr)

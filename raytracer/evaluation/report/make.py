@@ -12,7 +12,7 @@ import pathlib
 import sys
 import urllib.parse
 
-from trax_eval.util import Problem, check_files
+from trax_eval.util import Problem, check_files, complain
 
 from . import estimates, rays, tables
 from .charts import all_figures
@@ -202,10 +202,10 @@ def main(arguments=None):
         folder = output.absolute().parent
         write(output, page(results, paper, options.results.absolute().parent, folder, options.gnuplot))
     except (Problem, ResultsError, PlotError) as error:
-        print(f"trax-eval report: error: {error}", file=sys.stderr)
+        complain("trax-eval report", error)
         return 1
     except OSError as error:
-        print(f"trax-eval report: error: {output}: cannot be written: {error.strerror}", file=sys.stderr)
+        complain("trax-eval report", f"{output}: cannot be written: {error.strerror}")
         return 1
     return 0
 

@@ -22,7 +22,7 @@ from .results import collect, plan_file, write_plan
 from .scratch import clean_scratch
 from .sweep import MODES, parse_size, read_sweep
 from .tools import Tools
-from .util import Problem, check_files
+from .util import Problem, check_files, complain
 from .values import Areas
 
 HELP = """\
@@ -252,7 +252,7 @@ def main(arguments, folder, data):
     try:
         return dispatch(arguments, Tools(folder), data)
     except Problem as problem:
-        print(f"trax-eval: error: {problem}", file=sys.stderr)
+        complain("trax-eval", problem)
         return 1
     except Interrupted as interrupted:
         end_by_signal(*interrupted.args)
@@ -260,5 +260,5 @@ def main(arguments, folder, data):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except OSError as error:  # of a folder or file that cannot be used, as of -o on a full disk
-        print(f"trax-eval: error: {f'{error.filename}: ' if error.filename else ''}{error.strerror}", file=sys.stderr)
+        complain("trax-eval", f"{f'{error.filename}: ' if error.filename else ''}{error.strerror}")
         return 1

@@ -7,11 +7,18 @@ import os
 import pathlib
 import socket
 import stat
+import sys
 import threading
 
 
 class Problem(Exception):
     """What the user is told; the command ends with status 1."""
+
+
+def complain(program, problem):
+    """As every program says it (emulator/base/message.c)."""
+    coloured = not os.environ.get("NO_COLOR") and os.environ.get("TERM", "dumb") != "dumb" and sys.stderr.isatty()
+    print(f"{program}: {chr(27)}[1;31merror: {chr(27)}[0m{problem}" if coloured else f"{program}: error: {problem}", file=sys.stderr)
 
 
 def canonical(value):

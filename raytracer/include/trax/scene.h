@@ -126,8 +126,8 @@ struct trax_import_report {
 
 enum { TRAX_UNREAD_COLOURS = 1, TRAX_UNREAD_NORMAL_MAPS = 2, TRAX_UNREAD_UV_TRANSFORMS = 4 };
 
-/* Lines on what was left out, mended or missing; none if all is well. */
-void trax_import_print_notes(const struct trax_import_report *report, const char *program, FILE *out);
+/* Notes on what was left out, mended or missing (trax/message.h); none if all is well. */
+void trax_import_print_notes(const struct trax_import_report *report, const char *program);
 
 /* Of what has no material: light grey, Lambert's. */
 extern const struct trax_material trax_default_material;

@@ -68,9 +68,14 @@ struct trax_view {
    lights[NUMBER].KEY, from 0. */
 trax_status trax_view_read(struct trax_view *view, const char *path, trax_error *error);
 
-/* A view for a scene that has none: the whole of its bounds in the picture, seen from the front (+z), a little from the
-   right and above, y up; the light above, to the left and in front. aspect is width / height. */
-void trax_view_frame(struct trax_view *view, const float bounds_min[3], const float bounds_max[3], float aspect);
+struct trax_scene;
+
+/* A view for a scene that has none: all of it, in the middle 80 % of the picture's width or of its height. It is seen
+   from the front (+z), a little from the right and above, and y is up; the light is above, to the left and in front.
+   All of this turns with `up`, by the smallest rotation that takes the y axis there. fov: degrees; 0:
+   40. aspect: width / height. */
+void trax_view_frame(struct trax_view *view, const struct trax_scene *scene, const float up[3], float fov,
+                     float aspect);
 
 /* Looks from the eye at a point. Errors: the point is the eye. */
 trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_error *error);
