@@ -35,9 +35,10 @@ static unsigned loadsPerSharedLoad(const Loop &Outer, ScalarEvolution &SE) {
   return Shared.empty() ? 0 : Varying.size() / Shared.size();
 }
 
-// The instruction cache holds 1,024 instructions, shared by all: at -O2 unrolling must pay by turning a small array's
-// indices into constants. At -O3 a small innermost loop may also save its counting, and a loop around it some of its
-// loads.
+// The instruction cache holds 1,024 instructions, shared by all. At -O2 unrolling must pay by turning a small array's
+// indices into constants, or be of a loop of a few instructions, which it saves most of its counting. At -O3 an
+// innermost loop may be longer, and be copied more often where the number of its rounds is known; a loop around it may
+// save some of its loads.
 void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::UnrollingPreferences &UP,
                                           OptimizationRemarkEmitter *ORE) {
   // The unroller comes with a larger threshold at -O3; nothing else tells the level.
@@ -50,14 +51,14 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
   UP.Partial = false;
   UP.Runtime = false;
   UP.UpperBound = false;
-  if (!Aggressive || L->getNumBlocks() > 4 || L->getHeader()->getParent()->hasOptSize())
+  if (L->getNumBlocks() > (Aggressive ? 4 : 1) || L->getHeader()->getParent()->hasOptSize())
     return;
   const unsigned EnoughPerSharedLoad = 4;
-  unsigned PerSharedLoad = loadsPerSharedLoad(*L, SE);
+  unsigned PerSharedLoad = Aggressive ? loadsPerSharedLoad(*L, SE) : 0;
   UP.UnrollAndJam = PerSharedLoad != 0 && PerSharedLoad < EnoughPerSharedLoad;
   // Before the loop around it is copied: leave room. Afterwards: the copies count once again.
   bool IsJammed = false;
-  if (const Loop *Parent = L->getParentLoop(); L->isInnermost() && Parent)
+  if (const Loop *Parent = L->getParentLoop(); Aggressive && L->isInnermost() && Parent)
     if (unsigned OfParent = loadsPerSharedLoad(*Parent, SE)) {
       UP.Threshold = 80;
       IsJammed = OfParent >= EnoughPerSharedLoad;
@@ -76,10 +77,10 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
           return;
       Cost += getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
     }
-  UP.PartialThreshold = UP.UnrollAndJam || IsJammed ? 160 : 80;
+  bool IsCounted = SE.getSmallConstantTripCount(L) != 0;
+  UP.PartialThreshold = !Aggressive ? 40 : UP.UnrollAndJam ? 160 : IsJammed || IsCounted ? 240 : 80;
   UP.UnrollAndJamInnerLoopThreshold = 100;
-  UP.DefaultUnrollRuntimeCount = 4;
-  UP.MaxCount = UP.UnrollAndJam ? 8 : 4;
+  UP.MaxCount = UP.DefaultUnrollRuntimeCount = Aggressive ? 8 : 4;
   UP.Partial = UP.Runtime = true;
   UP.Force = L->isInnermost() && Cost < 12;
 }
@@ -88,10 +89,12 @@ void TraxTTIImpl::getPeelingPreferences(Loop *L, ScalarEvolution &SE, TTI::Peeli
   BaseT::getPeelingPreferences(L, SE, PP);
 }
 
-// Instructions first: 27 registers are rarely short, and every instruction takes an issue slot.
+// Instructions first: 27 registers are rarely short, and every instruction takes an issue slot. A sum of two registers
+// takes one more while it is an address, so pointers of their own win over a base and an offset.
 bool TraxTTIImpl::isLSRCostLess(const TTI::LSRCost &A, const TTI::LSRCost &B) const {
   auto Key = [](const TTI::LSRCost &C) {
-    return std::tie(C.Insns, C.NumRegs, C.AddRecCost, C.NumIVMuls, C.NumBaseAdds, C.ScaleCost, C.ImmCost, C.SetupCost);
+    return std::make_tuple(C.Insns, C.NumRegs + (C.NumBaseAdds != 0), C.AddRecCost, C.NumIVMuls, C.NumBaseAdds,
+                           C.ScaleCost, C.ImmCost, C.SetupCost);
   };
   return Key(A) < Key(B);
 }
