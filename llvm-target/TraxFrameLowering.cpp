@@ -10,6 +10,7 @@
 #include "llvm/CodeGen/MachineRegisterInfo.h"
 #include "llvm/CodeGen/RegisterScavenging.h"
 #include "llvm/IR/DiagnosticInfo.h"
+#include "llvm/IR/DiagnosticPrinter.h"
 #include "llvm/MC/MCDwarf.h"
 #include "llvm/Target/TargetMachine.h"
 #include "llvm/Target/TargetOptions.h"
@@ -61,6 +62,24 @@ void TraxFrameLowering::adjustReg(MachineBasicBlock &MBB, MachineBasicBlock::ite
   } while (Amount != 0);
 }
 
+namespace {
+
+/// What follows the warning of a large frame.
+class StackAnswer : public DiagnosticInfo {
+  static int kind() {
+    static const int Kind = getNextAvailablePluginDiagnosticKind();
+    return Kind;
+  }
+
+public:
+  StackAnswer() : DiagnosticInfo(kind(), DS_Note) {}
+  void print(DiagnosticPrinter &DP) const override { DP << "-mstack=global puts the stack into global memory"; }
+};
+
+} // namespace
+
+/// The scheduler moves nothing across these, so they are there without debug information too, which then changes no
+/// code. The printer leaves them out.
 static void emitCFI(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, const DebugLoc &DL,
                     const MCCFIInstruction &CFI, MachineInstr::MIFlag Flag) {
   MachineFunction &MF = *MBB.getParent();
@@ -76,36 +95,32 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
   const std::vector<CalleeSavedInfo> &CSI = MFI.getCalleeSavedInfo();
   MachineBasicBlock::iterator MBBI = MBB.begin();
   DebugLoc DL; // none: the debugger takes the first line behind the prologue
-  bool NeedsCFI = MF.needsFrameMoves();
-
   uint64_t StackSize = MFI.getStackSize();
   if (StackSize > TRAX_LOCAL_SIZE && !MF.getSubtarget<TraxSubtarget>().hasGlobalStack()) {
     DiagnosticInfoStackSize Diag(MF.getFunction(), StackSize, TRAX_LOCAL_SIZE, DS_Warning);
     MF.getFunction().getContext().diagnose(Diag);
+    MF.getFunction().getContext().diagnose(StackAnswer());
   }
 
   bool Adjusts = StackSize != 0 && !leavesSPAlone(MF);
   if (Adjusts) {
     adjustReg(MBB, MBBI, DL, Trax::R2, Trax::R2, -int64_t(StackSize), MachineInstr::FrameSetup);
-    if (NeedsCFI)
-      emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfaOffset(nullptr, StackSize), MachineInstr::FrameSetup);
+    emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfaOffset(nullptr, StackSize), MachineInstr::FrameSetup);
   }
 
   // Behind the stores of the saved registers.
   std::advance(MBBI, CSI.size());
-  if (NeedsCFI)
-    for (const CalleeSavedInfo &Saved : CSI)
-      emitCFI(MBB, MBBI, DL,
-              MCCFIInstruction::createOffset(nullptr, TRI.getDwarfRegNum(Saved.getReg(), true),
-                                             MFI.getObjectOffset(Saved.getFrameIdx())),
-              MachineInstr::FrameSetup);
+  for (const CalleeSavedInfo &Saved : CSI)
+    emitCFI(MBB, MBBI, DL,
+            MCCFIInstruction::createOffset(nullptr, TRI.getDwarfRegNum(Saved.getReg(), true),
+                                           MFI.getObjectOffset(Saved.getFrameIdx())),
+            MachineInstr::FrameSetup);
 
   if (!hasFP(MF))
     return;
   adjustReg(MBB, MBBI, DL, Trax::R3, Trax::R2, StackSize, MachineInstr::FrameSetup);
-  if (NeedsCFI)
-    emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfa(nullptr, TRI.getDwarfRegNum(Trax::R3, true), 0),
-            MachineInstr::FrameSetup);
+  emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfa(nullptr, TRI.getDwarfRegNum(Trax::R3, true), 0),
+          MachineInstr::FrameSetup);
   if (needsRealignment(MF)) {
     // Counted in .stack_sizes, which is to bound the frame.
     MFI.setUnsafeStackSize(MFI.getMaxAlign().value() - getStackAlign().value());
@@ -136,7 +151,6 @@ void TraxFrameLowering::emitEpilogue(MachineFunction &MF, MachineBasicBlock &MBB
   const std::vector<CalleeSavedInfo> &CSI = MFI.getCalleeSavedInfo();
   MachineBasicBlock::iterator MBBI = MBB.getFirstTerminator();
   DebugLoc DL = MBBI != MBB.end() ? MBBI->getDebugLoc() : DebugLoc();
-  bool NeedsCFI = MF.needsFrameMoves();
   uint64_t StackSize = MFI.getStackSize();
 
   // sp may have moved since the prologue; the reloads before MBBI are relative to it.
@@ -144,7 +158,7 @@ void TraxFrameLowering::emitEpilogue(MachineFunction &MF, MachineBasicBlock &MBB
     auto Reloads = std::prev(MBBI, CSI.size());
     adjustReg(MBB, Reloads, DL, Trax::R2, Trax::R3, -int64_t(StackSize), MachineInstr::FrameDestroy);
   }
-  if (NeedsCFI && hasFP(MF)) // fp is reloaded: the frame is known by sp again
+  if (hasFP(MF)) // fp is reloaded: the frame is known by sp again
     emitCFI(MBB, std::prev(MBBI, CSI.size()), DL,
             MCCFIInstruction::cfiDefCfa(nullptr, TRI.getDwarfRegNum(Trax::R2, true), StackSize),
             MachineInstr::FrameDestroy);
@@ -152,8 +166,6 @@ void TraxFrameLowering::emitEpilogue(MachineFunction &MF, MachineBasicBlock &MBB
   bool Adjusts = StackSize != 0 && !leavesSPAlone(MF);
   if (Adjusts)
     adjustReg(MBB, MBBI, DL, Trax::R2, Trax::R2, StackSize, MachineInstr::FrameDestroy);
-  if (!NeedsCFI)
-    return;
   if (Adjusts)
     emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfaOffset(nullptr, 0), MachineInstr::FrameDestroy);
   for (const CalleeSavedInfo &Saved : CSI)

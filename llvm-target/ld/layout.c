@@ -355,8 +355,12 @@ static void place_thread_local(ld_context *ctx) {
   bounds->tbss_end = (uint32_t)at;
   uint64_t size = at - TRAX_LOCAL_BASE;
   ctx->local_size = (uint32_t)size;
-  if (size >= TRAX_LOCAL_SIZE)
-    ld_error(ctx, "thread-local data takes %llu bytes; local memory has %u, and holds the stack too",
+  if (size > TRAX_LOCAL_SIZE)
+    ld_error(ctx, "thread-local data takes %llu bytes; local memory has %u, and -mstack=global moves the stack alone",
+             (unsigned long long)size, TRAX_LOCAL_SIZE);
+  else if (size == TRAX_LOCAL_SIZE && !ld_symbol_find(ctx, "__trax_stack_size"))
+    ld_error(ctx,
+             "thread-local data takes %llu bytes; local memory has %u, and holds the stack too without -mstack=global",
              (unsigned long long)size, TRAX_LOCAL_SIZE);
 }
 

@@ -44,7 +44,9 @@ struct Diagnostics : public DiagnosticHandler {
       return true;
     if (DI.getSeverity() == DS_Error)
       *HasErrors = true;
-    raw_ostream &OS = DI.getSeverity() == DS_Error ? WithColor::error() : WithColor::warning();
+    raw_ostream &OS = DI.getSeverity() == DS_Error  ? WithColor::error()
+                      : DI.getSeverity() == DS_Note ? WithColor::note()
+                                                    : WithColor::warning();
     DiagnosticPrinterRawOStream Printer(OS);
     DI.print(Printer);
     OS << '\n';

@@ -59,6 +59,7 @@ int counter(void) {
 }
 
 // FRAME: warning: stack frame size ({{[0-9]+}}) exceeds limit (512) in 'large'
+// FRAME: note: -mstack=global puts the stack into global memory
 void fill(int *);
 int large(void) {
   int a[1000];

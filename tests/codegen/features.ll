@@ -40,6 +40,7 @@ define void @by_option() {
 }
 
 ; WARN: warning: {{.*}}'large_local'
+; WARN-NEXT: note: -mstack=global puts the stack into global memory
 ; WARN-NEXT: warning: {{.*}}'large_by_option'
 define void @large_global() #0 {
   %a = alloca [600 x i8]

@@ -3,6 +3,7 @@
 ; RUN: FileCheck %s --check-prefix=WARNING < %t.err
 
 ; WARNING: warning: {{.*}}stack frame size (604) exceeds limit (512) in function 'large'
+; WARNING-NEXT: note: -mstack=global puts the stack into global memory
 ; WARNING: warning: {{.*}}stack frame size ({{100[0-9]+}}) exceeds limit (512) in function 'very_large'
 
 declare void @use(ptr)
