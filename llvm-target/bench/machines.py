@@ -13,7 +13,7 @@ SECONDS = 600
 # What the library's square roots start from where there is no reciprocal square root: single precision suffices.
 LIBRARY_SQRT = "-D__builtin_sqrt(x)=__builtin_sqrtf((float)(x))"
 COMMON = ["-std=c17", "-fno-math-errno", "-Wall", "-Wextra", "-Werror", "-I", str(ROOT / "raytracer/device"), "-I",
-          str(ROOT / "raytracer/include")]
+          str(ROOT / "raytracer/include"), "-I", str(ROOT / "isa/include")]
 RISCV = ["--target=riscv32", "-march=rv32im_zfinx", "-mabi=ilp32"]
 PACKAGES = {"clang-19": "clang-19", "llvm-ar-19": "llvm-19", "llvm-size-19": "llvm-19", "ld.lld-19": "lld-19",
             "qemu-riscv32": "qemu-user", "cc": "gcc"}
@@ -60,7 +60,7 @@ class Riscv:
     """Debian's clang for RISC-V, counted by qemu."""
 
     def __init__(self, build, work, name="riscv", flags=(), library=True):
-        self.work, self.name = work, name
+        self.build, self.work, self.name = build, work, name
         self.compiler = ["clang-19", *RISCV, "-nostdlibinc", "-isystem", build / "lib/trax/include", "-I", BENCH / "twin",
                          *flags]
         if not library: # to compile only

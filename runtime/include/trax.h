@@ -5,6 +5,7 @@
 #define TRAX_H
 
 #include <stddef.h>
+#include <trax/ray_kinds.h>
 
 /* A buffer that the host fills or reads, by the name of the object (trax-sim --bind, --alloc, --dump). */
 struct trax_buffer {
@@ -12,21 +13,16 @@ struct trax_buffer {
   unsigned size; /* bytes */
 };
 
-/* Kinds of rays (docs/isa.md, "Traps"). */
+/* Kinds of rays, TRAX_RAY_PRIMARY, _SHADOW, _OCCLUSION, _DIFFUSE, _GLOSSY, _MIRROR, _GLASS and _OTHER: TRAX_RAY_KINDS
+   has the list (docs/isa.md, "Traps"). */
 enum trax_ray_kind {
-  TRAX_RAY_PRIMARY,   /* from the eye */
-  TRAX_RAY_SHADOW,    /* towards a light */
-  TRAX_RAY_OCCLUSION, /* ambient occlusion */
-  TRAX_RAY_DIFFUSE,
-  TRAX_RAY_GLOSSY,
-  TRAX_RAY_MIRROR,
-  TRAX_RAY_GLASS, /* refracted */
-  TRAX_RAY_OTHER
+#define TRAX_RAY_KIND(X, ID, name, number, meaning) TRAX_RAY_##ID = number,
+  TRAX_RAY_KINDS(TRAX_RAY_KIND, )
+#undef TRAX_RAY_KIND
 };
-#define TRAX_RAY_KIND_COUNT 8
 
 /* n rays of a kind, 15 at most, for trax_count_kinds. Terms of different kinds may be added. */
-#define TRAX_RAYS(kind, n) ((unsigned)(n) << 4 * (kind))
+#define TRAX_RAYS(kind, n) ((unsigned)(n) << TRAX_KIND_BITS * (kind))
 
 #ifdef __trax__
 
@@ -188,8 +184,8 @@ TRAX_INLINE void trax_count_rays(unsigned n) {
 }
 TRAX_INLINE void trax_count_kinds(unsigned rays) {
   for (int kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++) {
-    trax_native.rays += rays >> 4 * kind & 15;
-    trax_native.kinds[kind] += rays >> 4 * kind & 15;
+    trax_native.rays += rays >> TRAX_KIND_BITS * kind & ((1u << TRAX_KIND_BITS) - 1);
+    trax_native.kinds[kind] += rays >> TRAX_KIND_BITS * kind & ((1u << TRAX_KIND_BITS) - 1);
   }
 }
 TRAX_INLINE void trax_count_items(unsigned n) {

@@ -3,7 +3,7 @@
 #define TRAX_RAY_KINDS_H
 
 /* Kinds of rays: Y(X, ID, name, number, meaning). The operand of the trap `kinds` has TRAX_KIND_BITS bits for each,
-   kind 0 in the lowest. <trax.h> has the same numbers. */
+   kind 0 in the lowest. */
 #define TRAX_RAY_KINDS(Y, X)                                                                                           \
   Y(X, PRIMARY, primary, 0, "from the eye")                                                                            \
   Y(X, SHADOW, shadow, 1, "towards a light")                                                                           \

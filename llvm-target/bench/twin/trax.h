@@ -3,6 +3,8 @@
 #ifndef TRAX_H
 #define TRAX_H
 
+#include <trax/ray_kinds.h>
+
 struct trax_buffer {
   void *data;
   unsigned size; /* bytes */
@@ -27,15 +29,10 @@ static inline void trax_count_rays(unsigned n) {
   (void)n;
 }
 enum {
-  TRAX_RAY_PRIMARY,
-  TRAX_RAY_SHADOW,
-  TRAX_RAY_OCCLUSION,
-  TRAX_RAY_DIFFUSE,
-  TRAX_RAY_GLOSSY,
-  TRAX_RAY_MIRROR,
-  TRAX_RAY_GLASS
+#define TRAX_RAY_KIND(X, ID, name, number, meaning) TRAX_RAY_##ID = number,
+  TRAX_RAY_KINDS(TRAX_RAY_KIND, )
 };
-#define TRAX_RAYS(kind, n) ((unsigned)(n) << 4 * (kind))
+#define TRAX_RAYS(kind, n) ((unsigned)(n) << TRAX_KIND_BITS * (kind))
 static inline void trax_count_kinds(unsigned rays) {
   (void)rays;
 }
