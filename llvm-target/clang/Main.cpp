@@ -147,6 +147,19 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_files_release(&Files);
 }
 
+/// What --sysroot says, there or in a configuration file. The driver prints directories as soon as it knows, which is
+/// too late for a tool chain to answer with its own.
+std::string findSysRoot(const Installation &Installed, const ParsedClangName &Name, ArgVector Args) {
+  llvm::erase_if(Args, [](StringRef Given) { return Given.ltrim('-') == "print-search-dirs"; });
+  DiagnosticsEngine Silent(new DiagnosticIDs(), new DiagnosticOptions(), new IgnoringDiagConsumer());
+  Driver Probe(Installed.Program, llvm::sys::getDefaultTargetTriple(), Silent);
+  Probe.ResourceDir = Installed.ResourceDir;
+  Probe.setTargetAndMode(Name);
+  trax::addToolChains(Probe, Installed.RuntimeDir);
+  std::unique_ptr<Compilation> Unused(Probe.BuildCompilation(Args));
+  return Probe.SysRoot;
+}
+
 /// Does what the command line says.
 int drive(ArgVector Args, llvm::StringSaver &Strings) {
   const Installation Installed(Args[0], !hasArgument(Args, "-no-canonical-prefixes"));
@@ -171,6 +184,8 @@ int drive(ArgVector Args, llvm::StringSaver &Strings) {
   TheDriver.ResourceDir = Installed.ResourceDir;
   TheDriver.setTargetAndMode(Name);
   trax::addOptions();
+  if (hasArgument(Args, "-print-search-dirs") || hasArgument(Args, "--print-search-dirs"))
+    TheDriver.SysRoot = findSysRoot(Installed, Name, Args);
   trax::addToolChains(TheDriver, Installed.RuntimeDir);
   auto CC1 = [](llvm::SmallVectorImpl<const char *> &ToolArgs) { return runTool(ToolArgs); };
   if (!hasArgument(Args, "-fno-integrated-cc1")) {

@@ -181,7 +181,7 @@ void trax::addToolChains(Driver &D, const std::string &RuntimeDir) {
 trax::ToolChain::ToolChain(const Driver &D, const llvm::Triple &Triple, std::string RuntimeDir)
     : clang::driver::ToolChain(D, Triple, ownArguments()), RuntimeDir(std::move(RuntimeDir)) {
   getProgramPaths().push_back(D.Dir);
-  getFilePaths().push_back(this->RuntimeDir);
+  getFilePaths().push_back(computeSysRoot());
 }
 
 std::string trax::ToolChain::computeSysRoot() const {
