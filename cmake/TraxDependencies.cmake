@@ -5,6 +5,7 @@ find_package(LLVM 19.1 REQUIRED CONFIG HINTS /usr/lib/llvm-19)
 find_library(CLANG_CPP_LIBRARY REQUIRED NAMES clang-cpp libclang-cpp.so.${LLVM_VERSION_MAJOR}.${LLVM_VERSION_MINOR}
   HINTS ${LLVM_LIBRARY_DIR} NO_DEFAULT_PATH)
 find_path(CLANG_INCLUDE_DIR REQUIRED NAMES clang/Driver/Driver.h HINTS ${LLVM_INCLUDE_DIRS} NO_DEFAULT_PATH)
+message(STATUS "LLVM ${LLVM_PACKAGE_VERSION}: ${LLVM_DIR}; clang: ${CLANG_CPP_LIBRARY} (docs/llvm-releases.md)")
 set(LLVM_TABLEGEN_EXE ${LLVM_TOOLS_BINARY_DIR}/llvm-tblgen)
 
 find_package(PkgConfig REQUIRED)
