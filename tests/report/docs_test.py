@@ -17,7 +17,8 @@ FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(FOLDER))
 
 from report import charts, docs, markup, tables  # noqa: E402
-from report.results import Paper, Results, ResultsError  # noqa: E402
+from report.paper import Paper  # noqa: E402
+from report.results import Results, ResultsError  # noqa: E402
 
 PAPER = Paper(FOLDER / "paper")
 NAMES = ("table2-era", "fpu-sharing", "plot fpu-sharing", "claims")

@@ -22,8 +22,10 @@ from . import estimates, rays, tables
 from .charts import all_figures, sweep_figure
 from .claims import UNKNOWN, claims
 from .data import compact, merged, read_data, results_of, without
-from .plots import PlotError, standalone
-from .results import ASKED, HERE, Paper, ResultsError, read_results
+from .paper import Paper
+from .picture import standalone
+from .plots import PlotError
+from .results import ASKED, HERE, ResultsError, read_results
 
 MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
 ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")

@@ -18,8 +18,9 @@ from . import estimates, rays, tables
 from .charts import all_figures
 from .claims import AGREES, DIFFERS, claims, median, table2_deviations
 from .markup import Html, el, join, table
+from .paper import Paper
 from .plots import PlotError, draw, marks
-from .results import Paper, ResultsError, number, read_results
+from .results import ResultsError, number, read_results
 from .table import seconds
 
 HERE = pathlib.Path(__file__).resolve().parent

@@ -151,7 +151,7 @@ def _quoted(text):
     return "'" + str(text).replace("'", "''").replace("\n", " ").replace("\r", " ") + "'"
 
 
-def _run_gnuplot(figures, folder, program):
+def run_gnuplot(figures, folder, program):
     script = ["set encoding utf8", "unset key"]
     for index, figure in enumerate(figures):
         script += ["reset", "unset key", f"set terminal svg size {WIDTH},{figure.height} noenhanced font 'sans-serif,12'", f"set output '{index}.svg'",
@@ -180,7 +180,7 @@ def _short(path):
     return re.sub(r"(\d+\.\d)\d", r"\1", " ".join(path.split()))
 
 
-def _elements(svg, tips):
+def elements_of(svg, tips):
     """The page's elements of what gnuplot drew. Marks' titles are found by number, bars' by their order."""
     shown = []
     bars = iter(tips)
@@ -225,14 +225,14 @@ def draw(figures, program="gnuplot"):
     filled = [figure for figure in figures if not figure.empty()]
     with tempfile.TemporaryDirectory() as folder:
         if filled:
-            _run_gnuplot(filled, folder, program)
+            run_gnuplot(filled, folder, program)
         for index, figure in enumerate(filled):
             try:
                 root = xml.etree.ElementTree.parse(os.path.join(folder, f"{index}.svg")).getroot()
             except (OSError, xml.etree.ElementTree.ParseError) as error:
                 raise PlotError(f"{program} wrote no figure \"{figure.title}\": {error}") from None
             tips = figure.tips()
-            elements = _elements(root, tips)
+            elements = elements_of(root, tips)
             titles = sum("<title>" in element for element in elements)
             if titles != len(tips):
                 raise PlotError(f"{program} drew {titles} of {len(tips)} values of \"{figure.title}\"")
@@ -242,37 +242,6 @@ def draw(figures, program="gnuplot"):
         if figure.empty():
             drawn[figure.identity] = _framed(figure, el("p", "Nothing was measured.", class_="missing"))
     return drawn
-
-
-# The page's colours (page.css) that figures use, for a picture that stands alone; it follows the reader's light or dark.
-_COLOURS = {0: ("#1c1c1a", "#ecece6"), 1: ("#0072b2", "#56b4e9"), 2: ("#c85200", "#f08a4b"), 3: ("#007f5f", "#4cc9a0"), 4: ("#a3568a", "#d79ac2"), 5: ("#8a6d00", "#e0c040"),
-            6: ("#3d7f9f", "#8fc7de"), 7: ("#a8a8a0", "#6b6b65"), 10: ("#2a9d74",) * 2, 11: ("#7cc0ea",) * 2, 12: ("#0072b2", "#2a8fd0"), 13: ("#c85200", "#d5642a"), 14: ("#e69f00",) * 2,
-            15: ("#e8d44d",) * 2, 16: ("#b877a0", "#c58ab0"), 17: ("#8a7a6a", "#9a8a7a"), 18: ("#d4d4ce", "#4a4a46")}
-
-
-def standalone(figure, program="gnuplot"):
-    """A file of SVG: the figure as in the page, with its key below and no titles of marks."""
-    with tempfile.TemporaryDirectory() as folder:
-        _run_gnuplot([figure], folder, program)
-        elements = _elements(xml.etree.ElementTree.parse(os.path.join(folder, "0.svg")).getroot(), figure.tips())
-    elements = [re.sub(r"<title>.*?</title>| tabindex=\"0\"", "", element) for element in elements if not element.startswith("<circle")]
-    across = 3 if all(len(label) <= 20 for *_, label in figure.marks()) else 2
-    for place, (style, mark, label) in enumerate(figure.marks()):
-        where = f"translate({14 + 450 // across * (place % across)},{figure.height + 12 + 18 * (place // across)})"
-        elements.append(el("g", el("use", href=f"#mark{MARKS[mark][0] - 1}", transform="scale(4.5)", class_=f"s{style}", stroke_width="0.4"), el("text", label, x="10", y="4"), transform=where))
-    height = figure.height + 12 + 18 * -(-len(figure.marks()) // across)
-
-    def rules(place):
-        used = {int(style) for style in re.findall(r'class="s(\d+)"', "".join(elements))}
-        colours = "".join(f".s{style}{{color:{_COLOURS[style][place]}}}" for style in sorted(used))
-        ink, line, ground = (("#5f5f59", "#d9d9d3", "#ffffff"), ("#a3a39b", "#3a3a37", "#171716"))[place]
-        return f"svg{{background:{ground}}}text{{fill:{ink}}}.axis{{stroke:{ink}}}.grid{{stroke:{line}}}{colours}"
-
-    style = ("text{font:12px sans-serif}path{fill:none;stroke-width:2}g path{fill:currentColor;stroke:none}path.axis{stroke-width:1}path.grid{stroke-width:.6}path[class^=s]{stroke:currentColor}polygon{fill:currentColor}"
-             + rules(0) + "@media (prefers-color-scheme:dark){" + rules(1) + "}")
-    shapes = marks().split("<defs>")[1].split("</defs>")[0]
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">\n<style>{style}</style>\n<defs>{shapes}</defs>\n'
-            + "\n".join("".join(elements[place:place + 12]) for place in range(0, len(elements), 12)) + "\n</svg>\n")
 
 
 def _framed(figure, content):

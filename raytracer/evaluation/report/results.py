@@ -1,8 +1,7 @@
-"""What trax-eval measured (results.json) and what the paper published, as the report asks for it. Nothing here is invented: a figure that a
-file does not have, or that is no finite number, is None, and arithmetic on None gives None."""
+"""What trax-eval measured (results.json), as the report asks for it. Nothing here is invented: a figure that a file does not have, or that is
+no finite number, is None, and arithmetic on None gives None."""
 
 import copy
-import csv
 import json
 import math
 import pathlib
@@ -41,7 +40,9 @@ def deviation(ours, published):
 def mean(values):
     """Of all, or None if one is missing: an average over fewer scenes would be another figure."""
     values = list(values)
-    return None if not values or None in values else sum(values) / len(values)
+    if not values or None in values:
+        return None
+    return values[0] if len(values) == 1 else sum(values) / len(values)  # a count stays a whole number
 
 
 ASKED = {}  # index of a run: names of what get() was asked for; docs.py keeps that alone
@@ -290,58 +291,3 @@ def read_results(path):
         raise ResultsError(f"{path}: is nested too deeply") from None
     except ResultsError as error:
         raise ResultsError(f"{path}: {error}") from None
-
-
-class Published(float):
-    """A figure with the digits that the paper prints."""
-
-    def __new__(cls, text):
-        made = super().__new__(cls, text)
-        made.text = text.strip()
-        return made
-
-
-class Paper:
-    """The tables of the paper, by chip; the numbers are those of its text."""
-
-    def __init__(self, directory):
-        directory = pathlib.Path(directory)
-        self.table1 = self._rows(directory / "table1.csv", "area_mm2")
-        self.table2 = {row["name"]: row for row in self._rows(directory / "table2.csv", "average_mrps")}
-        self.table3 = {row["name"]: row for row in self._rows(directory / "table3.csv", "dragon_16gbs_mrps")}
-        self.chips = list(self.table2)
-        published = directory / "published.csv"
-        self.published = {}
-        if published.exists():
-            self.published = {row["name"]: row["value"] for row in self._rows(published, "value")}
-
-    @staticmethod
-    def _rows(path, needed):
-        try:
-            with open(path, encoding="utf-8", newline="") as file:
-                rows = list(csv.DictReader(file))
-        except (OSError, UnicodeDecodeError) as error:
-            raise ResultsError(f"{path}: cannot be read: {error}") from None
-        if not rows or needed not in rows[0] or "name" not in rows[0]:
-            raise ResultsError(f"{path}: has no column \"{needed}\"")
-        for line, row in enumerate(rows, 2):
-            for key, value in row.items():
-                if key in ("name", "unit", "place", "what", "where"):
-                    continue
-                try:
-                    row[key] = Published(value) if value and value.strip() else None
-                except (TypeError, ValueError):
-                    raise ResultsError(f"{path}:{line}: {key}: \"{value}\" is no number") from None
-        return rows
-
-    def threads(self, chip):
-        row = self.table2[chip]
-        return int(row["tms"] * row["tps_per_tm"])
-
-    def mrps(self, column, chip):
-        """Of Table 2; "average" is the paper's own average."""
-        row = self.table2.get(chip)
-        return row.get(f"{column}_mrps") if row else None
-
-    def speedup(self, column, chip):
-        return ratio(self.mrps(column, chip), self.mrps(column, "1x32"))

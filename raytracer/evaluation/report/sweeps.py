@@ -213,7 +213,8 @@ def _build(results, paper, sweep, spec, runs, identity, title):
 def makers(results, paper, sweep):
     """What makes the sweep's tables, a function each. Without a description: a row for all that differs, a column for each scene; by kind of ray where runs have that."""
     name = str(sweep.get("name") or "sweep")
-    runs = results.of_sweep(sweep.get("name"))
+    variants = ["", *(sweep.get("variants") or [])]
+    runs = [run for run in results.of_sweep(sweep.get("name")) if run.variant in variants or len(variants) == 1]  # without those that the sweep no longer has
     kinds = any(run.kinds() for run in runs)
     widths = sorted({int(key.split(".")[1]) for run in runs for key in run.values if key.startswith("simd_utilisation.") and key.split(".")[1].isdecimal()} - {1})
     y = {"name": sweep.get("y") or "mrps", "per": sweep.get("y_per")}

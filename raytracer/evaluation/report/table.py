@@ -1,5 +1,6 @@
 """A table as data, built once: text for the command's output, Markdown for the pages of docs. markup.py writes it as HTML."""
 
+import math
 import textwrap
 
 
@@ -16,7 +17,7 @@ def number(value, digits=3):
         return f"{value:,.0f}"
     whole = text.lstrip("-").split(".")[0]
     if digits > len(text.replace(".", "").lstrip("-0")):  # 4.9 beside 4.94: 4.90
-        return f"{value:.{digits - len(whole) if whole != '0' else digits}f}"
+        return f"{value:.{digits - (len(whole) if whole != '0' else 1 + math.floor(math.log10(abs(value))))}f}"
     return text
 
 

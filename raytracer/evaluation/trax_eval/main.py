@@ -10,7 +10,8 @@ import tempfile
 import time
 
 from report import docs, make
-from report.results import Paper, Results
+from report.paper import Paper
+from report.results import Results
 from report.tables import print_tables
 
 from . import runners
