@@ -25,7 +25,7 @@ from .data import compact, merged, read_data, results_of, without
 from .paper import Paper
 from .picture import standalone
 from .plots import PlotError
-from .results import ASKED, HERE, ResultsError, read_results
+from .results import HERE, ResultsError, read_results
 
 MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
 ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")
@@ -58,12 +58,11 @@ class Builder:
     """Tables and plots by name. Each is made with what it asked its runs for, by the runs' places."""
 
     def __init__(self, results, paper):
-        self.results, self.paper, self.asked, self.plots = results, paper, {}, {}
-        self.known = {}
+        self.results, self.paper, self.known = results, paper, {}
         for sweep in results.sweeps:
-            ASKED.clear()
+            self.results.asked.clear()
             makers = tables.makers(results, paper, sweep)
-            self.add(makers, sweep, ASKED.copy())
+            self.add(makers, sweep, dict(self.results.asked))
             if made := estimates.of_sweep(results, sweep):
                 self.add([made], sweep, {})
         self.add([self.claims, lambda: tables.described(results, paper),
@@ -78,22 +77,22 @@ class Builder:
     def add(self, makers, sweep, before):
         """before: what was asked for to know which tables there are; each needs it of its own runs."""
         for make in makers:
-            ASKED.clear()
+            self.results.asked.clear()
             table = make()
-            self.known[table.identity] = table, sweep, {index: names | before.get(index, set()) for index, names in ASKED.items()}
+            self.known[table.identity] = table, sweep, {index: names | before.get(index, set()) for index, names in self.results.asked.items()}
 
     def plot(self, name):
         for sweep in self.results.sweeps:
             if sweep.get("name") == name:
-                ASKED.clear()
+                self.results.asked.clear()
                 figure = sweep_figure(self.results, self.paper, sweep, name)
                 if figure:
-                    return figure, sweep, ASKED.copy()
-        ASKED.clear()
+                    return figure, sweep, dict(self.results.asked)
+        self.results.asked.clear()
         for figure in itertools.chain(rays.figures(self.results, self.paper), all_figures(self.results, self.paper)):
             if figure.identity == name and not figure.empty():
-                return figure, None, ASKED.copy()
-            ASKED.clear()
+                return figure, None, dict(self.results.asked)
+            self.results.asked.clear()
         raise ResultsError(f"there is no plot \"{name}\"")
 
     def found(self, name):

@@ -45,15 +45,12 @@ def mean(values):
     return values[0] if len(values) == 1 else sum(values) / len(values)  # a count stays a whole number
 
 
-ASKED = {}  # index of a run: names of what get() was asked for; docs.py keeps that alone
-
-
 class Run:
-    """One job. get("memory.bytes") looks in its statistics, get("values.x") in what an experiment computed."""
+    """One job. get("memory.bytes") looks in its statistics, get("values.x") in what an experiment computed. asked: by the index of a run the names of
+    what it was asked for, which docs.py keeps."""
 
-    def __init__(self, record, index):
-        self.index = index
-        self.record = record
+    def __init__(self, record, index, asked):
+        self.index, self.record, self.asked = index, record, asked
 
         def text(key, default=""):
             value = record.get(key, default)
@@ -95,7 +92,7 @@ class Run:
     def get(self, name):
         if not self.done:
             return None
-        ASKED.setdefault(self.index, set()).add(name)
+        self.asked.setdefault(self.index, set()).add(name)
         if name.startswith("values."):
             return number(self.values.get(name[len("values."):]))
         value = self.stats
@@ -105,7 +102,7 @@ class Run:
 
     def processor_seconds(self):
         """What the run took of the host, whatever else that did."""
-        ASKED.setdefault(self.index, set()).add("host.processor_seconds")
+        self.asked.setdefault(self.index, set()).add("host.processor_seconds")
         host = self.record.get("host")
         return number(host.get("processor_seconds")) if isinstance(host, dict) else None
 
@@ -133,7 +130,7 @@ class Run:
 
     def configured(self, name):
         """The configuration's value of a key, as it is."""
-        ASKED.setdefault(self.index, set()).add("configuration." + name)
+        self.asked.setdefault(self.index, set()).add("configuration." + name)
         value = self.stats.get("configuration")
         for part in name.split(".", 1):
             value = value.get(part) if isinstance(value, dict) else None
@@ -195,7 +192,8 @@ class Results:
                 if not isinstance(entry, dict):
                     raise ResultsError(f"{key}[{index}] is not an object")
         self.document = document = upgrade(document) if document["version"] == 1 else document
-        self.runs = [Run(record, index) for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
+        self.asked = {}
+        self.runs = [Run(record, index, self.asked) for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
         self.sweeps = document.get("sweeps") or []
         self.series = document.get("series") or []
         self.by_key = {run.key: run for run in self.runs}
