@@ -228,6 +228,9 @@ def test_options(evaluation, scratch):
     for mode, runs in (([], 2), (["--mode", "exact"], 1)):
         run = evaluation.run(seeds, "measured", *mode, "--dry-run")  # where the scene has been imported
         check(f"{runs} of {runs} runs are missing" in run.stdout, f"seeds of samples, {mode}: {run.stdout}{run.stderr}")
+    run = evaluation.run(dict(seeds, size="40x24"), "seeds", "--mode", "exact", "--jobs", "2")
+    found = [(one["set"], len(one["points"])) for one in evaluation.results("seeds")["runs"]]
+    check(run.returncode == 0 and found == [({}, 1)], f"an exact run has no seed, so that tables find it: {found}, {run.stderr}")
     sweep = dict(SMALL, series=0, chips="1x32", set={"trax-scene --leaf": [1, 4]})
     for size, smaller in (("60x34", "60x34"), ("320x180", "80x45"), ("640x360", "640x360"), ("1280x720", "960x540")):
         run = evaluation.run(dict(sweep, size=size), "options", "--quick", "--dry-run")
