@@ -1,9 +1,11 @@
 """Compilers with a way to count the instructions that their programs execute."""
 
+import functools
 import json
 import shutil
 import struct
 import subprocess
+import threading
 from pathlib import Path
 
 BENCH = Path(__file__).resolve().parent
@@ -103,12 +105,23 @@ class Host:
         return run([program])[0], None
 
 
+@functools.lru_cache(maxsize=None)
+def compiled(machine, source, flags):
+    """The object of a source, which is compiled once."""
+    name = machine.work / "-".join([machine.name, source.stem, *(flag.strip("-").replace("=", "") for flag in flags)])
+    run([*machine.compiler, *COMMON, "-O3", *flags, "-c", source, "-o", f"{name}.o"])
+    return f"{name}.o"
+
+
+DRIVER = threading.Lock() # kernels share it
+
+
 def build_and_run(machine, source, repetitions, flags=()):
     """Compile and link a kernel and its driver; return (checksum, measure, executed instructions)."""
-    stem = machine.work / f"{machine.name}-{source.stem}-{repetitions}"
-    kernel, driver, program = stem.with_suffix(".kernel.o"), stem.with_suffix(".driver.o"), stem.with_suffix(".elf")
-    run([*machine.compiler, *COMMON, "-O3", *flags, "-c", source, "-o", kernel])
-    run([*machine.compiler, *COMMON, "-O3", f"-DREPETITIONS={repetitions}", "-c", BENCH / "driver.c", "-o", driver])
+    kernel = compiled(machine, source, tuple(flags))
+    with DRIVER:
+        driver = compiled(machine, BENCH / "driver.c", (f"-DREPETITIONS={repetitions}",))
+    program = machine.work / f"{machine.name}-{source.stem}-{repetitions}.elf"
     machine.link([driver, kernel], program)
     printed, count = machine.execute(program)
     try:
