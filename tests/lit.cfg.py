@@ -9,7 +9,7 @@ some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substitutions beyond 
   %runtime       directory of crt0.o, libc.a  %trax_llc      LLVM IR to assembly, with the verifier on
   %python        the Python interpreter       %trax_objdump  disassembler of ELF files
   %unwind_test   compares frame information with the call chain (tests/unwind)
-  %run_c         run_c.py: compiles a C program at every -O level, runs each and compares (see tests/c)
+  %run_c         run_c.py: compiles a C program at several -O levels, runs each and compares (see tests/c)
 
 LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a program is
 missing: the test fails.
@@ -31,7 +31,7 @@ config.excludes = ["Inputs"] + [name for name in os.listdir(config.test_source_r
 config.environment["PATH"] = os.pathsep.join([config.trax_bin, config.llvm_bin, config.environment["PATH"]])
 config.environment["LC_ALL"] = "C"
 # What sanitizer builds report goes through the exit status; leaks of a compiler that is about to exit are intended.
-for variable in ("ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"):
+for variable in ("ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS", "TRAX_LEVELS"):
     if variable in os.environ:
         config.environment[variable] = os.environ[variable]
 

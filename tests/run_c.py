@@ -8,6 +8,7 @@
 Standard output must equal the file beside the program with the ending .expected, byte for byte, and the exit status the one given
 (default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
 the status 1 or, if it aborts, the one given.
+Without --levels, the levels are -O0, -O2 and -Oz; with TRAX_LEVELS=all in the environment, every one.
 The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
 each level that does not.
 """
@@ -19,7 +20,8 @@ import shlex
 import subprocess
 import sys
 
-LEVELS = "-O0,-O1,-O2,-O3,-Os,-Oz"
+LEVELS = "-O0,-O2,-Oz"
+ALL_LEVELS = "-O0,-O1,-O2,-O3,-Os,-Oz"
 SECONDS = 120  # per step; a program that hangs is a failure, not a wait
 
 
@@ -72,7 +74,7 @@ def main():
     parser.add_argument("binary", help="where the programs go; the level is appended")
     parser.add_argument("--clang", required=True)
     parser.add_argument("--sim", required=True)
-    parser.add_argument("--levels", default=LEVELS, help=f"comma separated (default: {LEVELS})")
+    parser.add_argument("--levels", default=ALL_LEVELS if os.environ.get("TRAX_LEVELS") == "all" else LEVELS, help=f"comma separated (default: {LEVELS})")
     parser.add_argument("--cflags", default="")
     parser.add_argument("--simflags", default="")
     parser.add_argument("--status", type=int, default=0)

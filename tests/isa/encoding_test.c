@@ -1,4 +1,5 @@
-/* Over all 2^32 words: decoding is total and unambiguous, and encode after decode is the identity. */
+/* Decoding is total and unambiguous, and encode after decode is the identity: over every 61st word, or with --all
+   over all 2^32, which takes a minute of a core. */
 #include "trax/isa.h"
 
 #include <pthread.h>
@@ -9,6 +10,8 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+
+static uint64_t step = 61;
 
 /* The table's entries for each major opcode: what the decoder is checked against. */
 static trax_op by_opcode[64][TRAX_OP_COUNT];
@@ -21,7 +24,7 @@ typedef struct range {
 
 static void *check_range(void *argument) {
   range *r = argument;
-  for (uint64_t at = r->first; at < r->end; at++) {
+  for (uint64_t at = r->first; at < r->end; at += step) {
     uint32_t word = (uint32_t)at;
     unsigned matches = 0;
     trax_op match = TRAX_OP_ILLEGAL;
@@ -48,7 +51,7 @@ static void *check_range(void *argument) {
   return NULL;
 }
 
-static void test_all_words(void **state) {
+static void test_words(void **state) {
   (void)state;
   for (int op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
     unsigned opcode = trax_op_table[op].match >> 26;
@@ -59,14 +62,14 @@ static void test_all_words(void **state) {
   pthread_t thread[16];
   range ranges[16] = {0};
   for (unsigned n = 0; n < threads; n++) {
-    ranges[n].first = ((uint64_t)n << 32) / threads;
+    ranges[n].first = (((uint64_t)n << 32) / threads + step - 1) / step * step;
     ranges[n].end = ((uint64_t)(n + 1) << 32) / threads;
     assert_int_equal(pthread_create(&thread[n], NULL, check_range, &ranges[n]), 0);
   }
   uint64_t words = 0, legal = 0;
   for (unsigned n = 0; n < threads; n++) {
     pthread_join(thread[n], NULL);
-    words += ranges[n].end - ranges[n].first;
+    words += (ranges[n].end - ranges[n].first + step - 1) / step;
     legal += ranges[n].legal;
     if (ranges[n].ambiguous || ranges[n].decoder_differs || ranges[n].not_identity)
       print_message("for example 0x%08x\n", (unsigned)ranges[n].example);
@@ -74,9 +77,11 @@ static void test_all_words(void **state) {
     assert_int_equal(ranges[n].decoder_differs, 0);
     assert_int_equal(ranges[n].not_identity, 0);
   }
-  assert_int_equal(words, UINT64_C(1) << 32);
+  assert_int_equal(words, ((UINT64_C(1) << 32) + step - 1) / step);
   print_message("%llu words, %llu legal\n", (unsigned long long)words, (unsigned long long)legal);
 
+  if (step > 1)
+    return;
   /* The legal words counted from the formats: a decoder that calls too little legal cannot pass. */
   uint64_t expected = 0;
   for (int op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
@@ -87,6 +92,15 @@ static void test_all_words(void **state) {
                                       : UINT64_C(1) << free_bits;
   }
   assert_int_equal(legal, expected);
+}
+
+/* No word can be two instructions. */
+static void test_no_overlap(void **state) {
+  (void)state;
+  for (int a = TRAX_OP_ILLEGAL + 1; a < TRAX_OP_COUNT; a++)
+    for (int b = a + 1; b < TRAX_OP_COUNT; b++)
+      if (!((trax_op_table[a].match ^ trax_op_table[b].match) & trax_op_table[a].mask & trax_op_table[b].mask))
+        fail_msg("%s and %s have words in common", trax_op_table[a].mnemonic, trax_op_table[b].mnemonic);
 }
 
 static void test_zero_and_ones_are_illegal(void **state) {
@@ -150,9 +164,16 @@ static void test_classes(void **state) {
   check_class(TRAX_IS_RELATIVE, "beq bne blt bge bltu bgeu jal - jalr add trap");
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+  if (argc == 2 && strcmp(argv[1], "--all") == 0)
+    step = 1;
+  else if (argc != 1) {
+    fprintf(stderr, "usage: isa-encoding-test [--all]\n");
+    return 1;
+  }
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_all_words),
+      cmocka_unit_test(test_words),
+      cmocka_unit_test(test_no_overlap),
       cmocka_unit_test(test_zero_and_ones_are_illegal),
       cmocka_unit_test(test_known_words),
       cmocka_unit_test(test_classes),

@@ -190,7 +190,7 @@ static struct bench run(const struct trax_config *config, const uint32_t *progra
 static void random_programs(void **state) {
   (void)state;
   const char *rounds_text = getenv("TRAX_RANDOM_ROUNDS"), *seed_text = getenv("TRAX_RANDOM_SEED");
-  const unsigned rounds = rounds_text ? (unsigned)atoi(rounds_text) : 10;
+  const unsigned rounds = rounds_text ? (unsigned)atoi(rounds_text) : 4;
   const unsigned seed = seed_text ? (unsigned)atoi(seed_text) : 1;
   for (unsigned round = 0; round < rounds; round++) {
     random_state = 0x9E3779B97F4A7C15u * (seed + round);
