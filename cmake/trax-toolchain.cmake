@@ -2,7 +2,7 @@
 #
 #   cmake -B build -DCMAKE_TOOLCHAIN_FILE=PREFIX/lib/trax/trax-toolchain.cmake
 #
-# The copy in PREFIX/lib/trax finds PREFIX/bin/clang by itself; elsewhere say -DTRAX_PREFIX=PREFIX, PREFIX being where the
+# The copy in PREFIX/lib/trax finds PREFIX/bin/trax-clang by itself; elsewhere say -DTRAX_PREFIX=PREFIX, PREFIX being where the
 # toolchain was built or installed. Programs get the ending .elf.
 
 set(CMAKE_SYSTEM_NAME Generic)
@@ -13,15 +13,15 @@ if(NOT TRAX_PREFIX)
 endif()
 set(TRAX_PREFIX "${TRAX_PREFIX}" CACHE PATH "Where the TRaX toolchain is")
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES TRAX_PREFIX)
-if(NOT EXISTS "${TRAX_PREFIX}/bin/clang")
-  message(FATAL_ERROR "there is no ${TRAX_PREFIX}/bin/clang: set TRAX_PREFIX to where the TRaX toolchain is")
+if(NOT EXISTS "${TRAX_PREFIX}/bin/trax-clang")
+  message(FATAL_ERROR "there is no ${TRAX_PREFIX}/bin/trax-clang: set TRAX_PREFIX to where the TRaX toolchain is")
 endif()
 
-set(CMAKE_C_COMPILER "${TRAX_PREFIX}/bin/clang")
+set(CMAKE_C_COMPILER "${TRAX_PREFIX}/bin/trax-clang")
 set(CMAKE_C_COMPILER_TARGET trax)
-set(CMAKE_CXX_COMPILER "${TRAX_PREFIX}/bin/clang++")
+set(CMAKE_CXX_COMPILER "${TRAX_PREFIX}/bin/trax-clang++")
 set(CMAKE_CXX_COMPILER_TARGET trax)
-set(CMAKE_ASM_COMPILER "${TRAX_PREFIX}/bin/clang")
+set(CMAKE_ASM_COMPILER "${TRAX_PREFIX}/bin/trax-clang")
 set(CMAKE_ASM_COMPILER_TARGET trax)
 set(CMAKE_EXECUTABLE_SUFFIX_C .elf)
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)

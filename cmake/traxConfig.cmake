@@ -12,14 +12,18 @@ get_filename_component(TRAX_PREFIX "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE
 set(TRAX_TOOLCHAIN_FILE "${TRAX_PREFIX}/lib/trax/trax-toolchain.cmake")
 
 foreach(program clang trax-ld trax-sim trax-mc trax-objdump)
-  if(NOT EXISTS "${TRAX_PREFIX}/bin/${program}")
+  set(TRAX_FILE "${TRAX_PREFIX}/bin/${program}")
+  if(program STREQUAL "clang") # a Debian package has no other name for it
+    set(TRAX_FILE "${TRAX_PREFIX}/bin/trax-clang")
+  endif()
+  if(NOT EXISTS "${TRAX_FILE}")
     set(trax_FOUND FALSE)
-    set(trax_NOT_FOUND_MESSAGE "${TRAX_PREFIX}/bin/${program} is missing: the installation is incomplete")
+    set(trax_NOT_FOUND_MESSAGE "${TRAX_FILE} is missing: the installation is incomplete")
     return()
   endif()
   if(NOT TARGET trax::${program})
     add_executable(trax::${program} IMPORTED)
-    set_target_properties(trax::${program} PROPERTIES IMPORTED_LOCATION "${TRAX_PREFIX}/bin/${program}")
+    set_target_properties(trax::${program} PROPERTIES IMPORTED_LOCATION "${TRAX_FILE}")
   endif()
 endforeach()
 
@@ -63,7 +67,7 @@ function(trax_add_executable name)
     set(object "${directory}/${number}-${file}.o")
     add_custom_command(OUTPUT "${object}"
       COMMAND ${compiler} -MD -MF "${object}.d" -MT "${object}" -c "${path}" -o "${object}"
-      DEPENDS "${path}" "${TRAX_PREFIX}/bin/clang" DEPFILE "${object}.d" VERBATIM
+      DEPENDS "${path}" "${TRAX_PREFIX}/bin/trax-clang" DEPFILE "${object}.d" VERBATIM
       COMMENT "Compiling ${source} for the TP")
     list(APPEND objects "${object}")
   endforeach()

@@ -38,7 +38,7 @@ static size_t chosen_flags(const char *chosen[MOST_FLAGS], const struct trax_met
 
 /* What of the installation decides about the program. */
 static const char *const ingredients[] = {
-    "bin/clang",         "bin/trax-ld",     "lib/trax/crt0.o",         "lib/trax/libc.a",
+    "bin/trax-clang",    "bin/trax-ld",     "lib/trax/crt0.o",         "lib/trax/libc.a",
     "lib/trax/libgcc.a", "lib/trax/libm.a", "lib/trax/include/trax.h",
 };
 #define SOURCE "lib/trax/raytracer"
@@ -209,7 +209,7 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
   const struct cache_work *work = recipe->work;
   char maps[3][2 * TRAX_PATH_SIZE + 32];
   char clang[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
-  if (!join_path(clang, recipe->root, "bin/clang", "") || !join_path(source, recipe->source, "main.c", ""))
+  if (!join_path(clang, recipe->root, "bin/trax-clang", "") || !join_path(source, recipe->source, "main.c", ""))
     return trax_fail(error, "%s: the path is too long", recipe->source);
   /* The program shall not depend on the name of a folder that may soon be gone. */
   const int cache = (int)(strrchr(work->folder, '/') - work->folder);

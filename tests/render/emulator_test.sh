@@ -204,12 +204,12 @@ note() {
   grep -q "^trax-render: note: the general program .*$pattern" .err || fail "$*: no note: $(cat .err)"
   "$bin/trax-compare" -q x.png box.png || fail "$*: another picture"
 }
-note 'bin/clang' bare/bin/trax-render
+note 'bin/trax-clang' bare/bin/trax-render
 note '/dev/null/trax' env XDG_CACHE_HOME=/dev/null "$bin/trax-render"
 note 'neither XDG_CACHE_HOME nor HOME' env -u XDG_CACHE_HOME -u HOME "$bin/trax-render"
 for method in '--triangle moller-trumbore' --fast-math; do
   bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png $method >.out 2>.err && fail "$method without a compiler"
-  grep -q "error: ${method%% *}: there is no program for it: .*bin/clang" .err && [ ! -e y.png ] || fail "$method: $(cat .err)"
+  grep -q "error: ${method%% *}: there is no program for it: .*bin/trax-clang" .err && [ ! -e y.png ] || fail "$method: $(cat .err)"
 done
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
 [ -s .err ] && fail "--no-specialise has a note: $(cat .err)"

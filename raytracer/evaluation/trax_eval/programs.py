@@ -153,7 +153,7 @@ def build(tools, program, scratch):
         return ["--program", str(program.source)]
     folder = patched(program, program.source.parent, scratch) if program.patches else program.source.parent
     elf = pathlib.Path(scratch, "program.elf")
-    process = run_tool([tools.path("clang"), *FLAGS, *program.flags, "-I", str(INSTALLED / DEVICE), program.source.name, "-o", str(elf)], cwd=folder)
+    process = run_tool([tools.path("trax-clang"), *FLAGS, *program.flags, "-I", str(INSTALLED / DEVICE), program.source.name, "-o", str(elf)], cwd=folder)
     if process.returncode != 0:
         compiler_failed(program, process)
     return ["--program", str(elf)]
