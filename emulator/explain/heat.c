@@ -29,7 +29,7 @@ struct heat {
   struct trax_explain *explain;
   struct object *objects; /* by address, not overlapping */
   size_t object_count;
-  struct object *parts; /* of the page */
+  struct object *parts;             /* of the page */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
   bool out_of_memory;
 };
@@ -242,6 +242,7 @@ trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *r
     destroy(heat);
     return trax_fail(error, "out of memory for the memory heat");
   }
-  *reader = (struct trax_reader){.self = heat, .span = add_span, .put_members = put_members, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){
+      .self = heat, .span = add_span, .put_members = put_members, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

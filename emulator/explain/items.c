@@ -115,7 +115,8 @@ static trax_status find_buffer(struct items *items, trax_error *error) {
       items->buffer_bytes = host->buffers[i].bytes;
       if (options->explore &&
           !(items->explain->pixels = trax_pixels_create(host->buffers[i].bytes / options->item_bytes)))
-        return trax_fail(error, "out of memory for the cost of %u pixels", host->buffers[i].bytes / options->item_bytes);
+        return trax_fail(error, "out of memory for the cost of %u pixels",
+                         host->buffers[i].bytes / options->item_bytes);
       return TRAX_OK;
     }
   return trax_fail(error, "no buffer %s is bound, to which items store", options->item_buffer);

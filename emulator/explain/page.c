@@ -68,8 +68,8 @@ static void put_base64(FILE *out, const uint8_t *bytes, size_t size) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t i = 0; i < size; i += 3) {
     const size_t left = size - i;
-    const uint32_t word = (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) |
-                          (left > 2 ? bytes[i + 2] : 0);
+    const uint32_t word =
+        (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
     fputc(digits[word >> 18], out);
     fputc(digits[word >> 12 & 63], out);
     fputc(left > 1 ? digits[word >> 6 & 63] : '=', out);

@@ -23,8 +23,8 @@ struct trax_pixels;
 struct trax_pixels *trax_pixels_create(size_t places); /* NULL: out of memory */
 void trax_pixels_destroy(struct trax_pixels *pixels);  /* which may be NULL */
 void trax_pixels_add(struct trax_pixels *pixels, const struct trax_item_cost *cost, bool last);
-/* Writes a member that describes columns of numbers, and the columns, each number as LEB128. Without a picture it writes
-   nothing. */
+/* Writes a member that describes columns of numbers, and the columns, each number as LEB128. Without a picture it
+   writes nothing. */
 trax_status trax_pixels_put(const struct trax_pixels *pixels, const struct trax_explore_picture *picture, FILE *members,
                             FILE *columns, trax_error *error);
 

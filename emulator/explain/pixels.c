@@ -1,6 +1,6 @@
 /* What each item cost, by its place, for the picture of the page. */
-#include "explain/page.h"
 #include "explain/kinds.h"
+#include "explain/page.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -10,9 +10,9 @@ enum { THREAD, BEGIN, CAUSES, RAYS = CAUSES + TRAX_CAUSE_COUNT, COLUMNS = RAYS +
 
 struct trax_pixels {
   size_t places;
-  uint64_t *columns;                   /* [COLUMNS][places]; thread: its number + 1, and 0 where no item was */
+  uint64_t *columns;                    /* [COLUMNS][places]; thread: its number + 1, and 0 where no item was */
   uint64_t elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles of no place */
-  bool any[COLUMNS];                   /* whether the column has another number than 0 */
+  bool any[COLUMNS];                    /* whether the column has another number than 0 */
 };
 
 struct trax_pixels *trax_pixels_create(size_t places) {

@@ -54,7 +54,6 @@ static inline void trax_profile_add(struct trax_profile_counts *sum, const struc
 /* --- profile_text.c --- */
 trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, trax_error *error);
 trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *out, trax_error *error);
-trax_status trax_profile_write_annotated(const struct trax_profile *profile, FILE *out, trax_error *error);
 
 /* --- profile_page.c: put_members of the reader; self is a trax_profile --- */
 trax_status trax_profile_put_members(void *self, FILE *out, trax_error *error);

@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
-/* Profiles as text: tables by function and line, folded stacks, annotated instructions. */
+/* Profiles as text: tables by function and line, folded stacks. */
 #include "explain/profile.h"
 #include "report/statistics.h"
 
@@ -150,53 +150,6 @@ trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, tr
   free(tables.lines);
   free(tables.seen);
   return complete ? TRAX_OK : trax_fail(error, "out of memory for the profile");
-}
-
-/* --- by instruction --- */
-
-trax_status trax_profile_write_annotated(const struct trax_profile *profile, FILE *out, trax_error *error) {
-  struct trax_places *places = profile->explain->places;
-  const uint32_t count = trax_places_count(places);
-  struct trax_profile_counts *counts = calloc((size_t)count + 2, sizeof *counts), total = {0};
-  if (!counts)
-    return trax_fail(error, "out of memory for the profile");
-  for (size_t i = 0; i < profile->record_count; i++) {
-    trax_profile_add(&counts[profile->records[i].index], &profile->records[i].counts);
-    trax_profile_add(&total, &profile->records[i].counts);
-  }
-  fprintf(out, "Columns as in the profile. Instructions that no thread came to are left out.\n\n");
-  print_head(out, &total);
-  const char *symbol = NULL;
-  const struct trax_frame_place *latest = NULL;
-  for (uint32_t i = 0; i < count + 2; i++) {
-    const struct trax_place *place = trax_places_at(places, i);
-    const uint64_t cycles = trax_profile_cycles(&counts[i]);
-    if (!cycles)
-      continue;
-    if (place->symbol != symbol)
-      fprintf(out, "\n%s:\n", place->symbol ? place->symbol : "(no symbol)");
-    symbol = place->symbol;
-    if (!latest || latest->line != place->frames->line || latest->function != place->frames->function)
-      fprintf(out, "%*s; %s%s%s\n", 60, "", trax_places_name(places, place->frames->function),
-              place->frames->line ? " at " : "", trax_places_name(places, place->frames->line));
-    latest = place->frames;
-    print_counts(out, &counts[i], cycles, 0, &total);
-    if (i < count) {
-      const uint32_t pc = trax_places_pc(places, i);
-      uint32_t word;
-      char text[128];
-      memcpy(&word, profile->explain->machine->space.bytes + pc, sizeof word);
-      trax_disassemble(word, pc, text, sizeof text);
-      fprintf(out, "  %08x  %s\n", pc, text);
-    } else {
-      fprintf(out, "\n");
-    }
-  }
-  fprintf(out, "\n");
-  print_counts(out, &total, trax_profile_cycles(&total), 0, &total);
-  fprintf(out, "  total\n");
-  free(counts);
-  return TRAX_OK;
 }
 
 /* --- folded stacks --- */

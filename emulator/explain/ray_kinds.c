@@ -123,8 +123,8 @@ static double share(double a, double b) {
   return b > 0 ? a / b : 0;
 }
 
-static void write_row(const struct ray_kinds *rays, FILE *out, const char *name, const struct trax_tm_stats *row, uint64_t count,
-                      double joules) {
+static void write_row(const struct ray_kinds *rays, FILE *out, const char *name, const struct trax_tm_stats *row,
+                      uint64_t count, double joules) {
   const struct trax_machine *machine = rays->explain->machine;
   uint64_t cycles = 0;
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -204,12 +204,13 @@ trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_read
   rays->working = malloc(explain->machine->stats.threads);
   if (!rays->working)
     trax_fail(error, "out of memory for the kinds of rays");
-  if (!rays->working || (explain->options.ray_kinds &&
-                         trax_output_open(&rays->output, explain->options.ray_kinds, error) != TRAX_OK)) {
+  if (!rays->working ||
+      (explain->options.ray_kinds && trax_output_open(&rays->output, explain->options.ray_kinds, error) != TRAX_OK)) {
     destroy(rays);
     return TRAX_ERROR;
   }
   memset(rays->working, TRAX_NO_RAY, explain->machine->stats.threads);
-  *reader = (struct trax_reader){.self = rays, .span = add_step, .put_members = put_members, .finish = finish, .destroy = destroy};
+  *reader = (struct trax_reader){
+      .self = rays, .span = add_step, .put_members = put_members, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }

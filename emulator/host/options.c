@@ -198,7 +198,6 @@ static const trax_option rows[] = {
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
     {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),
      .meaning = "thread-cycles by call stack, for flame graphs"},
-    {"annotate", .argument = "FILE", OUTPUT(explain.annotate), .meaning = "thread-cycles by instruction"},
     {"heat", .argument = "FILE", OUTPUT(explain.heat), .meaning = "accesses to memory by object, as CSV"},
     {"heat-lines", .argument = "FILE", OUTPUT(explain.heat_lines),
      .meaning = "accesses to global memory by 64 bytes, as CSV"},
@@ -247,6 +246,7 @@ static const trax_option rows[] = {
     TRAX_OPTION_HELP(0),
     TRAX_OPTION_VERSION,
     {"sample", .instead = "for estimates use trax-render --sampled, with --sample-fraction and the like"},
+    {"annotate", .instead = "--explore FILE.html has every line of the program with its instructions"},
     {"bench-modes", .instead = "run with --engine fast and --engine functional; for estimates use trax-render --sampled"},
     {0}};
 /* clang-format on */
@@ -303,8 +303,8 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
     return trax_fail(error, "--window without --trace, --perfetto or --konata");
   if (explain->series_interval && !explain->series)
     return trax_fail(error, "--series-interval without --series");
-  if (explain->item_buffer && !explain->items)
-    return trax_fail(error, "--item-buffer without --items");
+  if (explain->item_buffer && !explain->items && !explain->explore)
+    return trax_fail(error, "--item-buffer without --items or --explore");
   return TRAX_OK;
 }
 

@@ -42,7 +42,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
-      return trax_fail(error, "--explore, --profile, --profile-folded, --cost-picture and --cost-values need the emulator");
+      return trax_fail(error, "--explore, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
       return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
     if (options->choose_queues)

@@ -32,8 +32,8 @@ static trax_status end_explanation(struct trax_explain *explain, const struct tr
     status = trax_visits_count(&visits, picture, frame, &twin, error);
   }
   if (visits.nodes) {
-    shown.counts[0] = (struct trax_explore_counts){"nodes", "nodes", "nodes of the tree that its rays visited",
-                                                   visits.nodes};
+    shown.counts[0] =
+        (struct trax_explore_counts){"nodes", "nodes", "nodes of the tree that its rays visited", visits.nodes};
     shown.counts[1] = (struct trax_explore_counts){"triangles", "triangles", "triangles that its rays were tested with",
                                                    visits.triangles};
   }
@@ -112,10 +112,10 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
 /* The sections of the scene in the machine's memory, if it has them. */
 static size_t list_parts(struct trax_explore_part parts[TRAX_SCENE_SECTIONS], trax_machine *machine) {
   static const char *const names[TRAX_SCENE_SECTIONS] = {
-      [TRAX_SCENE_NODES] = "scene: nodes",       [TRAX_SCENE_TRIANGLES] = "scene: triangles",
+      [TRAX_SCENE_NODES] = "scene: nodes",         [TRAX_SCENE_TRIANGLES] = "scene: triangles",
       [TRAX_SCENE_MATERIALS] = "scene: materials", [TRAX_SCENE_SOURCE_IDS] = "scene: source numbers",
-      [TRAX_SCENE_NORMALS] = "scene: normals",   [TRAX_SCENE_UVS] = "scene: texture coordinates",
-      [TRAX_SCENE_TEXTURES] = "scene: textures", [TRAX_SCENE_TEXELS] = "scene: texels"};
+      [TRAX_SCENE_NORMALS] = "scene: normals",     [TRAX_SCENE_UVS] = "scene: texture coordinates",
+      [TRAX_SCENE_TEXTURES] = "scene: textures",   [TRAX_SCENE_TEXELS] = "scene: texels"};
   uint32_t address, size;
   uint8_t *bytes;
   trax_error none;
@@ -125,8 +125,8 @@ static size_t list_parts(struct trax_explore_part parts[TRAX_SCENE_SECTIONS], tr
   const struct trax_scene_header *header = (const struct trax_scene_header *)bytes;
   for (unsigned kind = 0; kind < TRAX_SCENE_SECTIONS; kind++)
     if (header->sections[kind].size)
-      parts[count++] = (struct trax_explore_part){names[kind], address + header->sections[kind].offset,
-                                                  header->sections[kind].size};
+      parts[count++] =
+          (struct trax_explore_part){names[kind], address + header->sections[kind].offset, header->sections[kind].size};
   return count;
 }
 

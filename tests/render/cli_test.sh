@@ -34,7 +34,7 @@ refuse 'no mesh' "$render"
 refuse 'no mesh' "$render" -o x.png
 refuse 'no picture given' "$render" "$box"
 refuse 'x.png: is written twice, by --output and by --cost-picture' "$render" "$box" -o x.png --cost-picture x.png
-refuse 'x.json: is written twice, by --stats and by --profile' "$render" "$box" -o x.png --stats x.json --profile x.json
+refuse 'x.json: is written twice, by --stats and by --explore' "$render" "$box" -o x.png --stats x.json --explore x.json
 refuse 'unknown option --siez; did you mean --size?' "$render" "$box" -o x.png --siez 10x10
 refuse 'unknown option -z' "$render" "$box" -o x.png -z
 refuse '--size needs WxH' "$render" "$box" -o x.png --size
@@ -68,7 +68,7 @@ refuse '--threads' "$render" "$box" -o x.png --engine native --threads 0
 refuse '--stats needs the emulator' "$render" "$box" -o x.png --engine native --stats s.json
 refuse 'need the emulator' "$render" "$box" -o x.png --engine embree --config 4x32
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --cost-picture c.png
-refuse 'need the emulator' "$render" "$box" -o x.png --engine native --profile p.txt
+refuse 'need the emulator' "$render" "$box" -o x.png --engine native --explore p.html
 refuse 'need the emulator' "$render" "$box" -o x.png --engine native --no-specialise
 refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --cache here
 refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --cache here
@@ -83,7 +83,7 @@ refuse '--fast-math needs a program.*--program asks' "$render" "$box" -o x.png -
 refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
 refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
 refuse "--cost: 'time' is none of cycles" "$render" "$box" -o x.png --cost-picture c.png --cost time
-for option in '-o x.png' '--stats s.json' --compare '--profile p.txt' '--cost-picture c.png' '--id-picture i.png'; do
+for option in '-o x.png' '--stats s.json' --compare '--explore p.html' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
 done
 refuse 'need the emulator' "$render" "$box" --prepare prepared --engine native
@@ -107,7 +107,7 @@ refuse 'in which the eye looks' "$render" "$box" -o x.png --eye 1,2,3 --look-at 
 refuse 'missing.obj' "$render" missing.obj -o x.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.png
 refuse 'nowhere' "$render" "$box" -o x.png --stats nowhere/s.json
-for option in profile profile-folded cost-picture cost-values; do
+for option in explore cost-picture cost-values; do
   refuse 'nowhere' "$render" "$box" -o x.png --$option nowhere/x
 done
 refuse 'view missing.view: there is no such file, and trax comes with no such view' "$render" "$box" -o x.png --view missing.view

@@ -144,7 +144,7 @@ refuse 'one follows from the other' --sampled --sample-fraction 0.5 --sample-err
 refuse 'engine fast' --sampled --engine reference
 refuse 'engine fast' --sampled --engine native
 refuse 'nothing to compare' --sampled --compare
-refuse 'nothing to compare' --sampled --profile x.txt
+refuse 'nothing to compare' --sampled --explore x.html
 refuse 'nothing to compare' --sampled --cost-picture y.png
 refuse '--fast-math' --sampled --fast-math
 

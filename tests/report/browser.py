@@ -3,11 +3,47 @@ https://chromedevtools.github.io/devtools-protocol/"""
 
 import json
 import os
+import re
 import select
 import shutil
 import subprocess
 import tempfile
 import time
+
+
+# A colour of the page as [red, green, blue], 0 to 255.
+COLOUR = "(c => c.match(/[\\d.]+/g).slice(0, 3).map(Number))(getComputedStyle({}).{})"
+# The colours of all texts and of what is behind them, each pair once. A canvas mixes the colours that lie one over the other.
+TEXT_COLOURS = """(() => {
+    const context = Object.assign(document.createElement("canvas"), {width: 1, height: 1}).getContext("2d", {willReadFrequently: true}), known = new Map();
+    const mixed = colours => {
+        const key = colours.join();
+        if (!known.has(key)) {
+            context.clearRect(0, 0, 1, 1);
+            for (const colour of colours) { context.fillStyle = colour; context.fillRect(0, 0, 1, 1); }
+            known.set(key, `rgb(${[...context.getImageData(0, 0, 1, 1).data.slice(0, 3)].join(", ")})`);
+        }
+        return known.get(key);
+    };
+    return [...new Set(Array.from(document.querySelectorAll("main *, header *"), e => {
+        if (!Array.from(e.childNodes).some(n => n.nodeType === 3 && n.textContent.trim()) || e.closest("title, style, script")) return null;
+        const behind = [];
+        for (let back = e; back; back = back.parentElement) behind.unshift(getComputedStyle(back).backgroundColor);
+        return JSON.stringify([mixed([...behind, e.closest("svg") ? getComputedStyle(e).fill : getComputedStyle(e).color]), mixed(behind)]);
+    }))].filter(x => x).map(x => JSON.parse(x)); })()"""
+
+
+def luminance(colour):
+    """WCAG 2.1, relative luminance."""
+    parts = [part / 255 for part in colour]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(*colours):
+    """Of two colours as a style has them."""
+    bright, dark = sorted((luminance([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) for colour in colours), reverse=True)
+    return (bright + 0.05) / (dark + 0.05)
 
 
 class BrowserError(Exception):

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 import example
-from browser import Browser, find_chromium
+from browser import COLOUR, TEXT_COLOURS, Browser, contrast, find_chromium, luminance
 
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 KEEP = None
@@ -21,21 +21,6 @@ if "--keep" in sys.argv:
     KEEP = pathlib.Path(sys.argv[place + 1])
     KEEP.mkdir(parents=True, exist_ok=True)
     del sys.argv[place:place + 2]
-
-# A colour of the page as [red, green, blue], 0 to 255.
-COLOUR = "(c => c.match(/[\\d.]+/g).slice(0, 3).map(Number))(getComputedStyle({}).{})"
-
-
-def luminance(colour):
-    """WCAG 2.1, relative luminance."""
-    parts = [part / 255 for part in colour]
-    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
-
-
-def contrast(a, b):
-    bright, dark = sorted((luminance(a), luminance(b)), reverse=True)
-    return (bright + 0.05) / (dark + 0.05)
 
 
 class BrowserTest(unittest.TestCase):
@@ -171,16 +156,10 @@ class BrowserTest(unittest.TestCase):
             ground = seen[scheme] = self.browser.run(COLOUR.format("document.body", "backgroundColor"))
             self.assertEqual(luminance(ground) > 0.5, scheme == "light")
             # Text can be read everywhere: WCAG's 4.5 to 1.
-            texts = self.browser.run("""[...new Set(Array.from(document.querySelectorAll("main *, header *"), e => {
-                if (!Array.from(e.childNodes).some(n => n.nodeType === 3 && n.textContent.trim()) || e.closest("title, style, script")) return null;
-                let back = e;
-                while (back && getComputedStyle(back).backgroundColor === "rgba(0, 0, 0, 0)") back = back.parentElement;
-                return JSON.stringify([e.closest("svg") ? getComputedStyle(e).fill : getComputedStyle(e).color, getComputedStyle(back || document.body).backgroundColor]);
-            }))].filter(x => x).map(x => JSON.parse(x))""")
+            texts = self.browser.run(TEXT_COLOURS)
             self.assertGreater(len(texts), 8)
             for text, back in texts:
-                pair = [[float(part) for part in re.findall(r"[\d.]+", colour)[:3]] for colour in (text, back)]
-                self.assertGreaterEqual(contrast(*pair), 4.5, (scheme, text, back))
+                self.assertGreaterEqual(contrast(text, back), 4.5, (scheme, text, back))
             self.picture(f"{scheme}.png")
         self.browser.run("document.getElementById('theme').click()")  # it is dark
         self.assertEqual(self.browser.run(COLOUR.format("document.body", "backgroundColor")), seen["light"])

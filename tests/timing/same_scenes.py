@@ -36,7 +36,7 @@ CHIPS = {"1x32": ["--config", "1x32"], "4x32": ["--config", "4x32"], "8x64": ["-
          "16x64": ["--config", "8x64", "--set", "chip.tms=16"]}
 CACHES = {"": [], " with l2": ["--set", "l2.bytes=262144"]}
 WHOLE = ["--stats", "--series"]
-EXPLAINED = [*WHOLE, "--profile", "--profile-folded", "--annotate", "--heat", "--heat-lines", "--items", "--lockstep", "--post-mortem", "--trace",
+EXPLAINED = [*WHOLE, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--lockstep", "--post-mortem", "--trace",
              "--perfetto", "--konata"]
 FIRST = ["--max-cycles", "12000", "--window", "10000:10600"]  # of the explained run
 

@@ -131,7 +131,7 @@ const familyOf = (cause) => cause === "issued" ? "issued" : cause === "halted" ?
 
 // The names in the order of the statistics, families together; shades from the hue to lighter and darker ones.
 function causesOf(stats, figures) {
-  const order = ["issued", "fetch", "cache", "memory", "unit", "atomic", "other", "ended"], shades = [0, 30, -22, 52, -40];
+  const order = ["issued", "fetch", "cache", "memory", "unit", "atomic", "other", "ended"], shades = [0, 34, -12, 58, -24];
   const meanings = new Map(figures.map(([name, , meaning]) => [name, meaning]));
   const names = Object.keys(stats.causes).filter((name) => stats.causes[name] > 0);
   names.sort((a, b) => order.indexOf(familyOf(a)) - order.indexOf(familyOf(b)));

@@ -23,11 +23,12 @@ function drawPicture({ stats, run, causes, columns }) {
   for (const column of kinds) shown.push({ ...column, name: `rays: ${column.name}` });
   shown.push(...counts);
   if (columns.begin) shown.push({ name: "time", unit: "cycle", meaning: "in which its thread began with it", values: columns.begin.values });
-  for (const one of shown) {
-    const sorted = Float64Array.from(one.values).sort();
-    Object.assign(one, { sorted, white: sorted[pixels - 1 - Math.floor(pixels / 100)] || sorted[pixels - 1] || 1 });
-  }
-  const costs = shown[0], meanOf = (values) => values.reduce((total, value) => total + value, 0) / pixels;
+  const ordered = (one) => {
+    if (!one.sorted) one.sorted = Float64Array.from(one.values).sort();
+    one.white = one.sorted[pixels - 1 - Math.floor(pixels / 100)] || one.sorted[pixels - 1] || 1;
+    return one;
+  };
+  const costs = ordered(shown[0]), meanOf = (values) => values.reduce((total, value) => total + value, 0) / pixels;
 
   // --- pictures ---
   const seen = byId("picture-seen"), cost = byId("picture-cost");
@@ -36,8 +37,9 @@ function drawPicture({ stats, run, causes, columns }) {
     canvas.height = height;
     const image = new ImageData(width, height);
     for (let i = 0; i < pixels; i++) {
-      const [r, g, b] = colour(i);
-      image.data.set([r, g, b, 255], 4 * i);
+      const three = colour(i);
+      for (let channel = 0; channel < 3; channel++) image.data[4 * i + channel] = three[channel];
+      image.data[4 * i + 3] = 255;
     }
     canvas.base = image;
     canvas.getContext("2d").putImageData(image, 0, 0);
@@ -52,7 +54,7 @@ function drawPicture({ stats, run, causes, columns }) {
   const choice = byId("picture-what");
   choice.append(...shown.map((one, i) => element("option", { value: i }, one.name)));
   const redraw = () => {
-    now = shown[choice.value];
+    now = ordered(shown[choice.value]);
     paint(cost, (i) => rampAt(now.values[i] / now.white));
     const ramp = element("canvas", { width: 256, height: 1, "aria-hidden": "true" }), line = new ImageData(256, 1);
     for (let i = 0; i < 256; i++) line.data.set([...rampAt(i / 255), 255], 4 * i);
@@ -118,7 +120,7 @@ function drawPicture({ stats, run, causes, columns }) {
   choice.addEventListener("change", redraw);
   redraw();
 
-  const ranking = Array.from(cycles.keys()).sort((a, b) => cycles[b] - cycles[a] || a - b).slice(0, 10);
+  const least = costs.sorted[Math.max(0, pixels - 10)], ranking = Array.from(cycles.keys()).filter((i) => cycles[i] >= least).sort((a, b) => cycles[b] - cycles[a] || a - b).slice(0, 10);
   fillTable("costliest", "The costliest pixels", [["pixel"], ["cycles", "n"], ["causes", "wide"], ...counts.map((count) => [count.name, "n"])], ranking.map((i) => [
     [element("button", { type: "button", onclick: () => pin(i) }, `(${i % width}, ${Math.floor(i / width)})`), i], [whole(cycles[i]), cycles[i]],
     stack(causes, Object.fromEntries(inGroup("causes").map((column) => [column.name, column.values[i]])), cycles[ranking[0]]), ...counts.map((count) => [whole(count.values[i]), count.values[i]])]));

@@ -42,7 +42,7 @@ function drawObjects({ run }) {
 }
 
 function drawRays({ stats, run, causes }) {
-  const kinds = rowsOf(run.ray_kinds).filter((one) => one.rays || one.thread_cycles || one.energy > 0), marked = kinds.some((one) => one.rays && one.thread_cycles && one.kind !== "all");
+  const kinds = rowsOf(run.ray_kinds).filter((one) => one.rays || one.thread_cycles || one.energy > 0), marked = kinds.find((one) => one.kind === "none")?.issued < stats.causes.issued / 2;
   if (!stats.rays) { byId("rays").remove(); return; }
   byId("rays-note").textContent = marked ? "A thread works for the kind that it counted last. The row none has the work for no ray, the row rest what belongs to no instruction." :
     "This program counts a pixel's rays together, at its end: all its work stands in the row none. trax-render --mark-rays counts each ray where it begins.";

@@ -1,5 +1,5 @@
-/* Explanations of a run besides its statistics: a page, profiles, traces, time lines, memory heat, costs of items, series
-   (docs/explaining.md). They are deterministic and the same with both timed engines.
+/* Explanations of a run besides its statistics: a page, profiles, traces, time lines, memory heat, costs of items,
+   series (docs/explaining.md). They are deterministic and the same with both timed engines.
 
      struct trax_explain *explain;
      trax_explain_begin(&explain, machine, &options, &error);   after loading and binding, before the run
@@ -21,7 +21,6 @@ struct trax_explain_options {
   const char *explore;       /* a page in HTML that explains the whole run */
   const char *profile;       /* thread-cycles by function and source line */
   const char *folded;        /* by call stack, for flame graphs */
-  const char *annotate;      /* by instruction */
   const char *trace;         /* every issue in the window */
   const char *konata;        /* the window as a pipeline, for Konata */
   const char *perfetto;      /* the window as JSON trace events */

@@ -27,7 +27,7 @@ KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chip
         "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
 # Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps.
 TOOLS = {"trax-scene": ("output", "check", "stats", "stats-json", "quiet", "help", "version"),
-         "trax-render": ("output", "size", "frames", "id-picture", "write-view", "config", "set", "engine", "threads", "stats", "profile", "profile-folded", "cost-picture",
+         "trax-render": ("output", "size", "frames", "id-picture", "write-view", "config", "set", "engine", "threads", "stats", "explore", "cost-picture",
                          "cost-values", "cost", "compare", "source", "program", "cache", "sampled", "keep", "prepare", "quiet", "help", "version")}
 VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
 

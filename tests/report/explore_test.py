@@ -1,0 +1,376 @@
+#!/usr/bin/env python3
+"""The page of --explore: explore_test.py BIN SOURCE [--keep DIR]. Whether its data are those of the other outputs, whether its bytes depend on the run
+alone, and whether a browser shows it without a word on its console. --keep leaves pages, pictures and the PDF in a folder, to be looked at."""
+
+import base64
+import collections
+import csv
+import io
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+from browser import COLOUR, TEXT_COLOURS, Browser, contrast, find_chromium, luminance
+
+BIN, SOURCE = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
+del sys.argv[1:3]
+KEEP = None
+if "--keep" in sys.argv:
+    place = sys.argv.index("--keep")
+    KEEP = pathlib.Path(sys.argv[place + 1])
+    KEEP.mkdir(parents=True, exist_ok=True)
+    del sys.argv[place:place + 2]
+
+WIDTH, HEIGHT = 48, 27
+OF_HOST = ("host_seconds", "instructions_per_host_second")
+HOSTILE = "<img src=x onerror=alert(1)> & </script>.obj".replace("/", "\u2044")
+
+
+def unpack(path):
+    """The data of a page, and its picture's columns by name."""
+    packed = {name: zlib.decompress(base64.b64decode(text)) for name, text in re.findall(r'octet-stream" id="(\w+)">([^<]*)</script>', path.read_text())}
+    data, numbers, columns = json.loads(packed["data"]), iter(packed["pixels"]), {}
+    if "picture" in data:
+        for column in filter(None, data["picture"]["columns"]):
+            values = columns[f"{column[0]}.{column[1]}"] = []
+            for _ in range(data["picture"]["width"] * data["picture"]["height"]):
+                value = shift = 0
+                while (byte := next(numbers)) >= 128:
+                    value |= (byte & 127) << shift
+                    shift += 7
+                values.append(value | byte << shift)
+    assert next(numbers, None) is None
+    return data, columns
+
+
+def render(folder, *words, check=True, mesh=None):
+    command = [BIN / "trax-render", mesh or SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view", "--size", f"{WIDTH}x{HEIGHT}",
+               *([] if "--program" in words else ["--cache", folder / "cache"]), "-q", *words]
+    return subprocess.run(command, cwd=folder, check=check, capture_output=not check, text=True)
+
+
+def simulate(folder, *words, check=True):
+    return subprocess.run([BIN / "trax-sim", "--quiet", *words], cwd=folder, check=check, capture_output=not check, text=True)
+
+
+class Scratch(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = pathlib.Path(scratch.name)
+        render(cls.folder, "--mark-rays", "-o", "p.png", "--keep", "run", "--explore", "p.html", "--stats", "p.json", "--cost-values", "p.csv")
+        simulate(cls.folder, "run/manifest.json", "--explore", "q.html", "--stats", "q.json", "--heat", "heat.csv", "--ray-kinds", "rays.csv", "--profile-folded", "folded",
+                 "--items", "items.csv", "--item-buffer", "image")
+
+    def text(self, name):
+        return (self.folder / name).read_text()
+
+
+class Data(Scratch):
+    def test_is_what_the_other_outputs_are(self):
+        for page, stats in (("p.html", "p.json"), ("q.html", "q.json")):
+            data, columns = unpack(self.folder / page)
+            written = json.loads(self.text(stats))
+            for name in OF_HOST:
+                del written[name]
+            self.assertEqual(data["stats"], written)
+            for cause, cycles in written["causes"].items():
+                self.assertEqual(sum(columns.get(f"causes.{cause}", [])) + data["picture"]["elsewhere"][cause], cycles, cause)
+            for kind, rays in written["rays_by_kind"].items():
+                self.assertEqual(sum(columns.get(f"rays.{kind}", [])), rays, kind)
+            self.assertEqual(columns["rays.primary"], [1] * WIDTH * HEIGHT)
+            series = list(csv.DictReader(io.StringIO(data["series"])))
+            self.assertTrue(16 < len(series) / (1 + len(written["tms"])) <= 256)
+            for cause, cycles in written["causes"].items():
+                self.assertEqual(sum(int(row[cause]) for row in series if row["tm"] == "all"), cycles, cause)
+                for tm in written["tms"]:
+                    self.assertEqual(sum(int(row[cause]) for row in series if row["tm"] == str(tm["tm"])), tm["causes"][cause], cause)
+            self.assertEqual(sum(int(row["memory.bytes"]) for row in series if row["tm"] == "all"), written["memory"]["bytes"])
+            instructions = list(filter(None, data["instructions"]))
+            self.assertEqual([sum(one[5][i] for one in instructions) for i in range(len(written["causes"]))], list(written["causes"].values()))
+            self.assertTrue(any(path.endswith("traverse.h") and "visit_node" in text for path, text in data["sources"].items()))
+        self.assertEqual(data["heat"], self.text("heat.csv"))
+        self.assertEqual(data["ray_kinds"], self.text("rays.csv"))
+        self.assertEqual(data["folded"], self.text("folded"))
+
+    def test_pixels(self):
+        data, columns = unpack(self.folder / "p.html")
+        cycles = [sum(values) for values in zip(*(values for name, values in columns.items() if name.startswith("causes.")))]
+        self.assertEqual(cycles, [int(row["cycles"]) for row in csv.DictReader(io.StringIO(self.text("p.csv")))])
+        image = (self.folder / "run/image.raw").read_bytes()
+        for channel, name in enumerate(("red", "green", "blue")):
+            value, values = 0, []
+            for difference in columns[f"picture.{name}"]:
+                values.append(value := value + difference & 255)
+            self.assertEqual(bytes(values), image[channel::4], name)
+        # Of the same run by trax-sim, which knows neither nodes nor triangles, as a file of their own has it.
+        _, others = unpack(self.folder / "q.html")
+        self.assertEqual({name: values for name, values in columns.items() if not name.startswith("counts.")}, others)
+        for row in csv.DictReader(io.StringIO(self.text("items.csv"))):
+            if row["kind"] == "item":
+                place = int(row["place"])
+                self.assertEqual([others["causes.issued"][place], others[".thread"][place] - 1, others[".begin"][place]],
+                                 [int(row[name]) for name in ("instructions", "thread", "begin")])
+        # A visit of a node loads a plane at least, at most two boxes and two references; a triangle has 10 words.
+        parts = {row["object"]: int(row["loads"]) for row in csv.DictReader(io.StringIO(data["parts"]))}
+        nodes, triangles = sum(columns["counts.nodes"]), sum(columns["counts.triangles"])
+        self.assertTrue(nodes > WIDTH * HEIGHT and 2 * nodes <= parts["scene: nodes"] <= 14 * nodes, (nodes, parts))
+        self.assertTrue(triangles > WIDTH * HEIGHT / 2 and triangles <= parts["scene: triangles"] <= 10 * triangles + 10 * sum(columns["rays.primary"]), (triangles, parts))
+
+    def test_bytes(self):
+        page = (self.folder / "p.html").read_bytes()
+        self.assertNotIn(b"http:", page.replace(b"http://www.w3.org/2000/svg", b""))  # the name of SVG
+        self.assertNotIn(b"https:", page)
+        packed = re.search(rb'id="pixels">([^<]*)<', page)[1]
+        self.assertLess(len(packed), 8e6 * WIDTH * HEIGHT / (640 * 360))  # of 10 MB; the rest hardly grows with the picture
+        self.assertLess(len(page) - len(packed), 600000)
+        for words in (["--threads", "1"], ["--threads", "3"], ["--engine", "reference"]):
+            render(self.folder, "--mark-rays", "-o", "other.png", "--explore", "other.html", *words)
+            self.assertEqual((self.folder / "other.html").read_bytes(), page, words)
+
+    def test_run_is_the_same(self):
+        render(self.folder, "--mark-rays", "-o", "plain.png", "--stats", "plain.json")
+        self.assertEqual((self.folder / "plain.png").read_bytes(), (self.folder / "p.png").read_bytes())
+        stats = [json.loads(self.text(name)) for name in ("plain.json", "p.json")]
+        for one in stats:
+            for name in OF_HOST:
+                del one[name]
+        self.assertEqual(*stats)
+
+    def test_another_program(self):
+        """Its visits are not known, its work is that of no kind of ray."""
+        render(self.folder, "-o", "general.png", "--explore", "general.html", "--program", BIN / "../lib/trax/trax-raytracer.elf")
+        _, columns = unpack(self.folder / "general.html")
+        self.assertEqual([name for name in columns if name.startswith("counts.")], [])
+        self.assertEqual(columns["rays.primary"], [1] * WIDTH * HEIGHT)
+
+    def test_refused(self):
+        (self.folder / "closed").mkdir(exist_ok=True)
+        (self.folder / "kept.html").write_text("kept")
+        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore", "closed"], "closed"), (["--explore", "p.png", "-o", "p.png"], "written twice"),
+                               (["--explore", str(SOURCE / "tests/render/box.obj")], "is an input and the output of --explore"), (["--explore", "kept.html", "--engine", "native"], "need the emulator"),
+                               (["--explore", "kept.html", "--sampled"], "nothing to compare, explain"), (["--explore", "kept.html", "--frames", "2"], "pictures only")):
+            ended = render(self.folder, *(words if "-o" in words else ["-o", "new.png", *words]), check=False)
+            self.assertEqual(ended.returncode, 1, words)
+            self.assertRegex(ended.stderr, r"^trax-render: error: .*(" + message + ")")
+        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore", "run/manifest.json"], "manifest.json"), (["--explore", "kept.html", "--engine", "functional"], "a run is explained by"),
+                               (["--explore", "kept.html", "--resume", "q.json"], "cannot be explained without")):
+            ended = simulate(self.folder, *words, "run/manifest.json", check=False)
+            self.assertEqual(ended.returncode, 1, words)
+            self.assertRegex(ended.stderr, r"^trax-sim: error: .*" + message)
+        # A page that cannot be written to its end is an error, and the file that was there stays.
+        ended = simulate(self.folder, "--explore", "/dev/full", "run/manifest.json", check=False)
+        self.assertEqual((ended.returncode, ended.stderr.startswith("trax-sim: error: /dev/full: ")), (1, True), ended.stderr)
+        limited = subprocess.run(["bash", "-c", f"ulimit -f 60; exec {BIN}/trax-sim --quiet --explore kept.html run/manifest.json --dump image=/dev/null"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(limited.returncode, 1, limited.stderr)
+        self.assertRegex(limited.stderr, "^trax-sim: error: kept.html: ")
+        self.assertEqual((self.text("kept.html"), sorted(one.name for one in self.folder.glob("kept*"))), ("kept", ["kept.html"]))
+        manifest = json.loads(self.text("run/manifest.json"))
+        manifest["picture"]["width"] += 1
+        (self.folder / "run/wrong.json").write_text(json.dumps(manifest))
+        ended = simulate(self.folder, "--explore", "kept.html", "run/wrong.json", check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertRegex(ended.stderr, "^trax-sim: error: the manifest's picture of 49x27 pixels of 4 bytes is not the buffer image of 5184 bytes")
+        self.assertEqual(self.text("kept.html"), "kept")
+
+    def test_unfinished(self):
+        ended = simulate(self.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000", "run/manifest.json", check=False)
+        self.assertEqual(ended.returncode, 124)
+        data, columns = unpack(self.folder / "part.html")
+        self.assertEqual((data["stats"]["status"], data["stats"]["cycles"]), ("limit", 20000))
+        done = data["stats"]["items"]
+        self.assertTrue(0 < done < WIDTH * HEIGHT)
+        self.assertEqual(sum(1 for thread in columns[".thread"] if thread), done)
+
+
+class Page(Scratch):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        program = find_chromium()
+        if not program:
+            raise AssertionError("Chromium is not installed; on Debian it is the package chromium")
+        shutil.copy(SOURCE / "tests/render/box.obj", cls.folder / HOSTILE)
+        shutil.copy(SOURCE / "tests/render/box.mtl", cls.folder)
+        render(cls.folder, "-o", "h.png", "--explore", "hostile.html", "--stats", "hostile.json", mesh=HOSTILE)
+        simulate(cls.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000", "run/manifest.json", check=False)
+        render(cls.folder, "-o", "g.png", "--explore", "general.html", "--stats", "general.json", "--program", BIN / "../lib/trax/trax-raytracer.elf", "--config", "1x32",
+               "--set", "memory.model=dram", "--set", "dram.preset=lpddr3-1600")
+        cls.pages = {"whole": "p", "manifest": "q", "hostile": "hostile", "partial": "part", "dram": "general"}
+        cls.browser = Browser(program)
+        cls.addClassCleanup(cls.browser.close)
+
+    def load(self, name):
+        self.browser.open(self.folder / f"{self.pages[name]}.html")
+        until = time.monotonic() + 60
+        while self.browser.run("document.documentElement.dataset.ready") != "yes":
+            self.assertLess(time.monotonic(), until, self.browser.messages)
+            time.sleep(0.05)
+
+    def is_quiet(self):
+        self.assertEqual(self.browser.messages, [])
+        for url in self.browser.requests:
+            self.assertRegex(url, r"^file://.*\.html$")
+
+    def keep(self, name, data):
+        if KEEP:
+            (KEEP / name).write_bytes(base64.b64decode(data))
+
+    def picture(self, name, width=1400):
+        if KEEP:
+            clip = {"x": 0, "y": 0, "width": width, "height": self.browser.run("document.documentElement.scrollHeight"), "scale": 1}
+            self.keep(name, self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
+
+    def key(self, name):
+        for kind in ("keyDown", "keyUp"):
+            self.browser.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode={"Enter": 13, "ArrowRight": 39, "ArrowDown": 40}.get(name, 0))
+
+    def middle(self, expression):
+        return self.browser.run(f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})({expression})")
+
+    def test_figures(self):
+        """Every figure of --stats stands on the page, with its value."""
+        for name, stem in self.pages.items():
+            self.load(name)
+            stats = json.loads(self.text(f"{stem}.json"))
+            shown = self.browser.run("Array.from(document.querySelectorAll('[data-figure]'), e => [e.dataset.figure, Number(e.dataset.value), e.textContent])")
+
+            def flat(level, prefix=""):
+                for key, value in level.items():
+                    if isinstance(value, dict):
+                        yield from flat(value, f"{prefix}{key}.")
+                    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+                        yield prefix + key, value
+
+            expected = {key: value for key, value in flat({key: value for key, value in stats.items() if key not in ("configuration", "identity", "exit_status", *OF_HOST)})}
+            self.assertGreater(len(expected), 150)
+            self.assertEqual({key: value for key, value, _ in shown}, expected, name)
+            for key, value, text in shown:
+                if isinstance(value, int) and key.startswith("causes."):
+                    self.assertEqual(text, f"{value:,}")
+            sections = self.browser.run("Array.from(document.querySelectorAll('main > section'), e => [e.id, e.getBoundingClientRect().height])")
+            self.assertEqual([one for one, height in sections if height > 60],
+                             ["causes", "time", "picture", "source", "calls", "hardware", "objects", "rays", "statistics"], name)
+            self.assertEqual(self.browser.run("document.querySelectorAll('#time svg polygon').length"), sum(1 for cycles in stats["causes"].values() if cycles))
+            self.assertEqual(stats["partial"], "did not finish" in self.browser.run("document.getElementById('brief').textContent"))
+            self.is_quiet()
+        self.assertIn("DRAM", self.browser.run("document.getElementById('memory-table').textContent"))
+
+    def test_story(self):
+        self.load("whole")
+        _, columns = unpack(self.folder / "p.html")
+        causes = {name[len("causes."):]: values for name, values in columns.items() if name.startswith("causes.")}
+        box = self.browser.run("(e => { e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })(document.getElementById('picture-cost'))")
+        x, y = 17, 20
+        at = [box[0] + (x + 0.5) * box[2] / WIDTH, box[1] + (y + 0.5) * box[3] / HEIGHT]
+
+        def check(x, y):
+            place = y * WIDTH + x
+            cycles, story = sum(values[place] for values in causes.values()), self.browser.run("document.getElementById('story').innerText")
+            thread, begin = columns[".thread"][place] - 1, columns[".begin"][place]
+            self.assertIn(f"Pixel ({x}, {y}): {cycles:,} cycles", story)
+            self.assertIn(f"Thread {thread} (TM {thread // 32}, TP {thread % 32}), cycles {begin:,} to {begin + cycles:,}.", story)
+            shadows = columns["rays.shadow"][place]
+            self.assertIn(f"{1 + shadows} rays (1 primary{', 1 shadow' if shadows else ''}), {columns['counts.nodes'][place]:,} nodes, {columns['counts.triangles'][place]:,} triangles, "
+                          f"{causes['issued'][place]:,} instructions", story)
+            rows = dict(self.browser.run("Array.from(document.querySelectorAll('#story-table tbody tr'), row => [row.cells[0].textContent, row.cells[1].textContent])"))
+            self.assertEqual(rows, {cause: f"{values[place]:,}" for cause, values in causes.items() if values[place]})
+            return cycles
+
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=at[0], y=at[1])
+        self.assertRegex(self.browser.run("document.getElementById('tip').textContent"), rf"^\({x}, {y}\)\ncycles {sum(values[y * WIDTH + x] for values in causes.values()):,}$")
+        self.browser.press(*at)
+        check(x, y)
+        # The same with the keyboard, on the other picture.
+        self.browser.run("document.getElementById('picture-seen').focus()")
+        for key in ("ArrowRight", "ArrowDown", "Enter"):
+            self.key(key)
+        check(x + 1, y + 1)
+        # What is shown by colour is the chosen cost.
+        self.browser.run("(s => { s.value = Array.from(s.options).find(o => o.text === 'nodes').value; s.dispatchEvent(new Event('change')); })(document.getElementById('picture-what'))")
+        self.assertRegex(self.browser.run("document.getElementById('picture-scale').textContent"), rf"most {max(columns['counts.nodes']):,};")
+        self.is_quiet()
+
+    def test_source(self):
+        self.load("whole")
+        data, _ = unpack(self.folder / "p.html")
+        total, lines = data["stats"]["thread_cycles"], collections.Counter()
+        for one in filter(None, data["instructions"]):
+            lines[data["names"][one[4][0][1]]] += sum(one[5])
+        del lines[""]
+        hottest, cycles = max(lines.items(), key=lambda line: (line[1], line[0]))
+        self.assertIn(pathlib.Path(hottest).name, self.browser.run("document.getElementById('brief').textContent"))
+        self.browser.run("document.querySelector('#lines-table tbody button').click()")
+        row = self.browser.run("(row => [row.dataset.line, row.cells[1].textContent, row.cells[5].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))")
+        path, number = hottest.rsplit(":", 1)
+        self.assertEqual(row, [number, f"{100 * cycles / total:.1f} %", pathlib.Path(path).read_text().splitlines()[int(number) - 1]])
+        mine = [one for one in filter(None, data["instructions"]) if data["names"][one[4][0][1]] == hottest]
+        below = self.browser.run("Array.from(document.querySelectorAll('#listing tr.instruction'), row => [row.cells[0].textContent, row.cells[3].textContent, row.cells[5].textContent])")
+        self.assertEqual([(pc, issued) for pc, issued, _ in below], [(f"{one[0]:08x}", f"{one[5][0]:,}") for one in mine])
+        for (_, _, text), one in zip(below, mine):
+            self.assertTrue(text.startswith(one[1]), text)
+        tree = self.browser.run("document.getElementById('calls-tree').innerText")
+        for name in ("_start", "main", "trace_ray"):
+            self.assertIn(name, tree)
+        self.browser.run("(i => { i.value = 'queue peak'; i.value = 'cache dropped'; i.dispatchEvent(new Event('input')); })(document.getElementById('statistics-filter'))")
+        self.assertEqual(self.browser.run("Array.from(document.querySelectorAll('#statistics-table tbody tr:not([hidden])'), row => row.cells[0].textContent)"), ["dcache.dropped"])
+        self.is_quiet()
+
+    def test_names_are_text(self):
+        self.load("hostile")
+        self.assertIn(HOSTILE, self.browser.run("document.querySelector('h1').textContent"))
+        self.assertEqual(self.browser.run("document.querySelectorAll('img').length"), 0)
+        self.assertIn("--mark-rays", self.browser.run("document.getElementById('rays-note').textContent"))
+        self.is_quiet()
+
+    def test_light_and_dark(self):
+        for scheme in ("light", "dark"):
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.load("whole")
+            self.assertEqual(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))) > 0.5, scheme == "light")
+            self.browser.run("document.querySelector('#lines-table tbody button').click()")
+            texts = self.browser.run(TEXT_COLOURS)
+            self.assertGreater(len(texts), 6)
+            for text, back in texts:
+                self.assertGreaterEqual(contrast(text, back), 4.5, (scheme, text, back))
+            self.picture(f"{scheme}.png")
+            self.is_quiet()
+        self.browser.run("document.getElementById('theme').click()")
+        self.assertGreater(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))), 0.5)
+        self.browser.run("try { localStorage.clear() } catch {}")
+        self.browser.call("Emulation.setEmulatedMedia", features=[])
+
+    def test_narrow(self):
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
+        for name in self.pages:
+            self.load(name)
+            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
+        self.picture("narrow.png", 390)
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+
+    def test_prints(self):
+        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.load("whole")
+        pdf = self.browser.call("Page.printToPDF", printBackground=False, preferCSSPageSize=True)["data"]
+        self.keep("page.pdf", pdf)
+        pages = len(re.findall(rb"/Type\s*/Page\b", base64.b64decode(pdf)))
+        self.assertTrue(3 <= pages <= 15, pages)
+        self.browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - 22) / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False)
+        self.assertGreater(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))), 0.9)
+        wide = self.browser.run("Array.from(document.querySelectorAll('table, canvas, svg'), e => [e.id || e.tagName, e.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth + 1)")
+        self.assertEqual(wide, [])
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+        self.browser.call("Emulation.setEmulatedMedia", media="", features=[])
+
+
+if __name__ == "__main__":
+    unittest.main()
