@@ -146,9 +146,9 @@ static void next_interval(struct trax_series *series, const struct trax_run *run
     put_interval(series, &series->intervals[0], series->output.file);
     return;
   }
-  if (series->count == PAGE_INTERVALS)
-    join_pairs(series);
   end_interval(series, &series->intervals[series->count++], run, end);
+  if (series->count == PAGE_INTERVALS) /* at once, so that all intervals stay equally long */
+    join_pairs(series);
 }
 
 static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
