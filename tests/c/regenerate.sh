@@ -16,7 +16,7 @@ for source in "$@"; do
   if grep -q 'xpected output by clang' "$source"; then
     compiler='clang-19 -std=gnu2x'
   fi
-  $compiler -O1 -fwrapv -ffp-contract=off -w -I../../runtime/include "$source" -o "$work/program" -lm -latomic
+  $compiler -O1 -fwrapv -ffp-contract=off -w -I../../runtime/include -I../../isa/include "$source" -o "$work/program" -lm -latomic
   "$work/program" >"$work/output"
   mv "$work/output" "${source%.c}.expected"
 done
