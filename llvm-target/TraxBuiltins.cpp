@@ -125,6 +125,7 @@ PreservedAnalyses TraxBuiltinsPass::run(Module &M, ModuleAnalysisManager &) {
     Changed = true;
     F.setDoesNotThrow();
     switch (*Builtin) {
+    case TraxBuiltin::Opaque:
     case TraxBuiltin::Rsqrt: // total: may be computed where the source would not have
       F.setDoesNotAccessMemory();
       F.setWillReturn();

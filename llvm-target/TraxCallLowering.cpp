@@ -343,6 +343,9 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
   case TraxBuiltin::Rsqrt:
     InVals.push_back(DAG.getNode(TraxISD::RSQRT, DL, MVT::f32, CLI.OutVals[0]));
     break;
+  case TraxBuiltin::Opaque:
+    InVals.push_back(DAG.getNode(TraxISD::OPAQUE, DL, MVT::i32, CLI.OutVals[0]));
+    break;
   case TraxBuiltin::Rdsr: {
     SDValue Number = DAG.getTargetConstant(Constant(0, TRAX_SR_COUNT, "special register").value_or(0), DL, MVT::i32);
     if (Number->getAsZExtVal() <= TRAX_SR_THREADS) {

@@ -19,6 +19,7 @@ enum NodeType : unsigned {
   ADD_LO,     // sum of that and the lower half
   ABS_ADDR,   // a thread-local symbol's address, which fits an immediate
   RSQRT,      // reciprocal square root
+  OPAQUE,     // the operand, hidden
   RDSR_CONST, // special register that does not change
   RDSR,       // any special register; chained
   TRAP,

@@ -15,6 +15,7 @@ def trax_hi : SDNode<"TraxISD::HI", SDT_TraxUnary>;
 def trax_add_lo : SDNode<"TraxISD::ADD_LO", SDT_TraxAddLo>;
 def trax_abs : SDNode<"TraxISD::ABS_ADDR", SDT_TraxUnary>;
 def trax_rsqrt : SDNode<"TraxISD::RSQRT", SDTFPUnaryOp>;
+def trax_opaque : SDNode<"TraxISD::OPAQUE", SDTIntUnaryOp>; // a copy, which no node sees through
 def trax_rdsr_const : SDNode<"TraxISD::RDSR_CONST", SDT_TraxUnary>;
 def trax_rdsr : SDNode<"TraxISD::RDSR", SDT_TraxUnary, [SDNPHasChain, SDNPSideEffect]>;
 def trax_trap : SDNode<"TraxISD::TRAP", SDT_TraxTrap, [SDNPHasChain, SDNPSideEffect]>;
@@ -221,6 +222,7 @@ def : Pat<(trax_ret), (PseudoRET)>;
 def : Pat<(callseq_start timm:$size, timm:$unused), (ADJCALLSTACKDOWN timm:$size, timm:$unused)>;
 def : Pat<(callseq_end timm:$size, timm:$unused), (ADJCALLSTACKUP timm:$size, timm:$unused)>;
 
+def : Pat<(i32 (trax_opaque (i32 GPR:$a))), (COPY_TO_REGCLASS GPR:$a, GPR)>;
 def : Pat<(trax_rdsr_const timm:$n), (PseudoRDSRConst timm:$n)>;
 def : Pat<(trax_rdsr timm:$n), (RDSR timm:$n)>;
 def : Pat<(trax_trap (i32 GPR:$a), timm:$code), (TRAP GPR:$a, timm:$code)>;

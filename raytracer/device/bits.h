@@ -19,8 +19,12 @@ static inline float bits_float(int32_t bits) {
 }
 
 /* Keeps the compiler from reasoning about a value (and so from turning integer tests of floats back into tests of
-   floats, which the adder would do). Takes no instruction. */
-#define HIDE_ORIGIN(value) __asm__("" : "+r"(value))
+   floats, which the adder would do). Takes no instruction. The twin's compiler may know everything. */
+#ifdef __trax__
+#define HIDE_ORIGIN(value) ((value) = (__typeof__(value))__builtin_trax_opaque((unsigned)(value)))
+#else
+#define HIDE_ORIGIN(value) ((void)0)
+#endif
 
 /* Before a loop that takes few turns. */
 #ifdef __clang__
@@ -38,6 +42,10 @@ static inline int32_t magnitude(float value) {
 
 static inline int32_t larger(int32_t a, int32_t b) {
   return a > b ? a : b;
+}
+
+static inline int32_t smaller(int32_t a, int32_t b) {
+  return a < b ? a : b;
 }
 
 #endif

@@ -30,6 +30,10 @@ function __builtin_trax_ainc
   jalr r0, 0(r1)
   end __builtin_trax_ainc
 
+function __builtin_trax_opaque
+  jalr r0, 0(r1)
+  end __builtin_trax_opaque
+
 function __builtin_trax_halt
   halt
   end __builtin_trax_halt

@@ -37,6 +37,10 @@ unsigned registers(void) { return __builtin_trax_rdsr(0) + __builtin_trax_rdsr(5
 // CHECK: call i32 @__builtin_trax_ainc(ptr
 unsigned count(unsigned *p) { return __builtin_trax_ainc(p); }
 
+// CHECK-LABEL: define{{.*}} i32 @hidden(
+// CHECK: call i32 @__builtin_trax_opaque(i32 noundef 7)
+unsigned hidden(void) { return __builtin_trax_opaque(7); }
+
 // CHECK-LABEL: define{{.*}} void @stop(
 // CHECK: call void @__builtin_trax_trap(i32 noundef 42, i32 noundef 1)
 // CHECK: call void @__builtin_trax_halt()

@@ -6,6 +6,7 @@ declare i32 @__builtin_trax_rdsr(i32)
 declare void @__builtin_trax_trap(i32, i32)
 declare void @__builtin_trax_halt()
 declare i32 @__builtin_trax_ainc(ptr)
+declare i32 @__builtin_trax_opaque(i32)
 
 ; CHECK-LABEL: rsqrt:
 ; CHECK: frsqrt r4, r4
@@ -76,6 +77,31 @@ define i32 @ainc(ptr %p) {
 define void @abort() {
   call void @llvm.trap()
   unreachable
+}
+; The comparison of the words stays one, though both are floats', and no copy is left.
+; CHECK-LABEL: opaque:
+; CHECK-NOT: mv
+; CHECK: xor r12, r4, r5
+; CHECK: srli r4, r12, 31
+; CHECK-NEXT: ret
+define i32 @opaque(float %a, float %b) {
+  %x = bitcast float %a to i32
+  %y = bitcast float %b to i32
+  %p = call i32 @__builtin_trax_opaque(i32 %x)
+  %q = call i32 @__builtin_trax_opaque(i32 %y)
+  %d = xor i32 %p, %q
+  %c = icmp slt i32 %d, 0
+  %r = zext i1 %c to i32
+  ret i32 %r
+}
+; What is known of the operand is not known of the result.
+; CHECK-LABEL: opaque_constant:
+; CHECK: li r12, 5
+; CHECK: addi r4, r12, 1
+define i32 @opaque_constant() {
+  %p = call i32 @__builtin_trax_opaque(i32 5)
+  %r = add i32 %p, 1
+  ret i32 %r
 }
 ; CHECK-LABEL: address_taken:
 ; CHECK: lui r12, %hi(__builtin_trax_ainc)
