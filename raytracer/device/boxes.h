@@ -1,6 +1,6 @@
-/* Whether a ray enters a box, and where. Boxes are tested plane by plane and left as soon as the ray is known to miss,
-   and all comparisons are of integers: a node costs between 2 and 6 adds and multiplies a child, and a load for each
-   plane. */
+/* Whether a ray enters a box, and where. Boxes are tested plane by plane and left behind each plane by which the ray is
+   known to miss, and all comparisons are of integers: a node costs between 1 and 6 adds and multiplies a child, and a
+   load for each plane. */
 #ifndef TRAX_DEVICE_BOXES_H
 #define TRAX_DEVICE_BOXES_H
 
@@ -19,36 +19,50 @@ static inline __attribute__((always_inline)) int32_t limit_of(uint32_t layout, i
   return nodes_are_quantised(layout) ? distance_on_grid(distance_bits) : distance_bits;
 }
 
-/* Clips the ray's way through a box to the slab between two of its planes. False: nothing of it remains. Distances are
-   compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good as another
-   place, and who leaves before 0 has missed in any case, which is asked at the end. */
-static inline __attribute__((always_inline)) bool clip_to_slab(uint32_t layout, const char *near, const char *far,
-                                                               float near_origin, float far_origin, float inverse,
-                                                               int32_t *enter, int32_t *leave) {
-  int32_t near_bits = plane_distance(layout, near, near_origin, inverse);
-  int32_t far_bits = plane_distance(layout, far, far_origin, inverse);
-  if (near_bits > *enter)
-    *enter = near_bits;
-  if (far_bits < *leave)
-    *leave = far_bits;
-  return *enter <= *leave;
+/* As integers, since the compiler would keep the negative of a pointer's offset in a register of its own. */
+static inline __attribute__((always_inline)) const char *before(const char *place, uint32_t offset) {
+  return (const char *)((uintptr_t)place - offset);
 }
 
-/* Where the ray enters a box, as bits, if it does so before `limit`. */
-static inline __attribute__((always_inline)) bool enter_box(uint32_t layout, const char *box, const struct ray *ray,
-                                                            int32_t limit, int32_t *enter) {
+/* Where the ray enters a box of a node, as bits, if it does so before `limit`. `box` is where in the node its planes
+   are.
+
+   Distances are compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good
+   as another place, and who leaves before 0 has missed: of an axis's two negative distances the near plane's is the
+   greater. */
+static inline __attribute__((always_inline)) bool enter_box(uint32_t layout, const char *node, int box,
+                                                            const struct ray *ray, int32_t limit, int32_t *enter) {
   const struct box_ray *way = &ray->box;
-  const int plane = plane_bytes(layout);
-  const char *least = box, *greatest = box + 3 * plane;
-  int32_t leave = limit;
-  *enter = INT32_MIN;
-  return clip_to_slab(layout, least + ray->near_offset_x, greatest - ray->near_offset_x, way->near_origin.x,
-                      way->far_origin.x, way->inverse.x, enter, &leave) &&
-         clip_to_slab(layout, least + plane + ray->near_offset_y, greatest + plane - ray->near_offset_y,
-                      way->near_origin.y, way->far_origin.y, way->inverse.y, enter, &leave) &&
-         clip_to_slab(layout, least + 2 * plane + ray->near_offset_z, greatest + 2 * plane - ray->near_offset_z,
-                      way->near_origin.z, way->far_origin.z, way->inverse.z, enter, &leave) &&
-         leave >= 0;
+  const int plane = plane_bytes(layout), x = box, y = x + plane, z = y + plane, far = 3 * plane;
+
+  const char *near_x = node + ray->near_offset_x;
+  int32_t latest = plane_distance(layout, near_x + x, way->near_origin.x, way->inverse.x);
+  if (latest > limit)
+    return false;
+  const char *far_x = before(node, ray->near_offset_x);
+  int32_t leave = plane_distance(layout, far_x + x + far, way->far_origin.x, way->inverse.x);
+  if (leave < latest)
+    return false;
+  leave = smaller(leave, limit);
+
+  const char *near_y = node + ray->near_offset_y;
+  int32_t near_bits = plane_distance(layout, near_y + y, way->near_origin.y, way->inverse.y);
+  if (near_bits > leave)
+    return false;
+  latest = larger(latest, near_bits);
+  const char *far_y = before(node, ray->near_offset_y);
+  int32_t far_bits = plane_distance(layout, far_y + y + far, way->far_origin.y, way->inverse.y);
+  if (far_bits < latest)
+    return false;
+  leave = smaller(leave, far_bits);
+
+  const char *near_z = node + ray->near_offset_z;
+  near_bits = plane_distance(layout, near_z + z, way->near_origin.z, way->inverse.z);
+  if (near_bits > leave)
+    return false;
+  *enter = larger(latest, near_bits);
+  const char *far_z = before(node, ray->near_offset_z);
+  return plane_distance(layout, far_z + z + far, way->far_origin.z, way->inverse.z) >= *enter;
 }
 
 #endif

@@ -24,9 +24,10 @@ struct trax_buffer record;
 #endif
 
 /* The paper's workload: the pixel's word. All rays go through one copy of the traversal, so that the program fits in
-   the instruction cache. */
+   the instruction cache. *number is asked for once all rays are traced, and is there when the pixel is done. */
 static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
-                                                                   uint32_t layout, struct pixel pixel) {
+                                                                   uint32_t layout, struct pixel pixel, uint32_t queue,
+                                                                   uint32_t *number) {
   struct vector sum = {0, 0, 0};
   for (uint32_t sample = 0;;) {
     struct place place = NEEDS(run, SAMPLES) ? sample_place(sample) : PIXEL_MIDDLE;
@@ -83,6 +84,9 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
         trax_count_kinds(shadow);
     }
 
+    const bool done = !NEEDS(run, SAMPLES) || ++sample == run->samples;
+    if (done)
+      *number = ask_for_number(next_slot, queue);
     if (!MARKS_RAYS(run))
       trax_count_kinds(TRAX_RAYS(TRAX_RAY_PRIMARY, 1) + shadow);
     if (!NEEDS(run, SAMPLES))
@@ -91,7 +95,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
       add_light(&sum, colour, light);
     else
       add_pixel(&sum, run->background);
-    if (++sample == run->samples)
+    if (done)
       return mean_pixel(&sum, run->sample_weight);
   }
 }
@@ -117,12 +121,14 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
 /* The paper's workload. Each layout of nodes has a loop of its own, which fits in the instruction cache. */
 static inline __attribute__((always_inline)) NO_RETURN void render_layout(const struct trax_render_params *run,
                                                                           uint32_t layout) {
-  uint32_t slot, queue = first_queue();
-  while (take_slot(run, next_slot, &queue, &slot)) {
+  uint32_t slot, queue = first_queue(), number = ask_for_number(next_slot, queue);
+  while (take_slot(run, next_slot, number, &queue, &slot)) {
     struct pixel pixel;
-    if (!slot_pixel(run, slot, &pixel))
+    if (!slot_pixel(run, slot, &pixel)) {
+      number = ask_for_number(next_slot, queue);
       continue;
-    uint32_t word = render_pixel(run, layout, pixel);
+    }
+    uint32_t word = render_pixel(run, layout, pixel, queue, &number);
     ACCESS_SLOT(slot);
     LOAD_AGAIN(run);
     RECORD_PIXEL(run, pixel);
@@ -152,7 +158,7 @@ static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
   struct path *path = path_of_thread();
 #endif
   uint32_t slot, queue = first_queue();
-  while (take_slot(run, next_slot, &queue, &slot)) {
+  while (take_slot(run, next_slot, ask_for_number(next_slot, queue), &queue, &slot)) {
     struct pixel pixel;
     if (!slot_pixel(run, slot, &pixel))
       continue;

@@ -24,27 +24,26 @@ static inline uint32_t first_queue(void) {
   return queue;
 }
 
-static inline bool take_from_queues(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t *queue,
-                                    uint32_t *slot) {
-  if (TRAX_QUEUES == 1)
-    return (*slot = trax_atomic_inc(next)) < run->slot_count;
+/* Asks for a number of a queue. It takes as long as a transfer from memory, and the thread goes on until it is used. */
+static inline uint32_t ask_for_number(unsigned next[TRAX_QUEUES], uint32_t queue) {
+  return trax_atomic_inc(&next[queue]);
+}
+
+/* The slot of a number that was asked for, or of another queue's, if this one has no more. False: there is none left.
+   next: of each queue, how many were taken, and how often someone found it empty. */
+static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t number,
+                             uint32_t *queue, uint32_t *slot) {
   const uint32_t tile_bits = 2 * run->tile_log2_side;
-  for (;;) {
-    const uint32_t number = trax_atomic_inc(&next[*queue]);
-    *slot = ((number >> tile_bits) * TRAX_QUEUES + *queue) << tile_bits | (number & ((1u << tile_bits) - 1));
+  for (;; number = ask_for_number(next, *queue)) {
+    *slot = TRAX_QUEUES == 1
+                ? number
+                : ((number >> tile_bits) * TRAX_QUEUES + *queue) << tile_bits | (number & ((1u << tile_bits) - 1));
     if (*slot < run->slot_count)
-      return true;
+      break;
     *queue = *queue + 1 < TRAX_QUEUES ? *queue + 1 : 0;
     if (*queue == first_queue())
       return false;
   }
-}
-
-/* False: there is none left. next: of each queue, how many were taken, and how often someone found it empty. */
-static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t *queue,
-                             uint32_t *slot) {
-  if (!take_from_queues(run, next, queue, slot))
-    return false;
   HIDE_ORIGIN(*slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
   return true;
 }

@@ -18,6 +18,13 @@ struct stack_entry {
   int32_t enter; /* where the ray enters its box */
 };
 
+static inline __attribute__((always_inline)) void push(struct stack_entry **top, trax_scene_ref reference,
+                                                       int32_t enter) {
+  **top = (struct stack_entry){reference, enter};
+  HIDE_ORIGIN(*top); /* else the next top would be computed before, and moved */
+  ++*top;
+}
+
 /* Goes from a node to the nearer of the children that the ray enters; the other one is put on the stack. False: it
    enters none. */
 static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, const char *node, const struct ray *ray,
@@ -25,18 +32,18 @@ static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, co
                                                              struct stack_entry **top) {
   const int second_box = second_box_of(layout), children = children_of(layout);
   int32_t enter0, enter1;
-  if (!enter_box(layout, node, ray, limit, &enter0)) {
-    if (!enter_box(layout, node + second_box, ray, limit, &enter1))
+  if (!enter_box(layout, node, 0, ray, limit, &enter0)) {
+    if (!enter_box(layout, node, second_box, ray, limit, &enter1))
       return false;
     *reference = load_word(node + children + 4);
-  } else if (!enter_box(layout, node + second_box, ray, limit, &enter1)) {
+  } else if (!enter_box(layout, node, second_box, ray, limit, &enter1)) {
     *reference = load_word(node + children);
   } else if (enter0 <= enter1) {
     *reference = load_word(node + children);
-    *(*top)++ = (struct stack_entry){load_word(node + children + 4), enter1};
+    push(top, load_word(node + children + 4), enter1);
   } else {
     *reference = load_word(node + children + 4);
-    *(*top)++ = (struct stack_entry){load_word(node + children), enter0};
+    push(top, load_word(node + children), enter0);
   }
   return true;
 }

@@ -18,13 +18,15 @@ void kernel_setup(void) {
 /* As render_layout does, which does not return on the TP. */
 struct result kernel_run(void) {
   const struct trax_render_params *run = params.data;
-  uint32_t checksum = 0, sum = 0, slot, queue = first_queue();
   next_slot[0] = 0;
-  while (take_slot(run, next_slot, &queue, &slot)) {
+  uint32_t checksum = 0, sum = 0, slot, queue = first_queue(), number = ask_for_number(next_slot, queue);
+  while (take_slot(run, next_slot, number, &queue, &slot)) {
     struct pixel pixel;
-    if (!slot_pixel(run, slot, &pixel))
+    if (!slot_pixel(run, slot, &pixel)) {
+      number = ask_for_number(next_slot, queue);
       continue;
-    uint32_t word = render_pixel(run, TRAX_NODES_BINARY, pixel);
+    }
+    uint32_t word = render_pixel(run, TRAX_NODES_BINARY, pixel, queue, &number);
     trax_store_nt((unsigned *)image.data + pixel_y(pixel) * run->width + pixel_x(pixel), word);
   }
   for (int i = 0; i < WIDTH * HEIGHT; i++) {
