@@ -94,20 +94,20 @@ bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, ui
 /* --- creation and end --- */
 
 static const struct {
-  size_t file, other_file; /* offsets in the options; the reader is created if one of the files is given */
+  size_t file, other_file, third_file; /* offsets in the options; the reader is created if one of the files is given */
   bool in_page;            /* also if the page is wanted */
   trax_status (*create)(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 } kinds[] = {
 #define FILE_OF(MEMBER) offsetof(struct trax_explain_options, MEMBER)
-    {FILE_OF(profile), FILE_OF(folded), true, trax_profile_create},
-    {FILE_OF(trace), FILE_OF(trace), false, trax_trace_create},
-    {FILE_OF(konata), FILE_OF(konata), false, trax_konata_create},
-    {FILE_OF(perfetto), FILE_OF(perfetto), false, trax_perfetto_create},
-    {FILE_OF(heat), FILE_OF(heat_lines), true, trax_heat_create},
-    {FILE_OF(items), FILE_OF(item_buffer), false, trax_items_create},
-    {FILE_OF(ray_kinds), FILE_OF(ray_kinds), true, trax_ray_kinds_create},
-    {FILE_OF(lockstep), FILE_OF(lockstep), false, trax_lockstep_create},
-    {FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), false, trax_lockstep_rays_create},
+    {FILE_OF(profile), FILE_OF(folded), FILE_OF(sample), true, trax_profile_create},
+    {FILE_OF(trace), FILE_OF(trace), FILE_OF(trace), false, trax_trace_create},
+    {FILE_OF(konata), FILE_OF(konata), FILE_OF(konata), false, trax_konata_create},
+    {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), false, trax_perfetto_create},
+    {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), true, trax_heat_create},
+    {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), false, trax_items_create},
+    {FILE_OF(ray_kinds), FILE_OF(ray_kinds), FILE_OF(ray_kinds), true, trax_ray_kinds_create},
+    {FILE_OF(lockstep), FILE_OF(lockstep), FILE_OF(lockstep), false, trax_lockstep_create},
+    {FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), false, trax_lockstep_rays_create},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -117,7 +117,7 @@ static const char *file_at(const struct trax_explain_options *options, size_t of
 
 static bool is_wanted(const struct trax_explain_options *options, unsigned kind) {
   return file_at(options, kinds[kind].file) || file_at(options, kinds[kind].other_file) ||
-         (options->explore && kinds[kind].in_page);
+         file_at(options, kinds[kind].third_file) || (options->explore && kinds[kind].in_page);
 }
 
 bool trax_explain_wanted(const struct trax_explain_options *options) {

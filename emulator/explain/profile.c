@@ -153,7 +153,9 @@ static trax_status finish(void *self, trax_error *error) {
   const struct {
     const char *path;
     trax_status (*write)(const struct trax_profile *profile, FILE *out, trax_error *error);
-  } files[] = {{options->profile, trax_profile_write}, {options->folded, trax_profile_write_folded}};
+  } files[] = {{options->profile, trax_profile_write},
+               {options->folded, trax_profile_write_folded},
+               {options->sample, trax_profile_write_sample}};
   trax_status status = TRAX_OK;
   trax_error reason;
   for (size_t i = 0; i < sizeof files / sizeof *files; i++)

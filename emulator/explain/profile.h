@@ -58,4 +58,7 @@ trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *
 /* --- profile_page.c: put_members of the reader; self is a trax_profile --- */
 trax_status trax_profile_put_members(void *self, FILE *out, trax_error *error);
 
+/* --- profile_sample.c --- */
+trax_status trax_profile_write_sample(const struct trax_profile *profile, FILE *out, trax_error *error);
+
 #endif

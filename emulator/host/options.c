@@ -198,6 +198,8 @@ static const trax_option rows[] = {
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
     {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),
      .meaning = "thread-cycles by call stack, for flame graphs"},
+    {"profile-sample", .argument = "FILE", OUTPUT(explain.sample),
+     .meaning = "executions by source line, for clang -fprofile-sample-use"},
     {"heat", .argument = "FILE", OUTPUT(explain.heat), .meaning = "accesses to memory by object, as CSV"},
     {"heat-lines", .argument = "FILE", OUTPUT(explain.heat_lines),
      .meaning = "accesses to global memory by 64 bytes, as CSV"},

@@ -48,6 +48,9 @@ struct trax_source_line {
   const char *function; /* the innermost, inlined ones included; NULL if unknown */
   const char *file;
   int line, column; /* 0: unknown */
+  const char *linkage; /* the function's name to the linker; NULL if unknown */
+  int function_line;   /* where the function begins; 0 if unknown */
+  int discriminator;   /* of blocks of one line, in LLVM's encoding */
 };
 
 /* Finds the source lines of an instruction: [0] is the line itself, and [i] the line of the call through which the

@@ -17,10 +17,17 @@ static const char *name_of(Dwarf_Die *die) {
   return dwarf_formstring(dwarf_attr_integrate(die, DW_AT_name, &attribute));
 }
 
+/* Returns the name to the linker; without one of its own, a function has its name in C. */
+static const char *linkage_of(Dwarf_Die *die) {
+  Dwarf_Attribute attribute;
+  const char *linkage = dwarf_formstring(dwarf_attr_integrate(die, DW_AT_linkage_name, &attribute));
+  return linkage ? linkage : name_of(die);
+}
+
 static int number_of(Dwarf_Die *die, unsigned attribute_name) {
   Dwarf_Attribute attribute;
   Dwarf_Word value;
-  if (dwarf_formudata(dwarf_attr(die, attribute_name, &attribute), &value) != 0 || value > INT32_MAX)
+  if (dwarf_formudata(dwarf_attr_integrate(die, attribute_name, &attribute), &value) != 0 || value > INT32_MAX)
     return 0;
   return (int)value;
 }
@@ -34,6 +41,7 @@ static const char *file_of(Dwarf_Die *unit, int number) {
   return dwarf_filesrc(files, (size_t)number, NULL, NULL);
 }
 
+enum { GNU_DISCRIMINATOR = 0x2136 }; /* an attribute of calls, which dwarf.h lacks */
 enum { MAX_DEPTH = 64 }; /* of nested scopes */
 
 /* The functions that contain a pc, outermost first. */
@@ -96,6 +104,9 @@ size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line 
   lines[0] = (struct trax_source_line){.file = file};
   dwarf_lineno(row, &lines[0].line);
   dwarf_linecol(row, &lines[0].column);
+  unsigned discriminator;
+  if (dwarf_linediscriminator(row, &discriminator) == 0)
+    lines[0].discriminator = (int)discriminator;
   size_t count = 1;
 
   struct scopes scopes = {.count = 0};
@@ -103,13 +114,17 @@ size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line 
   while (scopes.count) {
     Dwarf_Die *function = &scopes.functions[--scopes.count];
     lines[count - 1].function = name_of(function);
+    lines[count - 1].linkage = linkage_of(function);
+    lines[count - 1].function_line = number_of(function, DW_AT_decl_line);
     if (dwarf_tag(function) == DW_TAG_subprogram || count == capacity)
       break;
     const char *caller = file_of(&unit, number_of(function, DW_AT_call_file));
     if (!caller)
       break;
-    lines[count++] = (struct trax_source_line){
-        .file = caller, .line = number_of(function, DW_AT_call_line), .column = number_of(function, DW_AT_call_column)};
+    lines[count++] = (struct trax_source_line){.file = caller,
+                                               .line = number_of(function, DW_AT_call_line),
+                                               .column = number_of(function, DW_AT_call_column),
+                                               .discriminator = number_of(function, GNU_DISCRIMINATOR)};
   }
   return count;
 }

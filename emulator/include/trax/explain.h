@@ -21,6 +21,7 @@ struct trax_explain_options {
   const char *explore;       /* a page in HTML that explains the whole run */
   const char *profile;       /* thread-cycles by function and source line */
   const char *folded;        /* by call stack, for flame graphs */
+  const char *sample;        /* executions by source line, for clang -fprofile-sample-use */
   const char *trace;         /* every issue in the window */
   const char *konata;        /* the window as a pipeline, for Konata */
   const char *perfetto;      /* the window as JSON trace events */
