@@ -37,10 +37,12 @@ public:
 
 } // namespace
 
-/// What .reloc calls a relocation.
+/// What .reloc calls a relocation. BFD_RELOC_NONE is what LLVM itself asks for, for call-graph profiles.
 std::optional<MCFixupKind> TraxAsmBackend::getFixupKind(StringRef Name) const {
 #define TRAX_RELOCATION(NAME, NUMBER) .Case(#NAME, NUMBER)
-  const unsigned Type = StringSwitch<unsigned>(Name) TRAX_RELOCATIONS(TRAX_RELOCATION).Default(~0u);
+  const unsigned Type = StringSwitch<unsigned>(Name) TRAX_RELOCATIONS(TRAX_RELOCATION)
+                            .Case("BFD_RELOC_NONE", 0) // R_TRAX_NONE
+                            .Default(~0u);
 #undef TRAX_RELOCATION
   if (Type == ~0u)
     return std::nullopt;

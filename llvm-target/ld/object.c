@@ -374,8 +374,12 @@ static void read_relocations(ld_context *ctx, ld_object *object, size_t index) {
     return;
   }
   ld_section *target = object->sections[header.sh_info];
-  if (target->discarded)
+  if (target->discarded) /* also what is left out anyway: call-graph profiles have SHT_REL on every machine */
     return;
+  if (header.sh_type == SHT_REL) {
+    ld_error(ctx, "%s: section %zu: relocations without addends (SHT_REL) are not supported", object->name, index);
+    return;
+  }
   if (header.sh_entsize != sizeof(Elf32_Rela) || header.sh_size % sizeof(Elf32_Rela) != 0) {
     ld_error(ctx, "%s:(%s): relocations of %llu bytes, expected %zu", object->name, target->name,
              (unsigned long long)header.sh_entsize, sizeof(Elf32_Rela));
@@ -418,12 +422,7 @@ void ld_object_load(ld_context *ctx, ld_object *object) {
     return;
   if (!ld_symbols_add(ctx, object))
     return;
-  for (size_t i = 1; i < object->section_count; i++) {
-    if (object->sections[i]->type == SHT_RELA) {
+  for (size_t i = 1; i < object->section_count; i++)
+    if (object->sections[i]->type == SHT_RELA || object->sections[i]->type == SHT_REL)
       read_relocations(ctx, object, i);
-    } else if (object->sections[i]->type == SHT_REL) {
-      ld_error(ctx, "%s: section %zu: relocations without addends (SHT_REL) are not supported", object->name, i);
-      return;
-    }
-  }
 }
