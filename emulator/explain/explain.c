@@ -95,7 +95,7 @@ bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, ui
 
 static const struct {
   size_t file, other_file, third_file; /* offsets in the options; the reader is created if one of the files is given */
-  bool in_page;            /* also if the page is wanted */
+  bool in_page;                         /* also if the page is wanted */
   trax_status (*create)(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
 } kinds[] = {
 #define FILE_OF(MEMBER) offsetof(struct trax_explain_options, MEMBER)
