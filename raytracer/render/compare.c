@@ -2,28 +2,23 @@
 
 #include "hits.h"
 #include "measure.h"
+#include "steps.h"
 #include "trax/signals.h"
 
 #include <stdio.h>
 
-struct step {
-  trax_progress_line *progress;
-  const char *name;
-};
-
-static void show_step(void *context, uint64_t done, uint64_t total) {
-  const struct step *step = context;
-  trax_progress_line_show(step->progress, step->name, (double)done / (double)total, NULL);
-}
-
 trax_status run_on_host(struct trax_picture *picture, bool reference, unsigned threads, const struct trax_frame *frame,
-                        trax_progress_line *progress, bool quiet, trax_error *error) {
-  struct step step = {progress, reference ? "reference" : "native twin"};
+                        trax_progress_line *progress, struct live *live, bool quiet, trax_error *error) {
+  struct step step = {.line = progress, .name = reference ? "reference" : "native twin", .live = live};
   struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
+  step.run = &run;
+  live_begin(live, frame, NULL);
   double begun = trax_seconds();
   trax_status status = reference ? trax_render_embree(picture, frame, &run, error)
                                  : trax_render_twin(picture, frame, threads, &run, error);
   trax_progress_line_clear(progress);
+  if (status == TRAX_OK)
+    status = live_end(live, picture, error);
   if (status == TRAX_OK && !quiet)
     printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, trax_seconds() - begun);
   return status;
@@ -35,7 +30,7 @@ enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
 static trax_status find_hits(struct trax_hits *hits, enum finder finder, bool holes, unsigned threads,
                              const struct trax_frame *frame, trax_progress_line *progress, trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
-  struct step step = {progress, names[finder]};
+  struct step step = {.line = progress, .name = names[finder]};
   struct trax_render_run run = {
       .progress = show_step, .progress_context = &step, .interrupt = &trax_signal, .holes = holes};
   trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
@@ -115,7 +110,7 @@ trax_status compare(const struct trax_picture *picture, const struct trax_frame 
                     bool *agrees, trax_error *error) {
   struct trax_picture other = {0};
   struct trax_difference difference;
-  trax_status status = run_on_host(&other, true, 0, frame, progress, true, error);
+  trax_status status = run_on_host(&other, true, 0, frame, progress, NULL, true, error);
   if (status != TRAX_OK)
     return status;
   trax_picture_compare(&difference, picture, &other, 2);
@@ -135,7 +130,7 @@ trax_status compare(const struct trax_picture *picture, const struct trax_frame 
     printf("twin        not compared: it is strict, the program is not\n");
     return TRAX_OK;
   }
-  status = run_on_host(&other, false, 0, frame, progress, true, error);
+  status = run_on_host(&other, false, 0, frame, progress, NULL, true, error);
   if (status != TRAX_OK)
     return status;
   trax_picture_compare(&difference, picture, &other, 0);

@@ -2,12 +2,12 @@
 #ifndef TRAX_RENDER_COMPARE_H
 #define TRAX_RENDER_COMPARE_H
 
-#include "options.h"
+#include "live.h"
 #include "trax/progress.h"
 
-/* The picture by Embree, the reference, or by the native twin. */
+/* The picture by Embree, the reference, or by the native twin; live may be NULL. */
 trax_status run_on_host(struct trax_picture *picture, bool reference, unsigned threads, const struct trax_frame *frame,
-                        trax_progress_line *progress, bool quiet, trax_error *error);
+                        trax_progress_line *progress, struct live *live, bool quiet, trax_error *error);
 
 /* --compare. *agrees: all comparisons came out well. */
 trax_status compare(const struct trax_picture *picture, const struct trax_frame *frame, trax_progress_line *progress,

@@ -11,9 +11,12 @@ trax_status options_check(const struct options *options, trax_error *error) {
       (options->output || options->stats || options->compare || options->error || options->hits ||
        options->id_picture || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
+  if (options->prepare && (options->show || options->progress_png))
+    return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   const bool of_run = options->stats || options->compare || options->keep || options->id_picture || options->sampled ||
                       options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
-  if (!options->output && !options->prepare && (of_run || !(options->error || options->hits)))
+  const bool shown = options->show || options->progress_png;
+  if (!options->output && !options->prepare && !shown && (of_run || !(options->error || options->hits)))
     return trax_fail(error, "no picture given: -o PICTURE.png");
   if (options->error && (options->engine > ENGINE_REFERENCE || options->program || options->no_specialise))
     return trax_fail(error, "--error is about the program that is compiled for the picture, on the emulator");
@@ -73,8 +76,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --source are about the specialised program; --no-specialise asks for none");
   if (options->program && (options->cache || options->source))
     return trax_fail(error, "--cache and --source are about the specialised program; --program asks for another");
-  if (options->cost && !options->cost_picture && !options->cost_values)
-    return trax_fail(error, "--cost without --cost-picture or --cost-values");
+  if (options->cost && !options->cost_picture && !options->cost_values && !options->show)
+    return trax_fail(error, "--cost without --cost-picture, --cost-values or --show");
   if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
                               options->compare || options->id_picture || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");

@@ -125,13 +125,20 @@ static uint32_t colour_of(uint64_t value, uint64_t white) {
   return pixel;
 }
 
+trax_status trax_costs_paint(const struct trax_costs *costs, const struct trax_cost_summary *summary,
+                             struct trax_picture *picture, trax_error *error) {
+  if (trax_picture_init(picture, costs->width, costs->height, error) != TRAX_OK)
+    return TRAX_ERROR;
+  for (size_t i = 0; i < (size_t)costs->width * costs->height; i++)
+    picture->pixels[i] = colour_of(costs->values[i], summary->white);
+  return TRAX_OK;
+}
+
 trax_status trax_costs_write_picture(const struct trax_costs *costs, const struct trax_cost_summary *summary,
                                      const char *path, trax_error *error) {
   struct trax_picture picture;
-  if (trax_picture_init(&picture, costs->width, costs->height, error) != TRAX_OK)
+  if (trax_costs_paint(costs, summary, &picture, error) != TRAX_OK)
     return TRAX_ERROR;
-  for (size_t i = 0; i < (size_t)costs->width * costs->height; i++)
-    picture.pixels[i] = colour_of(costs->values[i], summary->white);
   const trax_status status = trax_picture_write(&picture, path, error);
   trax_picture_release(&picture);
   return status;

@@ -2,6 +2,7 @@
 
 #include "prepare.h"
 #include "sampled.h"
+#include "steps.h"
 #include "trax/message.h"
 #include "trax/run_progress.h"
 
@@ -167,16 +168,15 @@ static trax_status write_costs(const struct trax_costs *costs, const struct opti
   return status;
 }
 
-static void show_twin(void *context, uint64_t done, uint64_t total) {
-  trax_progress_line_show(context, "predicting", (double)done / (double)total, NULL);
-}
-
 /* The picture by the twin, which also tells what parts are worth simulating. */
 static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct trax_picture *picture,
                                   const struct options *options, const struct trax_frame *frame,
                                   const struct trax_program *program, trax_machine *machine,
-                                  trax_progress_line *progress, const volatile int *interrupt, trax_error *error) {
-  struct trax_render_run twin = {.progress = show_twin, .progress_context = progress, .interrupt = interrupt};
+                                  trax_progress_line *progress, struct live *live, const volatile int *interrupt,
+                                  trax_error *error) {
+  struct step step = {.line = progress, .name = "predicting", .live = live};
+  struct trax_render_run twin = {.progress = show_step, .progress_context = &step, .interrupt = interrupt};
+  step.run = &twin;
   sampling->slots = options->sampling;
   if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
     sampling->slots.fraction = DEFAULT_FRACTION;
@@ -196,11 +196,28 @@ static const char *describe(char *text, size_t size, const struct options *optio
   return text;
 }
 
+/* A run of which somebody sees how far it has come. */
+struct shown_run {
+  struct trax_run_progress progress;
+  struct live *live;
+  trax_machine *machine;
+};
+
+static void show_run(void *context, const trax_progress *status) {
+  struct shown_run *run = context;
+  const uint8_t *image;
+  uint32_t size;
+  trax_run_progress_show(&run->progress, status);
+  if (run->live && trax_machine_read_buffer(run->machine, "image", &image, &size, NULL) == TRAX_OK)
+    live_show(run->live, image);
+}
+
 /* One picture by one program. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_view *view,
-                               const struct trax_program *program, trax_progress_line *progress,
+                               const struct trax_program *program, trax_progress_line *progress, struct live *live,
                                const volatile int *interrupt, trax_error *error) {
+  const bool writes_costs = options->cost_picture || options->cost_values;
   if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_config *config = trax_config_create();
@@ -212,26 +229,27 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     status = prepare_write(options->keep, frame, view, program, machine, error);
   if (status == TRAX_OK && !options->prepare) {
     struct trax_costs costs = {0};
-    struct trax_run_progress shown = {.line = progress, .step = "rendering"};
+    struct shown_run shown = {{.line = progress, .step = "rendering"}, options->sampled ? NULL : live, machine};
     char title[512];
     struct trax_simulated_options run = {.explain = &options->explain,
                                          .title = describe(title, sizeof title, options, frame),
                                          .is_twin = !options->program && !options->source,
                                          .run = {.output = stderr,
                                                  .total_items = (uint64_t)frame->params->width * frame->params->height,
-                                                 .progress = trax_run_progress_show,
+                                                 .progress = show_run,
                                                  .progress_context = &shown,
                                                  .interrupt = interrupt,
                                                  .engine = options->engine == ENGINE_REFERENCE ? "reference" : "fast",
                                                  .host_threads = options->threads}};
-    if (options->cost_picture || options->cost_values) {
+    if (writes_costs || (live_shows_costs(live) && !options->sampled)) {
       run.costs = &costs;
       status = trax_costs_init(&costs, frame->params->width, frame->params->height,
                                options->cost ? options->cost : "cycles", error);
     }
     struct trax_picture_sampling sampling = {0};
+    live_begin(live, frame, run.costs);
     if (status == TRAX_OK && options->sampled) {
-      status = begin_sampling(&sampling, picture, options, frame, program, machine, progress, interrupt, error);
+      status = begin_sampling(&sampling, picture, options, frame, program, machine, progress, live, interrupt, error);
       run.run.slots = &sampling.slots;
       run.run.total_items = 0; /* most are left out */
     }
@@ -246,7 +264,9 @@ static trax_status run_program(struct trax_picture *picture, const struct option
       print_machine(machine, doubt);
     if (status == TRAX_OK && options->stats)
       status = trax_stats_write_json(machine, options->stats, error);
-    if (status == TRAX_OK && run.costs)
+    if (status == TRAX_OK)
+      status = live_end(live, picture, error);
+    if (status == TRAX_OK && writes_costs)
       status = write_costs(&costs, options, error);
     trax_costs_release(&costs);
   }
@@ -256,13 +276,14 @@ static trax_status run_program(struct trax_picture *picture, const struct option
 }
 
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    const struct trax_view *view, trax_progress_line *progress, const volatile int *interrupt,
-                    trax_error *error) {
+                    const struct trax_view *view, trax_progress_line *progress, struct live *live,
+                    const volatile int *interrupt, trax_error *error) {
   struct trax_program program;
   trax_progress_line_show(progress, "compiling", -1, NULL);
   struct chosen chosen;
   trax_status status = choose(&chosen, options, frame, error);
   if (status == TRAX_OK)
     status = find_program(&program, options, frame, &chosen, interrupt, error);
-  return status == TRAX_OK ? run_program(picture, options, frame, view, &program, progress, interrupt, error) : status;
+  return status == TRAX_OK ? run_program(picture, options, frame, view, &program, progress, live, interrupt, error)
+                           : status;
 }

@@ -2,7 +2,7 @@
 #ifndef TRAX_RENDER_EMULATED_H
 #define TRAX_RENDER_EMULATED_H
 
-#include "options.h"
+#include "live.h"
 #include "trax/progress.h"
 
 #include <stdbool.h>
@@ -20,9 +20,9 @@ trax_status emulated_cache_lines(unsigned *lines, const struct options *options,
 /* What the installation has, next to this program: ../FOLDER/NAME with its suffix. False if it cannot be read. */
 bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix);
 
-/* The picture, and what the options want to know of the run; view is the frame's. */
+/* The picture, and what the options want to know of the run; view is the frame's; live may be NULL. */
 trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    const struct trax_view *view, trax_progress_line *progress, const volatile int *interrupt,
-                    trax_error *error);
+                    const struct trax_view *view, trax_progress_line *progress, struct live *live,
+                    const volatile int *interrupt, trax_error *error);
 
 #endif

@@ -3,6 +3,7 @@
 #include "emulated.h"
 #include "files.h"
 #include "inputs.h"
+#include "live.h"
 #include "measure.h"
 #include "options.h"
 #include "render.h"
@@ -39,8 +40,8 @@ static void print_outputs(const struct options *options, const struct inputs *in
 
 /* One picture. *scaled: the power of two by which the scene was scaled so far. */
 static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
-                               const char *output, int *scaled, trax_progress_line *progress, bool *agrees,
-                               trax_error *error) {
+                               const char *output, int *scaled, trax_progress_line *progress, struct live *live,
+                               bool *agrees, trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
   int exponent;
@@ -54,10 +55,10 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   }
   if (status == TRAX_OK && options->hits)
     status = measure_hits(options->hits, &frame, progress, error);
-  if (status == TRAX_OK && (output || options->prepare))
+  if (status == TRAX_OK && (output || options->prepare || live))
     status = options->engine <= ENGINE_REFERENCE
-                 ? emulate(&picture, options, &frame, view, progress, &trax_signal, error)
-                 : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress,
+                 ? emulate(&picture, options, &frame, view, progress, live, &trax_signal, error)
+                 : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress, live,
                                options->quiet, error);
   if (status == TRAX_OK && output)
     status = trax_picture_write(&picture, output, error);
@@ -75,7 +76,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   return status;
 }
 
-static trax_status render(const struct options *options, trax_progress_line *progress, bool *agrees,
+static trax_status render(const struct options *options, trax_progress_line *progress, struct live *live, bool *agrees,
                           trax_error *error) {
   struct inputs inputs = {0};
   struct trax_view view;
@@ -91,8 +92,8 @@ static trax_status render(const struct options *options, trax_progress_line *pro
       status = trax_fail(error, "out of memory");
     inputs_view(&view, &inputs, options, i);
     if (status == TRAX_OK)
-      status =
-          render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, agrees, error);
+      status = render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, live, agrees,
+                           error);
     free(output);
   }
   inputs_release(&inputs);
@@ -117,8 +118,16 @@ int main(int argc, char **argv) {
     trax_files files = {0};
     options.import.files = &files;
     trax_status status = check_files(&files, &options, &error);
+    struct live *live = NULL;
     if (status == TRAX_OK)
-      status = render(&options, &progress, &agrees, &error);
+      status = live_create(&live, &options, &error);
+    if (status == TRAX_OK)
+      status = render(&options, &progress, live, &agrees, &error);
+    if (status == TRAX_OK && live) {
+      fflush(stdout);
+      live_wait(live, &trax_signal);
+    }
+    live_destroy(live);
     trax_files_release(&files);
     trax_progress_line_clear(&progress);
     if (status != TRAX_OK && trax_signal) {

@@ -2,6 +2,7 @@
 
 #include "emulated.h"
 #include "picture_error.h"
+#include "steps.h"
 #include "trax/output.h"
 
 #include <errno.h>
@@ -11,16 +12,6 @@
 #include <string.h>
 
 #define STACK_BYTES (64u << 10) /* of a thread of the program that records */
-
-struct step {
-  trax_progress_line *progress;
-  const char *name;
-};
-
-static void show_step(void *context, uint64_t done, uint64_t total) {
-  const struct step *step = context;
-  trax_progress_line_show(step->progress, step->name, (double)done / (double)total, NULL);
-}
 
 static void show_run(void *context, const trax_progress *status) {
   show_step(context, status->items, status->total_items ? status->total_items : 1);
@@ -114,7 +105,7 @@ trax_status measure_error(const struct options *options, const struct trax_scene
   const uint32_t samples[3] = {options->frame.samples, TRAX_CONVERGED_SAMPLES, TRAX_ROUGH_SAMPLES};
   struct trax_exact exact = {0};
   struct trax_converged converged = {.rough_rmse = 0};
-  struct step step = {progress, "the converged picture"};
+  struct step step = {.line = progress, .name = "the converged picture"};
   struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = interrupt};
   trax_status status = TRAX_OK;
   for (int i = 0; i < 3 && status == TRAX_OK; i++)

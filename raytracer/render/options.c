@@ -35,6 +35,11 @@ static const trax_option rows[] = {
     {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
      .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
                 "R + 256 G + 65536 B; found natively, with --engine embree by Embree"},
+    {"show", FIELD(show),
+     .meaning = "opens a window in which the picture arrives; c: what each pixel cost and back, q: close;\n"
+                "an emulated run takes longer, since its costs are counted"},
+    {"progress-png", .argument = "FILE.png", OUTPUT(progress_png, "png"),
+     .meaning = "writes the picture again and again as it arrives, without a window"},
     TRAX_OPTION_GROUP("View"),
     {"view", .argument = "FILE|NAME", FIELD(view),
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"

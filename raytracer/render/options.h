@@ -57,6 +57,8 @@ struct options {
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
   bool sampled;                /* most of the picture is not simulated */
   trax_slot_sampling sampling; /* fraction or error, and seed */
+  bool show;                   /* the picture as it arrives, in a window */
+  const char *progress_png;    /* the same frames; NULL: not wanted */
   bool compare, quiet, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */
 };

@@ -180,6 +180,7 @@ struct trax_render_run {
   void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */
+  const void *image;             /* out, of the twin, while it runs: what the program has written of its picture */
   uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
   bool holes;                    /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
@@ -241,7 +242,9 @@ void trax_costs_add(void *context, const struct trax_item_cost *cost, bool last)
 trax_status trax_costs_summarise(const struct trax_costs *costs, struct trax_cost_summary *summary, trax_error *error);
 /* Numbers: PFM if the path ends so, else CSV (x, y, value). */
 trax_status trax_costs_write(const struct trax_costs *costs, const char *path, trax_error *error);
-/* False colours, as a PNG. */
+/* False colours, as a picture and as a PNG. */
+trax_status trax_costs_paint(const struct trax_costs *costs, const struct trax_cost_summary *summary,
+                             struct trax_picture *picture, trax_error *error);
 trax_status trax_costs_write_picture(const struct trax_costs *costs, const struct trax_cost_summary *summary,
                                      const char *path, trax_error *error);
 void trax_costs_print(const struct trax_costs *costs, const struct trax_cost_summary *summary, FILE *out);

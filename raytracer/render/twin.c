@@ -92,6 +92,7 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
   paths = (struct trax_buffer){path_bytes, threads * TRAX_PATH_BYTES};
   next_slot[0] = 0;
   trax_access_log = run->accesses;
+  run->image = pixels;
   if (run->accesses)
     threads = 1;
 
@@ -114,6 +115,7 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
   free(workers);
   free(path_bytes);
   run->rays = crew.rays;
+  run->image = NULL;
   trax_status status = interrupted    ? TRAX_INTERRUPTED
                        : started == 0 ? trax_fail(error, "cannot start a thread: %s", strerror(failure))
                                       : TRAX_OK; /* fewer threads render the same picture */

@@ -1,0 +1,18 @@
+/* How far one step of the work has come, for the progress line and for whoever watches the picture arrive. */
+#ifndef TRAX_RENDER_STEPS_H
+#define TRAX_RENDER_STEPS_H
+
+#include "live.h"
+#include "trax/progress.h"
+
+struct step {
+  trax_progress_line *line;
+  const char *name;
+  struct live *live;                 /* NULL: nobody watches */
+  const struct trax_render_run *run; /* whose picture arrives; NULL: none does */
+};
+
+/* For trax_render_run.progress; context is a struct step. */
+void show_step(void *context, uint64_t done, uint64_t total);
+
+#endif

@@ -1,0 +1,76 @@
+/* The frames of a picture that arrives: what is there, what is not there yet, and the last one. */
+#include "live.h"
+
+#include "meshes.h"
+#include "temporary.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct trax_picture read_frame(const char *path) {
+  struct trax_picture picture;
+  trax_error error;
+  if (trax_picture_read(&picture, path, &error) != TRAX_OK)
+    fail_msg("%s", error.message);
+  return picture;
+}
+
+static bool is_missing(const struct trax_picture *frame, size_t pixel) {
+  return frame->pixels[pixel] == 0xFF404040u || frame->pixels[pixel] == 0xFF505050u;
+}
+
+static void test_frames(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  struct trax_scene scene;
+  struct trax_frame frame;
+  trax_error error;
+  const float low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
+  struct trax_view view = view_from(0, 0, 5, 0, 0, -1, 40, 2, 5, 5);
+  mesh_box(&mesh, low, high, mesh_material(&mesh, 1, 1, 1));
+  build(&scene, &mesh, NULL);
+  struct options options = {.frame = {.width = 32, .height = 24, .samples = 1}};
+  struct live *live;
+  assert_int_equal(live_create(&live, &options, &error), TRAX_OK);
+  assert_null(live); /* nobody watches */
+  live_show(live, NULL);
+  options.progress_png = test_path("frame.png");
+  assert_int_equal(live_create(&live, &options, &error), TRAX_OK);
+  assert_int_equal(trax_frame_init(&frame, &scene, &view, &options.frame, &error), TRAX_OK);
+
+  live_begin(live, &frame, NULL);
+  struct trax_picture shown = read_frame(options.progress_png);
+  for (size_t i = 0; i < 32 * 24; i++)
+    assert_true(is_missing(&shown, i));
+  trax_picture_release(&shown);
+
+  uint32_t image[32 * 24] = {0};
+  for (size_t i = 0; i < 32 * 24; i += i % 3 + 1)
+    image[i] = 0xFF000000u | (uint32_t)i;
+  live_show(live, image);
+  shown = read_frame(options.progress_png);
+  for (size_t i = 0; i < 32 * 24; i++)
+    assert_true(image[i] ? shown.pixels[i] == image[i] : is_missing(&shown, i));
+  trax_picture_release(&shown);
+
+  for (size_t i = 0; i < 32 * 24; i++)
+    image[i] = 0xFF000000u | (uint32_t)(7 * i);
+  struct trax_picture whole = {32, 24, image, NULL};
+  assert_int_equal(live_end(live, &whole, &error), TRAX_OK);
+  shown = read_frame(options.progress_png);
+  assert_memory_equal(shown.pixels, image, sizeof image);
+  trax_picture_release(&shown);
+  live_destroy(live);
+  trax_frame_release(&frame);
+  trax_scene_release(&scene);
+  trax_mesh_release(&mesh);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_frames)};
+  return cmocka_run_group_tests_name("live", tests, NULL, NULL);
+}
