@@ -1,5 +1,18 @@
 # A command's man page and its completion in bash, which the command itself prints from its table of options
 # (emulator/base/option_pages.c).
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set(TRAX_HELP_TO_MAN ${CMAKE_CURRENT_LIST_DIR}/help_to_man.py)
+
+# The page of a program that has no such table, made of what it says with --help.
+function(trax_help_page command summary)
+  set(man ${CMAKE_BINARY_DIR}/share/man/man1/${command}.1)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/man/man1)
+  add_custom_command(TARGET ${command} POST_BUILD
+    COMMAND ${Python3_EXECUTABLE} -B ${TRAX_HELP_TO_MAN} $<TARGET_FILE:${command}> ${command} ${summary} ${PROJECT_VERSION} > ${man}
+    BYPRODUCTS ${man} VERBATIM)
+  install(FILES ${man} DESTINATION share/man/man1)
+endfunction()
+
 function(trax_pages command)
   set(man ${CMAKE_BINARY_DIR}/share/man/man1/${command}.1)
   set(completion ${CMAKE_BINARY_DIR}/share/bash-completion/completions/${command})

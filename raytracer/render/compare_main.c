@@ -24,11 +24,13 @@ static trax_status take_number(void *target, const trax_option *option, const ch
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct arguments, member)
 
-static const trax_option rows[] = {{"within", .argument = "N", FIELD(within), .most = 255,
+static const trax_option rows[] = {TRAX_OPTION_GROUP("What agrees"),
+                                   {"within", .argument = "N", FIELD(within), .most = 255,
                                     .meaning = "differences up to N of 255 count as agreement (default 0)"},
                                    {"at-least", .argument = "P", .parse = take_number,
                                     .offset = offsetof(struct arguments, at_least), .most = 100,
                                     .meaning = "per cent of the pixels that must agree (default 100)"},
+                                   TRAX_OPTION_GROUP("Other"),
                                    {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
                                    TRAX_OPTION_HELP('h'),
                                    TRAX_OPTION_VERSION,

@@ -132,7 +132,7 @@ def scenes():
 def renderer():
     words = ["--size", "8x6", "--view", "a.view", "-q"]
     pictures = [option("output"), lambda path: ["-o", "new.png", "--id-picture", path], lambda path: ["-o", "new.png", "--write-view", path]]
-    figures = [lambda path, name=name: ["-o", "new.png", f"--{name}", path] for name in ("stats", "explore", "cost-picture", "cost-values")]
+    figures = [lambda path, name=name: ["-o", "new.png", f"--{name}", path] for name in ("stats", "explore", "cost-picture", "cost-values", "progress-png")]
     outputs_onto(["a.obj", "a.view"], pictures + figures, "trax-render", "a.obj", *words)
     outputs_onto(["a.mtl", "wood.png", "mask.png"], pictures + figures, "trax-render", "a.obj", *words, message=INPUT_OR_ENDING)
     outputs_onto(["wood.png", "mask.png"], pictures + figures[:2], "trax-render", "a.obj", *words)
@@ -154,7 +154,7 @@ def renderer():
     write("c.obj", "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n")
     refused(INPUT, "trax-render", "c.obj", *words, "--frames", "3", "-o", "./turn.png", "--engine", "native")
     refused(TWICE, "trax-render", "a.obj", *words, "--frames", "3", "-o", "twist.png", "--write-view", "twist-0002.png")
-    outputs = [option("output"), option("write-view"), option("id-picture"), option("stats"), option("explore"), option("cost-picture"), option("cost-values")]
+    outputs = [option("output"), option("write-view"), option("id-picture"), option("stats"), option("explore"), option("cost-picture"), option("cost-values"), option("progress-png")]
     write("there.png", "kept")
     for target in ("there.png", "absent.png"):
         for first, one in enumerate(outputs):

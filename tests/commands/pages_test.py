@@ -49,6 +49,7 @@ def completed(command, *words):
 
 def main():
     for command in TABLES:
+        check(re.search(r"^\S[^:]*:$", printed(command, "--help"), re.MULTILINE), command, "--help has no groups")
         names, gone = table(command)
         check(len(names) >= LEAST[command], f"{len(names)} options of {command} are too few to prove anything")
         manual, script = printed(command, "--help-man"), printed(command, "--help-completion")
@@ -69,7 +70,44 @@ def main():
     check(completed("trax-render", "--size", "1") == set(), "what only the user knows")
     check(completed("trax-sim", "--stats", "manif") == completed("trax-sim", "manif") == {"manifest.md"}, "files")
     check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"), "headings")
+    help_pages()
     return failures != 0
+
+
+# Programs whose page is made of their help, with the least number of options that prove something.
+HELPED = {"trax-ld": 30, "trax-mc": 6, "trax-objdump": 20, "trax-eval": 15}
+
+
+def names_in(text):
+    return set(re.findall(r"(?<![\w-])--?[A-Za-z][\w-]*", text))
+
+
+def help_pages():
+    """The page has every option of the help, and headings where the help has them."""
+    for command, least in HELPED.items():
+        shown = printed(command, "--help")
+        options = {name for line in shown.splitlines() for name in names_in((re.match(r"  +(-.*?)(?:  | - |$)", line) or ["", ""])[1])}
+        check(len(options) >= least, f"{len(options)} options of {command} are too few to prove anything")
+        check(len(re.findall(r"^\S[^:]*:$", shown, re.MULTILINE)) >= 2, command, "--help has no groups")
+        manual = page(command)
+        there = names_in(manual.replace("\\-", "-").replace("\\fB", " ").replace("\\fR", " "))
+        check(options <= there, f"the page of {command} lacks", sorted(options - there))
+        check(manual.count("\n.SS ") >= 2, f"the page of {command} has no groups")
+    check("aarch64" not in printed("trax-mc", "--help"), "trax-mc --help lists the options of other targets")
+    clang = page("trax-clang").replace("\\-", "-").replace("\\fI", "").replace("\\fR", "")
+    own = re.findall(r"^  (-[\w-]+=?)\S* .*$\n?(?=.*)", "\n".join(line for line in printed("trax-clang", "--help").splitlines() if "trax: " in line), re.MULTILINE)
+    check(len(own) == 3, "clang's own options:", own)
+    for name in own:
+        check(f"\\fB{name}" in clang, "the page of trax-clang lacks", name)
+    check("trax-clang.1" in page("trax-clang++"), "trax-clang++ has the page of trax-clang")
+
+
+def page(command):
+    text = (BIN.parent / f"share/man/man1/{command}.1").read_text()
+    if have("groff") and not text.startswith(".so"):
+        warnings = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=text, capture_output=True, text=True).stderr
+        check(warnings == "", command, "groff warns of the page:", warnings)
+    return text
 
 
 def have(program):

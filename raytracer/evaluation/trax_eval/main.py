@@ -41,26 +41,34 @@ of lib/trax/evaluation has the format). SCENES is the folder with the scenes' me
 variable TRAX_SCENES, or else ./scenes).
 
 %s
-  -o, --output DIR      the folder of results (default: out/eval)
+What is run:
+      --all             every experiment that is about a figure of the paper, and the page
       --program NAMES   those of a sweep's programs, with commas between (default: all); a file NAME.json takes the place
                         of the sweep's
-      --scene NAMES     those of a sweep's scenes; --variant NAMES: those of its variants, with semicolons between
+      --scene NAMES     those of a sweep's scenes
+      --variant NAMES   those of its variants, with semicolons between
       --chip NAMES      instead of the sweep's: presets, files
       --size WxH        of the pictures (default: what the sweep says, 1280x720)
-      --runner WHICH    local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's
-      --jobs N          runs at the same time on this host (default: its processors)
-      --hosts LIST      --runner parallel: hosts as for its --sshlogin; they see the folders at the same place
-      --slurm-options T --runner slurm: more options for sbatch
       --mode WHICH      exact or quick, instead of what the sweep says
       --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
                         with intervals (trax-render --sampled). If --size is not given, pictures have three quarters of
                         their sides; those of less than 640x360 are 80 pixels wide, and all of them is simulated
+
+Where it runs:
+      --runner WHICH    local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's
+      --jobs N          runs at the same time on this host (default: its processors)
+      --hosts LIST      --runner parallel: hosts as for its --sshlogin; they see the folders at the same place
+      --slurm-options T --runner slurm: more options for sbatch
+
+Results:
+  -o, --output DIR      the folder of results (default: out/eval)
       --dry-run         prints the runs that are missing, and ends; imports no scene and writes nothing
       --report          writes the page, too: report.html in the folder of results
-      --all             every experiment that is about a figure of the paper, and the page
+
+Other:
   -q, --quiet           neither progress nor tables
-  -h, --help
-      --version
+  -h, --help            print this, and end
+      --version         print the version, and end
 
 Exit status: 0 if all runs that were asked for are there, 1 if some are not. Interrupts end it and what it has started.
 """
