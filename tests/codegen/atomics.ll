@@ -198,14 +198,12 @@ define i64 @load_wide(ptr %p) {
 ; CHECK: mv r20, r4
 ; CHECK: mv r21, r5
 ; CHECK: .LBB{{[0-9_]+}}:
-; CHECK: slt r13, r21, r12
-; CHECK: mv r6, r21
+; CHECK: max r6, r12, r21
 ; CHECK: mv r5, r2
 ; CHECK: mv r4, r20
 ; CHECK: li r7, 0
 ; CHECK: li r8, 0
 ; CHECK: sw r12, 0(r2)
-; CHECK: cmovnz r6, r12, r13
 ; CHECK: call __atomic_compare_exchange_4
 ; CHECK: lw r12, 0(r2)
 ; CHECK: beqz r4, .LBB{{[0-9_]+}}
