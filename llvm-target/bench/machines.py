@@ -16,7 +16,7 @@ SECONDS = 600
 LIBRARY_SQRT = "-D__builtin_sqrt(x)=__builtin_sqrtf((float)(x))"
 COMMON = ["-std=c17", "-fno-math-errno", "-Wall", "-Wextra", "-Werror", "-I", str(ROOT / "raytracer/device"), "-I",
           str(ROOT / "raytracer/include"), "-I", str(ROOT / "isa/include")]
-RISCV = ["--target=riscv32", "-march=rv32im_zfinx", "-mabi=ilp32"]
+RISCV = ["--target=riscv32", "-mabi=ilp32"]
 PACKAGES = {"clang-19": "clang-19", "llvm-ar-19": "llvm-19", "llvm-size-19": "llvm-19", "ld.lld-19": "lld-19",
             "qemu-riscv32": "qemu-user", "cc": "gcc"}
 
@@ -61,9 +61,9 @@ class Trax:
 class Riscv:
     """Debian's clang for RISC-V, counted by qemu."""
 
-    def __init__(self, build, work, name="riscv", flags=(), library=True):
+    def __init__(self, build, work, name="riscv", flags=(), library=True, extensions=""):
         self.build, self.work, self.name = build, work, name
-        self.compiler = ["clang-19", *RISCV, "-nostdlibinc", "-isystem", build / "lib/trax/include", "-I", BENCH / "twin",
+        self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-isystem", build / "lib/trax/include", "-I", BENCH / "twin",
                          *flags]
         if not library: # to compile only
             return
@@ -87,7 +87,7 @@ class Riscv:
         run(["ld.lld-19", "--gc-sections", *objects, self.library, "-o", output])
 
     def execute(self, program):
-        printed, counted = run(["qemu-riscv32", "-cpu", "rv32,zfinx=true,f=false,d=false", "-plugin", self.plugin, program])
+        printed, counted = run(["qemu-riscv32", "-cpu", "rv32,zfinx=true,zbb=true,f=false,d=false", "-plugin", self.plugin, program])
         return printed, int(counted.split()[1])
 
 
@@ -106,22 +106,22 @@ class Host:
 
 
 @functools.lru_cache(maxsize=None)
-def compiled(machine, source, flags):
+def compiled(machine, source, flags, level="-O3"):
     """The object of a source, which is compiled once."""
-    name = machine.work / "-".join([machine.name, source.stem, *(flag.strip("-").replace("=", "") for flag in flags)])
-    run([*machine.compiler, *COMMON, "-O3", *flags, "-c", source, "-o", f"{name}.o"])
+    name = machine.work / "-".join([machine.name + level, source.stem, *(flag.strip("-").replace("=", "") for flag in flags)])
+    run([*machine.compiler, *COMMON, level, *flags, "-c", source, "-o", f"{name}.o"])
     return f"{name}.o"
 
 
 DRIVER = threading.Lock() # kernels share it
 
 
-def build_and_run(machine, source, repetitions, flags=()):
+def build_and_run(machine, source, repetitions, flags=(), level="-O3"):
     """Compile and link a kernel and its driver; return (checksum, measure, executed instructions)."""
-    kernel = compiled(machine, source, tuple(flags))
+    kernel = compiled(machine, source, tuple(flags), level)
     with DRIVER:
         driver = compiled(machine, BENCH / "driver.c", (f"-DREPETITIONS={repetitions}",))
-    program = machine.work / f"{machine.name}-{source.stem}-{repetitions}.elf"
+    program = machine.work / f"{machine.name}{level}-{source.stem}-{repetitions}.elf"
     machine.link([driver, kernel], program)
     printed, count = machine.execute(program)
     try:
@@ -131,10 +131,10 @@ def build_and_run(machine, source, repetitions, flags=()):
     return checksum, struct.unpack("<f", struct.pack("<I", measure))[0], count
 
 
-def measure_kernel(machine, source):
+def measure_kernel(machine, source, level="-O3"):
     """Return a kernel's result and how many instructions a repetition executes."""
-    _, _, once = build_and_run(machine, source, 1)
-    checksum, measure, twice = build_and_run(machine, source, 2)
+    _, _, once = build_and_run(machine, source, 1, level=level)
+    checksum, measure, twice = build_and_run(machine, source, 2, level=level)
     return (checksum, measure), twice - once
 
 
