@@ -112,6 +112,19 @@ for option in explore cost-picture cost-values; do
 done
 refuse 'view missing.view: there is no such file, and trax comes with no such view' "$render" "$box" -o x.png --view missing.view
 refuse 'nowhere/a.view: ' "$render" "$box" -o x.png --view nowhere/a.view
+refuse 'did you mean bunny? (--views lists them)' "$render" "$box" -o x.png --view buny
+"$render" --views >views.txt
+grep -q '^bunny  *The Stanford bunny' views.txt || fail "--views has no line about bunny"
+# A known mesh has its view, unless it is told otherwise; another mesh of that name is framed.
+bunny=/usr/share/glmark2/models/bunny.obj
+accept "$render" $bunny -o known.png --engine native --size 32x24
+accept "$render" $bunny -o view.png --engine native --size 32x24 --view bunny
+cmp -s known.png view.png || fail "the bunny has another view than --view bunny"
+accept "$render" $bunny -o up.png --engine native --size 32x24 --up 0,1,0
+cmp -s known.png up.png && fail "--up takes the view by name"
+printf 'v 900 0 0\nv 901 0 0\nv 900 1 0\nf 1 2 3\n' >bunny.obj
+accept "$render" bunny.obj -o other.png --engine native --size 32x24 --write-view other.view
+grep -q 'eye = \[9' other.view || fail "another mesh with the name of a known one is not framed"
 printf 'eye = [0, 0];\n' >bad.view
 refuse 'bad.view:1' "$render" "$box" -o x.png --view bad.view
 printf 'not a scene' >bad.trax
