@@ -17,7 +17,7 @@ static unsigned construction;
 void __trax_end_construction(void);
 
 void __trax_end_construction(void) {
-  if (construction == CONSTRUCTING)
+  if (load_shared(&construction) == CONSTRUCTING)
     store_shared(&construction, ENDED);
 }
 

@@ -103,9 +103,9 @@ def litmus(scratch):
 
 
 def programs(scratch):
-    """Of tests/c, those whose threads share something."""
-    for name in ("heap_threads.c", "barrier.c", "threads.c", "atomic_announce.c", "atomic_lock.c", "atomic_mixed.c", "atomic_operations.c",
-                 "atexit.c", "thread_local_values.c", "cxx_threads.cpp", "cxx_mutex.cpp"):
+    """Of tests/c, those whose threads share something. Not atomic_operations.c: clang guesses a wide word by a plain load before it compares and exchanges it."""
+    for name in ("heap_threads.c", "barrier.c", "threads.c", "atomic_announce.c", "atomic_lock.c", "atomic_mixed.c", "atexit.c",
+                 "thread_local_values.c", "cxx_threads.cpp", "cxx_mutex.cpp"):
         flags = ["-mstack=global", "-std=c++20"] if name.endswith(".cpp") else []
         expect_nothing(name, run(build(scratch, SOURCE / "tests/c" / name, *flags), 2, 16))
 

@@ -94,7 +94,7 @@ class Planner:
         machine = point.chip_file, point.machine()
         order = order_options(self.tools.whole(*machine, "dcache.bytes")) if point.program.specialised else []  # it is made for a machine, as trax-render has it
         return self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order), own),
-                         lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], own))
+                         lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], own, self.only_look))
 
     def import_all(self, sweeps, jobs):
         """The scenes of all sweeps, several at the same time."""
@@ -113,6 +113,8 @@ class Planner:
     def scene_file(self, sweep, point):
         """None if it is only looked at and has not been imported."""
         path, _ = self.scene(sweep, point)
+        if path is None:
+            return None
 
         def check():
             if path in self.not_imported:

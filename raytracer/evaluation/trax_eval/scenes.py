@@ -66,15 +66,17 @@ def order_options(dcache_bytes):
     return [] if lines == PAPERS_LINES else ["--cache-lines", str(lines)]
 
 
-def plan_scene(out, tools, directory, scene, options, own):
+def plan_scene(out, tools, directory, scene, options, own, only_look=False):
     """The scene file of a scene, and the command that makes it: imported once for the same meshes, options and importer. NAME.trax in the directory comes
-    first, unless there are options of its own, those of a workload or a sweep."""
+    first, unless there are options of its own, those of a workload or a sweep. only_look: no file if none has been imported, and the importer is not needed."""
     name = scene["name"]
     built = directory / f"{name}.trax"
     if built.is_file() and not own:
         return built.resolve(), None
     meshes = [find_mesh(directory, mesh, scene["folder"]) for mesh in scene["meshes"]]
     files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
+    if only_look and not any((out / "scenes").glob("*.trax")):
+        return None, None
     key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
     path = out / "scenes" / f"{name}-{key}.trax"
     return path, [tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", str(path)]
