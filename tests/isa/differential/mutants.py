@@ -69,6 +69,7 @@ EQUIVALENT = {
     ("trap", "its sign"): "negative numbers are beyond the limit",
     ("fence", "its sign"): "negative numbers are beyond the limit",
     ("fence", "nothing"): "the engines' memory is one, and always up to date",
+    **{(name, "the limit of a comparison"): "equal operands are one number" for name in ("min", "max", "minu", "maxu")},
 }
 
 
