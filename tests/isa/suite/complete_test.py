@@ -17,7 +17,7 @@ from description import DescriptionError, read_constants, read_instructions
 GENERATOR, ISA, TABLE, NUMBERS, *INCLUDES = sys.argv[1:]
 HERE = os.path.dirname(os.path.realpath(__file__))
 MORE = [
-    ('def ROTL : InstR<1, 12, "rotl", UnitInt, [{ RD = RA << RB; }], "Rotate.">;', "rotl (ROTL) has no test"),
+    ('def ROTL : InstR<1, 16, "rotl", UnitInt, [{ RD = RA << RB; }], "Rotate.">;', "rotl (ROTL) has no test"),
     ('def CLZ : InstR1<5, 4, "clz", UnitInt, [{ RD = RA; }], "Count.">;', "clz (CLZ) has no test"),
     ('def MULI : InstI<18, "muli", [{ RD = RA * IMM; }], "Multiply.">;', "muli (MULI) has no test"),
     ('def LWX : InstLoad<31, 4, "lwx", [{ RD = LOAD32(RA + IMM); }], "Load.">;', "lwx (LWX) has no test"),
