@@ -232,7 +232,7 @@ def test_options(evaluation, scratch):
     found = [(one["set"], len(one["points"])) for one in evaluation.results("seeds")["runs"]]
     check(run.returncode == 0 and found == [({}, 1)], f"an exact run has no seed, so that tables find it: {found}, {run.stderr}")
     sweep = dict(SMALL, series=0, chips="1x32", set={"trax-scene --leaf": [1, 4]})
-    for size, smaller in (("60x34", "60x34"), ("320x180", "80x45"), ("640x360", "640x360"), ("1280x720", "960x540")):
+    for size, smaller in (("60x34", "60x34"), ("320x180", "80x45"), ("640x360", "640x360"), ("1280x720", "853x480")):
         run = evaluation.run(dict(sweep, size=size), "options", "--quick", "--dry-run")
         check(run.stdout.count(f" {smaller}\n") == 2, f"--quick makes of {size} {smaller}: {run.stdout}{run.stderr}")
 
@@ -425,6 +425,17 @@ def test_kill(evaluation, scratch, kills):
     print(f"killed {hit} times in {folders} folders, {whole:.1f} s undisturbed")
 
 
+def wait_for_reader(pipe):
+    """Opens it for writing, once somebody reads it; None if nobody does."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        try:
+            return os.open(pipe, os.O_WRONLY | os.O_NONBLOCK)
+        except OSError:  # ENXIO: nobody has opened it yet
+            time.sleep(0.01)
+    return None
+
+
 def test_interrupt(evaluation, scratch):
     """Each signal ends the command, by itself, and what it has started: a simulator, an importer; and while it waits for a pipe."""
     os.mkfifo(scratch / "pipe.json")
@@ -436,9 +447,12 @@ def test_interrupt(evaluation, scratch):
             wanted, deadline = {"simulated": "trax-sim", "imported": "trax-scene", "read": None}[name], time.monotonic() + 60
             while wanted and not simulators(scratch / "interrupted", wanted) and time.monotonic() < deadline:
                 time.sleep(0.01)
-            time.sleep(2 if name == "read" else 0.1)  # an interpreter that starts is not ours
+            writer = None if wanted else wait_for_reader(scratch / "pipe.json")
+            time.sleep(0.1)
             process.send_signal(number)
             errors = process.communicate(timeout=60)[1]
+            if writer:
+                os.close(writer)
             check(process.returncode == -number and "the same command goes on" in errors and "Traceback" not in errors, f"{name}, interrupted: {process.returncode}: {errors}")
             check(not wanted or not simulators(scratch / "interrupted", wanted), f"{name}, interrupted: a {wanted} lives on")
             left = [path for folder in ("scratch", "scenes") for path in (scratch / "interrupted" / folder).glob("*") if not path.name.endswith(".trax")]

@@ -1,14 +1,16 @@
 """What programs read: prepared by trax-render, changed by the program's converter, and kept under the hash of what the manifest says."""
 
+import contextlib
 import os
 import pathlib
 import shutil
 import tempfile
+import typing
 
 from .manifest import read_manifest, seal
-from .programs import convert
+from .programs import Program, convert
 from .scratch import new_scratch
-from .tools import run_tool
+from .tools import run_tools
 from .util import Problem, hash_file, hash_value
 
 WHOLE_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of
@@ -16,44 +18,76 @@ COUNTERS = "counters"  # the buffer of a program that counts
 SOURCE = "source"  # of a program that trax-render is to compile again
 
 
-def prepare_inputs(out, tools, scene, view, size, program, built, chip, more=(), sampling=(), whole=False, only_look=False):
-    """The files that a program reads for a picture; returns their description, which is part of the job. built: options of trax-render that name the
-    program. chip: what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does. more: options of trax-render;
-    sampling: those for a run of some parts. whole: trax-render is to run again, to estimate or to measure. only_look: nothing is kept."""
-    scratch = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
-    try:
-        command = [tools.path("trax-render"), str(scene), "--size", size, "--prepare", scratch, "--quiet"]
-        command += ["--write-view", f"{scratch}/picture.view"] if whole else []
-        command += ["--view", view] if view else []
-        command += built
-        command += ["--queues", str(chip[0]), "--set", f"icache.bytes={chip[1]}"] if chip else []
-        command += more
-        run = run_tool(command)
-        if run.returncode != 0:
-            raise Problem(f"{scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
-        if program.convert:
-            convert(program, scratch)
-        if program.convert or program.counters:
-            seal_inputs(program, scratch)
-        description = description_of(read_manifest(scratch))
-        if whole:
-            shutil.copyfile(scene, pathlib.Path(scratch, "whole.trax"))
-            description["whole"] = describe_whole(program, built, [*more, *sampling], scratch)
-        place = out / "inputs" / hash_value(description)
-        if not only_look and not place.exists():
-            (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
-            os.chmod(scratch, 0o755)
-            for buffer in description["buffers"]:
-                if "file" in buffer:
-                    share(pathlib.Path(scratch, buffer["file"]), place.parent / "bytes" / buffer["xxh128"])
+class Request(typing.NamedTuple):
+    """Of what inputs are made."""
+
+    scene: pathlib.Path
+    view: str | None
+    size: str
+    program: Program
+    chip: tuple | None  # what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does
+    options: tuple  # of trax-render
+    sampling: tuple  # those for a run of some parts
+    whole: bool  # trax-render is to run again, to estimate or to measure
+
+
+def prepare_inputs(out, tools, requests, jobs, only_look=False):
+    """The files that programs read for pictures, several at the same time. requests: by Request, the options of trax-render that name its program. Yields
+    (request, description or Problem) as they get ready; the description is part of the job. only_look: nothing is kept."""
+    with contextlib.ExitStack() as stack:
+
+        def new_folder():
+            folder = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
+            stack.callback(shutil.rmtree, folder, ignore_errors=True)
+            return folder
+
+        waiting = [(request, built, new_folder()) for request, built in requests.items()]
+        runs = stack.enter_context(contextlib.closing(run_tools([prepare_command(tools, *one) for one in waiting], jobs)))
+        for place, run in runs:
+            request, built, folder = waiting[place]
             try:
-                os.rename(scratch, place)
-            except OSError:
-                if not place.exists():  # somebody else was faster otherwise
-                    raise
-        return description
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
+                if run.returncode != 0:
+                    raise Problem(f"{request.scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
+                result = keep_inputs(out, request, built, folder, only_look)
+            except Problem as problem:
+                result = problem
+            shutil.rmtree(folder, ignore_errors=True)
+            yield request, result
+
+
+def prepare_command(tools, request, built, folder):
+    command = [tools.path("trax-render"), str(request.scene), "--size", request.size, "--prepare", folder, "--quiet"]
+    command += ["--write-view", f"{folder}/picture.view"] if request.whole else []
+    command += ["--view", request.view] if request.view else []
+    command += built
+    command += ["--queues", str(request.chip[0]), "--set", f"icache.bytes={request.chip[1]}"] if request.chip else []
+    return [*command, *request.options]
+
+
+def keep_inputs(out, request, built, folder, only_look):
+    """The description of prepared inputs, which take their place in the results."""
+    program = request.program
+    if program.convert:
+        convert(program, folder)
+    if program.convert or program.counters:
+        seal_inputs(program, folder)
+    description = description_of(read_manifest(folder))
+    if request.whole:
+        shutil.copyfile(request.scene, pathlib.Path(folder, "whole.trax"))
+        description["whole"] = describe_whole(program, built, [*request.options, *request.sampling], folder)
+    place = out / "inputs" / hash_value(description)
+    if not only_look and not place.exists():
+        (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
+        os.chmod(folder, 0o755)
+        for buffer in description["buffers"]:
+            if "file" in buffer:
+                share(pathlib.Path(folder, buffer["file"]), place.parent / "bytes" / buffer["xxh128"])
+        try:
+            os.rename(folder, place)
+        except OSError:
+            if not place.exists():  # somebody else was faster otherwise
+                raise
+    return description
 
 
 def describe_whole(program, built, more, folder):

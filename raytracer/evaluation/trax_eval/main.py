@@ -51,7 +51,7 @@ What is run:
       --size WxH        of the pictures (default: what the sweep says, 1280x720)
       --mode WHICH      exact or quick, instead of what the sweep says
       --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
-                        with intervals (trax-render --sampled). If --size is not given, pictures have three quarters of
+                        with intervals (trax-render --sampled). If --size is not given, pictures have two thirds of
                         their sides; those of less than 640x360 are 80 pixels wide, and all of them is simulated
 
 Where it runs:
@@ -171,6 +171,7 @@ def evaluate(options, tools, data, command):
         planner = Planner(out, tools, folder, options.quiet, options.dry_run, scratch)
         if not options.dry_run:
             planner.import_all(sweeps, options.jobs)
+        planner.prepare_all(sweeps, options.jobs)
         for sweep in sweeps:
             keys = {point: planner.key(sweep, point) for point in sweep.points}
             plans.append((sweep, keys))

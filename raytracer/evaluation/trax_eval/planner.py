@@ -1,10 +1,11 @@
 """From sweeps to keys of jobs: names and options are checked, programs built, scenes imported and inputs prepared."""
 
+import contextlib
 import sys
 import tempfile
 
 from .fields import installed
-from .inputs import prepare_inputs
+from .inputs import Request, prepare_inputs
 from .jobs import key_of, make_job, write_job
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
@@ -60,6 +61,7 @@ class Planner:
         self.out, self.tools, self.folder, self.quiet, self.only_look, self.scratch = out, tools, folder, quiet, only_look, scratch
         self.made = {}
         self.not_imported = {}  # path of a scene file: why it could not be made
+        self.prepared = {}  # Request: description of the inputs, or Problem
 
     def once(self, what, function):
         if what not in self.made:
@@ -123,7 +125,8 @@ class Planner:
         self.once(("imported", path), check)
         return path if path.exists() else None
 
-    def inputs(self, sweep, point):
+    def request(self, sweep, point):
+        """What its inputs are made of; None if its scene is only looked at and has not been imported."""
         scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
         machine = point.chip_file, point.machine()
         rendered = tuple(point.options("trax-render", workload))
@@ -132,12 +135,37 @@ class Planner:
         path = self.scene_file(sweep, point)
         if path is None:
             return None
-        whole = point.mode == "quick" or point.error or point.hits
         chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if program.specialised else None
-        built = self.program(program)
-        self.note(f"{point.scene}, {point.size}, {program.name}")
-        return self.once((path, scene["view"], point.size, program, chip, whole, rendered, sampling),
-                         lambda: prepare_inputs(self.out, self.tools, path, scene["view"], point.size, program, built, chip, rendered, sampling, whole, self.only_look))
+        return Request(path, scene["view"], point.size, program, chip, rendered, sampling, whole=point.mode == "quick" or point.error or point.hits)
+
+    def prepare_all(self, sweeps, jobs):
+        """The inputs of all sweeps, several at the same time."""
+        wanted = {}
+        for sweep in sweeps:
+            for point in sweep.points:
+                try:
+                    request = self.request(sweep, point)
+                    if request and request not in wanted:
+                        wanted[request] = self.program(point.program)
+                except Problem:
+                    continue  # told when its runs are planned
+        with contextlib.closing(prepare_inputs(self.out, self.tools, wanted, jobs, self.only_look)) as results:
+            for request, result in results:
+                self.prepared[request] = result
+                self.note(f"inputs: {len(self.prepared)} of {len(wanted)}")
+
+    def inputs(self, sweep, point):
+        request = self.request(sweep, point)
+        if request is None:
+            return None
+        self.program(point.program)
+
+        def check():
+            if isinstance(self.prepared[request], Problem):
+                raise self.prepared[request]
+            return self.prepared[request]
+
+        return self.once(request, check)
 
     def key(self, sweep, point):
         """(key, None), or (None, why there is none)."""

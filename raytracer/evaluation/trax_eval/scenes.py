@@ -87,8 +87,9 @@ def import_scenes(commands, jobs):
     missing = {path: command for path, command in commands.items() if not path.exists()}
     for path in missing:
         path.parent.mkdir(parents=True, exist_ok=True)
-    runs = zip(missing, run_tools(list(missing.values()), jobs))
-    return {path: run.stderr.strip() or f"trax-scene ended with status {run.returncode}" for path, run in runs if run.returncode != 0}
+    paths = list(missing)
+    runs = run_tools(list(missing.values()), jobs)
+    return {paths[place]: run.stderr.strip() or f"trax-scene ended with status {run.returncode}" for place, run in runs if run.returncode != 0}
 
 
 def mesh_files(directory, name):

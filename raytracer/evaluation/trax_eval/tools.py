@@ -25,28 +25,29 @@ def run_tool(command, **where):
 
 
 def run_tools(commands, jobs):
-    """As run_tool, several at the same time; the finished processes in the commands' order."""
-    running, finished = {}, {}
-    waiting = list(enumerate(commands))
+    """As run_tool, several at the same time: yields (place in the list, finished process) as they end. Their output is what they said of errors."""
+    running, waiting = {}, list(enumerate(commands))
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
                 place, command = waiting.pop(0)
                 said = tempfile.TemporaryFile()
                 running[place] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
-            time.sleep(POLL_SECONDS)
-            for place in [place for place, (process, _) in running.items() if process.poll() is not None]:
+            ended = [place for place, (process, _) in running.items() if process.poll() is not None]
+            if not ended:
+                time.sleep(POLL_SECONDS)
+            for place in ended:
                 process, said = running.pop(place)
                 said.seek(0)
-                finished[place] = subprocess.CompletedProcess(commands[place], process.returncode, "", said.read().decode(errors="replace"))
+                errors = said.read().decode(errors="replace")
                 said.close()
+                yield place, subprocess.CompletedProcess(commands[place], process.returncode, "", errors)
     except BaseException:
         for process, _ in running.values():
             process.terminate()
         for process, _ in running.values():
             process.wait()
         raise
-    return [finished[place] for place in range(len(commands))]
 
 
 class Tools:
