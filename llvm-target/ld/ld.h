@@ -322,6 +322,12 @@ bool ld_layout(ld_context *ctx);
 uint32_t ld_section_address(const ld_section *section, uint32_t offset);
 ld_output *ld_output_find(const ld_context *ctx, const char *name);
 
+/* --- gather.c --- */
+
+void ld_gather(ld_context *ctx);
+/* By rank, then by header_index: for qsort. */
+int ld_compare_outputs(const void *left, const void *right);
+
 /* --- callgraph.c --- */
 
 typedef struct ld_call {

@@ -1,227 +1,8 @@
-/* The command line: one table of options, from which parsing and --help both work; response files.
-
-   It is not trax/options.h's: compilers and makefiles call this program as they call GNU ld, whose long names may have
-   one dash, whose letters take joined values, whose options have aliases, and where an option's place among the inputs
-   counts. */
-#include "ld.h"
-#include "trax/names.h"
+/* The command line. */
+#include "options.h"
 
 #include <ctype.h>
 #include <string.h>
-
-typedef enum option_id {
-  OPT_ACCEPTED, /* without effect */
-  OPT_ALLOW_MULTIPLE,
-  OPT_DEFSYM,
-  OPT_ENTRY,
-  OPT_ERROR_LIMIT,
-  OPT_DEMANGLE,
-  OPT_NO_DEMANGLE,
-  OPT_FATAL_WARNINGS,
-  OPT_GC,
-  OPT_HEADING, /* no option: its help stands above those that follow */
-  OPT_HELP,
-  OPT_KEYWORD,
-  OPT_LIBRARY,
-  OPT_LIBRARY_PATH,
-  OPT_MAP,
-  OPT_MAP_STDOUT,
-  OPT_NO_FATAL_WARNINGS,
-  OPT_NO_GC,
-  OPT_NO_PRINT_GC,
-  OPT_NO_WARNINGS,
-  OPT_NO_WHOLE_ARCHIVE,
-  OPT_ORDERING,
-  OPT_OUTPUT,
-  OPT_PRINT_GC,
-  OPT_PRINT_MEMORY,
-  OPT_PRINT_STACK,
-  OPT_REJECTED,
-  OPT_RELOCATABLE,
-  OPT_SECTION_ADDRESS,
-  OPT_SECTION_START,
-  OPT_NO_STACK_CHECK,
-  OPT_STACK_CHECK,
-  OPT_STRIP_ALL,
-  OPT_STRIP_DEBUG,
-  OPT_TRACE,
-  OPT_UNDEFINED,
-  OPT_V,
-  OPT_VERSION,
-  OPT_WHOLE_ARCHIVE,
-  OPT_WRAP
-} option_id;
-
-typedef enum argument {
-  NONE,
-  JOINED, /* -xARG or -x ARG */
-  VALUE   /* --name=ARG or --name ARG */
-} argument;
-
-typedef struct option {
-  const char *name; /* without dashes */
-  argument argument;
-  option_id id;
-  const char *metavar;
-  const char *help; /* NULL: an alias of the option before it, or one that is only accepted */
-} option;
-
-/* clang-format off */
-static const option option_table[] = {
-    {"", NONE, OPT_HEADING, NULL, "Files"},
-    {"o", JOINED, OPT_OUTPUT, "FILE", "write the executable to FILE (default a.out)"},
-    {"output", VALUE, OPT_OUTPUT, "FILE", NULL},
-    {"L", JOINED, OPT_LIBRARY_PATH, "DIR", "search DIR for libraries"},
-    {"library-path", VALUE, OPT_LIBRARY_PATH, "DIR", NULL},
-    {"l", JOINED, OPT_LIBRARY, "NAME", "link libNAME.a, or the file NAME if written -l:NAME"},
-    {"library", VALUE, OPT_LIBRARY, "NAME", NULL},
-    {"whole-archive", NONE, OPT_WHOLE_ARCHIVE, NULL, "take every member of the archives that follow"},
-    {"no-whole-archive", NONE, OPT_NO_WHOLE_ARCHIVE, NULL, "take only needed members (default)"},
-    {"", NONE, OPT_HEADING, NULL, "What is linked"},
-    {"e", JOINED, OPT_ENTRY, "SYMBOL", "start at SYMBOL or at an address (default _start)"},
-    {"entry", VALUE, OPT_ENTRY, "SYMBOL", NULL},
-    {"r", NONE, OPT_RELOCATABLE, NULL, "make one relocatable object instead of an executable"},
-    {"relocatable", NONE, OPT_RELOCATABLE, NULL, NULL},
-    {"u", JOINED, OPT_UNDEFINED, "SYMBOL", "take and keep the definition of SYMBOL"},
-    {"undefined", VALUE, OPT_UNDEFINED, "SYMBOL", NULL},
-    {"defsym", VALUE, OPT_DEFSYM, "NAME=VALUE", "define NAME as a sum of numbers and at most one symbol"},
-    {"wrap", VALUE, OPT_WRAP, "SYMBOL", "references to SYMBOL go to __wrap_SYMBOL, those to __real_SYMBOL to SYMBOL"},
-    {"allow-multiple-definition", NONE, OPT_ALLOW_MULTIPLE, NULL, "of several definitions of a symbol take the first"},
-    {"gc-sections", NONE, OPT_GC, NULL, "drop sections that the program cannot reach"},
-    {"no-gc-sections", NONE, OPT_NO_GC, NULL, "keep all sections (default)"},
-    {"print-gc-sections", NONE, OPT_PRINT_GC, NULL, "print the dropped sections"},
-    {"no-print-gc-sections", NONE, OPT_NO_PRINT_GC, NULL, NULL},
-    {"", NONE, OPT_HEADING, NULL, "Symbols and debug information"},
-    {"s", NONE, OPT_STRIP_ALL, NULL, "leave out symbols and debug information"},
-    {"strip-all", NONE, OPT_STRIP_ALL, NULL, NULL},
-    {"S", NONE, OPT_STRIP_DEBUG, NULL, "leave out debug information"},
-    {"strip-debug", NONE, OPT_STRIP_DEBUG, NULL, NULL},
-    {"", NONE, OPT_HEADING, NULL, "Layout"},
-    {"Ttext", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put the image at ADDRESS (default 0x1000; a multiple of 64)"},
-    {"Tdata", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put .data at ADDRESS, a multiple of 64, and what follows behind it"},
-    {"Tbss", VALUE, OPT_SECTION_ADDRESS, "ADDRESS", "put .bss at ADDRESS, likewise"},
-    {"section-start", VALUE, OPT_SECTION_START, "NAME=ADDRESS", "put the section NAME at ADDRESS, likewise"},
-    {"symbol-ordering-file", VALUE, OPT_ORDERING, "FILE", "put the sections of the symbols that FILE lists first, in its order"},
-    {"", NONE, OPT_HEADING, NULL, "What is reported"},
-    {"Map", VALUE, OPT_MAP, "FILE", "write a map of the image to FILE, - for standard output"},
-    {"M", NONE, OPT_MAP_STDOUT, NULL, "print the map"},
-    {"print-map", NONE, OPT_MAP_STDOUT, NULL, NULL},
-    {"print-memory-usage", NONE, OPT_PRINT_MEMORY, NULL, "print the sizes of text, data and local memory"},
-    {"print-stack", NONE, OPT_PRINT_STACK, NULL, "print the deepest path of calls, and what has no bound"},
-    {"t", NONE, OPT_TRACE, NULL, "print the files that are linked"},
-    {"trace", NONE, OPT_TRACE, NULL, NULL},
-    {"verbose", NONE, OPT_TRACE, NULL, NULL},
-    {"demangle", NONE, OPT_DEMANGLE, NULL, NULL},
-    {"no-demangle", NONE, OPT_NO_DEMANGLE, NULL, "print names of C++ as they stand in the files"},
-    {"error-limit", VALUE, OPT_ERROR_LIMIT, "N", "show at most N errors (default 20; 0: all)"},
-    {"fatal-warnings", NONE, OPT_FATAL_WARNINGS, NULL, "warnings are errors"},
-    {"no-fatal-warnings", NONE, OPT_NO_FATAL_WARNINGS, NULL, NULL},
-    {"w", NONE, OPT_NO_WARNINGS, NULL, "no warnings"},
-    {"no-warnings", NONE, OPT_NO_WARNINGS, NULL, NULL},
-    {"", NONE, OPT_HEADING, NULL, "Stack"},
-    {"stack-check", VALUE, OPT_STACK_CHECK, "MODE", "a stack too deep for its room: error (default), warn or none"},
-    {"no-stack-check", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
-    {"no-check-stack", NONE, OPT_NO_STACK_CHECK, NULL, NULL},
-    {"z", JOINED, OPT_KEYWORD, "stack-size=N", "the stack's room is N bytes (default: what local memory has left)"},
-    {"", NONE, OPT_HEADING, NULL, "Other"},
-    {"v", NONE, OPT_V, NULL, "print the version, then link if there is something to link"},
-    {"version", NONE, OPT_VERSION, NULL, "print the version"},
-    {"V", NONE, OPT_V, NULL, NULL},
-    {"help", NONE, OPT_HELP, NULL, "print this text"},
-    /* Without effect here: archives are searched until nothing more is needed, everything is static. */
-    {"start-group", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"end-group", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"(", NONE, OPT_ACCEPTED, NULL, NULL},
-    {")", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"as-needed", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"no-as-needed", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"static", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"Bstatic", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"no-pie", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"no-undefined", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"allow-shlib-undefined", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"no-allow-shlib-undefined", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"nostdlib", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"X", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"discard-locals", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"build-id", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"color-diagnostics", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"relax", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"no-relax", NONE, OPT_ACCEPTED, NULL, NULL},
-    {"O", JOINED, OPT_ACCEPTED, "LEVEL", NULL},
-    /* What this linker does not do. */
-    {"shared", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
-    {"Bdynamic", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
-    {"pie", NONE, OPT_REJECTED, NULL, "programs have fixed addresses"},
-    {"q", NONE, OPT_REJECTED, NULL, "executables keep no relocations"},
-    {"emit-relocs", NONE, OPT_REJECTED, NULL, "executables keep no relocations"},
-    {"T", JOINED, OPT_REJECTED, "SCRIPT", "linker scripts are not supported; the layout is that of docs/abi.md, -Ttext moves it"},
-    {"script", VALUE, OPT_REJECTED, "SCRIPT", "linker scripts are not supported; the layout is that of docs/abi.md, -Ttext moves it"},
-};
-/* clang-format on */
-#define OPTION_COUNT (sizeof option_table / sizeof option_table[0])
-
-void ld_print_help(FILE *out) {
-  fputs("usage: trax-ld [options] file...\n"
-        "Links relocatable objects and archives into an executable for the TP.\n",
-        out);
-  for (size_t i = 0; i < OPTION_COUNT; i++) {
-    const option *option = &option_table[i];
-    if (option->id == OPT_HEADING)
-      fprintf(out, "\n%s:\n", option->help);
-    if (!option->help || option->id == OPT_REJECTED || option->id == OPT_HEADING)
-      continue;
-    size_t length = strlen(option->name);
-    char spelled[64];
-    snprintf(spelled, sizeof spelled, "%s%s%s%s", length == 1 || isupper((unsigned char)option->name[0]) ? "-" : "--",
-             option->name,
-             option->argument == NONE     ? ""
-             : option->argument == JOINED ? " "
-                                          : "=",
-             option->metavar ? option->metavar : "");
-    fprintf(out, "  %-29s  %s\n", spelled, option->help);
-  }
-  fprintf(out, "  %-29s  %s\n", "@FILE", "read options from FILE");
-}
-
-/* The option that argument spells, with its value in *value where it is joined; NULL if none. */
-static const option *find_option(const char *argument, const char **value) {
-  const char *name = argument + (argument[1] == '-' ? 2 : 1);
-  size_t length = strcspn(name, "=");
-  *value = NULL;
-  for (size_t i = 0; i < OPTION_COUNT; i++) {
-    const option *option = &option_table[i];
-    if (option->argument == JOINED || strlen(option->name) != length || strncmp(option->name, name, length) != 0)
-      continue;
-    if (name[length] == '=' && option->argument == NONE && option->id != OPT_ACCEPTED)
-      continue;
-    if (name[length] == '=')
-      *value = name + length + 1;
-    return option;
-  }
-  for (size_t i = 0; argument[1] != '-' && i < OPTION_COUNT; i++) {
-    const option *option = &option_table[i];
-    if (option->argument == JOINED && name[0] == option->name[0]) {
-      if (name[1] != '\0')
-        *value = name + 1;
-      return option;
-    }
-  }
-  return NULL;
-}
-
-static const char *option_name(const void *context, size_t i) {
-  (void)context;
-  return option_table[i].name;
-}
-
-/* What a mistyped option probably means, as it is spelled; NULL if none is near. */
-static const char *nearest_option(ld_context *ctx, const char *argument) {
-  const char *name = argument + (argument[1] == '-' ? 2 : 1);
-  const char *mistyped = ld_format(ctx, "%.*s", (int)strcspn(name, "="), name);
-  const char *nearest = trax_nearest_name(mistyped, OPTION_COUNT, option_name, NULL);
-  return nearest && nearest[1] ? ld_format(ctx, "%s%s", isupper((unsigned char)*nearest) ? "-" : "--", nearest) : NULL;
-}
 
 static void add_defsym(ld_context *ctx, const char *text) {
   const char *equals = strchr(text, '=');
@@ -313,7 +94,8 @@ static void set_keyword(ld_context *ctx, const char *value) {
     ld_error(ctx, "-z %s: not a number of bytes", value);
 }
 
-static void apply(ld_context *ctx, const option *option, const char *spelled, const char *value, bool *whole_archive) {
+static void apply(ld_context *ctx, const ld_option *option, const char *spelled, const char *value,
+                  bool *whole_archive) {
   ld_options *options = &ctx->options;
   switch (option->id) {
   case OPT_ACCEPTED:
@@ -428,75 +210,6 @@ static void apply(ld_context *ctx, const option *option, const char *spelled, co
   }
 }
 
-/* --- response files --- */
-
-typedef LD_VECTOR(const char *) argument_list;
-#define MAX_RESPONSE_DEPTH 32
-#define MAX_RESPONSE_FILES 1000 /* two mentions in each of 32 nested files would be 2^32 */
-
-static void expand(ld_context *ctx, argument_list *arguments, const char *argument, unsigned depth);
-
-/* The words of a response file: separated by white space; single and double quotes keep it, a backslash takes the next
-   character as it is (not within single quotes). Words are built over the text that they come from. */
-static void split_words(ld_context *ctx, argument_list *arguments, char *text, const char *path, unsigned depth) {
-  char *from = text;
-  for (;;) {
-    while (isspace((unsigned char)*from))
-      from++;
-    if (*from == '\0')
-      return;
-    char *word = from, *to = from, quote = '\0';
-    bool closed = true;
-    for (; *from != '\0' && (quote || !isspace((unsigned char)*from)); from++) {
-      if (quote && *from == quote) {
-        quote = '\0';
-      } else if (!quote && (*from == '\'' || *from == '"')) {
-        quote = *from;
-      } else {
-        if (*from == '\\' && quote != '\'' && from[1] != '\0')
-          from++;
-        *to++ = *from;
-      }
-    }
-    closed = quote == '\0';
-    bool last = *from == '\0';
-    *to = '\0';
-    if (!closed) {
-      ld_error(ctx, "%s: a %c quote is not closed", path, quote);
-      return;
-    }
-    expand(ctx, arguments, word, depth + 1);
-    if (last)
-      return;
-    from++;
-  }
-}
-
-static void expand(ld_context *ctx, argument_list *arguments, const char *argument, unsigned depth) {
-  if (argument[0] != '@' || argument[1] == '\0') {
-    ld_push(ctx, arguments, argument);
-    return;
-  }
-  const char *path = argument + 1;
-  const uint8_t *bytes;
-  size_t size;
-  unsigned *files = &ctx->options.response_files;
-  ld_push(ctx, &ctx->options.response_paths, path);
-  if (*files > MAX_RESPONSE_FILES) /* an error that was reported */
-    return;
-  if (depth > MAX_RESPONSE_DEPTH) {
-    ld_error(ctx, "%s: response files are nested more than %d deep", path, MAX_RESPONSE_DEPTH);
-    *files = MAX_RESPONSE_FILES + 1;
-  } else if (++*files > MAX_RESPONSE_FILES) {
-    ld_error(ctx, "%s: more than %d response files", path, MAX_RESPONSE_FILES);
-  } else if (ld_read_file(ctx, path, &bytes, &size)) {
-    if (memchr(bytes, '\0', size))
-      ld_error(ctx, "%s: is not text (a response file)", path);
-    else
-      split_words(ctx, arguments, (char *)bytes, path, depth);
-  }
-}
-
 /* What -r has no use for: it keeps everything, and has no addresses. */
 static void check_relocatable(ld_context *ctx) {
   const ld_options *options = &ctx->options;
@@ -516,9 +229,9 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
   options->text_start = TRAX_NULL_END;
   options->error_limit = 20;
 
-  argument_list arguments = {0};
+  ld_words arguments = {0};
   for (int i = 0; i < argc; i++)
-    expand(ctx, &arguments, argv[i], 0);
+    ld_expand(ctx, &arguments, argv[i]);
 
   bool whole_archive = false, only_files = false;
   for (size_t i = 0; i < arguments.count; i++) {
@@ -537,9 +250,9 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
       continue;
     }
     const char *value;
-    const option *option = find_option(argument, &value);
+    const ld_option *option = ld_find_option(argument, &value);
     if (!option) {
-      const char *nearest = nearest_option(ctx, argument);
+      const char *nearest = ld_nearest_option(ctx, argument);
       if (nearest)
         ld_error(ctx, "unknown option '%s'; did you mean '%s'?", argument, nearest);
       else
