@@ -31,22 +31,11 @@ static uint32_t pixel_of(struct double3 channels) {
          (uint32_t)floor(channels.z + 0.5) << 16 | 0xFF000000u;
 }
 
-static struct RTCRay make_ray(struct double3 origin, struct double3 direction, float far) {
-  return (struct RTCRay){.org_x = (float)origin.x,
-                         .org_y = (float)origin.y,
-                         .org_z = (float)origin.z,
-                         .dir_x = (float)direction.x,
-                         .dir_y = (float)direction.y,
-                         .dir_z = (float)direction.z,
-                         .tfar = far,
-                         .mask = 0xFFFFFFFFu};
-}
-
 bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit) {
   if (embree->exactly)
     return exact_nearest(embree->scene, origin, direction, hit);
   rtc_context context;
-  struct RTCRayHit ray = {.ray = make_ray(origin, direction, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+  struct RTCRayHit ray = {.ray = rtc_ray(origin, direction, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
   rtc_intersect(embree->scene, &context, &ray);
   *hit = (struct exact_hit){ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};
   return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
@@ -56,7 +45,7 @@ bool embree_blocked(const struct embree *embree, struct double3 origin, struct d
   if (embree->exactly)
     return exact_any(embree->scene, origin, direction, distance);
   rtc_context context;
-  struct RTCRay ray = make_ray(origin, direction, (float)distance);
+  struct RTCRay ray = rtc_ray(origin, direction, (float)distance);
   rtc_occluded(embree->scene, &context, &ray);
   return ray.tfar < 0;
 }

@@ -253,14 +253,7 @@ bool exact_attach(RTCDevice device, RTCScene scene, const struct trax_scene *sou
 }
 
 static struct RTCRay ray_of(const struct query *query) {
-  return (struct RTCRay){.org_x = (float)query->origin.x,
-                         .org_y = (float)query->origin.y,
-                         .org_z = (float)query->origin.z,
-                         .dir_x = (float)query->direction.x,
-                         .dir_y = (float)query->direction.y,
-                         .dir_z = (float)query->direction.z,
-                         .tfar = (float)(query->limit * (1 + 0x1p-20)),
-                         .mask = 0xFFFFFFFFu};
+  return rtc_ray(query->origin, query->direction, (float)(query->limit * (1 + 0x1p-20)));
 }
 
 bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 direction, struct exact_hit *hit) {

@@ -48,15 +48,7 @@ static struct double3 scaled(double factor, struct double3 v) {
 /* The distance in units of the direction; 0: nothing is hit. */
 static float hit(const struct room *room, struct double3 origin, struct double3 way, bool *front) {
   rtc_context context;
-  struct RTCRayHit ray = {.ray = {.org_x = (float)origin.x,
-                                  .org_y = (float)origin.y,
-                                  .org_z = (float)origin.z,
-                                  .dir_x = (float)way.x,
-                                  .dir_y = (float)way.y,
-                                  .dir_z = (float)way.z,
-                                  .tfar = INFINITY,
-                                  .mask = 0xFFFFFFFFu},
-                          .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+  struct RTCRayHit ray = {.ray = rtc_ray(origin, way, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
   rtc_intersect(room->scene, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
     return 0;
@@ -65,16 +57,8 @@ static float hit(const struct room *room, struct double3 origin, struct double3 
 }
 
 static bool reaches(const struct room *room, struct double3 from_place, struct double3 point) {
-  const struct double3 way = minus(point, from_place);
   rtc_context context;
-  struct RTCRay ray = {.org_x = (float)from_place.x,
-                       .org_y = (float)from_place.y,
-                       .org_z = (float)from_place.z,
-                       .dir_x = (float)way.x,
-                       .dir_y = (float)way.y,
-                       .dir_z = (float)way.z,
-                       .tfar = 0.999f,
-                       .mask = 0xFFFFFFFFu};
+  struct RTCRay ray = rtc_ray(from_place, minus(point, from_place), 0.999f);
   rtc_occluded(room->scene, &context, &ray);
   return ray.tfar >= 0;
 }

@@ -2,7 +2,21 @@
 #ifndef TRAX_RENDER_RTC_QUERY_H
 #define TRAX_RENDER_RTC_QUERY_H
 
+#include "double3.h"
+
 #include <rtcore.h>
+
+/* From origin to origin + far * direction. */
+static inline struct RTCRay rtc_ray(struct double3 origin, struct double3 direction, float far) {
+  return (struct RTCRay){.org_x = (float)origin.x,
+                         .org_y = (float)origin.y,
+                         .org_z = (float)origin.z,
+                         .dir_x = (float)direction.x,
+                         .dir_y = (float)direction.y,
+                         .dir_z = (float)direction.z,
+                         .tfar = far,
+                         .mask = 0xFFFFFFFFu};
+}
 
 #if RTC_VERSION_MAJOR >= 4
 
