@@ -14,6 +14,8 @@ case ${1:-} in
     without=(--exclude-regex "^($slow)\$") ;;
 esac
 ./setup.sh
+export PYTHONPYCACHEPREFIX=$PWD/build/tests/python # bytecode: trax-eval starts hundreds of times
+unset PYTHONDONTWRITEBYTECODE
 jobs=${JOBS:-$(nproc)}
 if [ ${#without[@]} -gt 0 ]; then
   tests=$(ctest --test-dir build -N | sed -n 's/^ *Test *#[0-9]*: //p')

@@ -16,6 +16,7 @@ missing: the test fails.
 """
 
 import os
+import sys
 
 import lit.formats
 
@@ -56,10 +57,10 @@ config.substitutions += [
     ("%trax_build", config.trax_build_root),
     ("%llvm_include", config.llvm_include),
     ("%{path}", config.environment["PATH"]),
-    ("%python", config.python),
+    ("%python", sys.executable),
     ("%cmake", config.cmake),
     ("%run_c", " ".join([
-        config.python, os.path.join(config.test_source_root, "run_c.py"), "--clang", program("clang"),
+        sys.executable, os.path.join(config.test_source_root, "run_c.py"), "--clang", program("clang"),
         "--sim", program("trax-sim")])),
 ]
 

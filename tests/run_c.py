@@ -8,7 +8,7 @@
 Standard output must equal the file beside the program with the ending .expected, byte for byte, and the exit status the one given
 (default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
 the status 1 or, if it aborts, the one given.
-Without --levels, the levels are -O0, -O2 and -O3; with TRAX_LEVELS=all in the environment, every one.
+Without --levels, the levels are -O0 and -O2; with TRAX_LEVELS=all in the environment, every one.
 The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
 each level that does not.
 """
@@ -20,7 +20,7 @@ import shlex
 import subprocess
 import sys
 
-LEVELS = "-O0,-O2,-O3"
+LEVELS = "-O0,-O2"
 ALL_LEVELS = "-O0,-O1,-O2,-O3,-Os,-Oz"
 SECONDS = 120  # per step; a program that hangs is a failure, not a wait
 

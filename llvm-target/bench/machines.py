@@ -6,6 +6,7 @@ import shutil
 import struct
 import subprocess
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 BENCH = Path(__file__).resolve().parent
@@ -61,8 +62,8 @@ class Trax:
 class Riscv:
     """Debian's clang for RISC-V, counted by qemu."""
 
-    def __init__(self, build, work, name="riscv", flags=(), library=True, extensions=""):
-        self.build, self.work, self.name = build, work, name
+    def __init__(self, build, work, name="riscv", flags=(), library=True, extensions="", jobs=1):
+        self.build, self.work, self.name, self.jobs = build, work, name, jobs
         self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-isystem", build / "lib/trax/include", "-I", BENCH / "twin",
                          *flags]
         if not library: # to compile only
@@ -73,12 +74,12 @@ class Riscv:
 
     def make_library(self):
         """The runtime's functions, with the flags that the runtime is compiled with."""
-        objects = []
-        for part in ("builtins", "math", "string"):
-            for source in sorted((ROOT / "runtime" / part).glob("*.c")):
-                objects.append(self.work / f"{self.name}-{part}-{source.stem}.o")
-                run([*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno", "-ffunction-sections",
-                     LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}", "-c", source, "-o", objects[-1]])
+        sources = [source for part in ("builtins", "math", "string") for source in sorted((ROOT / "runtime" / part).glob("*.c"))]
+        objects = [self.work / f"{self.name}-{source.parent.name}-{source.stem}.o" for source in sources]
+        command = [*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno", "-ffunction-sections", LIBRARY_SQRT,
+                   f"-I{ROOT / 'isa/include'}"]
+        with ThreadPoolExecutor(self.jobs) as pool:
+            list(pool.map(lambda source, made: run([*command, "-c", source, "-o", made]), sources, objects))
         library = self.work / f"{self.name}.a"
         run(["llvm-ar-19", "rcs", library, *objects])
         return library

@@ -1,11 +1,11 @@
 // RUN: %run_c %s %t --levels -O0,-O1 --cflags "-DPURE -fno-inline" --status 134 --fault "call of a pure virtual"
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-DMEMORY" --status 134 --fault "operator new: no memory left"
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-DSELF" \
+// RUN: %run_c %s %t --levels -O2 --cflags "-DMEMORY" --status 134 --fault "operator new: no memory left"
+// RUN: %run_c %s %t --levels -O2 --cflags "-DSELF" \
 // RUN:   --status 134 --fault "the initialisation of a function-local static object enters itself"
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-DTERMINATE" --status 134 --fault "std::terminate"
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-DEMPTY -mstack=global" \
+// RUN: %run_c %s %t --levels -O2 --cflags "-DTERMINATE" --status 134 --fault "std::terminate"
+// RUN: %run_c %s %t --levels -O2 --cflags "-DEMPTY -mstack=global" \
 // RUN:   --status 134 --fault "bad_optional_access was thrown in -fno-exceptions mode"
-// RUN: %run_c %s %t --levels -O0,-O2 --status 134 --fault "vector[] index out of bounds" \
+// RUN: %run_c %s %t --levels -O2 --status 134 --fault "vector[] index out of bounds" \
 // RUN:   --cflags "-DINDEX -mstack=global -D_LIBCPP_HARDENING_MODE=_LIBCPP_HARDENING_MODE_FAST"
 // What ends a C++ program says so.
 #include <exception>

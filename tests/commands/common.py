@@ -27,6 +27,18 @@ def run(program, *words, **how):
     return subprocess.run([path_of(program), *words], capture_output=True, text=True, **how)
 
 
+hashes = {}  # of contents, by what changes with them
+
+
+def hash_of(path):
+    status = os.stat(path)
+    key = status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+    if key not in hashes:
+        with open(path, "rb") as file:
+            hashes[key] = hashlib.sha256(file.read()).hexdigest()
+    return status.st_ino, hashes[key]
+
+
 def contents():
     """Every file below this folder, with what a command could change of it."""
     found = {}
@@ -36,8 +48,7 @@ def contents():
             if os.path.islink(path):
                 found[path] = os.readlink(path)
             elif os.path.isfile(path):
-                with open(path, "rb") as file:
-                    found[path] = os.stat(path).st_ino, hashlib.sha256(file.read()).hexdigest()
+                found[path] = hash_of(path)
     return found
 
 

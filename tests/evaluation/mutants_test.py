@@ -6,10 +6,7 @@
 Sweeps, programs, scenes and workloads are mutated in this process, which calls the command's own functions; folders and options are those of the program."""
 
 import argparse
-import contextlib
 import copy
-import importlib
-import io
 import json
 import os
 import pathlib
@@ -18,6 +15,8 @@ import resource
 import subprocess
 import sys
 import tempfile
+
+from inside import Inside
 
 GOOD = {"name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2", "scenes": [{"name": "y", "meshes": ["generate:forest"], "view": "forest"}],
         "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]}, "size": "8x8", "mode": "exact", "series": 100, "lockstep": False,
@@ -65,11 +64,8 @@ def mutated(source, good):
     return bytes(data[: source.randrange(len(data))] if source.random() < 0.05 else data)
 
 
-def test_files(folder, scratch, seed, count):
+def test_files(inside, scratch, seed, count):
     """Sweeps, and programs, scenes and workloads beside a sweep that is good."""
-    sys.path[:0] = [str(folder.parent / "lib/trax/evaluation")]
-    main = importlib.import_module("trax_eval.main")
-    sys.dont_write_bytecode = True
     source = random.Random(seed)
     for name in ("p.c", "p.patch"):
         (scratch / name).write_text("")
@@ -81,20 +77,19 @@ def test_files(folder, scratch, seed, count):
             if kind not in ("sweep", "variants"):
                 path = scratch / "sweep.json"
                 path.write_text(json.dumps(GOOD | {"workloads": ["primary-shadow"], "set": {}, kind: [f"{kind}-{number}.json"]}))
-            errors, out = io.StringIO(), io.StringIO()
             try:
-                with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(out):
-                    status = main.main([str(path), str(scratch), "--dry-run", "-q", "-o", str(scratch / "none")], folder, folder.parent / "lib/trax/evaluation")
-                taken += status == 0
-                check(status in (0, 1) and (status == 0 or errors.getvalue().startswith("trax-eval: ")), f"seed {seed}, {kind} {number}: {status}, {errors.getvalue()!r}: {text[:300]}")
+                run = inside(path, scratch, "--dry-run", "-q", "-o", scratch / "none")
+                taken += run.returncode == 0
+                check(run.returncode in (0, 1) and (run.returncode == 0 or run.stderr.startswith("trax-eval: ")),
+                      f"seed {seed}, {kind} {number}: {run.returncode}, {run.stderr!r}: {text[:300]}")
             except Exception as error:  # what would be a traceback
                 check(False, f"seed {seed}, {kind} {number}: {error!r}: {text[:600]}")
         check(0 < taken < count, f"{taken} of {count} mutants of {kind} are taken all the same")
     check(not (scratch / "none").exists(), "--dry-run wrote something")
 
 
-def test_commands(folder, scratch):
-    """Folders and files that cannot be used, through the program itself."""
+def test_commands(folder, inside, scratch):
+    """Folders and files that cannot be used."""
     program = str(folder / "trax-eval")
     good, deep = scratch / "good.json", scratch / "deep.json"
     good.write_text(json.dumps(GOOD | {"series": 0, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
@@ -122,17 +117,21 @@ def test_commands(folder, scratch):
                [good, "--size", "8x" + 5000 * "8"], [good, "--program", ""], [good, "--mode", ""], ["job"], ["job", "x", "y"], ["job", empty, "y"], ["job", empty, "--list", "none"],
                ["job", empty, "--list", "/dev/null"], ["report"], ["report", "/dev/zero"], ["report", empty], ["report", scratch / "binary.json"], ["report", deep], ["report", results],
                ["report", good, "-o", "/dev/null/x"]]
-    environment = {name: value for name, value in os.environ.items() if name != "SLURM_ARRAY_TASK_ID"} | {"TRAX_SCENES": str(scratch / "nowhere")}
+    os.environ.pop("SLURM_ARRAY_TASK_ID", None)
+    os.environ["TRAX_SCENES"] = str(scratch / "nowhere")
     for words in refused:
         more = [] if "-o" in words or words[0] in ("report", "job") else ["-o", scratch / "out"]
-        run = subprocess.run([program, *words, *more], capture_output=True, text=True, timeout=100, cwd=scratch, env=environment)
-        check(run.returncode in (1, 2) and run.stderr and "Traceback" not in run.stderr, f"{[str(word)[:80] for word in words]}: {run.returncode}: {run.stderr[-600:]}")
+        try:
+            run = inside(*words, *more, cwd=scratch)
+            check(run.returncode in (1, 2) and run.stderr, f"{[str(word)[:80] for word in words]}: {run.returncode}: {run.stderr[-600:]}")
+        except Exception as error:  # what would be a traceback
+            check(False, f"{[str(word)[:80] for word in words]}: {error!r}")
     # A disk that is full wherever it fills up: files may have so many bytes.
     for limit in (0, 100, 4096, 100000):
-        run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True, timeout=100, env=environment,
+        run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True, timeout=100,
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         check(run.returncode == 1 and "Traceback" not in run.stderr, f"files of {limit} bytes: {run.returncode}: {run.stderr[-600:]}")
-    run = subprocess.run([program, good, empty, "-o", scratch / "out"], capture_output=True, text=True, timeout=100, env=environment)
+    run = subprocess.run([program, good, empty, "-o", scratch / "out"], capture_output=True, text=True, timeout=100)
     check(run.returncode == 0 and "Traceback" not in run.stderr, f"axes that are no numbers: {run.returncode}: {run.stderr[-600:]}")
     run = subprocess.run([program, "report", scratch / "out/results.json", "-o", scratch / "page.html"], capture_output=True, text=True, timeout=100)
     check(run.returncode == 0 and "Traceback" not in run.stderr, f"the report of it: {run.returncode}: {run.stderr[-600:]}")
@@ -158,13 +157,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--count", type=int, default=20)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch, folder = pathlib.Path(temporary).resolve(), options.bin.resolve()
-        test_commands(folder, scratch)
+        inside = Inside(folder)
+        test_commands(folder, inside, scratch)
         test_dry_run(folder, scratch)
-        test_files(folder, scratch, options.seed, options.count)
+        test_files(inside, scratch, options.seed, options.count)
     return 1 if failures else 0
 
 

@@ -61,9 +61,9 @@ def damages(entry, whole, other):
                 file.write(data)
         return make
 
-    for size in (0, 1, 100, len(whole) // 2, len(whole) - 33, len(whole) - 32, len(whole) - 1):
+    for size in (0, 100, len(whole) - 32, len(whole) - 1):
         yield f"cut to {size} bytes", put(whole[:size])
-    for place in (4, 100, len(whole) // 2, len(whole) - 40, len(whole) - 20, len(whole) - 1):
+    for place in (4, len(whole) // 2, len(whole) - 20):
         yield f"bit flipped at {place}", put(whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1:])
     yield "zeros", put(bytes(len(whole)))
     yield "zeros at its end", put(whole[:4096] + bytes(len(whole) - 4096))
@@ -131,7 +131,7 @@ def healing():
 def together():
     """Processes that find the same damage, or make the same program, do not disturb each other, even if one of them fails."""
     entry, = glob.glob("cache/*.elf")
-    for turn in range(3):
+    for turn in range(2):
         with open(entry, "wb") as file:
             file.write(b"damaged")
         processes = [subprocess.Popen(command("cache", "-o", f"x{number}.png", "-q"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -143,11 +143,11 @@ def together():
                     fail(f"four at once: status {process.returncode}: {said}")
         clean("cache", 1)
     # One that is stopped while the other compiles takes nothing away from it.
-    for turn in range(6):
+    for turn in range(4):
         shutil.rmtree("cache")
         first = subprocess.Popen(command("cache", "-o", "x0.png", "-q"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         second = subprocess.Popen(command("cache", "-o", "x.png"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.04 * (turn + 1))
+        time.sleep(0.06 * (turn + 1))
         first.send_signal(signal.SIGTERM)
         first.wait(timeout=60)
         said = second.communicate(timeout=120)[1]
@@ -189,21 +189,21 @@ def turntable():
     """Each picture of a turntable has a program of its own; those of other pictures stay."""
     cache = "turning"
     os.makedirs(cache)
-    for number in range(250):
+    for number in range(255):
         path = f"{cache}/{number:032x}.elf"
         open(path, "w").close()
         os.utime(path, (1e9 + number, 1e9 + number))
-    ended = subprocess.run(command(cache, "-o", "turn.png", "--frames", "12", "-q"), capture_output=True, text=True)
-    if ended.returncode or len(glob.glob("turn-*.png")) != 12:
+    ended = subprocess.run(command(cache, "-o", "turn.png", "--frames", "3", "-q"), capture_output=True, text=True)
+    if ended.returncode or len(glob.glob("turn-*.png")) != 3:
         fail(f"a turntable: {ended}")
     kept = [name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]
-    if len(kept) != 250:
-        fail(f"a turntable took {250 - len(kept)} programs of other pictures out of the cache")
+    if len(kept) != 255:
+        fail(f"a turntable took {255 - len(kept)} programs of other pictures out of the cache")
     time.sleep(11) # as long as a program may be about to be loaded
     if render(cache, "--background", "000002").returncode:
         fail("a picture after a turntable")
     programs = glob.glob(f"{cache}/*.elf")
-    if len(programs) != 256 or len([name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]) != 250:
+    if len(programs) != 256 or len([name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]) != 255:
         fail(f"after a turntable {len(programs)} programs are in the cache")
 
 

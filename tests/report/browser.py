@@ -1,12 +1,15 @@
 """Chromium without a window, over the DevTools protocol's pipe: requests on its file descriptor 3, answers on 4, JSON between zero bytes.
-https://chromedevtools.github.io/devtools-protocol/"""
+https://chromedevtools.github.io/devtools-protocol/ And the tests of what every page must do in it."""
 
+import base64
 import json
 import os
+import pathlib
 import re
 import select
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -51,7 +54,21 @@ class BrowserError(Exception):
 
 
 def find_chromium():
-    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if not found:
+        raise AssertionError("Chromium is not installed; on Debian it is the package chromium")
+    return found
+
+
+def take_keep():
+    """The folder of --keep DIR, which is taken out of the command line; None without it."""
+    if "--keep" not in sys.argv:
+        return None
+    place = sys.argv.index("--keep")
+    folder = pathlib.Path(sys.argv[place + 1])
+    folder.mkdir(parents=True, exist_ok=True)
+    del sys.argv[place:place + 2]
+    return folder
 
 
 class Browser:
@@ -160,3 +177,88 @@ class Browser:
 
     def __exit__(self, *_):
         self.close()
+
+
+class PageTests:
+    """What every page must do: follow light and dark, fit a narrow window, print. The test's class has a browser, the paths of its pages, and what
+    stands below; its pictures and its PDF are left in the folder KEEP."""
+
+    KEEP = None
+    CLOSELY = None  # the page that is looked at closely
+    REQUESTS = r"^file://.*\.html$"
+    TEXTS = 6  # pairs of colours at least
+    MARGIN = 24  # of paper, in mm, both sides together
+    PAPER = (3, 40)  # pages
+    WIDE = "table"  # what may be too wide for paper
+
+    def load(self, name):
+        self.browser.open(self.pages[name])
+
+    def unfold(self):
+        """Shows what is hidden at first."""
+
+    def keep(self, name, data):
+        if self.KEEP:
+            (self.KEEP / name).write_bytes(base64.b64decode(data))
+
+    def picture(self, name, width=1400):
+        if self.KEEP:
+            clip = {"x": 0, "y": 0, "width": width, "height": self.browser.run("document.documentElement.scrollHeight"), "scale": 1}
+            self.keep(name, self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
+
+    def is_quiet(self):
+        self.assertEqual(self.browser.messages, [])
+        for url in self.browser.requests:
+            self.assertRegex(url, self.REQUESTS)
+
+    def ground(self):
+        return self.browser.run(COLOUR.format("document.body", "backgroundColor"))
+
+    def test_light_and_dark(self):
+        seen = {}
+        for scheme in ("light", "dark"):
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.load(self.CLOSELY)
+            seen[scheme] = self.ground()
+            self.assertEqual(luminance(seen[scheme]) > 0.5, scheme == "light")
+            # Text can be read everywhere: WCAG's 4.5 to 1.
+            self.unfold()
+            texts = self.browser.run(TEXT_COLOURS)
+            self.assertGreater(len(texts), self.TEXTS)
+            for text, back in texts:
+                self.assertGreaterEqual(contrast(text, back), 4.5, (scheme, text, back))
+            self.picture(f"{scheme}.png")
+            self.is_quiet()
+        for scheme in ("light", "dark"):  # it is dark
+            self.browser.run("document.getElementById('theme').click()")
+            self.assertEqual(self.ground(), seen[scheme])
+        self.browser.run("try { localStorage.clear() } catch {}")
+        self.browser.call("Emulation.setEmulatedMedia", features=[])
+
+    def test_narrow(self):
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
+        for name in self.pages:
+            self.load(name)
+            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
+        self.load(self.CLOSELY)
+        self.picture("narrow.png", 390)
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+
+    def test_prints(self):
+        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.load(self.CLOSELY)
+        data = self.browser.call("Page.printToPDF", printBackground=False, preferCSSPageSize=True)["data"]
+        self.keep("page.pdf", data)
+        pdf = base64.b64decode(data)
+        self.assertTrue(pdf.startswith(b"%PDF-"))
+        pages = len(re.findall(rb"/Type\s*/Page\b", pdf))
+        self.assertTrue(self.PAPER[0] <= pages <= self.PAPER[1], pages)
+        # On paper it is light, and nothing is wider than it: 297 mm less the margins.
+        self.browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - self.MARGIN) / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False)
+        self.assertGreater(luminance(self.ground()), 0.9)
+        wide = self.browser.run(f"Array.from(document.querySelectorAll('{self.WIDE}'), e => [e.id || e.tagName, e.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth + 1)")
+        self.assertEqual(wide, [])
+        self.assertEqual(self.browser.run("Array.from(document.querySelectorAll('nav'), e => getComputedStyle(e).display).filter(x => x !== 'none')"), [])
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+        self.browser.call("Emulation.setEmulatedMedia", media="", features=[])

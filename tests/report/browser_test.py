@@ -2,7 +2,6 @@
 """The report's page in Chromium without a window: browser_test.py REPORT_FOLDER [--keep DIR]. Whether it is whole there, sorts, tells values,
 follows light and dark, fits a narrow window and prints. --keep leaves the page, its pictures and its PDF in a folder, to be looked at."""
 
-import base64
 import json
 import pathlib
 import re
@@ -12,23 +11,20 @@ import tempfile
 import unittest
 
 import example
-from browser import COLOUR, TEXT_COLOURS, Browser, contrast, find_chromium, luminance
+from browser import Browser, PageTests, find_chromium, take_keep
 
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
-KEEP = None
-if "--keep" in sys.argv:
-    place = sys.argv.index("--keep")
-    KEEP = pathlib.Path(sys.argv[place + 1])
-    KEEP.mkdir(parents=True, exist_ok=True)
-    del sys.argv[place:place + 2]
 
 
-class BrowserTest(unittest.TestCase):
+class BrowserTest(PageTests, unittest.TestCase):
+    KEEP = take_keep()
+    CLOSELY = "complete"
+    REQUESTS = r"^(file://.*\.html$|data:image/png)"
+    TEXTS, PAPER = 8, (8, 40)
+
     @classmethod
     def setUpClass(cls):
         program = find_chromium()
-        if not program:
-            raise AssertionError("Chromium is not installed; on Debian it is the package chromium")
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         folder = pathlib.Path(cls.scratch.name)
@@ -42,24 +38,6 @@ class BrowserTest(unittest.TestCase):
             subprocess.run([sys.executable, "-B", "-m", "report.make", source, "-o", cls.pages[name]], cwd=FOLDER, check=True)
         cls.browser = Browser(program)
         cls.addClassCleanup(cls.browser.close)
-
-    def load(self, name):
-        self.browser.open(self.pages[name])
-
-    def keep(self, name, data):
-        if KEEP:
-            (KEEP / name).write_bytes(base64.b64decode(data) if isinstance(data, str) else data)
-
-    def picture(self, name, width=1400):
-        if KEEP:
-            height = self.browser.run("document.documentElement.scrollHeight")
-            clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
-            self.keep(name, self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
-
-    def is_quiet(self):
-        self.assertEqual(self.browser.messages, [])
-        for url in self.browser.requests:
-            self.assertRegex(url, r"^(file://.*\.html$|data:image/png)")
 
     def test_whole(self):
         for name in self.pages:
@@ -85,7 +63,7 @@ class BrowserTest(unittest.TestCase):
     def test_nothing_is_hidden_from_view(self):
         """Marks are drawn in colours of their own: what is behind them shows another."""
         self.load("complete")
-        ground = self.browser.run(COLOUR.format("document.body", "backgroundColor"))
+        ground = self.ground()
         colours = self.browser.run("""Array.from(document.querySelectorAll("figure polygon"), mark => getComputedStyle(mark).fill)
             .concat(Array.from(document.querySelectorAll("figure svg:not(.mark) use"), mark => getComputedStyle(mark).color))""")
         self.assertGreater(len(colours), 1000)
@@ -147,53 +125,6 @@ class BrowserTest(unittest.TestCase):
         self.assertTrue(self.browser.run("document.getElementById('tip').hidden"))
         self.browser.run("document.querySelector('#scaling-dragon .hit').focus()")
         self.assertRegex(self.browser.run("document.getElementById('tip').textContent"), r"^paper, 1x32: 1\.00 times, 1\.94 MRPS$")
-
-    def test_light_and_dark(self):
-        seen = {}
-        for scheme in ("light", "dark"):
-            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-            self.load("complete")
-            ground = seen[scheme] = self.browser.run(COLOUR.format("document.body", "backgroundColor"))
-            self.assertEqual(luminance(ground) > 0.5, scheme == "light")
-            # Text can be read everywhere: WCAG's 4.5 to 1.
-            texts = self.browser.run(TEXT_COLOURS)
-            self.assertGreater(len(texts), 8)
-            for text, back in texts:
-                self.assertGreaterEqual(contrast(text, back), 4.5, (scheme, text, back))
-            self.picture(f"{scheme}.png")
-        self.browser.run("document.getElementById('theme').click()")  # it is dark
-        self.assertEqual(self.browser.run(COLOUR.format("document.body", "backgroundColor")), seen["light"])
-        self.browser.run("document.getElementById('theme').click()")
-        self.assertEqual(self.browser.run(COLOUR.format("document.body", "backgroundColor")), seen["dark"])
-        self.browser.run("try { localStorage.clear() } catch {}")
-        self.browser.call("Emulation.setEmulatedMedia", features=[])
-
-    def test_narrow(self):
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
-        for name in self.pages:
-            self.load(name)
-            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
-        self.load("complete")
-        self.picture("narrow.png", 390)
-        self.browser.call("Emulation.clearDeviceMetricsOverride")
-
-    def test_prints(self):
-        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-        self.load("complete")
-        pdf = base64.b64decode(self.browser.call("Page.printToPDF", printBackground=False, preferCSSPageSize=True)["data"])
-        self.keep("report.pdf", pdf)
-        self.assertTrue(pdf.startswith(b"%PDF-"))
-        pages = len(re.findall(rb"/Type\s*/Page\b", pdf))
-        self.assertTrue(8 <= pages <= 40, pages)
-        # On paper it is light, and no table is wider than it: 297 mm less the margins.
-        self.browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - 24) / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False)
-        self.assertGreater(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))), 0.9)
-        wide = self.browser.run("""Array.from(document.querySelectorAll("table"), t => [t.id, t.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth)""")
-        self.assertEqual(wide, [])
-        self.assertEqual(self.browser.run("getComputedStyle(document.querySelector('nav')).display"), "none")
-        self.browser.call("Emulation.clearDeviceMetricsOverride")
-        self.browser.call("Emulation.setEmulatedMedia", media="", features=[])
 
 
 if __name__ == "__main__":

@@ -17,16 +17,11 @@ import time
 import unittest
 import zlib
 
-from browser import COLOUR, TEXT_COLOURS, Browser, contrast, find_chromium, luminance
+from browser import Browser, PageTests, find_chromium, take_keep
 
 BIN, SOURCE = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
 del sys.argv[1:3]
-KEEP = None
-if "--keep" in sys.argv:
-    place = sys.argv.index("--keep")
-    KEEP = pathlib.Path(sys.argv[place + 1])
-    KEEP.mkdir(parents=True, exist_ok=True)
-    del sys.argv[place:place + 2]
+KEEP = take_keep()
 
 WIDTH, HEIGHT = 48, 27
 OF_HOST = ("host_seconds", "instructions_per_host_second")
@@ -196,43 +191,34 @@ class Data(Scratch):
         self.assertEqual(sum(1 for thread in columns[".thread"] if thread), done)
 
 
-class Page(Scratch):
+class Page(PageTests, Scratch):
+    KEEP, CLOSELY = KEEP, "whole"
+    MARGIN, PAPER, WIDE = 22, (3, 15), "table, canvas, svg"
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         program = find_chromium()
-        if not program:
-            raise AssertionError("Chromium is not installed; on Debian it is the package chromium")
         shutil.copy(SOURCE / "tests/render/box.obj", cls.folder / HOSTILE)
         shutil.copy(SOURCE / "tests/render/box.mtl", cls.folder)
         render(cls.folder, "-o", "h.png", "--explore", "hostile.html", "--stats", "hostile.json", mesh=HOSTILE)
         simulate(cls.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000", "run/manifest.json", check=False)
         render(cls.folder, "-o", "g.png", "--explore", "general.html", "--stats", "general.json", "--program", BIN / "../lib/trax/trax-raytracer.elf", "--config", "1x32",
                "--set", "memory.model=dram", "--set", "dram.preset=lpddr3-1600")
-        cls.pages = {"whole": "p", "manifest": "q", "hostile": "hostile", "partial": "part", "dram": "general"}
+        files = {"whole": "p", "manifest": "q", "hostile": "hostile", "partial": "part", "dram": "general"}
+        cls.pages = {name: cls.folder / f"{file}.html" for name, file in files.items()}
         cls.browser = Browser(program)
         cls.addClassCleanup(cls.browser.close)
 
     def load(self, name):
-        self.browser.open(self.folder / f"{self.pages[name]}.html")
+        super().load(name)
         until = time.monotonic() + 60
         while self.browser.run("document.documentElement.dataset.ready") != "yes":
             self.assertLess(time.monotonic(), until, self.browser.messages)
             time.sleep(0.05)
 
-    def is_quiet(self):
-        self.assertEqual(self.browser.messages, [])
-        for url in self.browser.requests:
-            self.assertRegex(url, r"^file://.*\.html$")
-
-    def keep(self, name, data):
-        if KEEP:
-            (KEEP / name).write_bytes(base64.b64decode(data))
-
-    def picture(self, name, width=1400):
-        if KEEP:
-            clip = {"x": 0, "y": 0, "width": width, "height": self.browser.run("document.documentElement.scrollHeight"), "scale": 1}
-            self.keep(name, self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
+    def unfold(self):
+        self.browser.run("document.querySelector('#lines-table tbody button').click()")
 
     def key(self, name):
         for kind in ("keyDown", "keyUp"):
@@ -243,9 +229,9 @@ class Page(Scratch):
 
     def test_figures(self):
         """Every figure of --stats stands on the page, with its value."""
-        for name, stem in self.pages.items():
+        for name, page in self.pages.items():
             self.load(name)
-            stats = json.loads(self.text(f"{stem}.json"))
+            stats = json.loads(self.text(f"{page.stem}.json"))
             shown = self.browser.run("Array.from(document.querySelectorAll('[data-figure]'), e => [e.dataset.figure, Number(e.dataset.value), e.textContent])")
 
             def flat(level, prefix=""):
@@ -335,46 +321,6 @@ class Page(Scratch):
         self.assertEqual(self.browser.run("document.querySelectorAll('img').length"), 0)
         self.assertIn("--mark-rays", self.browser.run("document.getElementById('rays-note').textContent"))
         self.is_quiet()
-
-    def test_light_and_dark(self):
-        for scheme in ("light", "dark"):
-            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-            self.load("whole")
-            self.assertEqual(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))) > 0.5, scheme == "light")
-            self.browser.run("document.querySelector('#lines-table tbody button').click()")
-            texts = self.browser.run(TEXT_COLOURS)
-            self.assertGreater(len(texts), 6)
-            for text, back in texts:
-                self.assertGreaterEqual(contrast(text, back), 4.5, (scheme, text, back))
-            self.picture(f"{scheme}.png")
-            self.is_quiet()
-        self.browser.run("document.getElementById('theme').click()")
-        self.assertGreater(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))), 0.5)
-        self.browser.run("try { localStorage.clear() } catch {}")
-        self.browser.call("Emulation.setEmulatedMedia", features=[])
-
-    def test_narrow(self):
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
-        for name in self.pages:
-            self.load(name)
-            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
-        self.picture("narrow.png", 390)
-        self.browser.call("Emulation.clearDeviceMetricsOverride")
-
-    def test_prints(self):
-        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-        self.load("whole")
-        pdf = self.browser.call("Page.printToPDF", printBackground=False, preferCSSPageSize=True)["data"]
-        self.keep("page.pdf", pdf)
-        pages = len(re.findall(rb"/Type\s*/Page\b", base64.b64decode(pdf)))
-        self.assertTrue(3 <= pages <= 15, pages)
-        self.browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - 22) / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False)
-        self.assertGreater(luminance(self.browser.run(COLOUR.format("document.body", "backgroundColor"))), 0.9)
-        wide = self.browser.run("Array.from(document.querySelectorAll('table, canvas, svg'), e => [e.id || e.tagName, e.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth + 1)")
-        self.assertEqual(wide, [])
-        self.browser.call("Emulation.clearDeviceMetricsOverride")
-        self.browser.call("Emulation.setEmulatedMedia", media="", features=[])
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ def check_statistics(unit):
 def main():
     unit = Patched("unit.patch", most_files=5)
     for keys in (UNIT, []):  # one machine's unit, and any
-        unit.engines_agree(keys, 30)
+        unit.engines_agree(keys, 15)
     check_statistics(unit)
     return unit.end()
 

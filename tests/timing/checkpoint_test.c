@@ -83,12 +83,12 @@ static void each(size_t (*generate)(uint32_t *), unsigned rounds) {
 
 static void own_words(void **state) {
   (void)state;
-  each(any_program, 25);
+  each(any_program, 15);
 }
 
 static void races(void **state) {
   (void)state;
-  each(any_racing_program, 50);
+  each(any_racing_program, 25);
 }
 
 /* From one checkpoint to the next. */

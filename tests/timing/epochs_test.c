@@ -200,6 +200,11 @@ static void write_program(struct program *program, const struct scenario *scenar
   emit(program, HALT);
 }
 
+/* Of the delays every second one is taken, another one for each scenario, unless TRAX_WHOLE is set. */
+static bool is_left_out(unsigned number) {
+  return number % 2 != 0 && !setting("TRAX_WHOLE", 0);
+}
+
 static const double PLENTY = 100000; /* GB/s: all have their instructions in the same cycle */
 
 /* `bandwidth`: GB/s; if it is little, requests wait for the bus all the time, and epochs are long. */
@@ -228,7 +233,8 @@ static void in_any_order(void **state) {
   for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
     for (unsigned first = 0; first < 10; first += 3)
       for (unsigned second = 0; second < 14; second++)
-        check(&scenarios[i], (unsigned[]){first, second, 5 + second % 3}, LATENCY, PLENTY);
+        if (!is_left_out((unsigned)i + first + second))
+          check(&scenarios[i], (unsigned[]){first, second, 5 + second % 3}, LATENCY, PLENTY);
 }
 
 /* Far apart: the other's epoch may be over, and increments happen late. */
@@ -236,8 +242,10 @@ static void at_any_distance(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
     for (unsigned distance = 0; distance < 110; distance += 11) {
-      check(&scenarios[i], (unsigned[]){distance, 3, distance / 2}, 16 + distance % 50, PLENTY);
-      check(&scenarios[i], (unsigned[]){3, distance, distance / 2}, 16 + distance % 50, PLENTY);
+      if (!is_left_out((unsigned)i + distance))
+        check(&scenarios[i], (unsigned[]){distance, 3, distance / 2}, 16 + distance % 50, PLENTY);
+      if (!is_left_out((unsigned)i + distance + 1))
+        check(&scenarios[i], (unsigned[]){3, distance, distance / 2}, 16 + distance % 50, PLENTY);
     }
 }
 
@@ -246,8 +254,10 @@ static void while_requests_wait(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
     for (unsigned distance = 0; distance < 500; distance += 61) {
-      check(&scenarios[i], (unsigned[]){0, distance, distance / 2}, 16 + distance % 50, 128);
-      check(&scenarios[i], (unsigned[]){distance, 0, distance / 2}, 16 + distance % 50, 128);
+      if (!is_left_out((unsigned)i + distance))
+        check(&scenarios[i], (unsigned[]){0, distance, distance / 2}, 16 + distance % 50, 128);
+      if (!is_left_out((unsigned)i + distance + 1))
+        check(&scenarios[i], (unsigned[]){distance, 0, distance / 2}, 16 + distance % 50, 128);
     }
 }
 

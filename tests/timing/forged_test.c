@@ -14,7 +14,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { MOST_NAMES = 256, MOST_PIECES = 1 << 20, MOST_BYTES = 1 << 24, STOP = 400, GO_ON = 3000, SINGLES = 3 };
+enum { MOST_NAMES = 256, MOST_PIECES = 1 << 20, MOST_BYTES = 1 << 24, STOP = 400, GO_ON = 3000 };
 
 /* As emulator/host/checkpoint.c writes it. */
 struct header {
@@ -157,14 +157,15 @@ static void damage(const struct piece *piece, enum damage how) {
 }
 
 static void damage_state(const struct trax_config *config, const uint32_t *program, size_t count) {
+  const unsigned singles = setting("TRAX_WHOLE", 0) ? 3 : 1;
   for (unsigned name = 0; name < name_count; name++)
     for (unsigned how = 0; how < DAMAGES; how++)
-      for (unsigned turn = 0; turn <= SINGLES; turn++) { /* one of the name somewhere, and all of it */
+      for (unsigned turn = 0; turn <= singles; turn++) { /* one of the name somewhere, and all of it */
         const size_t first = any(0, (uint32_t)piece_count - 1);
         bool any_damage = false;
         for (size_t i = 0; i < piece_count; i++) {
           const struct piece *piece = &pieces[(first + i) % piece_count];
-          if (piece->name != name || (turn < SINGLES && any_damage))
+          if (piece->name != name || (turn < singles && any_damage))
             continue;
           damage(piece, (enum damage)how);
           any_damage = true;

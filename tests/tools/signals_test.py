@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -75,14 +76,18 @@ def test_signals(programs, scratch):
     source = scratch / "large.c"
     source.write_text("".join(f"int f{i}(int a,int b){{int s=0;for(int i=0;i<a;i++){{s+=i*b^{i};if(s&1)s*=3;}}return s;}}\n" for i in range(2000)) + "int main(void){return 0;}\n")
     place = 0
-    for number in SIGNALS:
-        for program in ("trax-render", "trax-scene", "trax-sim", "trax-compare", "trax-eval"):
-            for words in waits(program, scratch):
+    with ThreadPoolExecutor(4) as pool:  # which mostly wait
+        ends = []
+        for number in SIGNALS:
+            commands = [[str(programs / program), *map(str, words)] for program in ("trax-render", "trax-scene", "trax-sim", "trax-compare", "trax-eval")
+                        for words in waits(program, scratch)]
+            commands.append([str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"])
+            for command in commands:
                 place += 1
-                interrupted([str(programs / program), *map(str, words)], scratch, scratch / f"at-{place}", number, lambda process: True)
-        place += 1
-        interrupted([str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"], scratch, scratch / f"at-{place}", number,
-                    lambda process: children(process.pid))
+                ready = (lambda process: children(process.pid)) if command == commands[-1] else (lambda process: True)
+                ends.append(pool.submit(interrupted, command, scratch, scratch / f"at-{place}", number, ready))
+        for end in ends:
+            end.result()
 
 
 def test_limits(programs, scratch):

@@ -5,6 +5,7 @@ if one was not.
 
   mutants.py --bin build/bin --jobs 2
   mutants.py --bin build/bin --first               one change of each instruction
+  mutants.py --bin build/bin --first --every 3     of every third instruction
 """
 
 import argparse
@@ -100,6 +101,7 @@ def main():
     parser.add_argument("--count", type=int, default=1000, help="random programs for each change")
     parser.add_argument("--seed", type=int, default=1, help="of the first program")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--every", type=int, default=1, help="of the changes every so many (default: all)")
     parser.add_argument("--first", action="store_true", help="one change of each instruction")
     options = parser.parse_args()
     with open(os.path.join(HERE, "..", "..", "..", "docs", "isa.md"), encoding="utf-8") as file:
@@ -113,6 +115,7 @@ def main():
             cases += [(section["name"], name, section.start(part), section.end(part), text)
                       for text, name in changed[:1 if options.first else None]
                       if (section["name"], name) not in EQUIVALENT]
+    cases = cases[::options.every]
     noticed, unnoticed = 0, []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = pool.map(lambda case: is_noticed(options, manual, *case[2:]), cases)

@@ -55,10 +55,11 @@ def reason(mutant):
 def select(mutants, options):
     wanted = re.compile(options.only)
     chosen = [number for number, mutant in mutants.items() if wanted.search(name(mutant))]
-    if options.every == 0:  # the first of each instruction
+    if options.every == 0:  # the first of each instruction that can be noticed: for the others all images are run
         first = {}
         for number in chosen:
-            first.setdefault(mutants[number][0], number)
+            if not reason(mutants[number]):
+                first.setdefault(mutants[number][0], number)
         return list(first.values())
     return chosen[::options.every]
 
@@ -127,7 +128,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", type=pathlib.Path, default=SOURCE / "build", help="the build folder; default build")
     parser.add_argument("--only", default="", metavar="EXPRESSION", help="mutants whose instruction and text it is found in")
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="every Nth of them; 0: the first of each instruction")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="every Nth of them; 0: the first of each instruction that can be noticed")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="mutants at the same time")
     parser.add_argument("--verbose", action="store_true", help="name the image that notices each mutant")
     options = parser.parse_args()

@@ -3,6 +3,7 @@
 
     tests/isa/oracle/folding.py                  corner values, and 60 numbered pairs
     tests/isa/oracle/folding.py --pairs 5000
+    tests/isa/oracle/folding.py --every 3        every third pair of corner values
 
 Each case is an operation on constants, compiled where each of the compiler's folders meets it:
 
@@ -98,9 +99,9 @@ class Case:
         return f"{self.name} of {self.a:08x}" + (f" {self.b:08x}" if self.operands == 2 else "")
 
 
-def all_cases(oracle_sweep, pairs, chosen):
+def all_cases(oracle_sweep, pairs, every, chosen):
     values = [magnitude | sign for magnitude in MAGNITUDES for sign in (0, 0x80000000)]
-    two = [(a, b) for a in values for b in values]
+    two = [(a, b) for a in values for b in values][::every]
     lines = subprocess.run([oracle_sweep, "0", str(pairs), "24", "1"], capture_output=True, text=True, check=True).stdout.splitlines()
     two += [tuple(int(word, 16) for word in line.split()[-2:]) for line in lines if line.startswith("fadd ")]
     one = values + [word | sign for word in MORE_OF_ONE for sign in (0, 0x80000000)] + [a for a, _ in two[-pairs:]]
@@ -228,11 +229,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--build", type=pathlib.Path, default=HERE / "../../../build", help="the build folder")
     parser.add_argument("--pairs", type=int, default=60, help="numbered pairs besides the corner values (default: 60)")
+    parser.add_argument("--every", type=int, default=1, help="of the pairs of corner values every so many (default: all)")
     parser.add_argument("--operation", choices=list(OPERATIONS), help="one operation only")
     parser.add_argument("--flags", default="", help="more flags for the compiler: to see that differences are found")
     options = parser.parse_args()
     build = options.build.resolve()
-    cases = all_cases(build / "tests/bin/isa-oracle-sweep", options.pairs, options.operation)
+    cases = all_cases(build / "tests/bin/isa-oracle-sweep", options.pairs, options.every, options.operation)
     ask(build / "tests/bin/isa-oracle", cases)
     in_c = [case for case in cases if case.c]
     with tempfile.TemporaryDirectory() as folder:

@@ -22,10 +22,10 @@ failures = 0
 
 
 def variants():
-    step = max(1, len(original) // 100)
+    step = max(1, len(original) // 50)
     for length in range(0, len(original), step):
         yield f"cut to {length} bytes", original[:length]
-    step = max(1, len(original) // 400)
+    step = max(1, len(original) // 150)
     offsets = [*range(64), *range(64, len(original), step)]
     for number, offset in enumerate(offsets):
         old = original[offset]

@@ -15,14 +15,17 @@ KINDS = {"strong": 2, "weak": 3, "common": 4, "reference": 5}
 OTHER = [("--defsym=f=0x333", "f"), (None, "__text_end")]
 
 
-def symbol(readelf, path, name):
-    """The binding and the visibility of a symbol."""
-    listed = subprocess.run([readelf, "-sW", path], capture_output=True, text=True, check=True).stdout
+def symbols(readelf, wanted):
+    """The binding and the visibility of a symbol of each file: a dictionary of paths; wanted has the names."""
+    listed = subprocess.run([readelf, "-sW", *wanted], capture_output=True, text=True, check=True).stdout
+    found, path = {}, None
     for line in listed.splitlines():
         fields = line.split()
-        if len(fields) == 8 and fields[7] == name:
-            return fields[4], "STV_" + fields[5]
-    return None
+        if fields[:1] == ["File:"]:
+            path = fields[1]
+        elif len(fields) == 8 and fields[7] == wanted[path]:
+            found[path] = fields[4], "STV_" + fields[5]
+    return found
 
 
 def main():
@@ -37,21 +40,15 @@ def main():
     start = assemble(1)
     objects = {(kind, visibility): assemble(document, visibility)
                for (kind, document), visibility in itertools.product(KINDS.items(), ORDER)}
-    failed = linked = 0
+    linked = []  # output, symbol, expected visibility and whether it is local, command
 
     def check(inputs, visibilities, name="f", option=None):
-        nonlocal failed, linked
         for relocatable in [False, True] if name == "f" and not option else [False]:
-            output = f"{scratch}.out"
+            output = f"{scratch}.{len(linked)}.out"
             command = [linker, *(["-r"] if relocatable else []), *([option] if option else []), start, *inputs, "-o", output]
             subprocess.run(command, check=True)
-            linked += 1
             expected = min(visibilities, key=ORDER.index)
-            found = symbol(readelf, output, name)
-            is_local = expected in ORDER[:2] and not relocatable
-            if not found or found[1] != expected or (found[0] == "LOCAL") != is_local:
-                failed += 1
-                print(f"{' '.join(command)}: {found}, but {expected} is asked for")
+            linked.append((output, name, expected, expected in ORDER[:2] and not relocatable, command))
 
     for (a, first), (b, second) in itertools.product(objects, repeat=2):
         if (a, b) not in {("strong", "strong"), ("reference", "reference")}:
@@ -60,8 +57,15 @@ def main():
         for first, second in itertools.product(ORDER, repeat=2):
             references = [assemble(KINDS["reference"], visibility, name) for visibility in (first, second)]
             check(references, [first, second], name, option)
-    if linked != 2 * 14 * 16 + 2 * 16:
-        print(f"{linked} links")
+    failed = 0
+    found = symbols(readelf, {output: name for output, name, *_ in linked})
+    for output, _, expected, is_local, command in linked:
+        binding, visibility = found.get(output, (None, None))
+        if visibility != expected or (binding == "LOCAL") != is_local:
+            failed += 1
+            print(f"{' '.join(command)}: {binding} {visibility}, but {expected} is asked for")
+    if len(linked) != 2 * 14 * 16 + 2 * 16:
+        print(f"{len(linked)} links")
         return 1
     return 1 if failed else 0
 

@@ -25,6 +25,7 @@
 enum { METHODS = 4, BINARY32 = 3, EMULATED_RAYS = 192, CHUNK = 1 << 18, NATIVE_THREADS = 2 };
 #define JUDGED_PAIRS 2e6 /* rays times triangles */
 #define EMULATED_EXACT_PAIRS 20000
+enum { USUAL_RAYS = 1000, LARGE_SCENE = 50000, MANY_EXACT = 1000 }; /* of a case; triangles */
 
 static const struct method {
   const char *name;
@@ -51,6 +52,7 @@ struct prepared {
   struct trax_scene variants[2 * TRAX_NODE_LAYOUTS]; /* the same with other nodes, and split, where that can be made */
   struct trax_frame frame;                           /* of cases with pictures */
   struct query_params params;
+  bool short_form;        /* less than the usual rays: what takes longest is left out */
   bool exact_hits;        /* the first and the third method have exact hits */
   struct query_ray *rays; /* in the scaled scene */
   struct exact_scene exact;
@@ -107,13 +109,15 @@ static void turn_children(const struct trax_scene *scene) {
 
 /* The same meshes with other layouts of nodes, with triangles split, and with trees improved, scaled
    alike. A tree that was made
-   by hand has no other. */
+   by hand has no other. Of a large scene the short form makes only the last, which has all three. */
 static void make_variants(struct prepared *prepared, const struct trax_view *view, const char *name) {
   trax_error error;
   for (unsigned i = 1; i < 2 * TRAX_NODE_LAYOUTS; i++) {
     struct trax_build_options build = prepared->setup.build;
     struct trax_view unscaled = *view;
     if (prepared->setup.mesh.triangle_count == 0 || prepared->setup.turned)
+      continue;
+    if (prepared->setup.mesh.triangle_count >= LARGE_SCENE && prepared->short_form && i + 1 < 2 * TRAX_NODE_LAYOUTS)
       continue;
     build.nodes = i / 2;
     build.splits = i % 2 ? 3 : 0;
@@ -135,9 +139,11 @@ static bool needs_exact(const struct prepared *prepared) {
 }
 
 /* The rays' extremes decide how the scene is scaled, and how far boxes are widened: no ray starts beyond them. */
-static void prepare(struct prepared *prepared, const struct extreme_case *extreme, uint32_t rays, uint32_t seed) {
+static void prepare(struct prepared *prepared, const struct extreme_case *extreme, uint32_t rays, uint32_t seed,
+                    bool short_form) {
   trax_error error;
   memset(prepared, 0, sizeof *prepared);
+  prepared->short_form = short_form;
   struct setup *setup = &prepared->setup;
   setup->seed = seed;
   extreme->make(setup, rays);
@@ -268,7 +274,12 @@ static struct query_answer *trace(const struct prepared *prepared, const struct 
   return answers;
 }
 
-/* Exact hits take fifty times as long, and of triangles one behind the other each is tested. */
+/* Exact hits take fifty times as long, and of triangles one behind the other each is tested: of many, the short form
+   emulates the first method alone. */
+static bool emulation_is_long(const struct prepared *prepared) {
+  return prepared->short_form && prepared->exact_hits && prepared->scene.triangle_count > MANY_EXACT;
+}
+
 static uint32_t emulated_rays(const struct prepared *prepared) {
   if (!prepared->exact_hits)
     return EMULATED_RAYS;
@@ -344,7 +355,7 @@ static void compare_variants(struct row *row, const struct prepared *prepared, c
       continue;
     const struct method emulated = method_of(prepared, 0);
     struct query_answer *others = trace(prepared, scene, &emulated);
-    if (first)
+    if (first && !emulation_is_long(prepared))
       emulate(row, NULL, prepared, scene, &emulated, directory, others);
     for (uint32_t i = 0; i < prepared->params.count; i++) {
       row->variant_differs += source_of(scene, others[i].triangle) != source_of(&prepared->scene, answers[i].triangle);
@@ -402,6 +413,7 @@ static void clear_progress(void) {
 static void run_case(struct row rows[METHODS], const struct extreme_case *extreme, uint64_t rays,
                      const char *directory) {
   memset(rows, 0, METHODS * sizeof *rows);
+  const bool short_form = rays < USUAL_RAYS;
   if (extreme->flags & CASE_MANY_RAYS)
     rays *= 100;
   uint32_t seed = 1;
@@ -409,13 +421,13 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
     show_progress(extreme->name, done, rays);
     struct prepared prepared;
     struct query_answer *answers[METHODS];
-    prepare(&prepared, extreme, (uint32_t)(rays - done < CHUNK ? rays - done : CHUNK), seed);
+    prepare(&prepared, extreme, (uint32_t)(rays - done < CHUNK ? rays - done : CHUNK), seed, short_form);
     for (int m = 0; m < METHODS; m++) {
       const struct method method = method_of(&prepared, m);
       answers[m] = trace(&prepared, &prepared.scene, &method);
       count_all(&rows[m], &prepared, extreme, answers[m]);
       rows[m].exact = hits_are_exact(&prepared, m);
-      if (done == 0 && (m != BINARY32 || prepared.exact_hits))
+      if (done == 0 && (m != BINARY32 || prepared.exact_hits) && (m == 0 || !emulation_is_long(&prepared)))
         emulate(&rows[m], &rows[m].cycles, &prepared, &prepared.scene, &method, directory, answers[m]);
     }
     compare_variants(&rows[0], &prepared, directory, done == 0, answers[0]);
@@ -526,7 +538,7 @@ int main(int argc, char **argv) {
                                         {"csv", required_argument, NULL, 'o'},
                                         {NULL, 0, NULL, 0}};
   const char *directory = ".", *only = NULL, *csv_path = NULL;
-  uint64_t rays = 1000;
+  uint64_t rays = USUAL_RAYS;
   int option;
   while ((option = getopt_long(argc, argv, "", names, NULL)) != -1) {
     if (option == 'p')
