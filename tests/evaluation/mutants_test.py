@@ -92,7 +92,10 @@ def test_commands(folder, inside, scratch):
     """Folders and files that cannot be used."""
     program = str(folder / "trax-eval")
     good, deep = scratch / "good.json", scratch / "deep.json"
-    good.write_text(json.dumps(GOOD | {"series": 0, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
+    (scratch / "meshes").mkdir()
+    (scratch / "meshes/triangle.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    small = [{"name": "y", "meshes": [str(scratch / "meshes/triangle.obj")], "view": "forest"}]
+    good.write_text(json.dumps(GOOD | {"scenes": small, "series": 0, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
     deep.write_text('{"name":' + "[" * 200000)
     (scratch / "binary.json").write_bytes(bytes(range(256)) * 64)
     (scratch / "zero.json").symlink_to("/dev/zero")
@@ -127,7 +130,7 @@ def test_commands(folder, inside, scratch):
         except Exception as error:  # what would be a traceback
             check(False, f"{[str(word)[:80] for word in words]}: {error!r}")
     # A disk that is full wherever it fills up: files may have so many bytes.
-    for limit in (0, 100, 4096, 100000):
+    for limit in (0, 100, 2000, 8000):
         run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True, timeout=100,
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         check(run.returncode == 1 and "Traceback" not in run.stderr, f"files of {limit} bytes: {run.returncode}: {run.stderr[-600:]}")
@@ -157,7 +160,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--count", type=int, default=60)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch, folder = pathlib.Path(temporary).resolve(), options.bin.resolve()
