@@ -3,7 +3,7 @@
 #include <xxhash.h>
 
 enum { SIZE = 100000 };
-static char text[SIZE];
+static _Alignas(8) char text[SIZE]; /* loads of words are tested for, as of a buffer of malloc */
 
 void kernel_setup(void) {
   outside_begin();
