@@ -167,6 +167,11 @@ static const char *ending_of(const char *path) {
   return dot && dot > name ? dot + 1 : NULL;
 }
 
+bool trax_output_has_ending(const char *path, const char *ending) {
+  const char *own = ending_of(path);
+  return own && strcasecmp(own, ending) == 0;
+}
+
 trax_status trax_output_name_check(const char *path, const char *endings, trax_error *error) {
   const char *ending = ending_of(path);
   struct stat existing;

@@ -123,11 +123,10 @@ trax_status trax_run_advance(struct trax_run *run, uint64_t until) {
   if (run->engine->is_timed)
     run->next_watch = run->t; /* a watch may have been added since */
   const trax_status status = run_until(run, until);
-  if (!run->ended) {
-    if (run->engine->commit)
-      run->engine->commit(run->chip);
+  if (run->engine->commit)
+    run->engine->commit(run->chip);
+  if (!run->ended)
     return status;
-  }
   trax_run_settle(run, run->t); /* records the fault, which the watches may read */
   for (struct trax_watch *watch = run->machine->watches; watch; watch = watch->others)
     if (watch->end)

@@ -1,3 +1,4 @@
+#include "explain/memory_trace.h"
 #include "explain/page.h"
 #include "explain/places.h"
 #include "explain/span.h"
@@ -121,7 +122,7 @@ static bool is_wanted(const struct trax_explain_options *options, unsigned kind)
 }
 
 bool trax_explain_wanted(const struct trax_explain_options *options) {
-  bool wanted = options->series != NULL || options->check_order;
+  bool wanted = options->series != NULL || options->memory_trace != NULL || options->check_order;
   for (unsigned i = 0; i < KINDS; i++)
     wanted |= is_wanted(options, i);
   return wanted;
@@ -149,6 +150,8 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   }
   if (explain->options.series &&
       trax_series_create(&explain->series, explain, explain->options.series, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (explain->options.memory_trace && trax_memory_trace_create(&explain->memory_trace, explain, error) != TRAX_OK)
     return TRAX_ERROR;
   return explain->options.explore ? trax_series_create(&explain->page_series, explain, NULL, error) : TRAX_OK;
 }
@@ -180,7 +183,7 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   }
   explain->observer =
       (struct trax_observer){.context = explain, .issue = add_issue, .charge = add_charge, .arrival = add_arrival};
-  if (explain->reader_count) /* series alone need no observer */
+  if (explain->reader_count) /* series and the trace of transfers need no observer */
     machine->observer = &explain->observer;
   *result = explain;
   return TRAX_OK;
@@ -203,6 +206,8 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
       status = trax_fail(error, "%s", reason.message);
   if (explain->series && trax_series_finish(explain->series, &reason) != TRAX_OK && status == TRAX_OK)
     status = trax_fail(error, "%s", reason.message);
+  if (explain->memory_trace && trax_memory_trace_finish(explain->memory_trace, &reason) != TRAX_OK && status == TRAX_OK)
+    status = trax_fail(error, "%s", reason.message);
   if (explain->options.explore && !explain->out_of_memory && trax_page_write(explain, &reason) != TRAX_OK &&
       status == TRAX_OK)
     status = trax_fail(error, "%s", reason.message);
@@ -223,6 +228,7 @@ void trax_explain_discard(struct trax_explain *explain) {
     explain->readers[i].destroy(explain->readers[i].self);
   trax_series_destroy(explain->series);
   trax_series_destroy(explain->page_series);
+  trax_memory_trace_destroy(explain->memory_trace);
   trax_pixels_destroy(explain->pixels);
   for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
     free(explain->open_spans[i].charges);

@@ -51,6 +51,7 @@ struct trax_explain {
   struct trax_arrival *arrivals; /* those of which the readers have not been notified yet */
   size_t arrival_count, arrival_capacity;
   struct trax_series *series, *page_series; /* NULL: none */
+  struct trax_memory_trace *memory_trace;   /* NULL: none */
   struct trax_explore_picture picture;      /* of the page; width 0: none */
   struct trax_pixels *pixels;               /* for it; NULL: items store to no buffer that is known */
   bool out_of_memory;        /* spans or arrivals were lost */

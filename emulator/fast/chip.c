@@ -46,6 +46,9 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   chip->tms = machine->config.chip.tms;
   if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error))
     return TRAX_ERROR;
+  chip->transfers.to = machine->transfers;
+  if (machine->transfers)
+    chip->memory.transfers = &chip->transfers;
   chip->tm = aligned_alloc(_Alignof(struct trax_tm), chip->tms * sizeof *chip->tm);
   if (!chip->tm)
     return trax_fail(error, "out of memory");
@@ -70,6 +73,7 @@ static void destroy(void *context) {
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
   trax_memory_destroy(&chip->memory);
+  trax_transfer_log_destroy(&chip->transfers);
   free(chip);
 }
 

@@ -12,6 +12,7 @@ struct trax_chip {
   struct trax_tm *tm;           /* [tms] */
   uint32_t tms;
   struct trax_memory memory;
+  struct trax_transfer_log transfers; /* no roll back changes it */
   const struct trax_fast_variant *variant;
   struct trax_fast *fast;     /* the variant's data */
   struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */

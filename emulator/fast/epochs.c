@@ -93,12 +93,15 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
     to += section->size * section->count;
   }
   epochs->has_snapshot = true;
+  trax_transfer_log_release(&epochs->chip->transfers);
+  epochs->chip->transfers.holds = true;
   epochs->snapshot_cycle = t;
   epochs->undo_count = 0;
 }
 
 static void roll_back(struct trax_epochs *epochs) {
-  const struct trax_chip *chip = epochs->chip;
+  struct trax_chip *chip = epochs->chip;
+  trax_transfer_log_discard(&chip->transfers);
   const uint8_t *from = epochs->snapshot;
   for (size_t i = 0; i < epochs->section_count; i++) {
     const struct trax_section *section = &epochs->sections[i];
@@ -114,6 +117,8 @@ static void roll_back(struct trax_epochs *epochs) {
 
 void trax_epochs_commit(struct trax_epochs *epochs) {
   epochs->has_snapshot = false;
+  trax_transfer_log_release(&epochs->chip->transfers);
+  epochs->chip->transfers.holds = false;
 }
 
 /* --- the end of an epoch --- */
@@ -306,7 +311,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   const bool cautious = *t >= epochs->cautious_from && *t < epochs->cautious_until;
   if (cautious || until - *t < LEAST_EPOCH) {
     chip->machine->fast_path.short_epochs += !cautious;
-    epochs->has_snapshot = false; /* writes outside epochs are not recorded, and so cannot be undone */
+    trax_epochs_commit(epochs); /* writes outside epochs are not recorded, and so cannot be undone */
     return false;
   }
   if (!epochs->has_snapshot) {

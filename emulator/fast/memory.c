@@ -172,6 +172,13 @@ static uint64_t increment_at(struct trax_memory *memory, unsigned number, struct
   return over;
 }
 
+/* A channel takes a request of a TM in cycle t; TRAX_MAX_TMS stands for the second-level cache. */
+static void notify_transfer(struct trax_memory *memory, unsigned number, uint32_t tm,
+                            const struct trax_request *request, uint64_t t) {
+  if (memory->transfers)
+    trax_transfer_log_add(memory->transfers, t, number, tm, request);
+}
+
 static void count_transfer(const struct trax_memory *memory, unsigned number, uint32_t bytes) {
   memory->stats->transfers++;
   memory->stats->bytes += bytes;
@@ -214,6 +221,7 @@ static void serve_ring(struct trax_memory *memory, struct trax_tm *tm, struct tr
   struct trax_request *request = trax_queue_first_waiting(&tm->queue);
   if (++tm->queue.started == tm->queue.submitted)
     memory->tms &= ~((uint64_t)1 << tm->number);
+  notify_transfer(memory, 0, tm->number, request, t);
   request->completion = transfer(memory, 0, request, space, t);
   if (request->completion < tm->next_cycle)
     tm->next_cycle = request->completion;
@@ -272,6 +280,7 @@ static void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struc
     const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_arbitrate(waiting))
                                        : trax_memory_take_first(memory, tms, &channel->passed);
     struct trax_request *request = trax_memory_request(memory, tms, id);
+    notify_transfer(memory, number, id >> TRAX_REQUEST_BITS, request, t);
     finish(memory, tms, number, id, transfer(memory, number, request, space, t));
   }
 }
@@ -318,10 +327,12 @@ static void admit(struct trax_memory *memory, struct trax_tm *tms, struct trax_s
   trax_request_id id;
   while ((id = take_admitted(memory, tms, number)) != TRAX_NO_REQUEST) {
     struct trax_request *request = trax_memory_request(memory, tms, id);
-    if (request->kind == TRAX_REQUEST_ATOMIC)
+    if (request->kind == TRAX_REQUEST_ATOMIC) {
       finish(memory, tms, number, id, increment_at(memory, number, request, space, t + 1) + memory->latency);
-    else
-      trax_dram_bring(memory->dram, queue_of(request), id, request->address, request->bytes, t);
+      continue;
+    }
+    notify_transfer(memory, number, id >> TRAX_REQUEST_BITS, request, t);
+    trax_dram_bring(memory->dram, queue_of(request), id, request->address, request->bytes, t);
   }
 }
 

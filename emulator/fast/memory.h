@@ -6,6 +6,7 @@
 #include "dram/dram.h"
 #include "fast/arbiter.h"
 #include "fast/queue.h"
+#include "fast/transfers.h"
 #include "machine/config.h"
 #include "machine/stats.h"
 
@@ -76,6 +77,7 @@ struct trax_memory {
   struct trax_l2 *l2;     /* NULL: there is none */
   struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
+  struct trax_transfer_log *transfers; /* NULL: nobody listens */
   void (*before_increment)(void *context, uint32_t address); /* called before an atomic increment; may be NULL */
   void *context;
 };

@@ -220,6 +220,12 @@ static const trax_option rows[] = {
     {"perfetto", .argument = "FILE", OUTPUT(explain.perfetto),
      .meaning = "the window as a time line, as JSON trace events"},
     {"konata", .argument = "FILE", OUTPUT(explain.konata), .meaning = "the window as a pipeline, for Konata"},
+    {"memory-trace", .argument = "FILE", OUTPUT(explain.memory_trace),
+     .meaning = "every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
+    {"memory-trace-format", .argument = "FORMAT", FIELD(explain.memory_trace_format),
+     .choices = trax_memory_trace_formats,
+     .meaning = "its format: auto (default), binary, csv, dramsim3, ramulator2-loadstore or\n"
+                "ramulator2-readwrite"},
     {"window", .argument = "BEGIN:END", .parse = parse_window,
      .meaning = "cycles of the window, BEGIN <= cycle < END; default all"},
     {"window-tms", .argument = "LIST", PARSED(parse_list, explain.window_tms),
@@ -305,6 +311,8 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
     return trax_fail(error, "--window without --trace, --perfetto or --konata");
   if (explain->series_interval && !explain->series)
     return trax_fail(error, "--series-interval without --series");
+  if (explain->memory_trace_format && !explain->memory_trace)
+    return trax_fail(error, "--memory-trace-format without --memory-trace");
   if (explain->item_buffer && !explain->items && !explain->explore)
     return trax_fail(error, "--item-buffer without --items or --explore");
   return TRAX_OK;

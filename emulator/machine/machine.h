@@ -10,6 +10,7 @@
 #include "machine/host_call.h"
 #include "machine/observer.h"
 #include "machine/stats.h"
+#include "machine/transfers.h"
 #include "trax/emulator.h"
 
 struct trax_run;
@@ -32,6 +33,7 @@ struct trax_machine {
   struct trax_host_calls calls; /* of the trap `host` */
 
   const struct trax_observer *observer; /* of the run; NULL: none (machine/observer.h) */
+  struct trax_transfers *transfers;     /* the same of transfers (machine/transfers.h) */
 
   /* Called before the first cycle if not NULL: may restore the state of another run (engine/engine.h). */
   trax_status (*prepare)(void *context, struct trax_run *run, trax_error *error);

@@ -66,6 +66,7 @@ uint64_t trax_ref_increment(struct trax_ref_chip *chip, struct trax_ref_request 
 
 static void serve_request(struct trax_ref_chip *chip, struct trax_ref_request *request, uint32_t channel, uint64_t t) {
   const struct trax_config *config = chip->config;
+  trax_ref_notify_request(chip, request, t);
   uint64_t over = transfer(chip, channel, request->bytes, t);
   if (request->kind == ATOMIC)
     over = trax_ref_increment(chip, request, over) + config->memory.atomic_latency_cycles;
@@ -75,6 +76,7 @@ static void serve_request(struct trax_ref_chip *chip, struct trax_ref_request *r
 
 static void serve_miss(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint32_t channel, uint64_t t) {
   const struct trax_config *config = chip->config;
+  trax_ref_notify_miss(chip, miss, t);
   const uint64_t over = transfer(chip, channel, trax_ref_l2_line_cost(config), t);
   trax_ref_l2_started(chip, miss, over + config->memory.latency_cycles);
 }

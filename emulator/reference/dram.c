@@ -15,6 +15,7 @@ static uint64_t completion(const struct trax_ref_chip *chip, uint64_t over) {
 }
 
 static void take_miss(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint64_t t) {
+  trax_ref_notify_miss(chip, miss, t);
   miss->in_dram = true;
   trax_dram_bring(chip->controller.dram, TRAX_DRAM_READ, (uint32_t)miss->came, miss->line * chip->config->l2.line_bytes,
                   trax_ref_l2_line_cost(chip->config), t);
@@ -27,6 +28,7 @@ static void take_request(struct trax_ref_chip *chip, struct trax_ref_request *re
     request->completion = completion(chip, done) + chip->config->memory.atomic_latency_cycles;
     return;
   }
+  trax_ref_notify_request(chip, request, t);
   if (!chip->config->l2.bytes)
     request->came = chip->controller.came++;
   request->stage = IN_DRAM;

@@ -40,3 +40,32 @@ void trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref
     observer->arrival(observer->context,
                       &(struct trax_arrival){t, tm->number, atomic->tp, atomic->rd, atomic->old_value});
 }
+
+static void notify_transfer(const struct trax_ref_chip *chip, struct trax_transfer transfer) {
+  const struct trax_transfers *transfers = chip->machine->transfers;
+  if (transfers)
+    transfers->transfer(transfers->context, &transfer);
+}
+
+void trax_ref_notify_request(const struct trax_ref_chip *chip, const struct trax_ref_request *request, uint64_t t) {
+  static const uint8_t kinds[] = {[INSTRUCTION_LINE] = TRAX_TRANSFER_INSTRUCTION_LINE,
+                                  [DATA_LINE] = TRAX_TRANSFER_DATA_LINE,
+                                  [LOAD_PAST_CACHE] = TRAX_TRANSFER_LOAD,
+                                  [WRITE] = TRAX_TRANSFER_WRITE,
+                                  [ATOMIC] = TRAX_TRANSFER_ATOMIC};
+  notify_transfer(chip, (struct trax_transfer){.cycle = t,
+                                               .address = request->address,
+                                               .bytes = request->bytes,
+                                               .tm = (int16_t)request->tm,
+                                               .kind = kinds[request->kind],
+                                               .channel = (uint8_t)request->channel});
+}
+
+void trax_ref_notify_miss(const struct trax_ref_chip *chip, const struct trax_ref_miss *miss, uint64_t t) {
+  notify_transfer(chip, (struct trax_transfer){.cycle = t,
+                                               .address = miss->line * chip->config->l2.line_bytes,
+                                               .bytes = trax_ref_l2_line_cost(chip->config),
+                                               .tm = TRAX_TRANSFER_NO_TM,
+                                               .kind = TRAX_TRANSFER_L2_LINE,
+                                               .channel = (uint8_t)miss->channel});
+}

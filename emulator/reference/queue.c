@@ -10,6 +10,7 @@ bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request) {
     request.bytes = trax_dram_bytes(tm->config, request.address, request.kind == ATOMIC ? 4 : request.bytes);
   else if (request.bytes < tm->config->memory.min_transfer_bytes)
     request.bytes = tm->config->memory.min_transfer_bytes;
+  request.tm = tm->number;
   request.channel = trax_ref_channel_of(tm->config, request.address);
   request.stage = tm->config->l2.bytes ? AT_BANK : AT_CHANNEL;
   tm->queue[tm->places++] = request;

@@ -52,6 +52,7 @@ struct trax_ref_request {
   trax_ref_kind kind;
   uint32_t bytes;
   uint32_t address;
+  uint32_t tm;
   uint32_t icache, line;                      /* lines; icache: INSTRUCTION_LINE only */
   uint32_t tp;                                /* LOAD_PAST_CACHE, WRITE, ATOMIC: the TP that made it */
   uint32_t rd;                                /* LOAD_PAST_CACHE, ATOMIC: the register that waits */
@@ -288,6 +289,9 @@ void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_
 /* The TP has issued the instruction at pc. */
 void trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
 void trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
+/* The channel takes a request, or a miss of the second-level cache (machine/transfers.h). */
+void trax_ref_notify_request(const struct trax_ref_chip *chip, const struct trax_ref_request *request, uint64_t t);
+void trax_ref_notify_miss(const struct trax_ref_chip *chip, const struct trax_ref_miss *miss, uint64_t t);
 
 /* --- Accounting: accounting.c --- */
 /* Charges the TP for cycle t. At most one call per cycle. */

@@ -91,7 +91,7 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
                                             : violates_accounting(difference, machine);
   for (unsigned i = 0; !different && i < sizeof host_threads / sizeof *host_threads; i++) {
     struct run fast = run_alone(&c->config, c->words, c->count, tested_engine, c->max_cycles, host_threads[i]);
-    different = different_runs(difference, &reference, &fast);
+    different = different_runs(difference, &reference, &fast) || different_transfers(difference, &reference, &fast);
     end(&fast);
     if (c->config.chip.tms == 1)
       break; /* more threads have nothing to do */
@@ -99,7 +99,8 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
   if (!different) {
     struct run observed = run(&c->config, c->words, c->count, tested_engine, true, c->max_cycles);
     (void)(different_issues(difference, &reference.bench.issues, &observed.bench.issues) ||
-           different_runs(difference, &reference, &observed));
+           different_runs(difference, &reference, &observed) ||
+           different_transfers(difference, &reference, &observed));
     end(&observed);
   }
   end(&reference);

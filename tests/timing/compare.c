@@ -24,6 +24,20 @@ static trax_status inspect(struct trax_watch *watch, struct trax_run *it, uint64
   return TRAX_OK;
 }
 
+static void add_transfer(void *context, const struct trax_transfer *transfer) {
+  struct transfers *to = context;
+  const uint64_t words[] = {transfer->cycle, transfer->address, transfer->bytes,
+                            (uint64_t)(uint16_t)transfer->tm << 16 | (uint64_t)transfer->kind << 8 | transfer->channel};
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    to->hash = (to->hash ^ words[i]) * 0x9E3779B97F4A7C15u >> 3;
+  assert_true(transfer->cycle > to->last_cycle ||
+              (transfer->cycle == to->last_cycle && transfer->channel >= to->last_channel));
+  to->last_cycle = transfer->cycle;
+  to->last_channel = transfer->channel;
+  to->count++;
+  to->bytes += transfer->bytes;
+}
+
 /* Loaded, on the same data for all. */
 static struct run begin(const struct trax_config *config, const uint32_t *program, size_t count) {
   struct run run = {.bench = bench_begin(config, program, count)};
@@ -48,12 +62,16 @@ static struct run run_options(const struct trax_config *config, const uint32_t *
   struct trax_watch watch = {.next = LOOK_EVERY, .inspect = inspect, .context = &run, .others = other};
   run.looked = looked;
   machine->watches = looked ? &watch : other;
+  struct trax_transfers transfers = {.context = &run.transfers, .transfer = add_transfer};
+  machine->transfers = &transfers;
   options.output = output;
   if (traced)
     bench_run_observed(&run.bench, &options);
   else
     run.bench.status = trax_machine_run(machine, &options, &run.bench.error);
   machine->watches = NULL;
+  machine->transfers = NULL;
+  assert_false(transfers.lost);
   fclose(output);
   return run;
 }
@@ -200,6 +218,16 @@ bool different_runs(struct difference *to, const struct run *a, const struct run
   return different_bytes(to, "statistics of the chip", &x->stats.total, &y->stats.total, sizeof x->stats.total) ||
          different_bytes(to, "statistics of the memory", &x->stats.memory, &y->stats.memory, sizeof x->stats.memory) ||
          different_effects(to, a, b) || different_looks(to, a, b);
+}
+
+bool different_transfers(struct difference *to, const struct run *a, const struct run *b) {
+  const struct trax_memory_stats *stats = &a->bench.machine->stats.memory;
+  return different_number(to, "transfers heard of", a->transfers.count, b->transfers.count) ||
+         different_number(to, "their bytes", a->transfers.bytes, b->transfers.bytes) ||
+         different_number(to, "their hash", a->transfers.hash, b->transfers.hash) ||
+         (a->bench.status == TRAX_OK &&
+          (different_number(to, "transfers heard of and counted", a->transfers.count, stats->transfers) ||
+           different_number(to, "bytes heard of and counted", a->transfers.bytes, stats->bytes)));
 }
 
 static bool has_value(uint32_t word) {

@@ -15,6 +15,10 @@ struct run {
   struct trax_tm_stats looks[LOOKS]; /* sums over the TMs */
   unsigned look_count;
   bool looked; /* or it ran alone */
+  struct transfers {
+    uint64_t count, bytes, hash, last_cycle;
+    unsigned last_channel;
+  } transfers; /* as a listener got them (machine/transfers.h) */
 };
 
 /* Runs the words on the same random data each time, on TRAX_HOST_THREADS host threads (environment; 1). other may be
@@ -46,6 +50,8 @@ bool different_bytes(struct difference *to, const char *name, const void *x, con
 bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b);
 /* Outcome, cycles, every count and charge, memory and output. */
 bool different_runs(struct difference *to, const struct run *a, const struct run *b);
+/* Of runs from their beginning: what was taken for off-chip memory, and in which order. */
+bool different_transfers(struct difference *to, const struct run *a, const struct run *b);
 /* Of them what does not depend on time: instructions, exit statuses, memory and output. */
 bool different_effects(struct difference *to, const struct run *a, const struct run *b);
 

@@ -221,7 +221,7 @@ static void check(const struct scenario *scenario, const unsigned delay[3], unsi
   struct run reference = run_alone(&config, program.words, program.count, "reference", 0, 1);
   struct run fast = run_alone(&config, program.words, program.count, "fast", 0, 2);
   struct difference difference;
-  if (different_runs(&difference, &reference, &fast))
+  if (different_runs(&difference, &reference, &fast) || different_transfers(&difference, &reference, &fast))
     fail_msg("%s, after %u, %u and %u cycles more, latency %u, %g GB/s: %s", scenario->name, delay[0], delay[1],
              delay[2], epoch, bandwidth, difference.text);
   end(&reference);

@@ -16,6 +16,18 @@ extern "C" {
 
 struct trax_explain;
 
+/* The formats of the trace of transfers (docs/traces.md). AUTO: CSV if the file's ending is .csv, else BINARY. */
+enum trax_memory_trace_format {
+  TRAX_MEMORY_TRACE_AUTO,
+  TRAX_MEMORY_TRACE_BINARY,
+  TRAX_MEMORY_TRACE_CSV,
+  TRAX_MEMORY_TRACE_DRAMSIM3,
+  TRAX_MEMORY_TRACE_RAMULATOR2_LOADSTORE,
+  TRAX_MEMORY_TRACE_RAMULATOR2_READWRITE,
+  TRAX_MEMORY_TRACE_FORMATS
+};
+extern const char *const trax_memory_trace_formats[TRAX_MEMORY_TRACE_FORMATS + 1]; /* as options give them; NULL */
+
 struct trax_explain_options {
   /* Files to write; NULL: not wanted. "-" is standard output. */
   const char *explore;       /* a page in HTML that explains the whole run */
@@ -32,6 +44,8 @@ struct trax_explain_options {
   const char *lockstep;      /* the issue slots that the items would take on a SIMD machine */
   const char *lockstep_rays; /* the issue slots that the rays of each kind would take on one */
   const char *series;        /* the counters of each interval of cycles */
+  const char *memory_trace;  /* every transfer from and to off-chip memory */
+  enum trax_memory_trace_format memory_trace_format;
   bool check_order;          /* report the first load that may return an old value to standard error */
 
   uint64_t series_interval; /* cycles; 0: TRAX_SERIES_INTERVAL */

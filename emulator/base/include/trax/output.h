@@ -4,6 +4,7 @@
 
 #include "trax/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -34,6 +35,8 @@ trax_status trax_output_check(const char *path, trax_error *error);
 /* Checks that the path's ending is one of `endings` ("png pfm exr"), in upper or lower case. A path without an ending,
    and one that is not a regular file, such as /dev/null, passes: the first ending counts for it. */
 trax_status trax_output_name_check(const char *path, const char *endings, trax_error *error);
+/* Whether the path has the ending, in upper or lower case. */
+bool trax_output_has_ending(const char *path, const char *ending);
 
 /* Writes a whole file. */
 trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error);

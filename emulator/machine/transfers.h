@@ -1,0 +1,45 @@
+/* Transfers: what the memory controller takes from the TMs and the second-level cache for off-chip memory
+   (docs/timing-memory.md, "Memory controller"). A run without a listener pays nothing for this.
+
+   An engine calls `transfer` in the order of (cycle, channel), those of one cycle and channel in the order in which the
+   channel takes them, by the host thread that called trax_machine_run. Calls may come later than the cycle, but none
+   after trax_run_advance has returned. */
+#ifndef TRAX_MACHINE_TRANSFERS_H
+#define TRAX_MACHINE_TRANSFERS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Identifier, word in traces. The numbers are those of the binary trace. */
+#define TRAX_TRANSFER_KINDS(X)                                                                                         \
+  X(INSTRUCTION_LINE, "instruction_line") /* for an instruction cache */                                               \
+  X(DATA_LINE, "data_line")               /* for a data cache */                                                       \
+  X(LOAD, "load")                         /* past the cache */                                                         \
+  X(WRITE, "write")                                                                                                    \
+  X(ATOMIC, "atomic")   /* an increment, which without DRAM moves the word */                                          \
+  X(L2_LINE, "l2_line") /* for the second-level cache */
+
+typedef enum trax_transfer_kind {
+#define TRAX_TRANSFER_KIND(ID, WORD) TRAX_TRANSFER_##ID,
+  TRAX_TRANSFER_KINDS(TRAX_TRANSFER_KIND)
+#undef TRAX_TRANSFER_KIND
+      TRAX_TRANSFER_KIND_COUNT
+} trax_transfer_kind;
+
+enum { TRAX_TRANSFER_NO_TM = -1 }; /* of TRAX_TRANSFER_L2_LINE */
+
+struct trax_transfer {
+  uint64_t cycle;   /* in which the channel takes it: it begins, or comes to the DRAM's queue */
+  uint32_t address; /* of the first byte that was asked for */
+  uint32_t bytes;   /* as the statistics count them */
+  int16_t tm;
+  uint8_t kind, channel;
+};
+
+struct trax_transfers {
+  void *context;
+  void (*transfer)(void *context, const struct trax_transfer *transfer);
+  bool lost; /* set by the engine: memory ran out, and transfers were lost */
+};
+
+#endif
