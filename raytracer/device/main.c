@@ -45,6 +45,8 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
       HIDE_ORIGIN(shadow); /* or the loop's turns are told apart, and registers chosen less well */
       bool found =
           trace_ray(layout, scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
+      ACCESS_RAY(pixel.packed, sample, shadow, origin, direction, shadow ? hit.distance_bits : FARTHEST_BITS, found,
+                 &hit);
       LOAD_AGAIN(run);
       if (shadow) {
         RECORD_SHADOW(run, pixel, sample, found);

@@ -339,6 +339,8 @@ PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *pat
   prepare_ray(&ray, RUN_LAYOUT(run), path->origin, path->direction, run->box_margin, &run->grid);
   bool found = trace_ray(RUN_LAYOUT(run), scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray,
                          shadow && !HAS_HOLES(run), &hit);
+  ACCESS_RAY(path->pixel, path->sample, rays, path->origin, path->direction,
+             shadow ? path->distance_bits : FARTHEST_BITS, found, &hit);
   LOAD_PATH_AGAIN(path);
   path->hit = hit;
   return found;

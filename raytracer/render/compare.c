@@ -2,6 +2,7 @@
 
 #include "hits.h"
 #include "measure.h"
+#include "ray_trace.h"
 #include "steps.h"
 #include "trax/signals.h"
 
@@ -143,4 +144,13 @@ trax_status compare(const struct trax_picture *picture, const struct trax_frame 
   *agrees = *agrees && difference.unequal == 0;
   /* The error bounds are the watertight test's. */
   return frame->method.triangle == TRAX_TRIANGLE_WATERTIGHT ? compare_hits(frame, progress, agrees, error) : TRAX_OK;
+}
+
+trax_status trace_rays(const struct options *options, const struct trax_frame *frame,
+                       const struct trax_picture *picture, trax_progress_line *progress, trax_error *error) {
+  struct step step = {.line = progress, .name = "trace of the rays"};
+  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
+  const trax_status status = trax_ray_trace_write(options->ray_trace, frame, picture, &run, error);
+  trax_progress_line_clear(progress);
+  return status;
 }

@@ -21,4 +21,8 @@ trax_status measure_hits(const char *path, const struct trax_frame *frame, trax_
 trax_status write_hits(const struct options *options, const struct trax_frame *frame, trax_progress_line *progress,
                        trax_error *error);
 
+/* --ray-trace; picture: of the same frame by another engine, or NULL. */
+trax_status trace_rays(const struct options *options, const struct trax_frame *frame,
+                       const struct trax_picture *picture, trax_progress_line *progress, trax_error *error);
+
 #endif

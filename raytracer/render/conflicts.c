@@ -9,14 +9,14 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "no mesh given; trax-render --help shows how");
   if (options->prepare &&
       (options->output || options->stats || options->compare || options->error || options->hits ||
-       options->id_picture || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+       options->id_picture || options->ray_trace || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (options->prepare && (options->show || options->progress_png))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   const bool of_run = options->stats || options->compare || options->keep || options->id_picture || options->sampled ||
                       options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
   const bool shown = options->show || options->progress_png;
-  if (!options->output && !options->prepare && !shown && (of_run || !(options->error || options->hits)))
+  if (!options->output && !options->prepare && !shown && (of_run || !(options->error || options->hits || options->ray_trace)))
     return trax_fail(error, "no picture given: -o PICTURE.png");
   if (options->error && (options->engine > ENGINE_REFERENCE || options->program || options->no_specialise))
     return trax_fail(error, "--error is about the program that is compiled for the picture, on the emulator");
@@ -35,7 +35,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->sampled && options->engine != ENGINE_FAST)
     return trax_fail(error, "--sampled needs engine fast");
   if (options->sampled && (options->compare || options->prepare || options->frames > 1 || options->cost_picture ||
-                           options->cost_values || trax_explain_wanted(&options->explain)))
+                           options->cost_values || options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source)
     return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
@@ -45,7 +45,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
-      return trax_fail(error, "--explore, --cost-picture and --cost-values need the emulator");
+      return trax_fail(error, "--explore, --memory-trace, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
       return trax_fail(error, "--config, --set, --program, --keep and --prepare need the emulator");
     if (options->choose_queues)
@@ -78,9 +78,19 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --source are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values && !options->show)
     return trax_fail(error, "--cost without --cost-picture, --cost-values or --show");
+  if (options->explain.memory_trace_format && !options->explain.memory_trace)
+    return trax_fail(error, "--memory-trace-format without --memory-trace");
   if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
-                              options->compare || options->id_picture || trax_explain_wanted(&options->explain)))
+                              options->compare || options->id_picture || options->ray_trace ||
+                              trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
+  if (options->ray_trace && options->engine == ENGINE_EMBREE)
+    return trax_fail(error, "--ray-trace: the rays are the device program's, which engine embree does not run");
+  if (options->ray_trace && (options->program || options->source || options->frame.method.fast_math))
+    return trax_fail(error, "--ray-trace: the rays are the native twin's; with %s the program is another one",
+                     options->program  ? "--program"
+                     : options->source ? "--source"
+                                       : "--fast-math");
   if (options->frame.seed && !options->frame.paths && !options->frame.occlusion)
     return trax_fail(error, "--seed is for --paths and --occlusion: nothing else is random");
   if (options->frame.occlusion && options->frame.paths)

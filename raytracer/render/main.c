@@ -34,6 +34,8 @@ static void print_outputs(const struct options *options, const struct inputs *in
     printf("error       %s\n", options->error);
   if (options->hits)
     printf("hits        %s\n", options->hits);
+  if (options->ray_trace)
+    printf("rays        %s\n", options->ray_trace);
   if (options->keep)
     printf("inputs      %s\n", options->keep);
 }
@@ -60,6 +62,8 @@ static trax_status render_view(const struct options *options, struct inputs *inp
                  ? emulate(&picture, options, &frame, view, progress, live, &trax_signal, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress, live,
                                options->quiet, error);
+  if (status == TRAX_OK && options->ray_trace)
+    status = trace_rays(options, &frame, picture.pixels ? &picture : NULL, progress, error);
   if (status == TRAX_OK && output)
     status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)

@@ -110,6 +110,13 @@ static const trax_option rows[] = {
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
+    {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
+     .meaning = "every ray with what it found, by the native twin; CSV for FILE.csv, else binary; without\n"
+                "-o nothing is rendered"},
+    {"memory-trace", .argument = "FILE", OUTPUT(explain.memory_trace, NULL),
+     .meaning = "every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
+    {"memory-trace-format", .argument = "FORMAT", FIELD(explain.memory_trace_format),
+     .choices = trax_memory_trace_formats, .meaning = "its format, as of trax-sim"},
     {"cost-picture", .argument = "FILE.png", OUTPUT(cost_picture, "png"),
      .meaning = "what each pixel cost, in false colours"},
     {"cost-values", .argument = "FILE", OUTPUT(cost_values, "csv pfm"),

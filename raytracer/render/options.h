@@ -39,6 +39,7 @@ struct options {
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
   const char *stats, *keep, *program;
+  const char *ray_trace; /* every ray; NULL: not wanted */
   const char *error, *hits; /* figures as JSON; NULL: not wanted */
   const char *converged;    /* where --error keeps pictures; NULL: nowhere */
   const char *source;       /* of the specialised program; NULL: the installation's */

@@ -44,7 +44,8 @@ trax_status trax_visits_count(struct trax_visits *visits, const struct trax_pict
   if (!counter || !visits->nodes || !visits->triangles) {
     status = trax_fail(error, "out of memory for the visits of %zu pixels", pixels);
   } else {
-    counter->log = (struct trax_access_log){counter->accesses, counter->accesses + 4096, count, end_slot};
+    counter->log = (struct trax_access_log){
+        .end = counter->accesses, .limit = counter->accesses + 4096, .full = count, .slot = end_slot};
     counter->params = frame->params;
     counter->visits = visits;
     struct trax_render_run logged = *run;

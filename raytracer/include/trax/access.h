@@ -1,5 +1,5 @@
-/* What a twin compiled with TRAX_ACCESSES tells of its way through the scene: which nodes and triangles it reads, slot
-   by slot. One thread at a time. */
+/* What a twin compiled with TRAX_ACCESSES tells of its way through the scene: which nodes and triangles it reads, ray
+   by ray and slot by slot. One thread at a time. */
 #ifndef TRAX_ACCESS_H
 #define TRAX_ACCESS_H
 
@@ -9,12 +9,28 @@
 typedef uint32_t trax_access;
 #define TRAX_ACCESS_TRIANGLE 1u
 
+/* A ray, after it was traced. */
+struct trax_traced_ray {
+  float origin[3], direction[3];
+  float farthest;    /* it asks for what lies before; a distance in units of the direction */
+  uint32_t pixel;    /* y << 16 | x */
+  uint32_t sample;   /* of the pixel */
+  uint32_t kind;     /* enum trax_ray_kind */
+  uint32_t found;    /* it hit something */
+  uint32_t triangle; /* the nearest: bytes from the start of the scene; 0: nothing, or the ray did not ask which */
+  float distance, weight1,
+      weight2; /* of that: in units of the direction; barycentric, of the second and third corner */
+};
+
 struct trax_access_log {
   trax_access *end, *limit; /* where the next one goes, and how far there is room */
   /* There is none: makes some, or discards what is there. */
   void (*full)(struct trax_access_log *log);
   /* The slot is done, with this many rays; its accesses are in the log since the call before. */
   void (*slot)(struct trax_access_log *log, uint32_t slot, uint32_t rays);
+  /* The ray was traced; its accesses are those in the log since the call before, and those that were discarded. NULL:
+     nobody wants to know. */
+  void (*ray)(struct trax_access_log *log, const struct trax_traced_ray *ray);
 };
 
 #endif
