@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""traces_test.py SOURCE BIN: --memory-trace and --ray-trace against the statistics and against each other's formats, by the readers of
+docs/traces.md."""
+import collections
+import csv
+import importlib
+import json
+import os
+import pathlib
+import re
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+SOURCE, BIN = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+sys.path[:0] = [str(SOURCE / "tests/docs"), "."]
+from blocks import read_blocks  # noqa: E402
+
+SIZE = ["generate:forest", "--view", "forest", "--size", "24x16", "--quiet"]
+MOST_LINES = 30  # of a reader in the page
+failures = 0
+
+
+def check(condition, *message):
+    global failures
+    if not condition:
+        failures += 1
+        print("FAILED:", *(str(part)[:400] for part in message))
+
+
+def call(program, *words, status=0):
+    done = subprocess.run([BIN / program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False)
+    check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
+    return done
+
+
+def readers():
+    """The modules that the page has as files."""
+    modules = []
+    for words, text, line in read_blocks((SOURCE / "docs/traces.md").read_text()):
+        if words.startswith("python "):
+            name = words.split()[1]
+            check(text.count("\n") <= MOST_LINES, f"docs/traces.md, line {line}: {text.count(chr(10))} lines")
+            pathlib.Path(name).write_text(text)
+            modules.append(importlib.import_module(name.removesuffix(".py")))
+    check(len(modules) == 2, "docs/traces.md has", len(modules), "readers")
+    return modules
+
+
+def load(path):
+    return json.loads(pathlib.Path(path).read_text())
+
+
+def without_host(stats):
+    return {key: value for key, value in stats.items() if not key.startswith(("host_", "instructions_per_host", "fast_path"))}
+
+
+# --- memory ---
+
+MACHINES = {
+    "limit": [],
+    "lists": ["memory.channels=2", "memory.atomic_latency_cycles=30", "memory.min_transfer_bytes=32"],
+    "l2": ["l2.bytes=65536", "l2.line_bytes=128", "memory.interleave_bytes=256"],
+    "dram": ["memory.model=dram", "dram.preset=lpddr3-1600", "memory.channels=2"],
+    "dram-l2": ["memory.model=dram", "l2.bytes=65536"],
+}
+
+
+def settings(keys):
+    return [word for key in keys for word in ("--set", key)]
+
+
+def check_memory(reader, name, keys):
+    sim = ["trax-sim", "kept/manifest.json", *settings(keys)]
+    call(*sim, "--memory-trace", "fast.bin", "--stats", "with.json")
+    call(*sim, "--stats", "without.json")
+    check(without_host(load("with.json")) == without_host(load("without.json")), name, "other statistics with a trace")
+    for engine in (["--engine", "reference"], ["--host-threads", "3"], ["--profile", "profile.txt"]):
+        call(*sim, *engine, "--memory-trace", "other.bin")
+        check(pathlib.Path("fast.bin").read_bytes() == pathlib.Path("other.bin").read_bytes(), name, "differs with", engine)
+
+    transfers, memory = list(reader.read("fast.bin")), load("with.json")["memory"]
+    check(len(transfers) == memory["transfers"] and len(transfers) > 100, name, len(transfers), memory["transfers"])
+    check(sum(transfer.bytes for transfer in transfers) == memory["bytes"], name, "bytes")
+    check(transfers == sorted(transfers, key=lambda transfer: (transfer.cycle, transfer.channel)), name, "order")
+    moved = collections.Counter()
+    for transfer in transfers:
+        moved[reader.KINDS[transfer.kind]] += transfer.bytes
+        check((transfer.tm < 0) == (transfer.kind == 5), name, "TM of", transfer)
+    if "l2" in name:
+        check(moved["l2_line"] == load("with.json")["l2"]["read_bytes"], name, moved)
+    else:
+        check(moved["data_line"] == memory["data_read_bytes"], name, moved)
+        check(moved["instruction_line"] == memory["instruction_read_bytes"], name, moved)
+    check(moved["write"] == memory["written_bytes"], name, moved)
+
+    call(*sim, "--memory-trace", "fast.csv")
+    with open("fast.csv", newline="") as file:
+        rows = [(*map(int, (row["cycle"], row["address"], row["bytes"], row["tm"])), reader.KINDS.index(row["kind"]), int(row["channel"]))
+                for row in csv.DictReader(file)]
+    check(rows == transfers, name, "CSV and binary differ")
+    check_others(name, sim, keys, transfers)
+
+
+def check_others(name, sim, keys, transfers):
+    """The formats of other simulators."""
+    dram = "memory.model=dram" in keys
+    machine = call("trax-sim", *settings(keys), "--print-config").stdout
+    key = lambda name: int(re.search(rf"{name} = (\d+)", machine)[1])  # noqa: E731
+    block = key("burst_length") * key("bus_bits") // 8 if dram else 64
+    expected = [(transfer.kind == 3, transfer.address // block * block + at, transfer.cycle)
+                for transfer in transfers for at in range(0, transfer.bytes, block)]
+    ticks = (key("mtps"), 2 * key("clock_mhz")) if dram else (1, 1)
+
+    call(*sim, "--memory-trace", "t", "--memory-trace-format", "dramsim3")
+    lines = [re.fullmatch(r"0x([0-9A-F]+) (READ|WRITE) (\d+)", line) for line in pathlib.Path("t").read_text().splitlines()]
+    check(all(lines), name, "dramsim3")
+    check([(line[2] == "WRITE", int(line[1], 16), int(line[3])) for line in lines] ==
+          [(write, address, -(-cycle * ticks[0] // ticks[1])) for write, address, cycle in expected], name, "dramsim3 differs")
+    call(*sim, "--memory-trace", "t", "--memory-trace-format", "ramulator2-loadstore")
+    lines = [re.fullmatch(r"(LD|ST) 0x([0-9a-f]+)", line) for line in pathlib.Path("t").read_text().splitlines()]
+    check(all(lines), name, "loadstore")
+    check([(line[1] == "ST", int(line[2], 16)) for line in lines] == [entry[:2] for entry in expected], name, "loadstore differs")
+    done = call(*sim, "--memory-trace", "u", "--memory-trace-format", "ramulator2-readwrite", status=0 if dram else 1)
+    if not dram:
+        check("memory.model = dram" in done.stderr and not pathlib.Path("u").exists(), name, done.stderr)
+        return
+    lines = [re.fullmatch(r"(R|W) (\d+),(\d+),(\d+),(\d+),(\d+)", line) for line in pathlib.Path("u").read_text().splitlines()]
+    check(len(lines) == len(expected) and all(lines), name, "readwrite")
+    places = {}
+    for line, (write, address, _) in zip(lines, expected):
+        check((line[1] == "W") == write, name, line[0])
+        check(places.setdefault(address, line.groups()[1:]) == line.groups()[1:], name, "two places of", address)
+    check(len(set(places.values())) == len(places), name, "two blocks at one place")
+    if "memory.channels=2" in keys:
+        check({place[0] for place in places.values()} == {"0", "1"}, name, "channels")
+
+
+def memory(reader):
+    call("trax-render", *SIZE, "--config", "1x32", "--set", "chip.tms=2", "--set", "chip.tps_per_tm=8", "-o", "m.png", "--keep", "kept", "--memory-trace", "render.csv")
+    call("trax-sim", "kept/manifest.json", "--memory-trace", "sim.csv")
+    check(pathlib.Path("render.csv").read_text() == pathlib.Path("sim.csv").read_text(), "trax-render's and trax-sim's traces differ")
+    for name, keys in MACHINES.items():
+        check_memory(reader, name, keys)
+    done = call("trax-sim", "kept/manifest.json", "--memory-trace-format", "csv", status=1)
+    check("without --memory-trace" in done.stderr, done.stderr)
+    call("trax-sim", "kept/manifest.json", "--engine", "functional", "--memory-trace", "f.bin", status=1)
+    check(not pathlib.Path("f.bin").exists(), "the functional engine left a trace")
+
+
+# --- rays ---
+
+PICTURES = {
+    "paper": [],
+    "samples": ["--samples", "3"],
+    "paths": ["--paths", "3", "--samples", "2", "--one-sided"],
+    "occlusion": ["--occlusion", "3"],
+    "mirrors": ["--material", "mirror"],
+    "moller-trumbore": ["--triangle", "moller-trumbore"],
+}
+
+
+def check_rays(reader, name, words):
+    render = ["trax-render", *SIZE, *words]
+    call(*render, "-o", "with.png", "--stats", "with.json", "--ray-trace", "rays.bin")
+    call(*render, "-o", "without.png", "--stats", "without.json")
+    check(pathlib.Path("with.png").read_bytes() == pathlib.Path("without.png").read_bytes(), name, "another picture with a trace")
+    check(without_host(load("with.json")) == without_host(load("without.json")), name, "other statistics with a trace")
+    call(*render, "-o", "native.png", "--engine", "native", "--threads", "3", "--ray-trace", "other.bin")
+    check(pathlib.Path("rays.bin").read_bytes() == pathlib.Path("other.bin").read_bytes(), name, "differs with engine native")
+
+    rays = list(reader.read("rays.bin"))
+    counts = collections.Counter(reader.KINDS[ray.kind] for ray in rays)
+    expected = {kind: count for kind, count in load("with.json")["rays_by_kind"].items() if count}
+    check(dict(counts) == expected, name, counts, expected)
+    check(any(ray.hit for ray in rays) and not all(ray.hit for ray in rays), name, "hits")
+    for ray in rays:
+        check(ray.triangle == 2**32 - 1 or ray.hit, name, "a triangle without a hit", ray)
+        check(ray.x < 24 and ray.y < 16 and ray.nodes > 0 and ray.distance <= ray.interval[1], name, ray)
+
+    call(*render, "--ray-trace", "rays.csv")
+    with open("rays.csv", newline="") as file:
+        rows = [(row["kind"], int(row["x"]), int(row["y"]), int(row["sample"]), float(row["direction_y"]), row["triangle"], int(row["nodes"]))
+                for row in csv.DictReader(file)]
+    check([(kind, x, y, sample, nodes) for kind, x, y, sample, _, _, nodes in rows] ==
+          [(reader.KINDS[ray.kind], ray.x, ray.y, ray.sample, ray.nodes) for ray in rays], name, "CSV and binary differ")
+    check(all(abs(row[4] - ray.direction[1]) <= 1e-8 * abs(row[4]) for row, ray in zip(rows, rays)), name, "directions")
+    check([row[5] for row in rows] == ["" if ray.triangle == 2**32 - 1 else str(ray.triangle) for ray in rays], name, "triangles")
+    return rays
+
+
+def shown_triangles(path):
+    """The number of each pixel of a PNG."""
+    data, at, packed = pathlib.Path(path).read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IHDR":
+            width, height = struct.unpack_from(">2I", data, at + 8)
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    raw, stride, rows = zlib.decompress(packed), 3 * width + 1, [bytes(3 * width)]
+    for y in range(height):
+        method, line, up = raw[y * stride], bytearray(raw[y * stride + 1:(y + 1) * stride]), rows[-1]
+        for i in range(3 * width):
+            left, above, corner = line[i - 3] if i >= 3 else 0, up[i], up[i - 3] if i >= 3 else 0
+            guess = left + above - corner
+            nearest = min((left, above, corner), key=lambda value: abs(guess - value))
+            line[i] = line[i] + (0, left, above, (left + above) // 2, nearest)[method] & 255
+        rows.append(bytes(line))
+    return {(x, y): int.from_bytes(rows[y + 1][3 * x:3 * x + 3], "little") for y in range(height) for x in range(width)}
+
+
+def rays(reader):
+    for name, words in PICTURES.items():
+        traced = check_rays(reader, name, words)
+        if name == "paper":
+            call("trax-render", *SIZE, "--engine", "native", "-o", "p.png", "--id-picture", "id.png")
+            shown = shown_triangles("id.png")
+            primary = {(ray.x, ray.y): (ray.triangle + 1) % 2**32 for ray in traced if ray.kind == 0}
+            check(primary == shown, "triangles of the rays from the eye are not those of --id-picture")
+    for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "embree"), (["--fast-math"], "--fast-math"),
+                           (["--frames", "2"], "--frames"), (["--prepare", "d"], "--prepare")):
+        out = [] if "--prepare" in words else ["-o", "q.png"]
+        done = call("trax-render", *SIZE, *words, *out, "--ray-trace", "no.bin", status=1)
+        check(message in done.stderr and not pathlib.Path("no.bin").exists(), words, done.stderr)
+    call("trax-render", *SIZE, "-o", "same.bin.png", "--ray-trace", "same.bin.png", status=1)
+
+
+def interrupted(option):
+    """Ctrl-C leaves no file, and one of that name stays."""
+    pathlib.Path("old.csv").write_text("old")
+    words = ["-o", "i.png"] if option == "--memory-trace" else []
+    run = subprocess.Popen([BIN / "trax-render", *SIZE[:3], "--size", "2000x1000", "--samples", "16", *words, option, "old.csv"],
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while run.poll() is None and not [path for path in pathlib.Path().iterdir() if path.name.startswith("old.csv") and path.name != "old.csv"]:
+        time.sleep(0.05)
+    run.send_signal(signal.SIGINT)
+    check(run.wait(60) == -signal.SIGINT, option, "status", run.returncode)
+    check(pathlib.Path("old.csv").read_text() == "old", option, "the file of before is gone")
+    left = [path.name for path in pathlib.Path().iterdir() if path.name.startswith((".old", "old.csv"))]
+    check(left == ["old.csv"], option, "left", left)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        memory_reader, ray_reader = readers()
+        memory(memory_reader)
+        rays(ray_reader)
+        interrupted("--memory-trace")
+        interrupted("--ray-trace")
+        os.chdir("/")
+    return failures != 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
