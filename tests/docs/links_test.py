@@ -5,6 +5,7 @@
 - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
 - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of results and GENERATED
   may have long tables.
+- What is code stands between backticks: an indented block has no kind, and no test runs it.
 - VERSION has a chapter in CHANGELOG.md.
 - Every picture in docs/ is shown by a page, is what its name says, and is small.
 
@@ -57,6 +58,21 @@ def plain(heading):
     return re.sub(r"[`*]", "", heading)
 
 
+def indented(lines):
+    """Numbers of lines that begin a block by four blanks, but for what belongs to a list."""
+    inside = listed = False
+    before = ""
+    for number, line in enumerate(lines, 1):
+        if line.startswith("```"):
+            inside = not inside
+        elif not inside and line.strip():
+            if not line.startswith(" "):
+                listed = bool(re.match(r"([-*]|\d+\.) ", line))
+            elif line.startswith("    ") and not listed and not before.startswith("    "):
+                yield number
+        before = line
+
+
 class Pages:
     def __init__(self, source):
         self.source = pathlib.Path(source).resolve()
@@ -98,6 +114,7 @@ class Pages:
         first = next((line for line in lines[1:] if line.strip() and not line.startswith(("<", "!"))), "")
         if not re.match(r"[A-Z`\[*]", first):
             wrong.append(f"{name}: does not begin with a sentence that says what it is for")
+        wrong += [f"{name}: line {line}: an indented block" for line in indented(lines)]
         count, generated = 0, False
         results = "results" in name.parts or page.name in GENERATED
         for line in lines:
@@ -173,7 +190,7 @@ class Pages:
         for text in ("[x](none.md)", "[x](isa.md#none)", '[isa.md](isa.md), "No such chapter"', "[x](../README.md#none)", "![x](none.svg)"):
             if not self.links(page, f"# T\n\nText {text}.\n")[0]:
                 yield f"{text} is not noticed"
-        for text in ("Text.\n", "# T\n\n| a |\n", "# T\n\nText.\n" + "x\n" * (LINES + 9), "# T\n\nText.\n\n```\nls\n```\n"):
+        for text in ("Text.\n", "# T\n\n| a |\n", "# T\n\nText.\n" + "x\n" * (LINES + 9), "# T\n\nText.\n\n```\nls\n```\n", "# T\n\nText.\n\n    ls\n"):
             if not self.form(page, text):
                 yield f"a page that begins with {text[:20]!r} is not noticed"
         for text in ("docs/none.md", 'docs/isa.md, "No such chapter"'):
