@@ -51,6 +51,8 @@ ReturnToService=2
 NodeName=$host NodeAddr=127.0.0.1 CPUs=$processors
 PartitionName=all Nodes=$host Default=YES State=UP MaxTime=INFINITE
 CONF
+# Before release 23 there is no such setting, and slurmd starts without control groups.
+[ "$(slurmd -V | sed 's/[^0-9]*\([0-9]*\).*/\1/')" -lt 23 ] || echo CgroupPlugin=disabled >"$work/cgroup.conf"
 export SLURM_CONF=$work/slurm.conf
 slurmctld -D -f "$SLURM_CONF" >"$work/out" 2>&1 &
 controller=$!
