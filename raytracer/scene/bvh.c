@@ -463,8 +463,14 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
                              const struct trax_build_options *options, trax_error *error) {
   *tree = (struct scene_tree){0};
   trax_status result = check_options(options, error);
-  if (result != TRAX_OK || mesh->triangle_count == 0)
+  if (result != TRAX_OK || (mesh->triangle_count == 0 && !options->tree_nodes))
     return result;
+  if (options->tree_nodes) {
+    result = scene_read_tree(tree, mesh, options, error);
+    if (result != TRAX_OK)
+      scene_tree_release(tree);
+    return result;
+  }
   const float factor = options->choose_splits ? (splits_suit(mesh) ? TRAX_DEFAULT_SPLITS : 0) : options->splits;
   const bool splits = factor > 1;
   struct trax_build_options chosen = *options; /* and no longer to be chosen */

@@ -296,6 +296,12 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
                              const struct trax_build_options *options, trax_error *error);
 void scene_tree_release(struct scene_tree *tree);
 
+/* --- own_tree.c --- */
+
+/* The tree of options->tree_nodes, checked; what is in *tree after an error is to be released, too. */
+trax_status scene_read_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
+                            const struct trax_build_options *options, trax_error *error);
+
 /* --- reinsert.c --- */
 
 #define SCENE_NO_LINK UINT32_MAX

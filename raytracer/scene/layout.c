@@ -401,6 +401,11 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     scene_order_release(&order);
   }
   scene_tree_release(&tree);
+  if (result == TRAX_OK && options->tree_nodes) { /* do the leaves of a triangle contain it together? */
+    result = trax_scene_check(NULL, scene->bytes, scene->size, options->tree_nodes, error);
+    if (result != TRAX_OK)
+      trax_scene_release(scene);
+  }
   return result;
 }
 

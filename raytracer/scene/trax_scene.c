@@ -128,6 +128,12 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
   if (result != TRAX_OK)
     return result;
   double imported = trax_seconds();
+  if (arguments->write_triangles)
+    result = trax_mesh_write_triangles(&mesh, arguments->write_triangles, error);
+  if (result != TRAX_OK || !arguments->output) {
+    trax_mesh_release(&mesh);
+    return result;
+  }
   if (mesh.triangle_count == 0 && !arguments->build.allow_empty) {
     result = trax_fail(error, "%s: no triangles%s%s; --allow-empty makes a scene without any", arguments->meshes[0],
                        arguments->mesh_count > 1 ? " in it and the other meshes" : "",
@@ -154,7 +160,9 @@ static trax_status run(const struct arguments *arguments, trax_progress_line *li
   if (result == TRAX_OK && arguments->output)
     result = trax_scene_write(&scene, arguments->output, error);
   trax_progress_line_clear(line);
-  if (result == TRAX_OK) {
+  if (result == TRAX_OK && !scene.header && !arguments->quiet)
+    trax_import_print_notes(&figures.import, "trax-scene");
+  if (result == TRAX_OK && scene.header) {
     struct statistic list[max_statistics];
     trax_scene_measure(&figures.tree, &scene);
     size_t count = list_statistics(list, &figures);

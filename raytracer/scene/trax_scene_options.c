@@ -77,6 +77,15 @@ static const trax_option rows[] = {
     {"cache-lines", .argument = "N", NUMBER(build.cache_lines, 1, 4096),
      .meaning = "order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first"},
     {"no-source-ids", FIELD(build.without_source_ids), .meaning = "leave out each triangle's number in the mesh"},
+    TRAX_OPTION_GROUP("Another builder's tree"),
+    {"tree", .argument = "FILE.npy", FIELD(build.tree_nodes), .file = TRAX_OPTION_INPUT,
+     .meaning = "instead of building one: its nodes, rows of left, right, count"},
+    {"tree-triangles", .argument = "FILE.npy", FIELD(build.tree_triangles), .file = TRAX_OPTION_INPUT,
+     .meaning = "the triangles of its leaves"},
+    {"tree-boxes", .argument = "FILE.npy", FIELD(build.tree_boxes), .file = TRAX_OPTION_INPUT,
+     .meaning = "the boxes of its nodes, for triangles that stand in several leaves"},
+    {"write-triangles", .argument = "FILE.npy", OUTPUT(write_triangles),
+     .meaning = "writes the meshes' triangles as such a tree numbers them; needs no -o"},
     TRAX_OPTION_GROUP("Normals"),
     {"smooth", FIELD(build.smooth), .meaning = "normals for smooth shading, the same as --normals file"},
     {"normals", .argument = "WHICH", PARSED(trax_take_normals, build),
@@ -115,7 +124,18 @@ trax_parsed arguments_parse(struct arguments *arguments, int argc, char **argv, 
     trax_fail(error, "--crease without --smooth or --normals");
   else if (!arguments->check && !arguments->mesh_count)
     trax_fail(error, "no mesh; try --help");
-  else if (!arguments->check && !arguments->output)
+  else if (arguments->check && (arguments->build.tree_nodes || arguments->write_triangles))
+    trax_fail(error, "--check takes neither --tree nor --write-triangles");
+  else if (!arguments->build.tree_nodes != !arguments->build.tree_triangles)
+    trax_fail(error, "--tree and --tree-triangles need each other");
+  else if (arguments->build.tree_boxes && !arguments->build.tree_nodes)
+    trax_fail(error, "--tree-boxes without --tree");
+  else if (arguments->build.tree_nodes && (arguments->build.max_leaf || arguments->splits ||
+                                           arguments->build.passes != TRAX_DEFAULT_PASSES ||
+                                           arguments->build.traversal_cost > 0 || arguments->build.intersection_cost > 0))
+    trax_fail(error, "--tree is a tree that is built: --leaf, --splits, --passes and costs are for trax-scene's builder");
+  else if (!arguments->check && !arguments->output &&
+           (!arguments->write_triangles || arguments->stats || arguments->stats_json))
     trax_fail(error, "no output; give one with -o");
   else
     return TRAX_PARSED_RUN;

@@ -389,7 +389,7 @@ MUTANTS = [
     ("dram/dram.c", "config->dram.trp + config->dram.trcd + config->dram.tcl;\n    dram->capacity", "0;\n    dram->capacity"),
     ("machine/dram_mapping.c", "rest >>= map->bits[i];", "rest >>= 1;"),
     ("machine/dram_mapping.c", "(address + bytes - 1) / burst - address / burst + 1", "(bytes + burst - 1) / burst + 0 * address"),
-    ("fast/memory.c", "admitted &= ~((uint64_t)1 << tm);", ";"),
+    ("fast/memory.c", "admitted &= ~((uint64_t)1 << tm);", "(void)tm;"),
     ("fast/memory.c", "increment_at(memory, number, request, space, t + 1)", "increment_at(memory, number, request, space, t)"),
     ("fast/memory.c", "channel->unit_free_from = over + memory->unit_interval;", "channel->unit_free_from = over;"),
     ("fast/memory.c", "return 1 + config->memory.latency_cycles;", "return 2 + config->memory.latency_cycles;"),

@@ -209,6 +209,9 @@ struct trax_build_options {
   unsigned passes;         /* over the tree that was built, to improve it: at most TRAX_SCENE_MAX_PASSES */
   float traversal_cost;    /* of a node, relative to intersection_cost; 0: default */
   float intersection_cost; /* of a triangle; 0: default */
+  /* Another builder's tree instead, from arrays (docs/own-tree.md): .npy files. NULL: none; without tree_boxes each
+     triangle is in one leaf. */
+  const char *tree_nodes, *tree_triangles, *tree_boxes;
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
   bool without_source_ids; /* leave that section out */
   bool smooth;             /* with normals for smooth shading, across edges of up to crease_degrees */
@@ -235,6 +238,9 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
    x86-64 host. */
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
+
+/* Writes the triangles of a mesh as a tree of one's own numbers them: an array of floats (.npy) of the shape (n, 3, 3). */
+trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *path, trax_error *error);
 
 /* path is replaced at once or stays as it was (trax/output.h). */
 trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);

@@ -1,0 +1,284 @@
+#!/usr/bin/env python3
+"""own_tree_test.py BIN: trees that are built here, by a median split in Python, given to trax-scene as arrays."""
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
+INFINITE = float("inf")
+failures = 0
+
+
+def check(condition, *message):
+    global failures
+    if not condition:
+        failures += 1
+        print("FAILED:", *(str(part)[:400] for part in message))
+
+
+def call(program, *words, status=0):
+    done = subprocess.run([BIN / program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False)
+    check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
+    return done
+
+
+# --- arrays ---
+
+
+def npy(path, code, shape, values, version=1, header=None):
+    header = header or f"{{'descr': '{code}', 'fortran_order': False, 'shape': {tuple(shape)}, }}"
+    size = "<H" if version == 1 else "<I"
+    pad = -(8 + struct.calcsize(size) + len(header) + 1) % 64
+    text = header.encode() + b" " * pad + b"\n"
+    letter = {"i4": "i", "u4": "I", "i8": "q", "u8": "Q", "f4": "f", "f8": "d"}[code[1:]]
+    pathlib.Path(path).write_bytes(b"\x93NUMPY" + bytes([version, 0]) + struct.pack(size, len(text)) + text +
+                                   struct.pack(f"<{len(values)}{letter}", *values))
+
+
+def read_triangles(path):
+    data = pathlib.Path(path).read_bytes()
+    size, = struct.unpack_from("<H", data, 8)
+    count = (len(data) - 10 - size) // 36
+    check(f"'shape': ({count}, 3, 3, )" in data[10:10 + size].decode() and (10 + size) % 64 == 0, "header", data[:128])
+    return [struct.unpack_from("<9f", data, 10 + size + 36 * i) for i in range(count)]
+
+
+# --- a builder ---
+
+
+def box_of(triangle):
+    return [min(triangle[axis::3]) for axis in range(3)] + [max(triangle[axis::3]) for axis in range(3)]
+
+
+def around(boxes):
+    return [min(box[axis] for box in boxes) for axis in range(3)] + [max(box[axis] for box in boxes) for axis in range(3, 6)]
+
+
+def median_split(triangles, most):
+    """(nodes, order, boxes): halves at the median of the longest axis."""
+    bounds = [box_of(triangle) for triangle in triangles]
+    nodes, order, boxes = [], [], []
+
+    def build(chosen):
+        row = len(nodes)
+        nodes.append(None)
+        box = around([bounds[i] for i in chosen])
+        boxes.append(box)
+        if len(chosen) <= most:
+            nodes[row] = (len(order), 0, len(chosen))
+            order.extend(chosen)
+            return row
+        axis = max(range(3), key=lambda axis: box[axis + 3] - box[axis])
+        chosen = sorted(chosen, key=lambda i: (bounds[i][axis] + bounds[i][axis + 3], i))
+        half = len(chosen) // 2
+        nodes[row] = (build(chosen[:half]), build(chosen[half:]), 0)
+        return row
+
+    build(list(range(len(triangles))))
+    return nodes, order, boxes
+
+
+def write(nodes, order, boxes, code="<i4"):
+    npy("nodes.npy", code, (len(nodes), 3), [value for row in nodes for value in row])
+    npy("order.npy", code, (len(order),), order)
+    npy("boxes.npy", "<f4", (len(nodes), 2, 3), [value for box in boxes for value in box])
+
+
+TREE = ["--tree", "nodes.npy", "--tree-triangles", "order.npy"]
+BOXES = ["--tree-boxes", "boxes.npy"]
+
+
+# --- the picture is the same, the work is not ---
+
+
+def measure(*words):
+    call("trax-scene", *words, "-q", "-o", "s.trax")
+    call("trax-scene", "--check", "s.trax")
+    call("trax-render", "s.trax", "--view", "forest", "--size", "32x18", "-q", "-o", "s.png", "--stats", "s.json")
+    return pathlib.Path("s.png").read_bytes(), json.loads(pathlib.Path("s.json").read_text())["cycles"]
+
+
+def pictures():
+    call("trax-scene", "generate:forest", "-q", "--write-triangles", "t.npy")
+    triangles = read_triangles("t.npy")
+    check(len(triangles) > 100000, len(triangles))
+    ours, our_cycles = measure("generate:forest")
+    nodes, order, boxes = median_split(triangles, 4)
+    write(nodes, order, boxes)
+    theirs, cycles = measure("generate:forest", *TREE)
+    check(ours == theirs, "another picture with a tree of medians")
+    check(cycles > 1.02 * our_cycles, "a tree of medians takes", cycles, "cycles, ours", our_cycles)
+    print(f"cycles: ours {our_cycles}, medians {cycles}")
+    with_boxes, again = measure("generate:forest", *TREE, *BOXES)
+    check(with_boxes == ours and again == cycles, "exact boxes change something")
+    for kind in ("binary", "quantised"):
+        check(measure("generate:forest", *TREE, "--nodes", kind)[0] == ours, "another picture with nodes", kind)
+
+
+def forms():
+    """Other types, versions, orders of keys, a tree of one leaf, and triangles in several leaves."""
+    call("trax-scene", "big.obj", "-q", "--write-triangles", "t.npy")
+    triangles = read_triangles("t.npy")
+    nodes, order, boxes = median_split(triangles, 2)
+    scenes = []
+    for code in ("<i4", "<u4", "<i8", "<u8"):
+        write(nodes, order, boxes, code)
+        call("trax-scene", "big.obj", *TREE, "-q", "-o", "s.trax")
+        scenes.append(pathlib.Path("s.trax").read_bytes())
+    npy("order.npy", "<i4", (len(order),), order, version=3, header=f'{{"shape": ({len(order)},), "fortran_order":True,"descr":"<i4"}}')
+    call("trax-scene", "big.obj", *TREE, "-q", "-o", "s.trax")
+    scenes.append(pathlib.Path("s.trax").read_bytes())
+    check(len(set(scenes)) == 1, "types and versions make different scenes")
+    call("trax-scene", "one.obj", "-q", "--write-triangles", "t.npy")
+    triangles = read_triangles("t.npy")
+    write([(0, 0, 1)], [0], [box_of(triangles[0])])
+    call("trax-scene", "one.obj", *TREE, "-q", "-o", "s.trax")
+    # The large triangle in two leaves, each time with a half of its box.
+    low, high = box_of(triangles[0])[:3], box_of(triangles[0])[3:]
+    middle = (low[0] + high[0]) / 2
+    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [low + high, low + [middle, high[1], high[2]], [middle, low[1], low[2]] + high])
+    done = call("trax-scene", "one.obj", *TREE, *BOXES, "-q", "-o", "s.trax", "--stats-json", "s.json")
+    check(json.loads(pathlib.Path("s.json").read_text())["bvh.leaves_of_1"] == 2, done.stdout)
+
+
+# --- what is refused ---
+
+
+def refuse(message, *words, mesh="big.obj", place="nodes.npy"):
+    pathlib.Path("old.trax").write_text("old")
+    done = call("trax-scene", mesh, *(words or TREE), "-o", "old.trax", status=1)
+    check(message in done.stderr and place in done.stderr, "expected", message, "but it says", done.stderr)
+    check(pathlib.Path("old.trax").read_text() == "old", "the file of before is gone")
+    check(not [path for path in pathlib.Path().iterdir() if path.name.startswith("old.trax.")], "a file is left")
+
+
+def refusals():
+    call("trax-scene", "big.obj", "-q", "--write-triangles", "t.npy")
+    triangles = read_triangles("t.npy")
+    good = median_split(triangles, 2)
+    inner = next(i for i, row in enumerate(good[0]) if row[2] == 0 and i > 0)
+    leaf = next(i for i, row in enumerate(good[0]) if row[2] == 2)
+
+    def changed(row, value):
+        nodes = list(good[0])
+        nodes[row] = value
+        write(nodes, *good[1:])
+
+    count = len(good[0])
+    for value, message in ((count, f"node {inner}: its left child is {count}, and the nodes are 0 to {count - 1}"), (-1, "its left child is -1"),
+                           (0, "its child is node 0, the root"), (good[0][inner][1], "is node"), (2**31 - 1, "2147483647")):
+        changed(inner, (value, good[0][inner][1], 0))
+        refuse(message)
+    changed(inner, (inner, good[0][inner][1], 0))
+    refuse(f"its child {inner} is node")
+    changed(leaf, (len(good[1]) - 1, 0, 2))
+    refuse("has no place in order.npy")
+    changed(leaf, (0, 0, 8))
+    refuse("a count of 8; a leaf has 1 to 7 triangles")
+    changed(leaf, (0, 0, -2))
+    refuse("a count of -2")
+    changed(0, (0, 0, 2))
+    refuse("is not below the root")
+    nodes = [(1, 2, 0), (0, 0, 2), (2, 0, 2), (4, 3, 0), (3, 4, 0)]
+    write(nodes, good[1], [good[2][0]] * 5)
+    refuse("node 3 is not below the root")
+    write(good[0], [len(triangles)] + good[1][1:], good[2])
+    refuse(f"element 0 is triangle {len(triangles)}, and the mesh's are 0 to", place="order.npy")
+    write(good[0], good[1][1:2] + good[1][1:], good[2])
+    refuse("twice")
+    other = next(i for i in range(2, len(good[1])) if good[1][i] != good[1][0])
+    write(good[0], good[1][other:other + 1] + good[1][1:], good[2])
+    refuse("needs --tree-boxes", place="order.npy")
+    chain = [row for i in range(40) for row in ((2 * i + 1, 2 * i + 2, 0), (i, 0, 1))] + [(40, 0, 1)]
+    write(chain, list(range(41)), [good[2][0]] * len(chain))
+    refuse("the tree is deeper than 32 inner nodes; --depth 62", mesh="many.obj")
+    call("trax-scene", "many.obj", *TREE, "--depth", "62", "-q", "-o", "s.trax")
+
+    def boxed(row, box, message):
+        boxes = list(good[2])
+        boxes[row] = box
+        write(*good[:2], boxes)
+        refuse(message, *TREE, *BOXES, place="boxes.npy")
+
+    lower = good[2][leaf]
+    boxed(leaf, [value + 0.01 for value in lower[:3]] + lower[3:], "which no other leaf has, is not within its box")
+    boxed(inner, [lower[0]] * 6, "its box does not contain that of its child")
+    boxed(inner, [float("nan")] + lower[1:], "its box is from nan")
+    boxed(0, [-INFINITE] + good[2][0][1:], "its box is from -inf")
+    boxed(leaf, lower[3:] + lower[:3], "its box is from")
+    write(*good)
+    for words, message in (([*TREE[:2]], "need each other"), (BOXES, "without --tree"), ([*TREE, "--leaf", "2"], "is a tree that is built"),
+                           ([*TREE, "--splits"], "is a tree that is built"), ([*TREE, "--passes", "0"], "is a tree that is built")):
+        refuse(message, *words, place="--tree")
+    refuse("cannot", "--tree", "none.npy", *TREE[2:], place="none.npy")
+    # One triangle in two leaves that leave a part of it out.
+    call("trax-scene", "one.obj", "-q", "--write-triangles", "one.npy")
+    one = box_of(read_triangles("one.npy")[0])
+    third, low, high = (one[3] - one[0]) / 3, one[:3], one[3:]
+    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [one, low + [low[0] + third, *high[1:]], [high[0] - third, *low[1:], *high]])
+    refuse("triangle", *TREE, *BOXES, mesh="one.obj")
+    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [one, one, one])
+    refuse("would be several lamps", *TREE, *BOXES, "--material", "emit:1,1,1", mesh="one.obj", place="order.npy")
+    write([(1, 2, 0), (0, 0, 2), (2, 0, 2)], [0, 1, 0, 1], [one] * 3)
+    refuse("are at one place", *TREE, *BOXES, mesh="twins.obj", place="order.npy")
+
+
+def damaged():
+    """Files that are no such arrays."""
+    call("trax-scene", "big.obj", "-q", "--write-triangles", "t.npy")
+    nodes, order, boxes = median_split(read_triangles("t.npy"), 2)
+    write(nodes, order, boxes)
+    whole, rows = pathlib.Path("nodes.npy").read_bytes(), [value for row in nodes for value in row]
+    for end in (0, 5, 9, 40, 100, len(whole) - 1):
+        pathlib.Path("nodes.npy").write_bytes(whole[:end])
+        refuse("nodes.npy")
+    pathlib.Path("nodes.npy").write_bytes(whole + b"x")
+    refuse("but the file has")
+    pathlib.Path("nodes.npy").write_bytes(whole[:6] + b"\x09" + whole[7:])
+    refuse("version 9")
+    for header, message in (("{'descr': '>i4', 'fortran_order': False, 'shape': (%d, 3), }", "'>i4', not"),
+                            ("{'descr': '<i4', 'fortran_order': True, 'shape': (%d, 3), }", "Fortran"),
+                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (3, %d), }", "(N, 3)"),
+                            ("{'descr': '<i4', 'fortran_order': 0, 'shape': (%d, 3), }", "True or False"),
+                            ("{'descr': '<i4', 'shape': (%d, 3), }", "lacks"), ("{'descr': '<i4', 'other': (%d, 3), }", "no key 'other'"),
+                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 3, 1, 1), }", "more than 3 dimensions"),
+                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 99999999999999999, 9999999), }", "2^60"),
+                            ("[%d]", "a dictionary"), ("{'descr': [('left', '<i4')], 'shape': (%d, 3)}", "the type of the elements")):
+        npy("nodes.npy", "<i4", (), rows, header=header % len(nodes))
+        refuse(message)
+    npy("nodes.npy", "<f4", (len(nodes), 3), rows)
+    refuse("'<f4', not '<i4'")
+    write(nodes, order, boxes)
+    npy("boxes.npy", "<f8", (len(nodes), 6), [value for box in boxes for value in box])
+    refuse(".astype('<f4')", *TREE, *BOXES, place="boxes.npy")
+    npy("boxes.npy", "<f4", (len(nodes) - 1, 6), [value for box in boxes[1:] for value in box])
+    refuse("(N, 2, 3) or (N, 6)", *TREE, *BOXES, place="boxes.npy")
+
+
+def meshes():
+    points = [(0.1 * i, (i * 7) % 5, (i * 3) % 4) for i in range(12)]
+    text = "".join("v %g %g %g\n" % point for point in points)
+    pathlib.Path("big.obj").write_text(text + "".join(f"f {i + 1} {i + 2} {i + 3}\n" for i in range(10)))
+    pathlib.Path("one.obj").write_text("v 0 0 0\nv 4 1 0\nv 4 0 3\nf 1 2 3\n")
+    pathlib.Path("twins.obj").write_text("v 0 0 0\nv 4 1 0\nv 4 0 3\nf 1 2 3\nf 1 2 3\n")
+    pathlib.Path("many.obj").write_text("".join(f"v {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(41)))
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        meshes()
+        forms()
+        refusals()
+        damaged()
+        pictures()
+        os.chdir("/")
+    return failures != 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
