@@ -81,7 +81,8 @@ def FormatN  : TraxFormat<"N", "no operand">;
 
 // The root of every real instruction. Semantics is a C statement over RD (an lvalue), RA, RB, IMM (sign extended where
 // the operand is signed; branch offsets in bytes), PC (address of the instruction), NEXT_PC (an lvalue, PC + 4 on
-// entry) and the functions of isa/include/trax/semantics.h. Manual is the sentence of docs/isa.md.
+// entry), GROUP_A and GROUP_B (the registers that follow ra and rb) and the functions of isa/include/trax/semantics.h;
+// `uint32_t x = ...;` names a value. Manual is the sentence of docs/isa.md.
 class TraxInst<TraxFormat format, bits<6> opcode, dag outs, dag ins, string asm, TraxUnit unit, code semantics,
                string manual> : Instruction {
   field bits<32> Inst;
@@ -113,6 +114,8 @@ class TraxInst<TraxFormat format, bits<6> opcode, dag outs, dag ins, string asm,
   bit IsNontemporal = false;
   bit IsAtomic = false;
   bit ReadsRD = false;      // RD is an input too (conditional moves)
+  int GroupA = 1;           // registers that are read from ra on
+  int GroupB = 1;           // registers that are read from rb on
 }
 
 // bits<5> fields are filled from the operand of the same name.
@@ -135,6 +138,39 @@ class InstCMov<bits<6> op, bits<6> func, string mnemonic, code semantics, string
   let Constraints = "$rd = $old";
   let isCommutable = true; // the other conditional move, with rd's old value and ra exchanged
   let ReadsRD = true;
+}
+// Reads rd, a registers from ra on and b from rb on; those behind r31 are r0, r1 and so on.
+class InstGroups<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, int a, int b, code semantics, string manual>
+    : TraxInst<FormatR, op, (outs GPR:$rd), (ins GPR:$old, GPR:$ra, GPR:$rb), mnemonic#"\t$rd, $ra, $rb", unit, semantics,
+               manual> {
+  bits<5> rd; bits<5> ra; bits<5> rb;
+  let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-11} = rb; let Inst{10-6} = 0; let Inst{5-0} = func;
+  let Constraints = "$rd = $old";
+  let ReadsRD = true;
+  let GroupA = a;
+  let GroupB = b;
+}
+// The same as the compiler sees it: ra and rb are groups (TraxRegisters.td), of which the encoding has the first registers.
+class InstOfGroups<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, int a, int b> : Instruction {
+  field bits<32> Inst;
+  bits<5> rd; bits<5> ra; bits<5> rb;
+  let Inst{31-26} = op; let Inst{25-21} = rd; let Inst{20-16} = ra; let Inst{15-11} = rb; let Inst{10-6} = 0;
+  let Inst{5-0} = func;
+  let Namespace = "Trax";
+  let Size = 4;
+  let OutOperandList = (outs GPR:$rd);
+  let InOperandList = (ins GPR:$old, !cast<RegisterClass>("Group"#a):$ra, !cast<RegisterClass>("Group"#b):$rb);
+  let AsmString = mnemonic#"\t$rd, $ra, $rb";
+  let Constraints = "$rd = $old";
+  let isCodeGenOnly = true;
+  let hasSideEffects = false;
+  let mayLoad = false;
+  let mayStore = false;
+  let SchedRW = [unit];
+}
+multiclass TraxGroups<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, int a, int b, code semantics, string manual> {
+  def "" : InstGroups<op, func, mnemonic, unit, a, b, semantics, manual>;
+  def OfGroups : InstOfGroups<op, func, mnemonic, unit, a, b>;
 }
 class InstI<bits<6> op, string mnemonic, code semantics, string manual>
     : TraxInst<FormatI, op, (outs GPR:$rd), (ins GPR:$ra, simm16:$imm), mnemonic#"\t$rd, $ra, $imm", UnitInt, semantics, manual> {

@@ -30,9 +30,7 @@ class InverseBranch<string from, string to> : InstrMapping {
 def inverseOfIf : InverseBranch<"if", "unless">;
 def inverseOfUnless : InverseBranch<"unless", "if">;
 
-def TraxAsmParser : AsmParser {
-  let ShouldEmitMatchRegisterAltName = true;
-}
+def TraxAsmParser : AsmParser;
 
 def TraxAsmWriter : AsmWriter {
   let PassSubtarget = 1;

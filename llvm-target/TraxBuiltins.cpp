@@ -125,6 +125,9 @@ PreservedAnalyses TraxBuiltinsPass::run(Module &M, ModuleAnalysisManager &) {
     Changed = true;
     F.setDoesNotThrow();
     switch (*Builtin) {
+#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES)
+#define GROUPS(ID, NAME, TYPE, INSTRUCTION) case TraxBuiltin::ID:
+#include "TraxBuiltins.def"
     case TraxBuiltin::Opaque:
     case TraxBuiltin::Rsqrt: // total: may be computed where the source would not have
       F.setDoesNotAccessMemory();

@@ -339,7 +339,18 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
     return std::nullopt;
   };
   SDValue Chain = CLI.Chain;
+  [[maybe_unused]] auto LowerGroups = [&](unsigned Opcode) {
+    SmallVector<SDValue, 20> Operands = {DAG.getTargetConstant(Opcode, DL, MVT::i32)};
+    append_range(Operands, CLI.OutVals);
+    InVals.push_back(DAG.getNode(TraxISD::GROUPS, DL, Signature.Results[0], Operands));
+  };
   switch (*Builtin) {
+#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES)
+#define GROUPS(ID, NAME, TYPE, INSTRUCTION)                                                                            \
+  case TraxBuiltin::ID:                                                                                                \
+    LowerGroups(Trax::INSTRUCTION##OfGroups);                                                                          \
+    break;
+#include "TraxBuiltins.def"
   case TraxBuiltin::Rsqrt:
     InVals.push_back(DAG.getNode(TraxISD::RSQRT, DL, MVT::f32, CLI.OutVals[0]));
     break;

@@ -33,6 +33,7 @@ private:
   bool selectAddrRegImm(SDValue Addr, SDValue &Base, SDValue &Offset);
   bool selectShiftAmount(SDValue Amount, SDValue &Result);
   bool selectMask(SDNode *N);
+  void selectGroups(SDNode *N);
 
 #include "TraxGenDAGISel.inc"
 };
@@ -103,9 +104,33 @@ void TraxDAGToDAGISel::Select(SDNode *N) {
     ReplaceNode(N, selectConstant(C->getValueAPF().bitcastToAPInt().getZExtValue(), SDLoc(N), MVT::f32).getNode());
     return;
   }
+  if (N->getOpcode() == TraxISD::GROUPS)
+    return selectGroups(N);
   if (selectMask(N))
     return;
   SelectCode(N);
+}
+
+/// The values that an instruction reads from one field on become a group of registers.
+void TraxDAGToDAGISel::selectGroups(SDNode *N) {
+  SDLoc DL(N);
+  const unsigned Opcode = N->getConstantOperandVal(0);
+  const TraxSubtarget &Subtarget = MF->getSubtarget<TraxSubtarget>();
+  const MCInstrDesc &Desc = Subtarget.getInstrInfo()->get(Opcode);
+  SmallVector<SDValue, 3> Operands = {N->getOperand(1)};
+  unsigned Next = 2;
+  for (unsigned Index : {2, 3}) { // behind rd and its old value
+    const unsigned Class = Desc.operands()[Index].RegClass;
+    const TargetRegisterInfo &TRI = *Subtarget.getRegisterInfo();
+    const unsigned Count = TRI.getRegSizeInBits(*TRI.getRegClass(Class)) / 32;
+    SmallVector<SDValue, 20> Parts = {CurDAG->getTargetConstant(Class, DL, MVT::i32)};
+    for (unsigned I = 0; I < Count; ++I) {
+      Parts.push_back(N->getOperand(Next++));
+      Parts.push_back(CurDAG->getTargetConstant(Trax::group0 + I, DL, MVT::i32));
+    }
+    Operands.push_back(SDValue(CurDAG->getMachineNode(TargetOpcode::REG_SEQUENCE, DL, MVT::Untyped, Parts), 0));
+  }
+  ReplaceNode(N, CurDAG->getMachineNode(Opcode, DL, N->getValueType(0), Operands));
 }
 
 /// The lower bits of a word, and the magnitude of a float, are two shifts where they are taken once. In a loop they are

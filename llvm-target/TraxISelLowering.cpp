@@ -113,6 +113,7 @@ const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
     NODE(ADD_LO)
     NODE(ABS_ADDR)
     NODE(RSQRT)
+    NODE(GROUPS)
     NODE(OPAQUE)
     NODE(RDSR_CONST)
     NODE(RDSR)

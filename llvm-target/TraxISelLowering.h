@@ -29,6 +29,7 @@ enum NodeType : unsigned {
   LONGJMP,   // __builtin_longjmp
   FENCE,     // its kind; chained
   WAIT,      // until a value has arrived; chained
+  GROUPS,    // an instruction on groups of registers: its opcode, rd's old value, the groups' values
   FIRST_MEMORY = ISD::FIRST_TARGET_MEMORY_OPCODE,
   AINC, // atomic increment; the value before it
   LWNT, // atomic load of a word, past the cache

@@ -21,8 +21,28 @@ TraxInstrInfo::TraxInstrInfo() : TraxGenInstrInfo(Trax::ADJCALLSTACKDOWN, Trax::
 
 //--- moves and stack slots ----------------------------------------------------
 
+/// The number of registers of a group; 1 for a register.
+static unsigned registersOf(const TargetRegisterClass &Class, const TargetRegisterInfo &TRI) {
+  return TRI.getRegSizeInBits(Class) / 32;
+}
+
+/// Groups may overlap: a register that is written is read no more.
+static void copyGroup(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, const DebugLoc &DL, MCRegister Dest,
+                      MCRegister Source, const TraxInstrInfo &TII) {
+  const TargetRegisterInfo &TRI = TII.getRegisterInfo();
+  const unsigned Count = registersOf(*TRI.getMinimalPhysRegClass(Dest), TRI);
+  const bool Upwards = TRI.getEncodingValue(TRI.getSubReg(Dest, Trax::group0)) <
+                       TRI.getEncodingValue(TRI.getSubReg(Source, Trax::group0));
+  for (unsigned N = 0; N < Count; ++N) {
+    const unsigned Index = Trax::group0 + (Upwards ? N : Count - 1 - N);
+    BuildMI(MBB, I, DL, TII.get(Trax::ADDI), TRI.getSubReg(Dest, Index)).addReg(TRI.getSubReg(Source, Index)).addImm(0);
+  }
+}
+
 void TraxInstrInfo::copyPhysReg(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, const DebugLoc &DL,
                                 MCRegister Dest, MCRegister Source, bool KillSource) const {
+  if (!Trax::GPRRegClass.contains(Dest))
+    return copyGroup(MBB, I, DL, Dest, Source, *this);
   BuildMI(MBB, I, DL, get(Trax::ADDI), Dest).addReg(Source, getKillRegState(KillSource)).addImm(0);
 }
 
@@ -33,9 +53,10 @@ static MachineMemOperand *frameMemOperand(MachineFunction &MF, int FrameIndex, M
 }
 
 void TraxInstrInfo::storeRegToStackSlot(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, Register Source,
-                                        bool IsKill, int FrameIndex, const TargetRegisterClass *,
-                                        const TargetRegisterInfo *, Register) const {
-  BuildMI(MBB, I, DebugLoc(), get(Trax::SW))
+                                        bool IsKill, int FrameIndex, const TargetRegisterClass *Class,
+                                        const TargetRegisterInfo *TRI, Register) const {
+  const unsigned Opcodes[] = {Trax::SW, Trax::PseudoSpillGroup6, Trax::PseudoSpillGroup9};
+  BuildMI(MBB, I, DebugLoc(), get(Opcodes[registersOf(*Class, *TRI) / 4]))
       .addReg(Source, getKillRegState(IsKill))
       .addFrameIndex(FrameIndex)
       .addImm(0)
@@ -43,9 +64,10 @@ void TraxInstrInfo::storeRegToStackSlot(MachineBasicBlock &MBB, MachineBasicBloc
 }
 
 void TraxInstrInfo::loadRegFromStackSlot(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, Register Dest,
-                                         int FrameIndex, const TargetRegisterClass *, const TargetRegisterInfo *,
-                                         Register) const {
-  BuildMI(MBB, I, DebugLoc(), get(Trax::LW), Dest)
+                                         int FrameIndex, const TargetRegisterClass *Class,
+                                         const TargetRegisterInfo *TRI, Register) const {
+  const unsigned Opcodes[] = {Trax::LW, Trax::PseudoReloadGroup6, Trax::PseudoReloadGroup9};
+  BuildMI(MBB, I, DebugLoc(), get(Opcodes[registersOf(*Class, *TRI) / 4]), Dest)
       .addFrameIndex(FrameIndex)
       .addImm(0)
       .addMemOperand(frameMemOperand(*MBB.getParent(), FrameIndex, MachineMemOperand::MOLoad));
@@ -94,9 +116,33 @@ MachineInstr *TraxInstrInfo::commuteInstructionImpl(MachineInstr &MI, bool NewMI
   return TargetInstrInfo::commuteInstructionImpl(Result, /*NewMI=*/false, OpIdx1, OpIdx2);
 }
 
+/// Stores or loads the registers of a group one by one.
+static void accessGroup(MachineInstr &MI, const TraxInstrInfo &TII) {
+  const TargetRegisterInfo &TRI = TII.getRegisterInfo();
+  const MachineOperand &Group = MI.getOperand(0), &Base = MI.getOperand(1);
+  const unsigned Count = registersOf(*TRI.getMinimalPhysRegClass(Group.getReg()), TRI);
+  for (unsigned N = 0; N < Count; ++N)
+    BuildMI(*MI.getParent(), MI, MI.getDebugLoc(), TII.get(Group.isDef() ? Trax::LW : Trax::SW))
+        .addReg(TRI.getSubReg(Group.getReg(), Trax::group0 + N), getDefRegState(Group.isDef()))
+        .addReg(Base.getReg())
+        .addImm(MI.getOperand(2).getImm() + 4 * N)
+        .cloneMemRefs(MI);
+  MI.eraseFromParent();
+}
+
 bool TraxInstrInfo::expandPostRAPseudo(MachineInstr &MI) const {
-  if (MI.getOpcode() != Trax::PseudoLONGJMP)
+  switch (MI.getOpcode()) {
+  case Trax::PseudoSpillGroup6:
+  case Trax::PseudoSpillGroup9:
+  case Trax::PseudoReloadGroup6:
+  case Trax::PseudoReloadGroup9:
+    accessGroup(MI, *this);
+    return true;
+  case Trax::PseudoLONGJMP:
+    break;
+  default:
     return false;
+  }
   expandTraxLongJmp(MI, *this);
   return true;
 }

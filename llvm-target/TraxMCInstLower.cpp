@@ -2,6 +2,7 @@
 #include "TraxMCInstLower.h"
 #include "MCTargetDesc/TraxBaseInfo.h"
 #include "MCTargetDesc/TraxMCExpr.h"
+#include "TraxInstrInfo.h"
 #include "llvm/CodeGen/AsmPrinter.h"
 #include "llvm/CodeGen/MachineBasicBlock.h"
 #include "llvm/CodeGen/MachineInstr.h"
@@ -31,12 +32,20 @@ static MCOperand lowerSymbol(const MachineOperand &MO, MCSymbol *Symbol, AsmPrin
   return MCOperand::createExpr(Expr);
 }
 
+/// An instruction names a group by its first register.
+static MCRegister firstOfGroup(const MachineOperand &MO) {
+  const MachineInstr *MI = MO.getParent();
+  const TargetRegisterInfo &TRI = *MI->getMF()->getSubtarget().getRegisterInfo();
+  const MCRegister First = TRI.getSubReg(MO.getReg(), Trax::group0);
+  return First ? First : MO.getReg().asMCReg();
+}
+
 bool llvm::lowerTraxOperand(const MachineOperand &MO, MCOperand &MCOp, AsmPrinter &AP) {
   switch (MO.getType()) {
   case MachineOperand::MO_Register:
     if (MO.isImplicit())
       return false;
-    MCOp = MCOperand::createReg(MO.getReg());
+    MCOp = MCOperand::createReg(firstOfGroup(MO));
     return true;
   case MachineOperand::MO_Immediate:
     MCOp = MCOperand::createImm(MO.getImm());

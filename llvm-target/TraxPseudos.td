@@ -71,6 +71,14 @@ let isTerminator = true, isBarrier = true, Defs = [R1], Size = 20 in
 def PseudoLONGJMP : TraxPseudo<(outs), (ins GPRTC:$buffer)>;
 }
 
+// Groups of registers to and from the stack.
+foreach n = [6, 9] in {
+let mayStore = true, Size = !mul(4, n) in
+def PseudoSpillGroup#n : TraxPseudo<(outs), (ins !cast<RegisterClass>("Group"#n):$group, GPR:$ra, simm16:$imm)>;
+let mayLoad = true, Size = !mul(4, n) in
+def PseudoReloadGroup#n : TraxPseudo<(outs !cast<RegisterClass>("Group"#n):$group), (ins GPR:$ra, simm16:$imm)>;
+}
+
 let Defs = [R2], Uses = [R2], hasNoSchedulingInfo = true, Size = 0 in {
 def ADJCALLSTACKDOWN : TraxPseudo<(outs), (ins i32imm:$size, i32imm:$unused)>;
 def ADJCALLSTACKUP : TraxPseudo<(outs), (ins i32imm:$size, i32imm:$unused)>;

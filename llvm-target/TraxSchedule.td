@@ -14,22 +14,14 @@ def TraxModel : SchedMachineModel {
 
 let SchedModel = TraxModel in {
 
-multiclass TraxUnitModel<TraxUnit unit, int latency = unit.DefaultLatency> {
-  def Resource : ProcResource<1> {
+// A load that hits takes the unit's one cycle, but banks conflict and lines miss: a little distance to the first use pays.
+foreach unit = TraxUnits in {
+  def unit.UnitName#Resource : ProcResource<1> {
     let BufferSize = 0;
   }
-  def : WriteRes<unit, [!cast<ProcResource>(NAME#"Resource")]> {
-    let Latency = latency;
+  def : WriteRes<unit, [!cast<ProcResource>(unit.UnitName#"Resource")]> {
+    let Latency = !if(!eq(unit.UnitName, "MEMORY"), 3, unit.DefaultLatency);
   }
 }
-
-defm Int     : TraxUnitModel<UnitInt>;
-defm IntMul  : TraxUnitModel<UnitIntMul>;
-defm FPAdd   : TraxUnitModel<UnitFPAdd>;
-defm FPMul   : TraxUnitModel<UnitFPMul>;
-defm Special : TraxUnitModel<UnitSpecial>;
-// A hit takes the unit's one cycle, but banks conflict and lines miss: a little distance to the first use pays.
-defm Memory  : TraxUnitModel<UnitMemory, 3>;
-defm Control : TraxUnitModel<UnitControl>;
 
 } // SchedModel

@@ -313,7 +313,7 @@ static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *uni
   uint64_t winners = 0;
   for (uint32_t group = 0; group < kind->groups; group++) {
     const uint64_t all = requesters & trax_group_mask(group, kind->group_size);
-    if (kind->is_pipelined) {
+    if (!unit->free_from) {
       winners |= trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group);
       continue;
     }
@@ -321,7 +321,8 @@ static uint64_t grant_any(struct trax_fast_tm *ftm, struct trax_shared_unit *uni
     for (uint32_t i = 0; i < kind->per_group && all & ~winners; i++)
       if (free_from[i] <= t) {
         const uint64_t winner = trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1);
-        free_from[i] = t + trax_fast_head_timing(ftm, trax_first(winner))->decoded->latency;
+        free_from[i] =
+            t + trax_occupies((trax_op)trax_fast_head_timing(ftm, trax_first(winner))->decoded->op, ftm->tm->config);
         winners |= winner;
       }
   }

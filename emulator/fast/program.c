@@ -40,7 +40,12 @@ static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint3
 static uint32_t waits_for(const struct trax_decoded *decoded) {
   if (decoded->resource == TRAX_RESOURCE_FENCE)
     return ~1u;
-  return (1u << decoded->wait_ra | 1u << decoded->wait_rb | 1u << decoded->wait_rd) & ~1u;
+  uint32_t mask = 1u << decoded->wait_rd;
+  for (unsigned n = 0; n <= decoded->more_ra; n++)
+    mask |= 1u << (decoded->wait_ra + n) % TRAX_NUM_REGISTERS;
+  for (unsigned n = 0; n <= decoded->more_rb; n++)
+    mask |= 1u << (decoded->wait_rb + n) % TRAX_NUM_REGISTERS;
+  return mask & ~1u;
 }
 
 _Static_assert(sizeof(struct trax_fast_inst) == 16, "four to a line of the host's cache");

@@ -268,7 +268,7 @@ static void check_tp(struct checker *checker, const struct trax_tm *tm, unsigned
 
 static void check_units(struct checker *checker, const struct trax_tm *tm) {
   static const char *const names[] = {
-#define NAME(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, ...) UNIT,
+#define NAME(X, ID, NAME, SIZE, COUNT, AREA, UNIT, ...) UNIT,
       TRAX_SHARED_UNITS(NAME, )
 #undef NAME
   };

@@ -12,15 +12,19 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copie
 #define COMBINING_BLOCK 64u
 
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
-  const unsigned registers[] = {tp->inst->wait_ra, tp->inst->wait_rb, tp->inst->wait_rd};
+  const struct {
+    unsigned first, count;
+  } groups[] = {
+      {tp->inst->wait_ra, tp->inst->more_ra + 1u}, {tp->inst->wait_rb, tp->inst->more_rb + 1u}, {tp->inst->wait_rd, 1}};
   const bool all = tp->inst->resource == TRAX_RESOURCE_FENCE;
-  for (unsigned i = 0; i < (all ? TRAX_NUM_REGISTERS : 3); i++) {
-    const unsigned number = all ? i : registers[i];
-    if (tp->usable[number] > t) {
-      *until = tp->usable[number];
-      return (trax_cause)tp->usable_cause[number];
+  for (unsigned i = 0; i < (all ? 1 : 3); i++)
+    for (unsigned n = 0; n < (all ? TRAX_NUM_REGISTERS : groups[i].count); n++) {
+      const unsigned number = (all ? n : groups[i].first + n) % TRAX_NUM_REGISTERS;
+      if (tp->usable[number] > t) {
+        *until = tp->usable[number];
+        return (trax_cause)tp->usable_cause[number];
+      }
     }
-  }
   return TRAX_CAUSE_ISSUED;
 }
 

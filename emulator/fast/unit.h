@@ -12,7 +12,7 @@
 /* All units of a kind in a TM. */
 struct trax_shared_unit {
   struct trax_shared_kind kind;
-  uint64_t *free_from; /* [group][unit]: a cycle; NULL if they are pipelined, and so always free */
+  uint64_t *free_from; /* [group][unit]: a cycle; NULL if they are always free */
   TRAX_SHARED_UNIT_STATE(TRAX_FIELD, )
 };
 

@@ -6,6 +6,8 @@
 #define RD reg[inst->rd]
 #define RA reg[inst->ra]
 #define RB reg[inst->rb]
+#define GROUP_A(N) reg[(inst->ra + (N)) & 31]
+#define GROUP_B(N) reg[(inst->rb + (N)) & 31]
 #define IMM ((uint32_t)inst->imm)
 #define NEXT_PC next_pc
 #define LOAD8(ADDRESS) LOAD(ADDRESS, 1u)

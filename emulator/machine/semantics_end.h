@@ -2,6 +2,8 @@
 #undef RD
 #undef RA
 #undef RB
+#undef GROUP_A
+#undef GROUP_B
 #undef IMM
 #undef PC
 #undef NEXT_PC

@@ -28,7 +28,7 @@
   X(MEMORY_QUEUE, "memory_queue_full", "queue", "no miss register or no place in the TM's memory queue was free")      \
   X(BRANCH, "branch_bubble", "bubble", "the bubble after a taken branch")                                              \
   X(HALTED, "halted", "halted", "the thread had ended")
-#define TRAX_SHARED_CAUSE(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, ...)                         \
+#define TRAX_SHARED_CAUSE(X, ID, NAME, SIZE, COUNT, AREA, UNIT, HEAD, REFUSED, ...)                                    \
   X(ID, #NAME "_conflict", HEAD, REFUSED)
 
 typedef enum trax_cause {
@@ -73,7 +73,7 @@ typedef enum trax_cause {
 
 #define TRAX_KIND_COUNTER(X, ID, NAME, NUMBER, MEANING)                                                                \
   X(rays_##NAME, "rays_by_kind." #NAME, "rays", "of these " MEANING)
-#define TRAX_SHARED_COUNTER(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, OPERATIONS, ...)           \
+#define TRAX_SHARED_COUNTER(X, ID, NAME, SIZE, COUNT, AREA, UNIT, HEAD, REFUSED, OPERATIONS, ...)                      \
   X(NAME##_ops, #NAME ".operations", "operations", OPERATIONS)
 
 /* Counters of the second-level cache and the memory controller: identifier, name, unit, meaning. */
@@ -194,7 +194,7 @@ struct trax_stats {
     trax_energy_of(S, C).total / TRAX_SECONDS(S, C))                                                                   \
   X(energy_off_chip, "energy.off_chip", "J", "off-chip memory, which is not in the sum", trax_energy_of(S, C).off_chip)
 
-#define TRAX_SHARED_FIGURE(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, UNIT, HEAD, REFUSED, OPERATIONS, UTILISATION)    \
+#define TRAX_SHARED_FIGURE(X, ID, NAME, SIZE, COUNT, AREA, UNIT, HEAD, REFUSED, OPERATIONS, UTILISATION)               \
   X(NAME##_utilisation, #NAME ".utilisation", "fraction", UTILISATION,                                                 \
     trax_shared_cycles(TRAX_SHARED_##ID, C, &S->total, S->total.NAME##_ops) / S->cycles /                              \
         (trax_shared_units(TRAX_SHARED_##ID, C) * C->chip.tms))

@@ -25,7 +25,9 @@ static trax_resource resource_of(const trax_inst *inst, const struct trax_timing
 }
 
 static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_config *config) {
-  const trax_inst inst = trax_decode(word);
+  trax_inst inst = trax_decode(word);
+  if (trax_lacks_unit(inst.op, config))
+    inst = (trax_inst){.op = TRAX_OP_ILLEGAL};
   const unsigned flags = trax_op_table[inst.op].flags;
   const struct trax_timing timing = trax_timing_of(inst.op, config);
   return (struct trax_decoded){
@@ -38,6 +40,8 @@ static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_
       .wait_ra = flags & TRAX_READS_RA ? inst.ra : 0,
       .wait_rb = flags & TRAX_READS_RB ? inst.rb : 0,
       .wait_rd = flags & (TRAX_WRITES_RD | TRAX_READS_RD) ? inst.rd : 0,
+      .more_ra = flags & TRAX_READS_RA ? (trax_group_a(flags) - 1) & 15 : 0,
+      .more_rb = flags & TRAX_READS_RB ? (trax_group_b(flags) - 1) & 15 : 0,
       .bytes = (uint8_t)trax_op_table[inst.op].access_bytes,
       .bank = (uint8_t)(pc / 4 % config->icache.banks),
       .cause = (uint8_t)timing.cause,

@@ -29,6 +29,7 @@ struct trax_decoded {
   uint8_t rd;   /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
   uint8_t ra, rb;
   uint8_t wait_ra, wait_rb, wait_rd; /* registers that must be usable before issue; 0: none */
+  uint8_t more_ra : 4, more_rb : 4;  /* the number of registers behind ra and rb that must be, too */
   uint8_t bytes;                     /* of a memory access */
   uint8_t bank;                      /* of the instruction cache */
   uint8_t cause;                     /* trax_cause of a wait for the result, unless it comes from memory */

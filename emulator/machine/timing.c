@@ -16,7 +16,7 @@ trax_class trax_class_of(trax_op op) {
 
 struct trax_timing trax_timing_of(trax_op op, const struct trax_config *C) {
   switch (trax_class_of(op)) {
-#define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, CAUSE, ...)                                                        \
+#define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, INTERVAL, CAUSE, ...)                                              \
   case TRAX_CLASS_##ID:                                                                                                \
     return (struct trax_timing){ASKS, LATENCY, TRAX_CAUSE_##CAUSE};
     TRAX_CLASSES(CLASS)
@@ -26,6 +26,30 @@ struct trax_timing trax_timing_of(trax_op op, const struct trax_config *C) {
   }
 }
 
+uint32_t trax_occupies(trax_op op, const struct trax_config *C) {
+  switch (trax_class_of(op)) {
+#define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, INTERVAL, ...)                                                     \
+  case TRAX_CLASS_##ID:                                                                                                \
+    return INTERVAL;
+    TRAX_CLASSES(CLASS)
+#undef CLASS
+  default:
+    return 1;
+  }
+}
+
+bool trax_lacks_unit(trax_op op, const struct trax_config *config) {
+  const trax_shared unit = trax_timing_of(op, config).unit;
+  return unit != TRAX_SHARED_NONE && trax_shared_kind(unit, config).per_group == 0;
+}
+
+bool trax_always_free(trax_shared unit, const struct trax_config *config) {
+  for (trax_op op = 0; op < TRAX_OP_COUNT; op++)
+    if (trax_timing_of(op, config).unit == unit && trax_occupies(op, config) > 1)
+      return false;
+  return true;
+}
+
 static uint32_t groups(const struct trax_config *config, uint32_t size) {
   return (config->chip.tps_per_tm + size - 1) / size;
 }
@@ -33,9 +57,9 @@ static uint32_t groups(const struct trax_config *config, uint32_t size) {
 struct trax_shared_kind trax_shared_kind(trax_shared unit, const struct trax_config *C) {
   struct trax_shared_kind kind = {0};
   switch (unit) {
-#define UNIT(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, ...)                                                           \
+#define UNIT(X, ID, NAME, SIZE, COUNT, AREA, ...)                                                                      \
   case TRAX_SHARED_##ID:                                                                                               \
-    kind = (struct trax_shared_kind){SIZE, groups(C, SIZE), COUNT, PIPELINED, TRAX_CAUSE_##ID, AREA};                  \
+    kind = (struct trax_shared_kind){SIZE, groups(C, SIZE), COUNT, TRAX_CAUSE_##ID, AREA};                             \
     break;
     TRAX_SHARED_UNITS(UNIT, )
 #undef UNIT
@@ -45,6 +69,15 @@ struct trax_shared_kind trax_shared_kind(trax_shared unit, const struct trax_con
   return kind;
 }
 
+const char *trax_shared_words(trax_shared unit) {
+  static const char *const words[] = {
+#define UNIT(X, ID, NAME, SIZE, COUNT, AREA, WORDS, ...) WORDS,
+      TRAX_SHARED_UNITS(UNIT, )
+#undef UNIT
+  };
+  return words[unit];
+}
+
 uint32_t trax_shared_units(trax_shared unit, const struct trax_config *config) {
   const struct trax_shared_kind kind = trax_shared_kind(unit, config);
   return kind.groups * kind.per_group;
@@ -52,13 +85,12 @@ uint32_t trax_shared_units(trax_shared unit, const struct trax_config *config) {
 
 double trax_shared_cycles(trax_shared unit, const struct trax_config *config, const struct trax_tm_stats *stats,
                           uint64_t operations) {
-  if (trax_shared_kind(unit, config).is_pipelined)
+  if (trax_always_free(unit, config))
     return (double)operations;
   double cycles = 0;
-  for (trax_op op = 0; op < TRAX_OP_COUNT; op++) {
-    const struct trax_timing timing = trax_timing_of(op, config);
-    cycles += timing.unit == unit ? (double)stats->instructions[op] * timing.latency : 0;
-  }
+  for (trax_op op = 0; op < TRAX_OP_COUNT; op++)
+    if (trax_timing_of(op, config).unit == unit)
+      cycles += (double)stats->instructions[op] * trax_occupies(op, config);
   return cycles;
 }
 

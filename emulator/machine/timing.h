@@ -17,17 +17,24 @@ struct trax_timing {
 };
 
 struct trax_timing trax_timing_of(trax_op op, const struct trax_config *config);
+/* For how many cycles an instruction takes the shared unit that it needs. */
+uint32_t trax_occupies(trax_op op, const struct trax_config *config);
+/* Whether an instruction needs a shared unit of which the machine has none: it is illegal there. */
+bool trax_lacks_unit(trax_op op, const struct trax_config *config);
 
 /* A kind of shared unit in a TM. */
 struct trax_shared_kind {
   uint32_t group_size, groups, per_group;
-  bool is_pipelined;
   trax_cause refused; /* the cause of a cycle without a grant */
   double area;        /* mm2 of a unit */
 };
 
 struct trax_shared_kind trax_shared_kind(trax_shared unit, const struct trax_config *config);
 
+/* What a unit of the kind is called. */
+const char *trax_shared_words(trax_shared unit);
+/* Whether no instruction takes a unit of the kind for more than one cycle. */
+bool trax_always_free(trax_shared unit, const struct trax_config *config);
 /* The number of units of a TM. */
 uint32_t trax_shared_units(trax_shared unit, const struct trax_config *config);
 /* The unit-cycles in which units of the kind were busy; `operations`: the number of operations that they accepted. */

@@ -6,42 +6,45 @@
 
 /* Units that the TPs of a TM share, a row U(X, ...) for each kind, in the order of the statistics:
      identifier; name, from which the names of its statistics are made
-     TPs of a group; units of a group; whether they are pipelined: if not, a unit is busy for an instruction's latency
+     TPs of a group; units of a group (0: instructions that need one are illegal)
      mm2 of a unit at 65 nm, 0 if the fit of area_mm2 includes it
      descriptions: a unit; the cause of a refusal, short and long; the counter of operations; the utilisation
    A new row needs keys in config_keys.h and a class below that uses the unit, and no other change of the emulator. The
-   fast engine has special code for the first four (fast/cycle.c), of which the first three must be pipelined. */
+   fast engine has special code for the first four (fast/cycle.c); no instruction may take one of the first three for
+   more than a cycle. */
 /* clang-format off */
 #define TRAX_SHARED_UNITS(U, X)                                                                                                            \
-  U(X, FP_ADD, fp_add, C->fpu.tps_per_cluster, C->fpu.adders_per_cluster, true, 0, "adder",                                                \
+  U(X, FP_ADD, fp_add, C->fpu.tps_per_cluster, C->fpu.adders_per_cluster, 0, "adder",                                                      \
     "add-c", "another TP of the cluster had the adder", "operations the adders accepted",                                                  \
     "share of cycles in which an adder accepted an operation")                                                                             \
-  U(X, FP_MUL, fp_mul, trax_or(C->fpu.mul_tps_per_cluster, C->fpu.tps_per_cluster), C->fpu.multipliers_per_cluster, true, 0, "multiplier", \
+  U(X, FP_MUL, fp_mul, trax_or(C->fpu.mul_tps_per_cluster, C->fpu.tps_per_cluster), C->fpu.multipliers_per_cluster, 0, "multiplier",       \
     "mul-c", "another TP of the cluster had the multiplier", "operations the multipliers accepted",                                        \
     "share of cycles in which a multiplier accepted an operation")                                                                         \
-  U(X, INT_MUL, int_mul, C->int_mul.tps_per_unit, C->int_mul.units_per_group, true, 0, "integer multiplier",                               \
+  U(X, INT_MUL, int_mul, C->int_mul.tps_per_unit, C->int_mul.units_per_group, 0, "integer multiplier",                                     \
     "imul-c", "another TP had the integer multiplier", "operations the integer multipliers accepted",                                      \
     "share of cycles in which an integer multiplier accepted an operation")                                                                \
-  U(X, SPECIAL, special, C->chip.tps_per_tm, C->special.units_per_tm, C->special.pipelined, 0, "FPDIV/iSQRT unit",                         \
+  U(X, SPECIAL, special, C->chip.tps_per_tm, C->special.units_per_tm, 0, "FPDIV/iSQRT unit",                                               \
     "div-c", "the FPDIV/iSQRT units were busy or given to other TPs", "operations the FPDIV/iSQRT units accepted",                         \
     "share of cycles in which an FPDIV/iSQRT unit was taken")
 
 /* Classes of instructions that execute on more than the TP's integer unit and sequencer:
      identifier; unit and flag of the ISA's records (isa/include/trax/isa.h; 0: any flag); the first row that matches counts
      the shared unit that it needs: a TRAX_SHARED_... or TRAX_SHARED_NONE, and its description
-     latency; cause of a wait for the result
+     latency; cycles for which it takes its unit; cause of a wait for the result
      nJ of an operation, and the member of TRAX_ENERGIES that it is added to (report/energy.c names the figures' sources) */
 #define TRAX_CLASSES(X)                                                                                                                    \
-  X(INT_MUL, INT_MUL, 0, TRAX_SHARED_INT_MUL, "integer multiplier", C->int_mul.latency_cycles, DATA_OTHER, 0.0177, int_mul)                \
-  X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_ADD, "adder", C->fpu.add_latency_cycles, DATA_OTHER, 0.0074, fp_add)                      \
+  X(INT_MUL, INT_MUL, 0, TRAX_SHARED_INT_MUL, "integer multiplier", C->int_mul.latency_cycles, 1, DATA_OTHER, 0.0177, int_mul)             \
+  X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_ADD, "adder", C->fpu.add_latency_cycles, 1, DATA_OTHER, 0.0074, fp_add)                   \
   X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, C->fpu.compare_units ? TRAX_SHARED_NONE : TRAX_SHARED_FP_ADD,                                     \
-    "adder; the TP's own if `fpu.compare_units`", C->fpu.compare_latency_cycles, DATA_OTHER, 0.000536, fp_other)                           \
+    "adder; the TP's own if `fpu.compare_units`", C->fpu.compare_latency_cycles, 1, DATA_OTHER, 0.000536, fp_other)                        \
   X(CONVERSION, FP_ADD, TRAX_IS_CONVERSION, C->fpu.compare_units ? TRAX_SHARED_NONE : TRAX_SHARED_FP_ADD,                                  \
-    "adder; the TP's own if `fpu.compare_units`", C->fpu.convert_latency_cycles, DATA_OTHER, 0.001, fp_other)                              \
-  X(FP_MUL, FP_MUL, 0, TRAX_SHARED_FP_MUL, "multiplier", C->fpu.mul_latency_cycles, DATA_OTHER, 0.0142, fp_mul)                            \
+    "adder; the TP's own if `fpu.compare_units`", C->fpu.convert_latency_cycles, 1, DATA_OTHER, 0.001, fp_other)                           \
+  X(FP_MUL, FP_MUL, 0, TRAX_SHARED_FP_MUL, "multiplier", C->fpu.mul_latency_cycles, 1, DATA_OTHER, 0.0142, fp_mul)                         \
   X(ROOT, SPECIAL, TRAX_IS_ROOT, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit",                                                                  \
-    trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles), DATA_SPECIAL, 0.1563, special)                                    \
-  X(DIVISION, SPECIAL, 0, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit", C->special.latency_cycles, DATA_SPECIAL, 0.1563, special)
+    trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles),                                                                   \
+    C->special.pipelined ? 1 : trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles), DATA_SPECIAL, 0.1563, special)         \
+  X(DIVISION, SPECIAL, 0, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit", C->special.latency_cycles,                                              \
+    C->special.pipelined ? 1 : C->special.latency_cycles, DATA_SPECIAL, 0.1563, special)
 
 /* The consumers of energy, a row E(X, ...) each: identifier, meaning. */
 #define TRAX_ENERGIES(E, X)                                                                                                                \

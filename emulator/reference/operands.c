@@ -9,18 +9,18 @@ void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
 /* Charges a TP for the first register that is not usable, if there is one. */
 static void wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const struct {
-    bool needed;
-    unsigned number;
-  } registers[] = {{trax_ref_is(tp, TRAX_READS_RA), tp->inst.ra},
-                   {trax_ref_is(tp, TRAX_READS_RB), tp->inst.rb},
-                   {trax_ref_is(tp, TRAX_READS_RD | TRAX_WRITES_RD), tp->inst.rd}};
-  for (unsigned i = 0; i < 3; i++) {
-    const struct trax_ref_register *reg = &tp->scoreboard[registers[i].number];
-    if (registers[i].needed && reg->usable > t) {
-      trax_ref_charge(tm, tp, t, reg->cause);
-      return;
+    unsigned count, first;
+  } operands[] = {{trax_group_a(trax_ref_info(tp)->flags), tp->inst.ra},
+                  {trax_group_b(trax_ref_info(tp)->flags), tp->inst.rb},
+                  {trax_ref_is(tp, TRAX_READS_RD | TRAX_WRITES_RD), tp->inst.rd}};
+  for (unsigned i = 0; i < 3; i++)
+    for (unsigned n = 0; n < operands[i].count; n++) {
+      const struct trax_ref_register *reg = &tp->scoreboard[(operands[i].first + n) % TRAX_NUM_REGISTERS];
+      if (reg->usable > t) {
+        trax_ref_charge(tm, tp, t, reg->cause);
+        return;
+      }
     }
-  }
 }
 
 /* The same for a fence, which needs all registers. */
@@ -33,7 +33,7 @@ static void wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *t
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->tps; i++) {
     struct trax_ref_tp *tp = &tm->tp[i];
-    if (trax_ref_active(tp) && tp->inst.op == TRAX_OP_ILLEGAL)
+    if (trax_ref_active(tp) && (tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config)))
       trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
     if (trax_ref_active(tp))
       (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_registers)(tm, tp, t);

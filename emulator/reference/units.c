@@ -23,7 +23,7 @@ static void grant_group(struct trax_ref_tm *tm, const struct trax_shared_kind *k
       break;
     const struct trax_ref_tp *tp = &tm->tp[first + (uint32_t)winner];
     asks[tp->number] = false;
-    group->free_from[unit] = t + (kind->is_pipelined ? 1 : trax_ref_timing(tp, tm->config).latency);
+    group->free_from[unit] = t + trax_occupies(tp->inst.op, tm->config);
   }
 }
 

@@ -62,11 +62,11 @@ static double of_icache(const struct trax_config *config) {
 
 static void add_operations(struct trax_energy *energy, unsigned op, double count) {
   const unsigned flags = trax_op_table[op].flags;
-  const unsigned registers = ((flags & TRAX_READS_RA) != 0) + ((flags & TRAX_READS_RB) != 0) +
-                             ((flags & TRAX_READS_RD) != 0) + ((flags & TRAX_WRITES_RD) != 0);
+  const unsigned registers =
+      trax_group_a(flags) + trax_group_b(flags) + ((flags & TRAX_READS_RD) != 0) + ((flags & TRAX_WRITES_RD) != 0);
   energy->registers += count * registers * register_nj;
   switch (trax_class_of((trax_op)op)) {
-#define ADD(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, CAUSE, NJ, ENERGY)                                                   \
+#define ADD(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, INTERVAL, CAUSE, NJ, ENERGY)                                         \
   case TRAX_CLASS_##ID:                                                                                                \
     energy->ENERGY += count * NJ;                                                                                      \
     break;

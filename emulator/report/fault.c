@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "machine/timing.h"
 #include "program/program.h"
 #include "report/backtrace.h"
 #include "trax/isa.h"
@@ -93,7 +94,7 @@ static void print_message(const trax_machine *machine, const struct trax_fault *
   fprintf(out, "\n");
 }
 
-static void print_instruction(const struct trax_fault *fault, FILE *out) {
+static void print_instruction(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
   fprintf(out, "  %-*s0x%08x", LABEL, "at", fault->pc);
   if (fault->kind == TRAX_FAULT_EXECUTE || fault->kind == TRAX_FAULT_MISALIGNED_PC) {
     fprintf(out, "\n");
@@ -104,7 +105,11 @@ static void print_instruction(const struct trax_fault *fault, FILE *out) {
   for (char *c = text; *c; ++c)
     if (*c == '\t')
       *c = ' ';
-  fprintf(out, "  %08x  %s\n", fault->word, text);
+  fprintf(out, "  %08x  %s", fault->word, text);
+  if (fault->kind == TRAX_FAULT_ILLEGAL && trax_lacks_unit(trax_decode(fault->word).op, &machine->config))
+    fprintf(out, " (this machine has no %s)",
+            trax_shared_words(trax_timing_of(trax_decode(fault->word).op, &machine->config).unit));
+  fprintf(out, "\n");
 }
 
 /* Prints the return address when there is no frame information. ra is stale once the function has called another one,
@@ -149,7 +154,7 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   fprintf(out, "fault: %s\n", trax_fault_text(fault->kind));
   print_message(machine, fault, out);
   print_access(machine, fault, out);
-  print_instruction(fault, out);
+  print_instruction(machine, fault, out);
   trax_print_place(host, "in", fault->pc, out);
   print_callers(machine, fault, out);
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, "thread", fault->thread, fault->tm, fault->tp,

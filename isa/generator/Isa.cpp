@@ -1,6 +1,7 @@
 // Reading the instruction records: encodings, operands and properties, with the checks that need the whole list.
 
 #include "Isa.h"
+#include "llvm/ADT/SmallVector.h"
 #include "llvm/ADT/StringRef.h"
 #include "llvm/TableGen/Error.h"
 #include <algorithm>
@@ -103,6 +104,17 @@ static void readOperands(const Record *R, Instruction &I) {
   }
 }
 
+// Statements of several lines are written as one.
+static std::string onOneLine(StringRef Text) {
+  std::string Line;
+  SmallVector<StringRef> Words;
+  Text.split(Words, '\n');
+  for (StringRef Part : Words)
+    if (!Part.trim().empty())
+      Line += (Line.empty() ? "" : " ") + Part.trim().str();
+  return Line;
+}
+
 static Instruction readInstruction(const Record *R) {
   Instruction I;
   I.Name = R->getName().str();
@@ -110,12 +122,14 @@ static Instruction readInstruction(const Record *R) {
   readOperands(R, I);
   I.Format = R->getValueAsDef("Format")->getValueAsString("FormatName").str();
   I.Unit = R->getValueAsDef("Unit")->getValueAsString("UnitName").str();
-  I.Semantics = R->getValueAsString("Semantics").trim().str();
+  I.Semantics = onOneLine(R->getValueAsString("Semantics"));
   I.Manual = R->getValueAsString("Manual").str();
   I.AccessBytes = R->getValueAsInt("AccessBytes");
   I.ImmFirst = R->getValueAsInt("ImmFirst");
   I.ImmLimit = R->getValueAsInt("ImmLimit");
   I.ReadsRD = flag(R, "ReadsRD");
+  I.GroupA = R->getValueAsInt("GroupA");
+  I.GroupB = R->getValueAsInt("GroupB");
   I.IsAtomic = flag(R, "IsAtomic");
   I.IsNontemporal = flag(R, "IsNontemporal");
   I.IsFlop = flag(R, "IsFlop");
@@ -126,6 +140,8 @@ static Instruction readInstruction(const Record *R) {
   I.IsRelative = I.IsBranch && !flag(R, "isIndirectBranch");
   I.IsLoad = flag(R, "mayLoad") && I.AccessBytes;
   I.IsStore = flag(R, "mayStore") && I.AccessBytes && !I.IsAtomic;
+  if (I.GroupA < 1 || I.GroupA > 16 || I.GroupB < 1 || I.GroupB > 16)
+    PrintFatalError(R->getLoc(), "a group has 1 to 16 registers");
   if (I.Manual.empty() || I.Semantics.empty())
     PrintFatalError(R->getLoc(), "an instruction needs semantics and a sentence for the manual");
   return I;

@@ -28,6 +28,7 @@ struct Instruction {
   unsigned ImmScale = 1;
   int64_t ImmFirst = 0, ImmLimit = -1;
   unsigned AccessBytes = 0;
+  unsigned GroupA = 1, GroupB = 1;
   bool ReadsRA = false, ReadsRB = false, ReadsRD = false, WritesRD = false;
   bool IsLoad = false, IsStore = false, IsAtomic = false, IsNontemporal = false, IsBranch = false, IsFlop = false;
   bool IsRelative = false, IsCompare = false, IsConversion = false, IsRoot = false;

@@ -31,6 +31,10 @@ static std::string flags(const Instruction &I) {
   Add(I.IsCompare, "TRAX_IS_COMPARE");
   Add(I.IsConversion, "TRAX_IS_CONVERSION");
   Add(I.IsRoot, "TRAX_IS_ROOT");
+  if (I.GroupA > 1)
+    Text += " | TRAX_GROUP_A(" + std::to_string(I.GroupA) + ")";
+  if (I.GroupB > 1)
+    Text += " | TRAX_GROUP_B(" + std::to_string(I.GroupB) + ")";
   return Text.empty() ? "0" : Text;
 }
 

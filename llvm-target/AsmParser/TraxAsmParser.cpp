@@ -4,6 +4,8 @@
 #include "MCTargetDesc/TraxMCExpr.h"
 #include "MCTargetDesc/TraxMCTargetDesc.h"
 #include "TargetInfo/TraxTargetInfo.h"
+#include "trax/abi.h"
+#include "llvm/ADT/StringSwitch.h"
 #include "llvm/MC/MCContext.h"
 #include "llvm/MC/MCExpr.h"
 #include "llvm/MC/MCInst.h"
@@ -197,10 +199,10 @@ public:
 #include "TraxGenAsmMatcher.inc"
 
 static MCRegister matchRegister(StringRef Name) {
-  std::string Lower = Name.lower();
-  if (MCRegister Reg = MatchRegisterName(Lower))
-    return Reg;
-  return MatchRegisterAltName(Lower);
+  const std::string Lower = Name.lower();
+#define OTHER_NAME(NAME, OTHER, NUMBER) .Case(OTHER, NAME)
+  return MatchRegisterName(StringSwitch<StringRef>(Lower) TRAX_REGISTERS(OTHER_NAME).Default(Lower));
+#undef OTHER_NAME
 }
 
 ParseStatus TraxAsmParser::tryParseRegister(MCRegister &Reg, SMLoc &Start, SMLoc &End) {

@@ -30,7 +30,7 @@ static void print_keys(FILE *out, const char *text) {
 }
 
 static void print_class(FILE *out, unsigned unit, unsigned flag, bool *told, const char *executes_on,
-                        const char *latency) {
+                        const char *latency, const char *interval) {
   const char *before = "| ";
   for (unsigned op = TRAX_OP_ILLEGAL + 1; op < TRAX_OP_COUNT; op++) {
     if (told[op] || trax_op_table[op].unit != unit || (flag && !(trax_op_table[op].flags & flag)))
@@ -41,33 +41,30 @@ static void print_class(FILE *out, unsigned unit, unsigned flag, bool *told, con
   }
   fprintf(out, " | %s | ", executes_on);
   print_keys(out, latency);
+  fprintf(out, " | ");
+  print_keys(out, interval);
   fprintf(out, " |\n");
 }
 
 static void print_classes(FILE *out) {
   bool told[TRAX_OP_COUNT] = {false};
-#define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, ...)                                                               \
-  print_class(out, TRAX_UNIT_##UNIT, FLAG, told, WORDS, #LATENCY);
+#define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, INTERVAL, ...)                                                     \
+  print_class(out, TRAX_UNIT_##UNIT, FLAG, told, WORDS, #LATENCY, #INTERVAL);
   TRAX_CLASSES(CLASS)
 #undef CLASS
 }
 
-static void print_unit(FILE *out, const char *name, const char *words, const char *size, const char *count,
-                       const char *pipelined) {
+static void print_unit(FILE *out, const char *name, const char *words, const char *size, const char *count) {
   fprintf(out, "| %s | ", words);
   print_keys(out, count);
   fprintf(out, " | ");
   print_keys(out, size);
-  fprintf(out, " | ");
-  print_keys(out, strcmp(pipelined, "true") == 0 ? "always" : pipelined);
   fprintf(out, " | `%s_conflict` |\n", name);
 }
 
 static void print_units(FILE *out) {
-  fprintf(out,
-          "| unit | units of a group | TPs of a group | pipelined | conflict |\n| --- | --- | --- | --- | --- |\n");
-#define UNIT(X, ID, NAME, SIZE, COUNT, PIPELINED, AREA, WORDS, ...)                                                    \
-  print_unit(out, #NAME, WORDS, #SIZE, #COUNT, #PIPELINED);
+  fprintf(out, "| unit | units of a group | TPs of a group | conflict |\n| --- | --- | --- | --- |\n");
+#define UNIT(X, ID, NAME, SIZE, COUNT, AREA, WORDS, ...) print_unit(out, #NAME, WORDS, #SIZE, #COUNT);
   TRAX_SHARED_UNITS(UNIT, )
 #undef UNIT
 }
@@ -77,7 +74,7 @@ static const struct {
   void (*print)(FILE *out);
   const char *before;
 } tables[] = {
-    {print_classes, "| loads and stores of local memory | the TP's own | `tp.local_latency_cycles` |\n"},
+    {print_classes, "| loads and stores of local memory | the TP's own | `tp.local_latency_cycles` | |\n"},
     {print_units, "The TPs of a group share units of each kind:\n\n"},
 };
 enum { TABLES = sizeof tables / sizeof *tables };

@@ -56,6 +56,16 @@ enum {
   TRAX_IS_ROOT = 1u << 13        /* reciprocal square root */
 };
 
+/* How many registers an instruction reads from ra and rb on, in its flags: those behind r31 are r0, r1 and so on. */
+#define TRAX_GROUP_A(COUNT) (((COUNT)-1u) << 16)
+#define TRAX_GROUP_B(COUNT) (((COUNT)-1u) << 20)
+static inline unsigned trax_group_a(unsigned flags) {
+  return flags & TRAX_READS_RA ? (flags >> 16 & 15) + 1 : 0;
+}
+static inline unsigned trax_group_b(unsigned flags) {
+  return flags & TRAX_READS_RB ? (flags >> 20 & 15) + 1 : 0;
+}
+
 /* The flags of each instruction as constants: TRAX_FLAGS_ADD. */
 enum {
 #define TRAX_INSTRUCTION(NAME, MNEMONIC, SYNTAX, FORMAT, UNIT, MASK, MATCH, FLAGS, BYTES) TRAX_FLAGS_##NAME = FLAGS,

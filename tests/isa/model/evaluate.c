@@ -153,6 +153,8 @@ static uint64_t evaluate(struct model_execution *execution, const struct model_n
     return evaluate_as(execution, node->child[0], node->type);
   case MODEL_CALL:
     return call(execution, node);
+  case MODEL_NAMED:
+    return execution->named[node->number];
   default: /* statements have no value */
     return 0;
   }
@@ -181,6 +183,9 @@ void model_execute(struct model_execution *execution, const struct model_node *s
     model_execute(execution, statement->child[condition ? 1 : 2]);
     break;
   }
+  case MODEL_NAME:
+    execution->named[statement->number] = (uint32_t)evaluate_as(execution, statement->child[0], MODEL_U32);
+    break;
   case MODEL_ASSIGN:
     assign(execution, statement);
     break;

@@ -75,6 +75,20 @@ static uint32_t reciprocal_root(struct model_execution *execution, const uint32_
   return oracle_reduce(oracle_frsqrt(argument[0]), execution->machine->precision);
 }
 
+/* --- groups of registers --- */
+
+static uint32_t of_group(struct model_execution *execution, enum model_field field, uint32_t number) {
+  return execution->thread->registers[(execution->operand[field] + number) % MODEL_REGISTERS];
+}
+
+static uint32_t group_a(struct model_execution *execution, const uint32_t *argument) {
+  return of_group(execution, MODEL_FIELD_RA, argument[0]);
+}
+
+static uint32_t group_b(struct model_execution *execution, const uint32_t *argument) {
+  return of_group(execution, MODEL_FIELD_RB, argument[0]);
+}
+
 /* --- memory --- */
 
 static bool may(struct model_execution *execution, uint32_t address, uint32_t bytes, enum model_access access) {
@@ -234,6 +248,8 @@ static const struct model_function functions[] = {
 #undef ENTRY
             {"FPDIV", 2, MODEL_U32, divide},
     {"ISQRT", 1, MODEL_U32, reciprocal_root},
+    {"GROUP_A", 1, MODEL_U32, group_a},
+    {"GROUP_B", 1, MODEL_U32, group_b},
     {"LOAD8", 1, MODEL_U32, load_8},
     {"LOAD16", 1, MODEL_U32, load_16},
     {"LOAD32", 1, MODEL_U32, load_32},

@@ -184,8 +184,29 @@ static void segments(void **state) {
   model_destroy(machine);
 }
 
+/* Values with names; registers that follow ra and rb, which are r1 and r2. */
+static void names_and_groups(void **state) {
+  (void)state;
+  const struct {
+    const char *statement;
+    uint32_t value;
+  } cases[] = {{"uint32_t x = RA + 1; uint32_t y = x * x; RD = y - RB;", 120},
+               {"uint32_t x = RA; RD = 1; RD = RD + x;", 11},
+               {"RD = GROUP_A(0) * 1000 + GROUP_A(1);", 10001},
+               {"RD = GROUP_A(2);", 77},
+               {"RD = GROUP_B(1) + GROUP_B(30) + GROUP_B(31);", 87}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    struct model_machine *machine = execute(cases[i].statement, 10, 1, MODEL_LIMIT);
+    assert_int_equal(machine->threads[0].registers[3], cases[i].value);
+    model_destroy(machine);
+  }
+}
+
 static void wrong_statements(void **state) {
   (void)state;
+  expect_error(SECTION("uint32_t = 1; RD = 1;"), "page:6:22: op: expected a name before '='");
+  expect_error(SECTION("uint32_t x; RD = 1;"), "page:6:23: op: expected '=' before ';'");
+  expect_error(SECTION("uint32_t x = y; uint32_t y = 1;"), "page:6:26: op: unknown word 'y'");
   expect_error(SECTION("RD = trax_fadd(RA, RB, RA);"), "page:6:34: op: expected ')' before ','");
   expect_error(SECTION("RD = trax_foo(RA);"), "page:6:18: op: unknown word 'trax_foo'");
   expect_error(SECTION("RD = RA + RC;"), "page:6:23: op: unknown word 'RC'");
@@ -265,8 +286,8 @@ static void immediates(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(expressions), cmocka_unit_test(statements),       cmocka_unit_test(without_a_result),
-      cmocka_unit_test(segments),    cmocka_unit_test(wrong_statements), cmocka_unit_test(wrong_pages),
-      cmocka_unit_test(immediates),
+      cmocka_unit_test(segments),    cmocka_unit_test(names_and_groups), cmocka_unit_test(wrong_statements),
+      cmocka_unit_test(wrong_pages), cmocka_unit_test(immediates),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

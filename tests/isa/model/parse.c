@@ -14,6 +14,11 @@ struct parser {
   const char *begin, *at, *end;
   const char *token; /* the current one: [token, at) */
   unsigned depth;
+  struct {
+    const char *name;
+    size_t length;
+  } named[MODEL_MOST_NAMES];
+  unsigned names;
   struct model_error *error; /* set: parsing has failed */
   bool failed;
 };
@@ -168,6 +173,12 @@ static struct model_node *word(struct parser *parser) {
     next(parser);
     return make(parser, node);
   }
+  for (unsigned i = 0; i < parser->names; i++)
+    if (parser->named[i].length == (size_t)(parser->at - parser->token) &&
+        memcmp(parser->token, parser->named[i].name, parser->named[i].length) == 0) {
+      next(parser);
+      return make(parser, (struct model_node){.kind = MODEL_NAMED, .type = MODEL_U32, .number = i});
+    }
   const struct model_function *function = model_find_function(parser->token, (size_t)(parser->at - parser->token));
   return function ? call(parser, function) : fail_token(parser, "unknown word");
 }
@@ -312,6 +323,26 @@ static struct model_node *statements(struct parser *parser, const char *until);
 
 static struct model_node *statement(struct parser *parser);
 
+/* A name that no function and no other value has. */
+static struct model_node *name(struct parser *parser) {
+  struct model_node node = {.kind = MODEL_NAME, .number = parser->names};
+  const char *begin = parser->token;
+  const size_t length = (size_t)(parser->at - begin);
+  if (parser->names == MODEL_MOST_NAMES)
+    return fail_token(parser, "too many names before");
+  if (length == 0 || !is_word(*begin) || isdigit((unsigned char)*begin))
+    return fail_token(parser, "expected a name before");
+  next(parser);
+  expect(parser, "=");
+  const char *place = parser->token;
+  node.child[0] = expression(parser);
+  needs_value(parser, place, node.child[0]);
+  expect(parser, ";");
+  parser->named[parser->names].name = begin;
+  parser->named[parser->names++].length = length;
+  return make(parser, node);
+}
+
 static struct model_node *one_statement(struct parser *parser) {
   struct model_node node = {0};
   if (accept(parser, "{"))
@@ -329,6 +360,8 @@ static struct model_node *one_statement(struct parser *parser) {
       node.child[2] = statement(parser);
     return make(parser, node);
   }
+  if (accept(parser, "uint32_t"))
+    return name(parser);
   const char *place = parser->token;
   struct model_node *left = expression(parser);
   if (accept(parser, "=")) {

@@ -1,10 +1,13 @@
-/* The language of the manual's semantics: a C statement over RD, RA, RB, IMM, PC and NEXT_PC. Operators have C's
+/* The language of the manual's semantics: a C statement over RD, RA, RB, IMM, PC and NEXT_PC, and values that it names
+   itself (uint32_t x = ...;). Operators have C's
    precedence, conversions and types (32 and 64 bits, signed and unsigned); what C leaves undefined or to the
    implementation is an error. */
 #ifndef TRAX_ISA_MODEL_SEMANTICS_H
 #define TRAX_ISA_MODEL_SEMANTICS_H
 
 #include "model.h"
+
+enum { MODEL_MOST_NAMES = 32 };
 
 /* One instruction of one thread, as it is executed. */
 struct model_execution {
@@ -13,6 +16,7 @@ struct model_execution {
   const struct model_instruction *instruction;
   uint32_t operand[MODEL_FIELDS]; /* register numbers; IMM's value */
   uint32_t next_pc;
+  uint32_t named[MODEL_MOST_NAMES]; /* values, in the order of their statements */
   enum model_fault_kind fault; /* the rest of the statement does not happen */
   uint32_t fault_address;
   const char *undefined; /* why the statement has no defined result */
@@ -67,8 +71,10 @@ enum model_node_kind {
   MODEL_CONDITIONAL,
   MODEL_CAST,
   MODEL_CALL,
+  MODEL_NAMED, /* number: which */
   /* statements */
   MODEL_ASSIGN, /* child[0] is MODEL_REGISTER (RD) or MODEL_NEXT_PC */
+  MODEL_NAME,   /* number: which; child[0]: its value */
   MODEL_IF,     /* child[2] may be NULL */
   MODEL_SEQUENCE
 };
