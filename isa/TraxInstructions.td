@@ -62,6 +62,45 @@ let IsRoot = true in
 def FRSQRT : InstR1<6, 1, "frsqrt", UnitSpecial, [{ RD = ISQRT(RA); }],
                     "Reciprocal square root, correctly rounded (IEEE 754-2019 rSqrt, the paper's iSQRT): +-0 gives +-infinity, +infinity gives +0, a negative number gives NaN.">;
 
+//--- ray unit: opcode 7 --------------------------------------------------------
+// A ray is its direction's reciprocals by axis, and what they are of the origin; planes are taken times the one, minus the other.
+defm FBOX : TraxGroups<7, 0, "fbox", UnitRayBox, 6, 6, [{
+  uint32_t x0 = trax_fsub(trax_fmul(GROUP_B(0), GROUP_A(0)), GROUP_A(3));
+  uint32_t y0 = trax_fsub(trax_fmul(GROUP_B(1), GROUP_A(1)), GROUP_A(4));
+  uint32_t z0 = trax_fsub(trax_fmul(GROUP_B(2), GROUP_A(2)), GROUP_A(5));
+  uint32_t x1 = trax_fsub(trax_fmul(GROUP_B(3), GROUP_A(0)), GROUP_A(3));
+  uint32_t y1 = trax_fsub(trax_fmul(GROUP_B(4), GROUP_A(1)), GROUP_A(4));
+  uint32_t z1 = trax_fsub(trax_fmul(GROUP_B(5), GROUP_A(2)), GROUP_A(5));
+  uint32_t enter = trax_fmax(trax_fmax(trax_fmin(x0, x1), trax_fmin(y0, y1)), trax_fmax(trax_fmin(z0, z1), 0));
+  uint32_t leave = trax_fmin(trax_fmin(trax_fmax(x0, x1), trax_fmax(y0, y1)), trax_fmin(trax_fmax(z0, z1), RD));
+  RD = trax_fle(enter, leave) ? enter : 0x7F800000;
+}], "Where a ray enters a box: rd becomes the distance, or infinity if the ray misses the box or enters it behind the old rd.">;
+defm FTRI : TraxGroups<7, 1, "ftri", UnitRayTriangle, 6, 9, [{
+  uint32_t ex = trax_fsub(GROUP_B(3), GROUP_B(0));
+  uint32_t ey = trax_fsub(GROUP_B(4), GROUP_B(1));
+  uint32_t ez = trax_fsub(GROUP_B(5), GROUP_B(2));
+  uint32_t fx = trax_fsub(GROUP_B(6), GROUP_B(0));
+  uint32_t fy = trax_fsub(GROUP_B(7), GROUP_B(1));
+  uint32_t fz = trax_fsub(GROUP_B(8), GROUP_B(2));
+  uint32_t tx = trax_fsub(GROUP_A(0), GROUP_B(0));
+  uint32_t ty = trax_fsub(GROUP_A(1), GROUP_B(1));
+  uint32_t tz = trax_fsub(GROUP_A(2), GROUP_B(2));
+  uint32_t px = trax_fsub(trax_fmul(GROUP_A(4), fz), trax_fmul(GROUP_A(5), fy));
+  uint32_t py = trax_fsub(trax_fmul(GROUP_A(5), fx), trax_fmul(GROUP_A(3), fz));
+  uint32_t pz = trax_fsub(trax_fmul(GROUP_A(3), fy), trax_fmul(GROUP_A(4), fx));
+  uint32_t qx = trax_fsub(trax_fmul(ty, ez), trax_fmul(tz, ey));
+  uint32_t qy = trax_fsub(trax_fmul(tz, ex), trax_fmul(tx, ez));
+  uint32_t qz = trax_fsub(trax_fmul(tx, ey), trax_fmul(ty, ex));
+  uint32_t d = trax_fadd(trax_fadd(trax_fmul(ex, px), trax_fmul(ey, py)), trax_fmul(ez, pz));
+  uint32_t u = trax_fadd(trax_fadd(trax_fmul(tx, px), trax_fmul(ty, py)), trax_fmul(tz, pz));
+  uint32_t v = trax_fadd(trax_fadd(trax_fmul(GROUP_A(3), qx), trax_fmul(GROUP_A(4), qy)), trax_fmul(GROUP_A(5), qz));
+  uint32_t s = trax_fadd(trax_fadd(trax_fmul(fx, qx), trax_fmul(fy, qy)), trax_fmul(fz, qz));
+  uint32_t sign = d & 0x80000000;
+  uint32_t distance = FPDIV(s, d);
+  if (trax_fle(0, u ^ sign) && trax_fle(0, v ^ sign) && trax_fle(trax_fadd(u, v) ^ sign, d ^ sign) && trax_flt(0, distance))
+    RD = trax_fmin(distance, RD);
+}], "Where a ray hits a triangle: rd becomes the distance if that is before the old rd, else it keeps its value.">;
+
 //--- immediates --------------------------------------------------------------
 let isReMaterializable = true, isAsCheapAsAMove = true in
 def ADDI  : InstI<8, "addi", [{ RD = RA + IMM; }], "Sum modulo 2^32 with a sign-extended immediate.">;

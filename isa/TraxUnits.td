@@ -16,5 +16,8 @@ def UnitFPMul  : TraxUnit<"FP_MUL",  "floating-point multiplier, shared by a clu
 def UnitSpecial : TraxUnit<"SPECIAL", "FPDIV/iSQRT unit, shared by the TM", 8>;
 def UnitMemory : TraxUnit<"MEMORY",  "local memory, or the TM's data cache and the memory behind it, by address", 1>;
 def UnitControl : TraxUnit<"CONTROL", "the TP's own sequencer", 1>;
+def UnitRayBox : TraxUnit<"RAY_BOX", "ray unit, shared by TPs; a machine need not have one", 13>;
+def UnitRayTriangle : TraxUnit<"RAY_TRIANGLE", "the same", 26>;
 
-defvar TraxUnits = [UnitInt, UnitIntMul, UnitFPAdd, UnitFPMul, UnitSpecial, UnitMemory, UnitControl]; // all of them
+defvar TraxUnits = [UnitInt, UnitIntMul, UnitFPAdd, UnitFPMul, UnitSpecial, UnitMemory, UnitControl, UnitRayBox,
+                     UnitRayTriangle]; // all of them

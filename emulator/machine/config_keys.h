@@ -64,6 +64,14 @@
   FLAG(special, pipelined, true, 0, 1, "", PAPER, "a unit accepts an operation every cycle; false: it is busy for its latency")            \
   COUNT(special, precision_bits, 24, 1, 24, "bits", OURS, "significant bits of a result, the leading one included; 24 is exact")           \
   END(special)                                                                                                                             \
+  BEGIN(ray)                                                                                                                               \
+  COUNT(ray, units_per_group, 0, 0, 64, "units", OURS, "ray units that TPs share; 0: fbox and ftri are illegal")                           \
+  COUNT(ray, tps_per_group, 8, 1, 64, "TPs", OURS, "TPs that share them")                                                                  \
+  COUNT(ray, box_latency_cycles, 13, 1, 1000, "cycles", OURS, "latency of a box, the transport of its operands included")                  \
+  COUNT(ray, box_interval_cycles, 1, 1, 1000, "cycles", OURS, "time for which a box takes a unit")                                         \
+  COUNT(ray, triangle_latency_cycles, 26, 1, 1000, "cycles", OURS, "latency of a triangle, likewise")                                      \
+  COUNT(ray, triangle_interval_cycles, 4, 1, 1000, "cycles", OURS, "time for which a triangle takes a unit")                               \
+  END(ray)                                                                                                                                 \
   BEGIN(dcache)                                                                                                                            \
   POWER(dcache, bytes, 16384, 64, 1u << 24, "bytes", PAPER, "size of a TM's data cache")                                                   \
   POWER(dcache, line_bytes, 64, 4, 4096, "bytes", OURS, "line of the data cache")                                                          \

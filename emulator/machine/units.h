@@ -25,7 +25,11 @@
     "share of cycles in which an integer multiplier accepted an operation")                                                                \
   U(X, SPECIAL, special, C->chip.tps_per_tm, C->special.units_per_tm, 0, "FPDIV/iSQRT unit",                                               \
     "div-c", "the FPDIV/iSQRT units were busy or given to other TPs", "operations the FPDIV/iSQRT units accepted",                         \
-    "share of cycles in which an FPDIV/iSQRT unit was taken")
+    "share of cycles in which an FPDIV/iSQRT unit was taken")                                                                              \
+  /* 6 adders, 6 multipliers, 13 comparators and a divider (docs/results/ray-unit.md) */                                                   \
+  U(X, RAY, ray, C->ray.tps_per_group, C->ray.units_per_group, 0.238386, "ray unit",                                                       \
+    "ray-c", "the group's ray units were busy or given to other TPs", "operations the ray units accepted",                                 \
+    "share of cycles in which a ray unit was taken")
 
 /* Classes of instructions that execute on more than the TP's integer unit and sequencer:
      identifier; unit and flag of the ISA's records (isa/include/trax/isa.h; 0: any flag); the first row that matches counts
@@ -44,7 +48,10 @@
     trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles),                                                                   \
     C->special.pipelined ? 1 : trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles), DATA_SPECIAL, 0.1563, special)         \
   X(DIVISION, SPECIAL, 0, TRAX_SHARED_SPECIAL, "FPDIV/iSQRT unit", C->special.latency_cycles,                                              \
-    C->special.pipelined ? 1 : C->special.latency_cycles, DATA_SPECIAL, 0.1563, special)
+    C->special.pipelined ? 1 : C->special.latency_cycles, DATA_SPECIAL, 0.1563, special)                                                   \
+  X(RAY_BOX, RAY_BOX, 0, TRAX_SHARED_RAY, "ray unit", C->ray.box_latency_cycles, C->ray.box_interval_cycles, DATA_OTHER, 0.136568, ray)    \
+  X(RAY_TRIANGLE, RAY_TRIANGLE, 0, TRAX_SHARED_RAY, "ray unit", C->ray.triangle_latency_cycles, C->ray.triangle_interval_cycles,           \
+    DATA_OTHER, 0.67738, ray)
 
 /* The consumers of energy, a row E(X, ...) each: identifier, meaning. */
 #define TRAX_ENERGIES(E, X)                                                                                                                \
@@ -53,6 +60,7 @@
   E(X, fp_other, "comparisons, minima, maxima, conversions")                                                                               \
   E(X, int_mul, "integer multipliers")                                                                                                     \
   E(X, special, "FPDIV/iSQRT units")                                                                                                       \
+  E(X, ray, "ray units")                                                                                                                   \
   E(X, integer, "the TPs' integer units: instructions, addresses, branches")                                                               \
   E(X, registers, "register files: an access for each operand and each result")                                                            \
   E(X, local_memory, "local memories")                                                                                                     \

@@ -34,6 +34,30 @@ function __builtin_trax_opaque
   jalr r0, 0(r1)
   end __builtin_trax_opaque
 
+// Arguments are in r4 to r11 and on the stack.
+function __builtin_trax_box
+  lw r12, 0(r2)
+  lw r13, 4(r2)
+  lw r14, 8(r2)
+  lw r15, 12(r2)
+  lw r16, 16(r2)
+  fbox r4, r5, r11
+  jalr r0, 0(r1)
+  end __builtin_trax_box
+
+function __builtin_trax_triangle
+  lw r12, 0(r2)
+  lw r13, 4(r2)
+  lw r14, 8(r2)
+  lw r15, 12(r2)
+  lw r16, 16(r2)
+  lw r17, 20(r2)
+  lw r18, 24(r2)
+  lw r19, 28(r2)
+  ftri r4, r5, r11
+  jalr r0, 0(r1)
+  end __builtin_trax_triangle
+
 function __builtin_trax_halt
   halt
   end __builtin_trax_halt

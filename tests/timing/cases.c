@@ -13,6 +13,7 @@ static struct trax_config near_the_defaults(uint32_t tms, uint32_t tps) {
   config.chip.tps_per_tm = tps;
   config.memory.latency_cycles = any(0, 100);
   config.memory.size_mib = 1;
+  config.ray.units_per_group = any(0, 7) ? 1 : 0;
   return config;
 }
 
@@ -40,6 +41,7 @@ struct random_case case_of_seed(unsigned seed) {
     break;
   case CASE_OWN_WORDS:
     c.config = any_machine(tms, tps);
+    c.config.ray.units_per_group += c.config.ray.units_per_group == 0;
     c.count = any_program(c.words);
     break;
   case CASE_WORDS: /* endless loops are possible */
@@ -56,6 +58,7 @@ struct random_case case_of_seed(unsigned seed) {
       c.max_cycles = 5000;
     } else { /* many that do not meet */
       c.config = any_machine(tms, tps);
+      c.config.ray.units_per_group += c.config.ray.units_per_group == 0;
       c.count = any_program(c.words);
       c.max_cycles = 10 * limit;
     }

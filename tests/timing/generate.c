@@ -51,9 +51,10 @@ static uint32_t any_local_word(unsigned rd, unsigned rb, int32_t offset) {
 }
 
 static uint32_t any_operation(unsigned left) {
-  static const trax_op plain[] = {TRAX_OP_ADD,   TRAX_OP_SUB, TRAX_OP_XOR,   TRAX_OP_SLL,  TRAX_OP_SLT,  TRAX_OP_CMOVNZ,
-                                  TRAX_OP_CMOVZ, TRAX_OP_MUL, TRAX_OP_MULHU, TRAX_OP_FADD, TRAX_OP_FSUB, TRAX_OP_FMUL,
-                                  TRAX_OP_FMIN,  TRAX_OP_FLE, TRAX_OP_FDIV,  TRAX_OP_FADD, TRAX_OP_FMUL};
+  static const trax_op plain[] = {TRAX_OP_ADD,    TRAX_OP_SUB,   TRAX_OP_XOR,  TRAX_OP_SLL,   TRAX_OP_SLT,
+                                  TRAX_OP_CMOVNZ, TRAX_OP_CMOVZ, TRAX_OP_MUL,  TRAX_OP_MULHU, TRAX_OP_FADD,
+                                  TRAX_OP_FSUB,   TRAX_OP_FMUL,  TRAX_OP_FMIN, TRAX_OP_FLE,   TRAX_OP_FDIV,
+                                  TRAX_OP_FADD,   TRAX_OP_FMUL,  TRAX_OP_FBOX, TRAX_OP_FTRI};
   static const trax_op single[] = {TRAX_OP_FRSQRT, TRAX_OP_FCVT_W_S, TRAX_OP_FCVT_S_W};
   static const trax_op loads[] = {TRAX_OP_LB, TRAX_OP_LBU, TRAX_OP_LH, TRAX_OP_LHU, TRAX_OP_LW};
   static const trax_op stores[] = {TRAX_OP_SB, TRAX_OP_SH, TRAX_OP_SW};
@@ -393,6 +394,8 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
       config = before; /* it does not go with the others */
     }
   }
+  if (!config.ray.units_per_group && !seldom(8))
+    config.ray.units_per_group = 1; /* else most programs end soon, by an illegal instruction */
   if (config.tp.branch_bubble_cycles % 3 == 2)
     config.tp.branch_bubble_cycles = 1; /* seldom met by chance, and a case of its own: no step may be taken for quick */
   return config;
@@ -499,6 +502,12 @@ struct trax_config any_config(uint32_t tms, uint32_t tps) {
   config.special.units_per_tm = any(1, 3);
   config.special.latency_cycles = any(1, 20);
   config.special.pipelined = any(0, 1);
+  config.ray.units_per_group = any(1, 3);
+  config.ray.tps_per_group = any(1, 20);
+  config.ray.box_latency_cycles = any(1, 30);
+  config.ray.box_interval_cycles = any(0, 1) ? 1 : any(1, 10);
+  config.ray.triangle_latency_cycles = any(1, 60);
+  config.ray.triangle_interval_cycles = any(0, 1) ? 4 : any(1, 30);
   config.dcache.line_bytes = any_power(4, 256);
   config.dcache.bytes = any_power(config.dcache.line_bytes < 64 ? 64 : config.dcache.line_bytes, 16384);
   config.dcache.ways = any_power(1, config.dcache.bytes / config.dcache.line_bytes);

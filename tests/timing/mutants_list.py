@@ -20,16 +20,21 @@ MUTANTS = [
     ("reference/operands.c", "if (reg->usable > t) {\n        trax_ref_charge(tm, tp, t, reg->cause)", "if (reg->usable > t + 1) {\n        trax_ref_charge(tm, tp, t, reg->cause)"),
     ("reference/operands.c", "if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0)", "if (trax_ref_is(tp, TRAX_WRITES_RD))"),
     ("reference/operands.c", "if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {", "if (tp->holds && !tp->ended && trax_ref_accesses_memory(tp)) {"),
+    ("reference/operands.c", "n < operands[i].count", "n < operands[i].count && n < 1"),
+    ("reference/operands.c", "(operands[i].first + n) % TRAX_NUM_REGISTERS", "(operands[i].first + n) % 16"),
     # --- Units ---
+    ("reference/operands.c", " || trax_lacks_unit(tp->inst.op, tm->config))", ")"),
     ("reference/units.c", "if (group->free_from[unit] > t)", "if (group->free_from[unit] > t + 1)"),
     ("reference/units.c", "t + trax_occupies(", "t + 1 + trax_occupies("),
     ("reference/units.c", "unit < kind->per_group; unit++", "unit < kind->per_group && unit < 1; unit++"),
     # The table, which both engines read: tests with numbers of their own notice.
     ("machine/units.h", "X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, C->fpu.compare_units ?", "X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, !C->fpu.compare_units ?"),
+    ("machine/units.h", "C->ray.box_latency_cycles, C->ray.box_interval_cycles", "C->ray.triangle_latency_cycles, C->ray.box_interval_cycles"),
+    ("machine/units.h", "C->ray.triangle_latency_cycles, C->ray.triangle_interval_cycles", "C->ray.triangle_latency_cycles, C->ray.box_interval_cycles"),
     ("machine/units.h", "X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_ADD,", "X(FP_ADD, FP_ADD, TRAX_IS_FLOP, TRAX_SHARED_FP_MUL,"),
     ("machine/units.h", "trax_or(C->fpu.mul_tps_per_cluster, C->fpu.tps_per_cluster)", "C->fpu.tps_per_cluster"),
-    ("machine/units.h", "C->special.pipelined, 0,", "true, 0,"),
-    ("machine/units.h", "trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles), ", "C->special.latency_cycles, "),
+    ("machine/units.h", "C->special.pipelined ? 1 : C->special.latency_cycles", "1"),
+    ("machine/units.h", "\n    trax_or(C->special.rsqrt_latency_cycles, C->special.latency_cycles),", "\n    C->special.latency_cycles,"),
     ("machine/units.h", "C->fpu.convert_latency_cycles, 1, DATA_OTHER", "C->fpu.compare_latency_cycles, 1, DATA_OTHER"),
     ("machine/units.h", "C->int_mul.latency_cycles, 1, DATA_OTHER", "C->int_mul.latency_cycles, 1, DATA_SPECIAL"),
     ("reference/issue.c", "tp->bubble_ends = t + 1 + tm->config->tp.branch_bubble_cycles;", "tp->bubble_ends = t + tm->config->tp.branch_bubble_cycles;"),
@@ -129,7 +134,7 @@ MUTANTS = [
     ("fast/cache_tags.h", "(way + 1) & (tags->ways - 1)", "way & (tags->ways - 1)"),
     # --- Fences ---
     ("fast/tp.c", "if (kind & TRAX_FENCE_R)", "if (kind == TRAX_FENCE_R)"),
-    ("fast/tp.c", "all ? i : registers[i]", "all ? TRAX_NUM_REGISTERS - 1 - i : registers[i]"),
+    ("fast/tp.c", "all ? n : groups[i].first + n", "all ? TRAX_NUM_REGISTERS - 1 - n : groups[i].first + n"),
     ("fast/tm.c", "tp->increments || (of_writes && tp->writes)", "of_writes && (tp->increments || tp->writes)"),
     ("fast/tm.c", "if (of_writes && !write_run(tm, number))", "if (!write_run(tm, number))"),
     ("fast/tm.c", ".kind = TRAX_REQUEST_WRITE, .tp = (uint8_t)number, ", ".kind = TRAX_REQUEST_WRITE, "),
@@ -153,6 +158,11 @@ MUTANTS = [
     # The first unusable register gives the cause.
     ("fast/tp.c", "{tp->inst->wait_ra, tp->inst->more_ra + 1u}, {tp->inst->wait_rb, tp->inst->more_rb + 1u}",
      "{tp->inst->wait_rb, tp->inst->more_rb + 1u}, {tp->inst->wait_ra, tp->inst->more_ra + 1u}"),
+    # All registers of a group must be usable.
+    ("fast/program.c", "n <= decoded->more_ra; n++", "n < decoded->more_ra; n++"),
+    ("fast/program.c", "(decoded->wait_rb + n) % TRAX_NUM_REGISTERS", "(decoded->wait_rb + n) % 16"),
+    ("machine/text.c", "(trax_group_b(flags) - 1) & 15 : 0", "(trax_group_b(flags) - 2) & 15 : 0"),
+    ("machine/text.c", "if (trax_lacks_unit(inst.op, config))", "if (0)"),
     # The special units have one round robin.
     ("fast/cycle.c", "trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1)",
      "trax_arbiter_grant(&(trax_arbiter){unit->arbiter[group]}, all & ~winners, 1)"),

@@ -27,6 +27,10 @@ static uint32_t latency_of(const trax_inst *inst, const struct trax_config *conf
   case TRAX_UNIT_SPECIAL:
     return inst->op == TRAX_OP_FRSQRT && config->special.rsqrt_latency_cycles ? config->special.rsqrt_latency_cycles
                                                                               : config->special.latency_cycles;
+  case TRAX_UNIT_RAY_BOX:
+    return config->ray.box_latency_cycles;
+  case TRAX_UNIT_RAY_TRIANGLE:
+    return config->ray.triangle_latency_cycles;
   case TRAX_UNIT_MEMORY:
     return 0;
   default:
@@ -46,10 +50,10 @@ static void check_dependences(const struct bench *bench) {
     const unsigned thread = issue->tm * config->chip.tps_per_tm + issue->tp;
     assert_true(issue->cycle > last[thread] || last[thread] == 0);
     last[thread] = issue->cycle;
-    if (flags & TRAX_READS_RA)
-      assert_true(usable[thread][inst.ra] <= issue->cycle);
-    if (flags & TRAX_READS_RB)
-      assert_true(usable[thread][inst.rb] <= issue->cycle);
+    for (unsigned n = 0; n < trax_group_a(flags); n++)
+      assert_true(usable[thread][(inst.ra + n) % 32] <= issue->cycle);
+    for (unsigned n = 0; n < trax_group_b(flags); n++)
+      assert_true(usable[thread][(inst.rb + n) % 32] <= issue->cycle);
     if (!(flags & TRAX_WRITES_RD) || inst.rd == 0)
       continue;
     assert_true(usable[thread][inst.rd] <= issue->cycle);
@@ -97,6 +101,10 @@ static void check_units(const struct bench *bench) {
              config->special.pipelined                  ? 1
              : rsqrt_latency && rsqrt_latency < latency ? rsqrt_latency
                                                         : latency);
+  const uint32_t units = config->ray.units_per_group;
+  check_unit(bench, TRAX_UNIT_RAY_BOX, false, config->ray.tps_per_group, units, config->ray.box_interval_cycles);
+  check_unit(bench, TRAX_UNIT_RAY_TRIANGLE, false, config->ray.tps_per_group, units,
+             config->ray.triangle_interval_cycles);
 }
 
 static void check_order(const struct bench *bench) {

@@ -124,6 +124,12 @@ const struct rule *timing_rules(size_t *count) {
        HALT);
   RULE("Operands", "a conditional move reads its destination", NEAR, "", 11, NONE, "1 9 10",
        "icache_miss=1 wait_special=7", R(FDIV, 1, 0, 0), R(CMOVNZ, 1, 0, 0), HALT);
+  RULE("Operands", "a group of registers is waited for", NEAR, "ray.units_per_group=1", 11, NONE, "1 9 10",
+       "icache_miss=1 wait_special=7", R(FDIV, 9, 0, 0), R(FBOX, 1, 4, 12), HALT);
+  RULE("Operands", "behind r31 it has r0, r1 and so on", NEAR, "ray.units_per_group=1", 11, NONE, "1 9 10",
+       "icache_miss=1 wait_special=7", R(FDIV, 3, 0, 0), R(FBOX, 10, 4, 30), HALT);
+  RULE("Operands", "but no register behind its last", NEAR, "ray.units_per_group=1", 4, NONE, "1 2 3", "icache_miss=1",
+       R(FDIV, 10, 0, 0), R(FBOX, 1, 4, 11), HALT);
   RULE("Operands", "wait for local memory", NEAR, "tp.local_latency_cycles=4", 7, NONE, "1 5 6",
        "icache_miss=1 wait_local=3", I(LBU, 1, 0, -512), R(ADD, 2, 1, 1), HALT);
   /* lw 105 there 209; lw 210 usable 213. */
@@ -191,6 +197,16 @@ const struct rule *timing_rules(size_t *count) {
        "special.pipelined=false special.rsqrt_latency_cycles=3", 17, NONE, "1 4 12 15 16",
        "icache_miss=1 special_conflict=9 wait_special=2", R1(FRSQRT, 1, 0), R(FDIV, 2, 0, 0), R1(FRSQRT, 3, 0),
        R(ADD, 4, 3, 3), HALT);
+  RULE("Units", "a ray unit is taken for the test's interval", NEAR,
+       "chip.tps_per_tm=2 ray.units_per_group=1 ray.triangle_interval_cycles=3 " LOCKSTEP, 6, NONE, "1 2 / 4 5",
+       "icache_miss=2 ray_conflict=3", R(FTRI, 1, 4, 12), HALT);
+  /* Taken in 1..2 and 3; the box's distance is usable in 3 + 5. */
+  RULE("Units", "boxes and triangles have latencies of their own", NEAR,
+       "ray.units_per_group=1 ray.triangle_interval_cycles=2 ray.box_latency_cycles=5 ray.triangle_latency_cycles=9",
+       12, NONE, "1 3 8 10 11", "icache_miss=1 ray_conflict=1 wait_other=5", R(FTRI, 1, 4, 12), R(FBOX, 2, 4, 12),
+       R(ADD, 3, 2, 2), R(ADD, 3, 1, 1), HALT);
+  RULE("Units", "what needs a unit of which there is none is illegal", NEAR, "", 3, ILLEGAL, "1", "icache_miss=1",
+       R(FDIV, 4, 0, 0), R(FBOX, 1, 4, 12), HALT);
   RULE("Units", "local memory is the TP's own", NEAR, "chip.tps_per_tm=3 " LOCKSTEP, 4, NONE, "1 2 3 / 1 2 3 / 1 2 3",
        "icache_miss=3", S(SW, 0, 0, -4), I(LW, 1, 0, -4), HALT);
   RULE("Units", "lwnt and swnt of local memory are no other loads and stores", NEAR, "tp.local_latency_cycles=4", 8,

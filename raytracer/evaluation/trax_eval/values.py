@@ -44,6 +44,8 @@ class Areas:
         area += groups(fpu["mul_tps_per_cluster"] or fpu["tps_per_cluster"]) * fpu["multipliers_per_cluster"] * unit["fp_mul"]
         area += groups(configuration["int_mul"]["tps_per_unit"]) * configuration["int_mul"]["units_per_group"] * unit["int_mul"]
         area += configuration["special"]["units_per_tm"] * unit["special"]
+        ray = 6 * (unit["fp_add"] + unit["fp_mul"]) + 13 * unit["fp_compare"] + unit["special"]  # docs/results/ray-unit.md
+        area += groups(configuration["ray"]["tps_per_group"]) * configuration["ray"]["units_per_group"] * ray
         area += groups(icache["tps_per_cache"]) * caches[0] + caches[1]
         return configuration["chip"]["tms"] * area
 

@@ -10,6 +10,7 @@ EQUIVALENT = [
     ("rdsr: bit 31 of the result is lost", "no number is so large, but the cycle after 2^31 cycles"),
     ("m[ai][nx]: <= for <", "either of two equal words is the result"),
     ("m[ai][nx]u: <= for <", "either of two equal words is the result"),
+    ("ftri: r0 keeps what is written to it", "no distance is less than 0, which it reads as"),
     ("feq: two negative numbers are compared by magnitude", "they are equal if their magnitudes are"),
     ("fcvt.wu.s: downwards", "the same for what is not negative, and the rest gives 0"),
     ("trap: rays *", "the host counts, and no signature shows it"),

@@ -80,6 +80,7 @@ static trax_machine *load(const struct test *test, trax_error *error) {
   trax_machine *machine = NULL;
   if (trax_config_set(config, "chip.tms", tms, error) == TRAX_OK &&
       trax_config_set(config, "chip.tps_per_tm", tps, error) == TRAX_OK &&
+      trax_config_set(config, "ray.units_per_group", "1", error) == TRAX_OK &&
       trax_config_set(config, "memory.size_mib", memory_mib, error) == TRAX_OK)
     machine = trax_machine_create(config, error);
   trax_config_destroy(config);

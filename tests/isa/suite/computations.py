@@ -56,6 +56,8 @@ def values(program, inst, row):
             program.emit("addi r20, r20, 8", f"bne r20, r21, {top}")
             program.reserve(len(row.pairs))
             program.case("values", len(row.pairs))
+        if row.groups:
+            groups(program, inst, row)
     else:
         immediates = immediates_of(inst)
         top = loop_over("corners", row.corners)
@@ -70,6 +72,20 @@ def values(program, inst, row):
             program.case("immediate", count)
         program.case("values", count)
     program.rebase()
+
+
+def groups(program, inst, row):
+    """A list of what is in rd and in the groups of ra and rb."""
+    words = len(row.groups[0])
+    program.table("groups", [word for group in row.groups for word in group])
+    program.address("r28", "groups")
+    program.address("r29", f"groups+{4 * words * len(row.groups)}")
+    top = program.label()
+    program.place(top)
+    program.emit(*(f"lw r{6 + word}, {4 * word}(r28)" for word in range(words)), inst.text("r6", "r7", f"r{7 + inst.group_a}"))
+    program.emit("sw r6, 0(r31)", "addi r31, r31, 4", f"addi r28, r28, {4 * words}", f"bne r28, r29, {top}")
+    program.reserve(len(row.groups))
+    program.case("values", len(row.groups))
 
 
 def aliases(program, inst, row):

@@ -19,6 +19,8 @@ class Instruction:
     match: int  # and their values
     flags: frozenset
     bytes: int  # of an access to memory; 0: none
+    group_a: int = 1  # registers that it reads from ra on
+    group_b: int = 1  # and from rb on
 
     @property
     def opcode(self):
@@ -37,7 +39,7 @@ class Instruction:
 
     @property
     def is_float(self):
-        return self.unit in ("FP_ADD", "FP_MUL", "SPECIAL")
+        return self.unit in ("FP_ADD", "FP_MUL", "SPECIAL", "RAY_BOX", "RAY_TRIANGLE")
 
     def text(self, d="r0", a="r0", b="r0", i=0, p="0"):
         """A line of assembly."""
@@ -57,8 +59,9 @@ def read_instructions(path):
             if not fields:
                 raise DescriptionError(f"{path}:{number}: not a line of an instruction: {line.strip()}")
             name, mnemonic, syntax, form, unit, mask, match, flags, size = fields.groups()
+            groups = {letter: int(count) for letter, count in re.findall(r"TRAX_GROUP_([AB])\((\d+)\)", flags)}
             instructions.append(Instruction(name, mnemonic, syntax, form, unit, int(mask, 16), int(match, 16),
-                                            frozenset(re.findall(r"TRAX_(\w+)", flags)), int(size)))
+                                            frozenset(re.findall(r"TRAX_(\w+)", flags)), int(size), groups.get("A", 1), groups.get("B", 1)))
     if not instructions:
         raise DescriptionError(f"{path}: no instructions")
     return instructions

@@ -17,6 +17,7 @@ class Row:
 
     corners: list = field(default_factory=list)
     pairs: list = field(default_factory=list)
+    groups: list = field(default_factory=list)  # of rd's old value and the registers of both groups
     taken: tuple = None  # operands with which a branch is taken
     not_taken: tuple = None
 
@@ -33,6 +34,7 @@ ROWS = {
     "MIN": _integer, "MAX": _integer, "MINU": _integer, "MAXU": _integer, "MUL": _integer, "MULH": _integer, "MULHU": _integer,
     "FADD": _sum, "FSUB": _sum, "FMUL": Row(operands.FLOATS, operands.products()), "FDIV": Row(operands.FLOATS, operands.quotients()),
     "FMIN": _comparison, "FMAX": _comparison, "FEQ": _comparison, "FLT": _comparison, "FLE": _comparison,
+    "FBOX": Row(operands.FLOATS[::5], groups=operands.boxes()), "FTRI": Row(operands.FLOATS[::5], groups=operands.triangles()),
     "FRSQRT": Row(operands.reciprocal_root_operands()),
     "FCVT_W_S": Row(operands.floats_to_convert()), "FCVT_WU_S": Row(operands.floats_to_convert()),
     "FCVT_S_W": Row(operands.integers_to_convert()), "FCVT_S_WU": Row(operands.integers_to_convert()),

@@ -224,3 +224,61 @@ def integers_to_convert():
         elif bits == 25:
             operands += [(1 << 24) + 1, (1 << 24) + 3, (1 << 25) - 1, (1 << 25) - 3]
     return operands + [-operand & 0xFFFFFFFF for operand in operands]
+
+
+def _small(source, most):
+    """An integer, as a float."""
+    return pack(source.getrandbits(1), 0, source.randrange(most + 1))
+
+
+def _with_corners(source, words):
+    """One of the words is any float."""
+    words[source.randrange(len(words))] = source.choice(FLOATS)
+    return words
+
+
+def _any_float(source):
+    return source.getrandbits(1) << 31 | source.randrange(120, 134) << 23 | source.getrandbits(23)
+
+
+@lru_cache(None)
+def boxes():
+    """[limit, three factors, three offsets, six planes]: hits and misses along each axis, touched edges, flat boxes, any floats."""
+    source = random.Random("boxes")
+    cases = []
+    for number in range(900):
+        if number % 3 == 2:
+            planes = [_any_float(source) for _ in range(6)]
+            ray = [_any_float(source) for _ in range(6)]
+        else:  # a box of small integers around where the ray is, so that much is equal
+            planes = [_small(source, 4) for _ in range(6)]
+            if number % 5 == 0:
+                axis = source.randrange(3)
+                planes[axis + 3] = planes[axis]
+            ray = [pack(source.getrandbits(1), source.choice((-1, 0, 0, 1)), source.choice((1, 1, 3))) for _ in range(3)]
+            ray += [_small(source, 3) for _ in range(3)]
+        limit = source.choice((0x7F800000, pack(0, 0, 100), pack(0, 0, source.randrange(6)), _any_float(source) & 0x7FFFFFFF))
+        words = [limit, *ray, *planes]
+        cases.append(_with_corners(source, words) if number % 9 == 0 else words)
+    return cases
+
+
+@lru_cache(None)
+def triangles():
+    """[limit, origin, direction, three vertices]: both sides, edges and vertices that are met exactly, behind, beyond the limit, any floats."""
+    source = random.Random("triangles")
+    cases = []
+    for number in range(1500):
+        if number % 3 == 2:
+            origin = [_any_float(source) for _ in range(3)]
+            direction = [_any_float(source) for _ in range(3)]
+            vertices = [_any_float(source) for _ in range(9)]
+        else:  # small integers: determinants are exact, and often 0 or equal
+            most = 2 if number % 2 else 5
+            origin = [_small(source, most) for _ in range(3)]
+            direction = [_small(source, 2) for _ in range(3)]
+            vertices = [_small(source, most) for _ in range(9)]
+        limit = source.choice((0x7F800000, pack(0, 0, 100), pack(0, 0, source.randrange(4)), _any_float(source) & 0x7FFFFFFF))
+        words = [limit, *origin, *direction, *vertices]
+        cases.append(_with_corners(source, words) if number % 9 == 0 else words)
+    return cases

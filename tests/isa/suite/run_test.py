@@ -71,7 +71,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for name, body in BROKEN.items():
         with open(name, "w") as file:
-            file.write(f'#!/bin/sh\nsignature=$1\nsim() {{ {SIM} --set chip.tms=$tms --set chip.tps_per_tm=$tps --set memory.size_mib=16 '
+            file.write(f'#!/bin/sh\nsignature=$1\nsim() {{ {SIM} --set ray.units_per_group=1 --set chip.tms=$tms --set chip.tps_per_tm=$tps --set memory.size_mib=16 '
                        f'--signature $signature $image; }}\nimage=$2 tms=$3 tps=$4\n{body}\n')
         os.chmod(name, 0o755)
     broken("right", 0, r"^sub +\d+ images +[\d,]+ cases  ok\n.*\d+ of \d+ images pass", "^sub")
