@@ -3,8 +3,8 @@
 
     raytracer/examples/ladder.py MESH... [--view VIEW] [--size 320x180] [--config 4x32] [--set KEY=VALUE] [--figure FILE.svg] [--bin build/bin]
 
-The steps are the C files in this folder, in the order of their numbers. The last two rows are the device program, which trax-render compiles for one picture: with
-the same tree, and with the tree that trax-scene makes unless told otherwise. Exit status 1 if the first step's picture is not Embree's in 99 % of the pixels, if
+The steps are the C files in this folder, in the order of their numbers. Behind them stands the device program, which trax-render compiles for one picture: with
+the same tree, and with the tree that trax-scene makes unless told otherwise. The last rows are steps for another machine, whose comments name its key. Exit status 1 if the first step's picture is not Embree's in 99 % of the pixels, if
 a step's is not that of the step before in every bit, or if a step takes more cycles than the step before."""
 
 import argparse
@@ -27,6 +27,7 @@ PARTS = [
     ("#edc948", "instruction fetch", ["icache_bank_conflict", "icache_miss"]),
     ("#bab0ac", "everything else", None),
 ]
+MACHINE = re.compile(r"needs (\w+\.\w+=\w+)")  # what a step's comment says of the machine
 LEFT, BAR, GAP, WIDTH = 150, 22, 10, 560  # of the figure, in pixels
 
 
@@ -110,17 +111,21 @@ def main():
     parser.add_argument("--figure", type=pathlib.Path, help="cycles by cause, as SVG")
     parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[1] / "build/bin")
     options = parser.parse_args()
-    wrong, all_found, before, picture_before = [], [], None, None
+    wrong, all_found, before, picture_before, last_step = [], [], None, None, None
     with tempfile.TemporaryDirectory() as name:
         ladder = Ladder(options, pathlib.Path(name))
         binary, quantised = (ladder.scene(nodes, "--nodes", nodes, *TREE) for nodes in ("binary", "quantised"))
         steps = sorted(HERE.glob("[0-9]*.c"), key=lambda path: int(path.name.split("-")[0]))
-        rows = [(source.stem, "plain_scene.h" in source.read_text(), source) for source in steps]
-        rows += [("device, the same tree", False, None), ("device, its own tree", False, None)]
+        rows = [(source.stem, "plain_scene.h" in (text := source.read_text()), source, MACHINE.findall(text)) for source in steps]
+        rows += [("device, the same tree", False, None, []), ("device, its own tree", False, None, [])]
+        rows.sort(key=lambda row: len(row[3]))
         print("| step | cycles | change | instructions/ray | bytes from and to memory | bytes/ray | MRPS | pixels that differ |\n| --- |" + " --- |" * 7, flush=True)
-        for step, plain, source in rows:
+        for step, plain, source, machine in rows:
+            if machine:
+                before, picture_before = last_step
             if source:
-                picture, found = ladder.render(step, binary if plain else quantised, "--program", ladder.compile(source))
+                settings = [part for setting in machine for part in ("--set", setting)]
+                picture, found = ladder.render(step, binary if plain else quantised, *settings, "--program", ladder.compile(source))
             else:
                 scene = quantised if "same" in step else ladder.scene("own", "--nodes", "auto")
                 picture, found = ladder.render(step, scene, "--cache", ladder.folder / "cache")
@@ -139,6 +144,8 @@ def main():
             print(f"| {step} | {found['cycles']:,} | {change} | {found['instructions'] / found['rays']:,.0f} | {found['memory']['bytes']:,} | "
                   f"{found['memory']['bytes'] / found['rays']:.0f} | {found['mrps']:.2f} | {differ} |", flush=True)
             before, picture_before = found, picture
+            if source:
+                last_step = found, picture
             all_found.append((step, found))
     if options.figure:
         options.figure.write_text(figure(options.config, options.size, all_found))
