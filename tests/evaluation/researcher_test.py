@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+from inside import Inside
+
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = HERE.parents[1]
 failures = 0
@@ -96,9 +98,9 @@ def test_report(program, data, scratch):
     check("forest 1x32 rings 8x8" in run.stdout, f"--program NAME.json: {run.stdout}{run.stderr}")
 
 
-def change(mine, name, members):
+def change(mine, name, members, bad):
     value = json.loads((mine / name).read_text()) | members
-    (mine / "bad.json").write_text(json.dumps({key: member for key, member in value.items() if member is not None}))
+    (mine / bad).write_text(json.dumps({key: member for key, member in value.items() if member is not None}))
 
 
 # (file, members that are changed, what the message says)
@@ -123,7 +125,7 @@ REFUSED = [
     ("rings.json", {"counters": ["a b"]}, "counters: expected at most"),
     ("rings.json", {"rays": "yes"}, "rays: expected true or false"),
     ("rings.json", {"like": "none"}, 'like: "none" is no other program'),
-    ("rings.json", {"like": "bad.json"}, 'like: "bad.json" is no other program'),
+    ("rings.json", {"like": "bad-21.json"}, 'like: "bad-21.json" is no other program'),
     ("rings.json", {"convert": ["./none"]}, "convert: ./none: No such file"),
     ("rings.json", {"convert": ["python3", "-c", "raise SystemExit('not today')"]}, "convert: not today"),
     ("rings.json", {"convert": ["rm", "manifest.json"]}, "convert: the manifest or a file of it cannot be read"),
@@ -139,18 +141,19 @@ REFUSED = [
 ]
 
 
-def test_refusals(program, scratch):
+def test_refusals(inside, scratch):
     """What is wrong with a file beside a sweep: its name and key, and what is allowed."""
     mine = scratch / "refused"
     shutil.copytree(HERE / "researcher", mine)
-    for name, members, message in REFUSED:
-        change(mine, name, members)
+    for number, (name, members, message) in enumerate(REFUSED, 1):
+        bad = f"bad-{number}.json"
+        change(mine, name, members, bad)
         sweep = json.loads((mine / "mine.json").read_text()) | {"name": "x", "chips": "small.cfg", "set": {}}
-        sweep = json.loads(json.dumps(sweep).replace(f'"{name}"', '"bad.json"'))
+        sweep = json.loads(json.dumps(sweep).replace(f'"{name}"', f'"{bad}"'))
         (mine / "sweep.json").write_text(json.dumps(sweep))
-        run = command(program, mine, "sweep.json", "-q", "-o", scratch / "refused-out")
-        check(run.returncode == 1 and message in run.stderr and "Traceback" not in run.stderr, f"{name} {members}: exit status {run.returncode}: {run.stderr.strip()!r} has not {message!r}")
-        check("bad.json" in run.stderr or "none.obj" in message or "rays" in message, f"{name} {members}: the message names no file: {run.stderr.strip()!r}")
+        run = inside("sweep.json", "-q", "-o", scratch / "refused-out", cwd=mine)
+        check(run.returncode == 1 and message in run.stderr, f"{name} {members}: exit status {run.returncode}: {run.stderr.strip()!r} has not {message!r}")
+        check(bad in run.stderr or "none.obj" in message or "rays" in message, f"{name} {members}: the message names no file: {run.stderr.strip()!r}")
 
 
 def test_new_sweep(program, scratch):
@@ -188,7 +191,7 @@ def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch, program = pathlib.Path(temporary).resolve(), str(folder / "trax-eval")
         test_report(program, folder.parent / "lib/trax/evaluation", scratch)
-        test_refusals(program, scratch)
+        test_refusals(Inside(folder), scratch)
         test_new_sweep(program, scratch)
     return 1 if failures else 0
 

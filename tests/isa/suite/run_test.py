@@ -36,7 +36,7 @@ TEMPLATE = "{emulator} {signature} {image} {tms} {tps}"
 
 
 def run(*words):
-    done = subprocess.run([RUN, *words], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, RUN, *words], capture_output=True, text=True, timeout=60)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -112,9 +112,10 @@ with tempfile.TemporaryDirectory() as folder:
     closed = subprocess.run(f"{RUN} --suite {SUITE} --coverage | head -1", shell=True, capture_output=True, text=True)
     if closed.stderr or not closed.stdout.startswith("#"):
         fail("nobody reads", closed.stderr)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        time.sleep(2)  # an interpreter that starts is not ours
+    running = {number: subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+               for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    time.sleep(2)  # an interpreter that starts is not ours
+    for number, interrupted in running.items():
         interrupted.send_signal(number)
         _, err = interrupted.communicate(timeout=10)
         if interrupted.returncode != -number or err:
