@@ -40,6 +40,10 @@ def run(*words):
     return done.returncode, done.stdout, done.stderr
 
 
+def children(pid):
+    return subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True).stdout.split()
+
+
 def fail(message, *shown):
     global failures
     failures += 1
@@ -114,8 +118,10 @@ with tempfile.TemporaryDirectory() as folder:
         fail("nobody reads", closed.stderr)
     running = {number: subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
                for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
-    time.sleep(2)  # an interpreter that starts is not ours
     for number, interrupted in running.items():
+        until = time.monotonic() + 60
+        while not children(interrupted.pid) and time.monotonic() < until:  # an interpreter that starts is not ours
+            time.sleep(0.02)
         interrupted.send_signal(number)
         _, err = interrupted.communicate(timeout=10)
         if interrupted.returncode != -number or err:
