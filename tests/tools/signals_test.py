@@ -25,12 +25,12 @@ def check(condition, text):
         print(f"FAILED: {text}", flush=True)
 
 
-def waits(program, scratch):
-    """Command lines that wait for a pipe whose writer does not come."""
-    mesh, pipe = scratch / "triangle.obj", scratch / "pipe"
+def waits(program, scratch, pipe):
+    """Command lines that wait for what a pipe's writer does not write."""
+    mesh = scratch / "triangle.obj"
     return {"trax-render": ([mesh, "--view", pipe, "-o", "p.png"], [mesh, "--config", pipe, "-o", "p.png"], [pipe, "-o", "p.png"]),
             "trax-scene": ([pipe, "-o", "s.trax"], ["--check", pipe]), "trax-sim": ([pipe], ["--config", pipe, "none"], ["--gdb-symbols", "s.elf", pipe]),
-            "trax-compare": ([pipe, pipe],), "trax-eval": ([scratch / "pipe.json"], ["report", pipe])}[program]
+            "trax-compare": ([pipe, pipe],), "trax-eval": ([pipe], ["report", pipe])}[program]
 
 
 def children(pid):
@@ -45,14 +45,24 @@ def living(pid):
         return False
 
 
-def interrupted(command, scratch, folder, number, ready):
-    """Ends by the signal, soon, with its children, and leaves nothing."""
+def reads(pipe, writers):
+    """Whether somebody reads the pipe; from then on it has a writer."""
+    try:
+        writers.append(os.open(pipe, os.O_WRONLY | os.O_NONBLOCK))
+    except OSError:  # nobody yet
+        pass
+    return bool(writers)
+
+
+def interrupted(command, scratch, folder, number, pipe):
+    """Ends by the signal, soon, with its children, and leaves nothing. It is sent when the command reads the pipe, or without one has a child."""
     folder.mkdir()
+    writers = []
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=os.environ | {"TMPDIR": str(folder)})
     deadline = time.monotonic() + 60
-    while not ready(process) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    time.sleep(2 if "trax-eval" in command[0] else 0.3)  # an interpreter that starts is not ours
+    while not (reads(pipe, writers) if pipe else children(process.pid)) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    time.sleep(0.1)
     started = children(process.pid)
     process.send_signal(number)
     try:
@@ -60,6 +70,8 @@ def interrupted(command, scratch, folder, number, ready):
     except subprocess.TimeoutExpired:
         process.kill()
         errors = "it goes on"
+    for writer in writers:
+        os.close(writer)
     what = " ".join(str(word) for word in command).replace(str(scratch), "")
     check(process.returncode == -number, f"{what}: {process.returncode} instead of {-number}: {errors[-300:]}")
     check("error" not in errors and "Traceback" not in errors, f"{what}: {errors[-300:]}")
@@ -71,21 +83,22 @@ def interrupted(command, scratch, folder, number, ready):
 
 
 def test_signals(programs, scratch):
-    os.mkfifo(scratch / "pipe")
-    os.mkfifo(scratch / "pipe.json")
     source = scratch / "large.c"
     source.write_text("".join(f"int f{i}(int a,int b){{int s=0;for(int i=0;i<a;i++){{s+=i*b^{i};if(s&1)s*=3;}}return s;}}\n" for i in range(2000)) + "int main(void){return 0;}\n")
     place = 0
     with ThreadPoolExecutor(4) as pool:  # which mostly wait
         ends = []
         for number in SIGNALS:
-            commands = [[str(programs / program), *map(str, words)] for program in ("trax-render", "trax-scene", "trax-sim", "trax-compare", "trax-eval")
-                        for words in waits(program, scratch)]
-            commands.append([str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"])
-            for command in commands:
-                place += 1
-                ready = (lambda process: children(process.pid)) if command == commands[-1] else (lambda process: True)
-                ends.append(pool.submit(interrupted, command, scratch, scratch / f"at-{place}", number, ready))
+            for program in ("trax-render", "trax-scene", "trax-sim", "trax-compare", "trax-eval"):
+                for which in range(len(waits(program, scratch, ""))):
+                    place += 1
+                    pipe = scratch / f"pipe-{place}.json"
+                    os.mkfifo(pipe)
+                    words = waits(program, scratch, pipe)[which]
+                    ends.append(pool.submit(interrupted, [str(programs / program), *map(str, words)], scratch, scratch / f"at-{place}", number, pipe))
+            place += 1
+            command = [str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"]
+            ends.append(pool.submit(interrupted, command, scratch, scratch / f"at-{place}", number, None))
         for end in ends:
             end.result()
 
