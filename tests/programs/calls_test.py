@@ -211,7 +211,7 @@ def picture(place):
     source = SOURCE / "pathtracer.c"
     subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", source, "-o", place.root / "trax"], check=True)
     subprocess.run(["cc", "-O1", "-ffp-contract=off", source, "-o", place.root / "native", "-lm"], check=True)
-    for engine, samples, width in (("functional", "8", "12"), ("fast", "4", "4")):
+    for engine, samples, width in (("functional", "4", "8"), ("fast", "2", "4")):
         subprocess.run([place.root / "native", samples, width, "data/host.ppm"], cwd=place.root, capture_output=True, check=True)
         done = subprocess.run([SIM, "--quiet", "--engine", engine, "--dir", "data", "trax", samples, width, "data/trax.ppm"], cwd=place.root,
                               capture_output=True, check=False, timeout=300)
