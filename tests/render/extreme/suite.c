@@ -109,7 +109,7 @@ static void turn_children(const struct trax_scene *scene) {
 
 /* The same meshes with other layouts of nodes, with triangles split, and with trees improved, scaled
    alike. A tree that was made
-   by hand has no other. Of a large scene the short form makes only the last, which has all three. */
+   by hand has no other, nor has a large one in the short form. */
 static void make_variants(struct prepared *prepared, const struct trax_view *view, const char *name) {
   trax_error error;
   for (unsigned i = 1; i < 2 * TRAX_NODE_LAYOUTS; i++) {
@@ -117,7 +117,7 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
     struct trax_view unscaled = *view;
     if (prepared->setup.mesh.triangle_count == 0 || prepared->setup.turned)
       continue;
-    if (prepared->setup.mesh.triangle_count >= LARGE_SCENE && prepared->short_form && i + 1 < 2 * TRAX_NODE_LAYOUTS)
+    if (prepared->setup.mesh.triangle_count >= LARGE_SCENE && prepared->short_form)
       continue;
     build.nodes = i / 2;
     build.splits = i % 2 ? 3 : 0;
@@ -284,7 +284,8 @@ static uint32_t emulated_rays(const struct prepared *prepared) {
   if (!prepared->exact_hits)
     return EMULATED_RAYS;
   const uint32_t rays = EMULATED_EXACT_PAIRS / (prepared->scene.triangle_count + 1);
-  return rays < 4 ? 4 : rays < 32 ? rays : 32;
+  const uint32_t least = prepared->short_form ? 2 : 4;
+  return rays < least ? least : rays < 32 ? rays : 32;
 }
 
 /* The first rays again, on the emulated machine: the same bits. Without `cycles`, in its functional engine. */
