@@ -1,5 +1,5 @@
-/* What a program asks of the machine. On the TP each function is one or two instructions; compiled for the host (the
-   native twin, see docs/runtime.md) the same calls work on a per-thread context, so device sources run on both
+/* The machine's services for programs. On the TP each function is one or two instructions. Compiled for the host (the
+   native twin, see docs/runtime.md), the same calls work on a per-thread context, so device sources run on both
    unchanged. */
 #ifndef TRAX_H
 #define TRAX_H
@@ -13,7 +13,7 @@ struct trax_buffer {
   unsigned size; /* bytes */
 };
 
-/* Kinds of rays, TRAX_RAY_PRIMARY, _SHADOW, _OCCLUSION, _DIFFUSE, _GLOSSY, _MIRROR, _GLASS and _OTHER: TRAX_RAY_KINDS
+/* Kinds of rays: TRAX_RAY_PRIMARY, _SHADOW, _OCCLUSION, _DIFFUSE, _GLOSSY, _MIRROR, _GLASS and _OTHER. TRAX_RAY_KINDS
    has the list (docs/isa.md, "Traps"). */
 enum trax_ray_kind {
 #define TRAX_RAY_KIND(X, ID, name, number, meaning) TRAX_RAY_##ID = number,
@@ -21,7 +21,7 @@ enum trax_ray_kind {
 #undef TRAX_RAY_KIND
 };
 
-/* n rays of a kind, 15 at most, for trax_count_kinds. Terms of different kinds may be added. */
+/* n rays of a kind, at most 15, for trax_count_kinds. Terms of different kinds may be added. */
 #define TRAX_RAYS(kind, n) ((unsigned)(n) << TRAX_KIND_BITS * (kind))
 
 #ifdef __trax__
@@ -46,11 +46,11 @@ TRAX_INLINE unsigned trax_cycles(void) {
   return __builtin_trax_rdsr(TRAX_SR_CYCLE);
 } /* cycle counter modulo 2^32 */
 
-/* With trax-sim --main-on 0, on thread 0 alone: starts the function on all other threads, which have waited and end with
-   it. Returns their number; 0 if all threads call main, and the second time. */
+/* Starts the function on all other threads, which wait until then and end with the function. For thread 0, with
+   trax-sim --main-on 0. Returns the number of these threads; 0 if all threads call main, and for a second call. */
 unsigned trax_start_threads(void (*function)(void));
 
-/* The whole cycle counter. The halves are read at different cycles: a carry in between shows in the upper one. */
+/* The whole cycle counter. The halves are read in different cycles; a carry in between changes the upper half. */
 TRAX_INLINE unsigned long long trax_cycles64(void) {
   unsigned high, low;
   do {
@@ -65,15 +65,15 @@ TRAX_INLINE float trax_rsqrt(float x) {
   return __builtin_trax_rsqrt(x);
 }
 
-/* Adds 1 to a word of global memory and returns what it was; the only atomic read-modify-write of the machine. It orders
-   nothing: a later access may come before it, unless what was returned has been used by then, and what was stored before
-   may be seen later. Whoever counts arrivals puts __atomic_thread_fence before and behind it, or takes an atomic. */
+/* Adds 1 to a word of global memory and returns the previous value: the machine's only atomic read-modify-write. It
+   orders nothing: a later access may come before it, unless the returned value has been used, and earlier stores may
+   become visible later. To count arrivals, put __atomic_thread_fence before and after it, or use a C11 atomic. */
 TRAX_INLINE unsigned trax_atomic_inc(unsigned *p) {
   return __builtin_trax_ainc(p);
 }
 
-/* Word accesses that go around the data cache and order nothing. The compiler may move and merge them like any others: a
-   loop that waits for another thread takes __atomic_load_n, which is made each time. */
+/* Word accesses that bypass the data cache and order nothing. The compiler may move and merge them like any others. A
+   loop that waits for another thread uses __atomic_load_n, which is executed each time. */
 TRAX_INLINE void trax_store_nt(unsigned *p, unsigned value) {
   __builtin_nontemporal_store(value, p);
 }
@@ -87,7 +87,7 @@ __attribute__((noreturn)) TRAX_INLINE void trax_halt(void) {
 }
 
 /* Adds to the run's counters of rays, of rays by kind, and of finished items (pixels). A thread that counts rays of one
-   kind works for that kind from there on, until its next count of rays or items (trax-sim --ray-kinds). */
+   kind then works for that kind, until its next count of rays or items (trax-sim --ray-kinds). */
 TRAX_INLINE void trax_count_rays(unsigned n) { /* of kind TRAX_RAY_OTHER */
   __builtin_trax_trap(n, TRAX_TRAP_RAYS);
 }
@@ -114,7 +114,7 @@ __attribute__((noreturn)) TRAX_INLINE void trax_abort(const char *message) {
 
 #define TRAX_INLINE static inline __attribute__((unused))
 
-/* What the special registers and counters are for one host thread; whoever starts the threads fills it in. */
+/* The special registers and counters of one host thread. The code that starts the threads fills it in. */
 struct trax_native {
   unsigned thread, tm, tp, threads;
   unsigned long long rays, items;
@@ -143,7 +143,7 @@ TRAX_INLINE unsigned trax_threads(void) {
   return trax_native.threads;
 }
 
-/* Nanoseconds stand in for cycles. */
+/* Nanoseconds replace cycles. */
 TRAX_INLINE unsigned long long trax_cycles64(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
