@@ -23,10 +23,10 @@ struct trax_traced_ray {
 };
 
 struct trax_access_log {
-  trax_access *end, *limit; /* where the next one goes, and how far there is room */
-  /* There is none: makes some, or discards what is there. */
+  trax_access *end, *limit; /* the place of the next one, and the end of the room */
+  /* The log is full: makes room, or discards the entries. */
   void (*full)(struct trax_access_log *log);
-  /* The slot is done, with this many rays; its accesses are in the log since the call before. */
+  /* The slot is done, with this many rays; its accesses are those since the previous call. */
   void (*slot)(struct trax_access_log *log, uint32_t slot, uint32_t rays);
   /* The ray was traced; its accesses are those in the log since the call before, and those that were discarded. NULL:
      nobody wants to know. */

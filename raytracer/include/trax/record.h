@@ -1,21 +1,21 @@
-/* What the device program can tell about how its picture came about, for trax-render --error. Only a program
-   compiled with TRAX_RECORD (render/specialise.c) does, into its buffer `record`: a struct trax_pixel_record for each
-   pixel of the picture, in its order, and behind them all a struct trax_sample_record for each sample of each pixel. */
+/* The device program's records of its picture, for trax-render --error. Only a program compiled with TRAX_RECORD
+   (render/specialise.c) writes them, to its buffer `record`: a struct trax_pixel_record for each pixel of the picture,
+   in its order, then a struct trax_sample_record for each sample of each pixel. */
 #ifndef TRAX_RECORD_H
 #define TRAX_RECORD_H
 
 #include <stdint.h>
 
 struct trax_pixel_record {
-  float channel[3]; /* R, G, B as in the picture, 0 to 255, before they are rounded to whole numbers */
+  float channel[3]; /* R, G, B as in the picture, 0 to 255, before rounding to whole numbers */
 };
 
 struct trax_sample_record {
-  uint32_t triangle; /* what the ray from the eye hit: bytes from the start of the scene; 0: nothing */
+  uint32_t triangle; /* the triangle that the ray from the eye hit: bytes from the start of the scene; 0: none */
   uint32_t shadow;   /* enum trax_shadow */
 };
 
-/* What the ray towards the light found. */
+/* The result of the ray towards the light. */
 enum trax_shadow { TRAX_SHADOW_NOT_ASKED, TRAX_SHADOW_LIT, TRAX_SHADOW_BLOCKED };
 
 _Static_assert(sizeof(struct trax_pixel_record) == 12 && sizeof(struct trax_sample_record) == 8, "no padding");

@@ -1,4 +1,4 @@
-/* What the host tells the ray tracer on the TPs besides the scene: the bytes of the program's buffer `params`. Little
+/* The parameters that the host gives to the ray tracer on the TPs: the bytes of the program's buffer `params`. Little
    endian, 32-bit fields. raytracer/render/frame.c fills it; raytracer/device reads it.
 
    Buffers of the program (docs/abi.md, "Buffers"):
@@ -16,7 +16,7 @@
 #define TRAX_RENDER_MAX_SIDE 16384u /* pixels */
 #define TRAX_RENDER_MAX_SAMPLES 4096u
 
-/* Bits of trax_render_params.features; features.def says what they are. */
+/* Bits of trax_render_params.features; features.def describes them. */
 enum trax_feature {
 #define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) TRAX_FEATURE_##NAME,
 #include "trax/features.def"
@@ -24,7 +24,7 @@ enum trax_feature {
   TRAX_FEATURE_COUNT
 };
 
-/* With none of these a picture is the paper's workload: Lambert's law and one point light. */
+/* A picture with none of these is the paper's workload: Lambert's law and one point light. */
 #define TRAX_FEATURE_BIT(NAME) (1u << TRAX_FEATURE_##NAME)
 #define TRAX_PATH_FEATURES                                                                                             \
   (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) |     \
@@ -38,14 +38,14 @@ struct trax_ray_grid {
 
 #define TRAX_TILE_LOG2_SIDE 5u
 
-/* Pixels are handed out in tiles, so that the threads that share a data cache look at neighbouring parts of the scene.
-   Slot s is pixel s % 2^(2 * tile_log2_side), along Hilbert's curve, of tile s / 2^(...), row by row. Slots past
-   the picture's right or lower edge are no pixels. A tile's row is its number divided by tiles_across, which takes no
-   division: the upper word of (2 * tile) * row_multiplier, shifted right by row_shift. */
+/* Pixels are handed out in tiles, so that the threads that share a data cache see neighbouring parts of the scene. Slot
+   s is pixel s % 2^(2 * tile_log2_side), along Hilbert's curve, of tile s / 2^(...), row by row. Slots past the
+   picture's right or lower edge are not pixels. A tile's row is its number divided by tiles_across. It is computed
+   without a division: the upper word of (2 * tile) * row_multiplier, shifted right by row_shift. */
 struct trax_render_params {
   uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
   uint32_t slot_count;
-  uint32_t tile_log2_side; /* TRAX_TILE_LOG2_SIDE at most */
+  uint32_t tile_log2_side; /* at most TRAX_TILE_LOG2_SIDE */
   uint32_t tiles_across;
   uint32_t row_multiplier, row_shift;
 
@@ -53,15 +53,15 @@ struct trax_render_params {
      corner + x * step_x + y * step_y: not of unit length, but 1 along the view's direction. */
   float eye[3], corner[3], step_x[3], step_y[3];
 
-  /* A surface with the unit normal n, turned towards the viewer, sends back light_strength * cosine (0 in shadow)
-     + ambient + n . fill of its colour. */
+  /* A surface with the unit normal n, turned towards the viewer, reflects light_strength * cosine (0 in shadow) +
+     ambient + n . fill of its colour. */
   float light[3];
   float light_strength;
   float ambient, fill[3];
 
-  float box_margin;    /* how far the traversal widens boxes, scene units; see frame.c */
+  float box_margin;    /* the traversal widens boxes by this, scene units; see frame.c */
   uint32_t background; /* a pixel as in `image` */
-  uint32_t features;   /* what the picture needs: 1 << enum trax_feature each */
+  uint32_t features;   /* those that the picture needs: 1 << enum trax_feature each */
 
   uint32_t samples;    /* rays from the eye through a pixel */
   float sample_weight; /* 1 / samples */
@@ -83,7 +83,7 @@ struct trax_palette_entry {
 #define TRAX_RENDER_MAX_DEPTH 64u /* surfaces on a path */
 #define TRAX_RENDER_MAX_OCCLUSION 64u
 #define TRAX_DIRECT_DEPTH 8u      /* mirrors and glass one behind the other, without TRAX_FEATURE_PATHS */
-#define TRAX_MAX_RADIANCE 0x1p40f /* of a light or a path; more is as much */
+#define TRAX_MAX_RADIANCE 0x1p40f /* of a light or a path; higher values are clamped */
 #define TRAX_LEAST_ROUGHNESS 0x1p-7f
 
 /* Light is radiance, linear RGB: 1 is white in the picture. Tables are found by their offset from this struct. */
@@ -103,12 +103,12 @@ struct trax_path_params {
   uint32_t reserved[2];    /* zero */
 };
 
-/* struct trax_material (scene_format.h), prepared: numbers within what the program computes with. */
+/* struct trax_material (scene_format.h), prepared: numbers within the range in which the program computes. */
 struct trax_device_material {
   float diffuse[3];
   uint32_t kind;
   float specular[3];
-  float roughness; /* TRAX_LEAST_ROUGHNESS at least */
+  float roughness; /* at least TRAX_LEAST_ROUGHNESS */
   float emission[3];
   float ior;
   float opacity, alpha_cutoff;
@@ -118,8 +118,8 @@ struct trax_device_material {
 
 enum trax_device_light_kind { TRAX_FROM_POINT, TRAX_FROM_DIRECTION, TRAX_FROM_FADING_POINT, TRAX_FROM_RECTANGLE };
 
-/* Of trax/view.h's light what a white surface that faces it sends back; of a fading point at distance 1; of a
-   rectangle, which is not seen itself, its radiance times its area / pi. */
+/* A light of trax/view.h, prepared. Its radiance is the light that a white surface facing it reflects; for a fading
+   point light, at distance 1; for a rectangle, which is itself invisible, its radiance times its area / pi. */
 struct trax_device_light {
   uint32_t kind;
   float place[3];   /* a point light's; towards a directional one, of unit length; a corner of a rectangle */
@@ -131,7 +131,7 @@ struct trax_device_light {
 /* One triangle whose material emits. */
 struct trax_emitter {
   uint32_t triangle;   /* bytes from the start of the scene */
-  uint32_t cumulative; /* probability of those before it, in units of 2^-32 */
+  uint32_t cumulative; /* the probability of the emitters before it, in units of 2^-32 */
 };
 
 #define TRAX_PATH_BYTES 320u

@@ -7,8 +7,8 @@
      trax_scene_build(&scene, &mesh, &build_options, &error);
      trax_scene_write(&scene, "bunny.trax", &error);
 
-   Functions return TRAX_OK, TRAX_ERROR with the reason in *error, or TRAX_INTERRUPTED. What they filled is released
-   with trax_mesh_release or trax_scene_release, which also accept a zeroed or already released object. */
+   Functions return TRAX_OK, TRAX_ERROR with the reason in *error, or TRAX_INTERRUPTED. Release the objects that they
+   filled with trax_mesh_release or trax_scene_release, which also accept a zeroed or already released object. */
 #ifndef TRAX_SCENE_H
 #define TRAX_SCENE_H
 
@@ -30,7 +30,7 @@ extern "C" {
 struct trax_mesh_triangle {
   uint32_t vertices[3];
   uint32_t material;
-  uint32_t source_id; /* its number among all imported triangles, those that were dropped included */
+  uint32_t source_id; /* its number among all imported triangles, including those that were dropped */
 };
 
 struct trax_mesh_material {
@@ -57,13 +57,13 @@ struct trax_mesh {
   struct trax_mesh_texture *textures;
   uint32_t *texels;
   struct trax_mesh_camera *cameras;
-  /* Of the triangles' corners, as the files have them: NULL if none has any, zeros for those without. */
+  /* For the triangles' corners, from the files: NULL if no file has any, zeros for corners without. */
   float (*normals)[3][3];
   float (*uvs)[3][2];
   uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
 };
 
-/* How far a long step has come. fraction is 0 to 1, or negative if it cannot be told. May be called from any thread. */
+/* Reports the progress of a long step. fraction is 0 to 1, or negative if unknown. May be called from any thread. */
 typedef void trax_scene_progress(void *context, const char *step, double fraction);
 
 enum trax_override_kind {
@@ -82,25 +82,24 @@ struct trax_material_override {
   float value;
 };
 
-/* The text behind --diffuse, [NAME=]R,G,B, or --material, [NAME=]KIND, as trax-scene --help says. text is cut where the
-   name ends, and override refers to it. */
+/* Parse the value of --diffuse, [NAME=]R,G,B, or --material, [NAME=]KIND (trax-scene --help). The function cuts text at
+   the end of the name, and override refers to text. */
 trax_status trax_override_diffuse(struct trax_material_override *override, char *text, trax_error *error);
 trax_status trax_override_material(struct trax_material_override *override, char *text, trax_error *error);
 
-/* Bytes that a packed file, or one without a size (a pipe), may have if nothing else is said: docs/scene-file.md,
-   "Limits". */
+/* The default limit of bytes of a packed file, or one without a size (a pipe): docs/scene-file.md, "Limits". */
 #define TRAX_DEFAULT_UNPACK_LIMIT ((size_t)1 << 30)
 
-/* "700M", "2G", "65536": bytes, K, M and G being powers of 1024; 1 to 4 GiB. False: it is no such size. */
+/* Parses "700M", "2G", "65536": bytes; K, M and G are powers of 1024; 1 to 4 GiB. False: text is no such size. */
 bool trax_parse_size(const char *text, size_t *bytes);
 
 struct trax_import_options {
   bool drop_nonfinite;     /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
   bool keep_degenerate;    /* keep triangles of exactly zero area, which no ray can hit */
-  bool no_textures;        /* images are not read; of materials remain their colours */
-  unsigned texture_size;   /* texels a side, at most; a power of two up to 4096, which is the default, 0 */
+  bool no_textures;        /* images are not read; materials keep only their colours */
+  unsigned texture_size;   /* limit of texels a side; a power of two up to 4096; 0: 4096 */
   size_t unpack_limit;     /* bytes; 0: TRAX_DEFAULT_UNPACK_LIMIT */
-  const trax_files *files; /* of the command, none of whose outputs may be what meshes refer to; may be NULL */
+  const trax_files *files; /* of the command; meshes must not refer to its outputs; may be NULL */
   bool in_process;         /* no child process around the importer: for debuggers and sanitizers */
   const struct trax_material_override *overrides; /* applied in order */
   size_t override_count;
@@ -114,32 +113,32 @@ struct trax_import_report {
   uint64_t degenerate;          /* dropped: zero area */
   uint64_t nonfinite;           /* dropped: a vertex is NaN or infinite */
   uint64_t other_primitives;    /* skipped: points and lines */
-  uint64_t turned_normals;      /* triangles whose normals all pointed away from them */
-  uint64_t mended_normals;      /* triangles of which a normal is zero, not finite, or points away: computed */
-  uint64_t mended_uvs;          /* triangles whose texture coordinates were not finite, or too large */
-  uint32_t missing_files;       /* files the meshes refer to that could not be read, as material libraries */
+  uint64_t turned_normals;      /* triangles with normals that all pointed away from them */
+  uint64_t mended_normals;      /* triangles with a computed normal: theirs was zero, not finite, or pointed away */
+  uint64_t mended_uvs;          /* triangles with texture coordinates that were not finite, or too large */
+  uint32_t missing_files;       /* files, such as material libraries, that meshes refer to and that cannot be read */
   char first_missing_file[256]; /* its name */
-  uint32_t bad_images;          /* textures that are there but no readable PNG or JPEG */
-  char first_bad_image[256];    /* its name and why */
-  unsigned unread;              /* TRAX_UNREAD_: what the meshes have and the ray tracer does not */
+  uint32_t bad_images;          /* textures that exist but are no readable PNG or JPEG */
+  char first_bad_image[256];    /* its name and the reason */
+  unsigned unread;              /* TRAX_UNREAD_: features of the meshes that the ray tracer does not have */
 };
 
 enum { TRAX_UNREAD_COLOURS = 1, TRAX_UNREAD_NORMAL_MAPS = 2, TRAX_UNREAD_UV_TRANSFORMS = 4 };
 
-/* Notes on what was left out, mended or missing (trax/message.h); none if all is well. */
+/* Prints notes on parts that were left out, mended or missing (trax/message.h), if there are any. */
 void trax_import_print_notes(const struct trax_import_report *report, const char *program);
 
-/* Of what has no material: light grey, Lambert's. */
+/* The material of triangles without one: light grey, Lambert's. */
 extern const struct trax_material trax_default_material;
 
-/* Is it made, and no file: "generate:forest"? */
+/* Whether the path names a generated mesh, "generate:forest", and no file. */
 bool trax_mesh_is_generated(const char *path);
 
-/* Reads and merges the files: anything assimp knows (PLY, OBJ with MTL, glTF and GLB among them), plain or compressed
-   as .xz or .gz; or "generate:forest", see docs/scene-file.md. Node transforms are applied and polygons cut into
-   triangles, in the order of the files. The importer runs in a child process, so that a file on which it crashes is an
-   error like any other. report may be NULL. Errors: what cannot be read or is no mesh, indices out of range, vertices
-   that are not finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
+/* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB and the other formats of assimp, plain or compressed as .xz
+   or .gz; or "generate:forest", see docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in
+   the order of the files. The importer runs in a child process, so that a file on which it crashes is an error like any
+   other. report may be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are
+   not finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
                              const struct trax_import_options *options, struct trax_import_report *report,
                              trax_error *error);
@@ -147,7 +146,7 @@ void trax_mesh_release(struct trax_mesh *mesh);
 
 /* --- scenes --- */
 
-/* Of quantised nodes: plane number q of an axis is at origin + q * cell. */
+/* The grid of quantised nodes: plane number q of an axis is at origin + q * cell. */
 struct trax_scene_grid {
   float origin[3], cell[3];
 };
@@ -157,7 +156,7 @@ struct trax_scene {
   size_t size; /* bytes */
   /* Views into it; pointers of empty sections are NULL. */
   const struct trax_scene_header *header;
-  const void *nodes; /* as header->node_layout says */
+  const void *nodes; /* in the layout header->node_layout */
   const struct trax_triangle *triangles;
   const struct trax_triangle_normals *normals;
   const struct trax_triangle_uvs *uvs;
@@ -173,14 +172,14 @@ struct trax_scene {
  * references.
  */
 struct trax_node_format {
-  const char *name;     /* as trax-scene --nodes has it */
+  const char *name;     /* of trax-scene --nodes */
   uint32_t bytes;       /* of a node */
   bool quantised;       /* boxes are in cells of the scene's grid */
   uint32_t plane_bytes; /* 4: binary32; 2: a number on the scene's grid */
 };
 extern const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS];
 
-/* Where in a node a child's box is, and its reference. */
+/* The offsets in a node of a child's box, and of its reference. */
 static inline uint32_t trax_node_box(const struct trax_node_format *format, uint32_t child) {
   return child * 6 * format->plane_bytes;
 }
@@ -190,7 +189,7 @@ static inline uint32_t trax_node_child(const struct trax_node_format *format, ui
 
 struct trax_scene_grid trax_scene_grid_of(const float bounds_min[3], const float bounds_max[3]);
 
-/* A node as any layout has it. Boxes are exact: grid planes too are sums that binary64 has. */
+/* A node in a common form for all layouts. Boxes are exact: grid planes are also sums that binary64 represents. */
 struct trax_node_children {
   trax_scene_ref child[2];
   double min[2][3], max[2][3];
@@ -199,7 +198,7 @@ void trax_node_read(struct trax_node_children *children, const struct trax_scene
 
 struct trax_build_options {
   enum trax_node_layout nodes;
-  bool choose_nodes;       /* quantised ones instead, if the scene's grid is fine enough for nearly all boxes */
+  bool choose_nodes;       /* quantised nodes instead, if the scene's grid is fine enough for nearly all boxes */
   unsigned max_leaf;       /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
   unsigned max_depth;      /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
   unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
@@ -215,7 +214,7 @@ struct trax_build_options {
   bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
   bool without_source_ids; /* leave that section out */
   bool smooth;             /* with normals for smooth shading, across edges of up to crease_degrees */
-  bool compute_normals;    /* even where the mesh has some of its own */
+  bool compute_normals;    /* even if the mesh has normals */
   float crease_degrees;    /* up to 180; 0: default */
   trax_scene_progress *progress; /* may be NULL */
   void *progress_context;
@@ -246,21 +245,21 @@ trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *
 trax_status trax_scene_write(const struct trax_scene *scene, const char *path, trax_error *error);
 
 /* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every box is exact
-   and every triangle within its leaf's, or those of several leaves together. A scene that was accepted cannot lead a
-   traversal astray. */
+   and every triangle within its leaf's, or those of several leaves together. An accepted scene cannot lead a traversal
+   astray. */
 trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
 /* unpack_limit: as of an import. */
 trax_status trax_scene_read_within(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
 
-/* The same checks on bytes in memory, which the caller keeps; name stands in the messages. On success *scene, if
-   not NULL, views the bytes, and need not be released. bytes must be 64-byte aligned. */
+/* The same checks on bytes in memory, which the caller keeps; messages contain name. On success *scene, if not NULL,
+   views the bytes, and need not be released. bytes must be 64-byte aligned. */
 trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t size, const char *name,
                              trax_error *error);
 void trax_scene_release(struct trax_scene *scene);
 
 struct trax_scene_stats {
   uint32_t leaves;
-  uint32_t leaf_sizes[TRAX_SCENE_MAX_LEAF + 1]; /* how many leaves hold so many triangles */
+  uint32_t leaf_sizes[TRAX_SCENE_MAX_LEAF + 1]; /* the number of leaves with i triangles */
   double mean_leaf_depth;                       /* inner nodes above a leaf */
   /* Expected work of a long random ray that hits the scene's box and nothing else, from surface areas. */
   double sah_nodes;     /* nodes visited */

@@ -5,9 +5,9 @@
      byte   0  struct trax_scene_header, 3 lines of 64 bytes
      byte 192  the sections, each 64-byte aligned, zero bytes between them
 
-   A 64-byte line is the machine's unit of traffic, so the format spends as few of them per ray as it can:
-   - a BVH node holds both children's boxes and is one line;
-   - a leaf's triangles are contiguous, 40 bytes each, their material with them, in the order in which a depth-first
+   A 64-byte line is the machine's unit of traffic, so the format minimises the lines per ray: - a BVH node holds both
+   children's boxes and is one line; - a leaf's triangles are contiguous, 40 bytes each, their material with them, in
+   the order in which a depth-first
      traversal meets the leaves, so that neighbouring leaves share lines.
    The section table is indexed by kind. A section that a program does not read may be absent: offset, count and
    size 0.
@@ -26,23 +26,23 @@
 #define TRAX_SCENE_MAGIC 0x53585254u /* the bytes "TRXS" */
 #define TRAX_SCENE_VERSION 2u
 #define TRAX_SCENE_ALIGNMENT 64u
-#define TRAX_SCENE_MAX_LEAF 7u       /* triangles in a leaf, at most */
-#define TRAX_SCENE_MAX_DEPTH 62u     /* inner nodes from the root to a leaf, at most */
+#define TRAX_SCENE_MAX_LEAF 7u       /* limit of the triangles in a leaf */
+#define TRAX_SCENE_MAX_DEPTH 62u     /* limit of the inner nodes from the root to a leaf */
 #define TRAX_SCENE_DEFAULT_DEPTH 32u /* the builder's: a stack for as many is in the device's memory as a whole */
 
 typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_COUNT(ref) ((ref) & 7u)   /* triangles of a leaf; 0: an inner node */
 #define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
 
-/* What the records of the section of nodes are. */
+/* The records of the section of nodes. */
 enum trax_node_layout {
   TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
   TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
   TRAX_NODE_LAYOUTS = 2     /* 2 to 5 were quantised8, wide, wide-quantised and wide-quantised8 */
 };
 
-/* The grid of quantised nodes: along each axis 2^16 planes at equal distances, of which the first is at bounds_min and
-   all triangles are below the last but one. trax_scene_grid_of (scene.h) computes it. */
+/* The grid of quantised nodes: along each axis 2^16 planes at equal distances. The first plane is at bounds_min, and
+   all triangles are below the last but one. trax_scene_grid_of (scene.h) computes the grid. */
 #define TRAX_GRID_LAST 65535u
 
 enum trax_scene_section_kind {
@@ -84,8 +84,8 @@ struct trax_scene_header {
   struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
 };
 
-/* box[c] bounds every triangle below child[c], exactly: the least and the greatest of its vertices' coordinates, never
-   rounded outwards. Allowing for the rounding of a ray's own arithmetic is the traversal's part. */
+/* box[c] bounds every triangle below child[c] exactly: the least and the greatest of its vertices' coordinates, never
+   rounded outwards. The traversal allows for the rounding of a ray's own arithmetic. */
 struct trax_bvh_node {
   struct {
     float min[3], max[3];
@@ -94,7 +94,7 @@ struct trax_bvh_node {
   uint32_t reserved[2];    /* zero */
 };
 
-/* The same boxes as numbers of planes, the least ones that contain them. Aligned to 32 bytes. */
+/* The same boxes as numbers of planes: the smallest boxes on the grid that contain them. Aligned to 32 bytes. */
 struct trax_quantised_node {
   struct {
     uint16_t min[3], max[3];
@@ -107,13 +107,13 @@ struct trax_triangle {
   uint32_t material;         /* index into the materials */
 };
 
-/* As long as a triangle, so that a triangle's normals are at the same distance from it for all. */
+/* As long as a triangle, so that the distance from a triangle to its normals is the same for all. */
 struct trax_triangle_normals {
   float corner[3][3]; /* of length 1, on the side of v0, v1, v2 counterclockwise */
   uint32_t reserved;  /* zero */
 };
 
-/* Texture coordinates, as long as a triangle for the same reason. u runs along a texture's rows, v across them. */
+/* Texture coordinates, also as long as a triangle. u runs along a texture's rows, v across them. */
 struct trax_triangle_uvs {
   float corner[3][2];   /* of magnitude TRAX_SCENE_MAX_UV at most */
   uint32_t reserved[4]; /* zero */
@@ -124,12 +124,12 @@ struct trax_triangle_uvs {
 enum trax_material_kind {
   TRAX_MATERIAL_LAMBERT = 0,
   TRAX_MATERIAL_MIRROR = 1, /* reflects `specular` */
-  TRAX_MATERIAL_GLASS = 2,  /* smooth, of index `ior`; lets `specular` of the light through */
+  TRAX_MATERIAL_GLASS = 2,  /* smooth, of index `ior`; transmits `specular` of the light */
   TRAX_MATERIAL_GGX = 3,    /* a rough layer that reflects `specular` at normal incidence, over Lambert's `diffuse` */
   TRAX_MATERIAL_KINDS = 4
 };
 
-/* Colours are linear RGB. What a kind does not read has the value that trax_default_material has. */
+/* Colours are linear RGB. Members that a kind does not read have the values of trax_default_material. */
 struct trax_material {
   float diffuse[3];   /* reflectance, 0 to 1; multiplied by the texture */
   uint32_t kind;      /* enum trax_material_kind */
@@ -138,7 +138,7 @@ struct trax_material {
   float emission[3];  /* radiance, 0 to TRAX_SCENE_MAX_EMISSION */
   float ior;          /* index of refraction against air, 1 to TRAX_SCENE_MAX_IOR */
   float opacity;      /* 0 to 1; multiplied by the texture's alpha */
-  float alpha_cutoff; /* of smaller opacity is a hole; 0: there are none */
+  float alpha_cutoff; /* smaller opacity is a hole; 0: no holes */
   uint32_t texture;   /* index into the textures + 1; 0: none */
   uint32_t reserved;  /* zero */
 };

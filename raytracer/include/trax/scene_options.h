@@ -12,7 +12,7 @@ trax_status trax_take_material(void *target, const trax_option *option, const ch
 trax_status trax_take_texture_size(void *target, const trax_option *option, const char *value, trax_error *error);
 /* A size_t. */
 trax_status trax_take_unpack_limit(void *target, const trax_option *option, const char *value, trax_error *error);
-/* A const char *, of which trax_node_layout_choose and trax_splits_choose make something: NULL if nothing was given. */
+/* A const char * for trax_node_layout_choose and trax_splits_choose; NULL without the option. */
 trax_status trax_take_nodes(void *target, const trax_option *option, const char *value, trax_error *error);
 trax_status trax_take_splits(void *target, const trax_option *option, const char *value, trax_error *error);
 /* A struct trax_build_options. */

@@ -1,4 +1,4 @@
-/* Where a scene is seen from, and its lights. Files are libconfig:
+/* The camera of a scene, and its lights. Files are libconfig:
 
      eye = [0.0, 1.0, 4.0];           position, scene units
      direction = [0.0, 0.0, -1.0];    or look_at = a point; any length
@@ -6,7 +6,7 @@
      fov = 45.0;                      vertical, degrees, between 0 and 180
      light = [2.0, 5.0, 3.0];         the point light's position
 
-   Instead of light, which is the paper's, there may be several of other kinds:
+   A view may have several lights of other kinds instead of the paper's `light`:
 
      lights = (
        { type = "point"; position = [2.0, 5.0, 3.0]; colour = [1.0, 0.9, 0.8]; strength = 0.5; falloff = 4.0; },
@@ -14,7 +14,7 @@
        { type = "rectangle"; corner = [-1.0, 3.0, -1.0]; edges = ( [2.0, 0.0, 0.0], [0.0, 0.0, 2.0] ); strength = 8.0; }
      );
 
-   colour is white, strength 1 and falloff 0 if they are left out. */
+   The defaults are white for colour, 1 for strength and 0 for falloff. */
 #ifndef TRAX_VIEW_H
 #define TRAX_VIEW_H
 
@@ -33,11 +33,12 @@ extern "C" {
 enum trax_light_kind {
   TRAX_LIGHT_POINT,
   TRAX_LIGHT_DIRECTIONAL, /* from infinitely far away */
-  TRAX_LIGHT_RECTANGLE    /* shines from one side of it */
+  TRAX_LIGHT_RECTANGLE    /* emits from one side */
 };
 
-/* What comes of it, in linear RGB, in units in which a white surface reflects 1 and is as bright as the picture can be:
-   - point and directional lights: a white Lambert surface that faces the light reflects colour * strength, at any
+/* A light. Its effect is in linear RGB, in units in which a white surface that reflects 1 is as bright as the picture
+   can be: - point and directional lights: a white Lambert surface that faces the light reflects colour * strength, at
+   any
      distance d if falloff is 0, else times (falloff / d)^2;
    - a rectangle has the radiance colour * strength. */
 struct trax_light {
@@ -48,7 +49,7 @@ struct trax_light {
   float edges[2][3]; /* of a rectangle, perpendicular to each other */
   float colour[3];   /* linear RGB, 0 to 1 */
   float strength;    /* 0 to TRAX_VIEW_MAX_STRENGTH */
-  float falloff;     /* of a point light: where strength is its own, scene units; 0: the same everywhere */
+  float falloff;     /* of a point light: the distance at which strength applies, scene units; 0: everywhere */
 };
 
 struct trax_view {
@@ -64,16 +65,16 @@ struct trax_view {
   struct trax_light lights[TRAX_VIEW_MAX_LIGHTS];
 };
 
-/* All five keys are needed, with `lights` or `light`, and no other is allowed. Messages read FILE:LINE: KEY: reason, or
-   lights[NUMBER].KEY, from 0. */
+/* All five keys are required, with `lights` or `light`, and no other key is allowed. Messages read FILE:LINE: KEY:
+   reason, or lights[NUMBER].KEY, from 0. */
 trax_status trax_view_read(struct trax_view *view, const char *path, trax_error *error);
 
 struct trax_scene;
 
-/* A view for a scene that has none: all of it, in the middle 80 % of the picture's width or of its height. It is seen
-   from the front (+z), a little from the right and above, and y is up; the light is above, to the left and in front.
-   All of this turns with `up`, by the smallest rotation that takes the y axis there. fov: degrees; 0:
-   40. aspect: width / height. */
+/* A view for a scene without one: the whole scene, centred, in 80 % of the picture's width or of its height. The eye is
+   in front (+z), a little to the right and above, and y is up; the light is above, to the left and in front. Everything
+   turns with `up`, by the smallest rotation that takes the y axis there. fov: degrees; 0: 40. aspect: width / height.
+   */
 void trax_view_frame(struct trax_view *view, const struct trax_scene *scene, const float up[3], float fov,
                      float aspect);
 
@@ -82,11 +83,11 @@ trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_e
 /* Sets up, which need not be perpendicular. Errors: no length, or parallel to the direction. */
 trax_status trax_view_set_up(struct trax_view *view, const float up[3], trax_error *error);
 
-/* Turns eye and camera around a point as one: by `angle` degrees, counterclockwise from above, around the coordinate
-   axis that points most upwards, after they were raised by `elevation` degrees. Lights stay where they are. */
+/* Turns eye and camera together around a point: by `angle` degrees, counterclockwise from above, around the coordinate
+   axis that points most upwards, after they were raised by `elevation` degrees. Lights do not move. */
 void trax_view_orbit(struct trax_view *view, const float centre[3], float angle, float elevation);
 
-/* A view file which reads back as this view. Written aside and renamed. */
+/* Writes a view file that reads back as this view. It is written under a temporary name and renamed. */
 trax_status trax_view_write(const struct trax_view *view, const char *path, trax_error *error);
 
 #ifdef __cplusplus
