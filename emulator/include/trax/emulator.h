@@ -36,7 +36,8 @@ trax_config *trax_config_create(void);
 trax_config *trax_config_copy(const trax_config *config);
 void trax_config_destroy(trax_config *config);
 /* Sets one of the presets by name ("1x32" ... "8x64"), or reads a libconfig file if there is no preset of that name.
-   Errors: the file cannot be read, syntax, an unknown key, a value out of range; the message names file and line. */
+   Errors: the file cannot be read, a syntax error, an unknown key, a value out of range. The message names file and
+   line. */
 trax_status trax_config_load(trax_config *config, const char *preset_or_path, trax_error *error);
 /* Error: there is no preset of that name. */
 trax_status trax_config_preset(trax_config *config, const char *name, trax_error *error);
@@ -54,10 +55,10 @@ const char *const *trax_config_presets(void);
 bool trax_config_is_preset(const char *name);
 /* Returns the value of a key, 0 or 1 for a flag, NaN if there is no such key. */
 double trax_config_get(const trax_config *config, const char *key);
-/* Returns the value of a key whose values are words, as "dcache.replacement", valid until the thread's next call. NULL:
-   there is no such key. */
+/* Returns the value of a key with words as values, such as "dcache.replacement", valid until the thread's next call.
+   NULL: there is no such key. */
 const char *trax_config_word(const trax_config *config, const char *key);
-/* Returns the first key behind `after` (NULL: of all) whose value is not the default. NULL: there is none. */
+/* Returns the first key after `after` (NULL: of all) with another value than the default. NULL: there is none. */
 const char *trax_config_next_change(const trax_config *config, const char *after);
 
 /* --- machine --- */
@@ -83,18 +84,18 @@ trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, co
 trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
                                      trax_error *error);
 
-/* Gives main its arguments, of which the first is the program's name; without this call it has only its name, that of
-   the file. Before the run. Errors: there are others and main has no parameters; out of memory. */
+/* Gives main its arguments. The first is the program's name. Without this call main gets only that name, the name of
+   the file. To be called before the run. Errors: there are others and main has no parameters; out of memory. */
 trax_status trax_machine_set_arguments(trax_machine *machine, const char *const *arguments, size_t count,
                                        trax_error *error);
 /* Allows the program to read and write files in a folder of the host, which it sees as `name`. Error: there is no such
    folder. */
 trax_status trax_machine_allow(trax_machine *machine, const char *folder, const char *name, trax_error *error);
-/* Only thread 0 calls main; the others wait for trax_start_threads or, in a program without it, end. Before the run.
-   Error: the program does not begin with the library's start code. */
+/* Lets only thread 0 call main; the others wait for trax_start_threads or, in a program without it, end. To be called
+   before the run. Error: the program does not begin with the library's start code. */
 trax_status trax_machine_main_on_thread_0(trax_machine *machine, trax_error *error);
 
-/* Finds a bound buffer for a caller who computes addresses or fills it in place, before the run. */
+/* Finds a bound buffer before the run, for a caller that computes addresses or fills it in place. */
 trax_status trax_machine_buffer(trax_machine *machine, const char *symbol, uint32_t *address, uint8_t **bytes,
                                 uint32_t *size, trax_error *error);
 /* Finds a symbol of the program: its address and its size (0: unknown). False: there is none. */
@@ -194,7 +195,7 @@ trax_status trax_machine_read_symbol(const trax_machine *machine, const char *sy
 /* 1 after a fault, 134 after an abort; otherwise the first exit status of a thread, in the order of threads, that is
    not 0, or 0. */
 int trax_machine_exit_status(const trax_machine *machine);
-/* A signature is what a conformance test compares (docs/isa.md, "Signatures"): the words from the symbol
+/* A signature is the result that a conformance test compares (docs/isa.md, "Signatures"): the words from the symbol
    begin_signature to end_signature, eight hexadecimal digits a line, and the fault that ended the run. The first
    function checks, before the run, that the program has both symbols; the second writes the file, which appears only
    when it is complete. */

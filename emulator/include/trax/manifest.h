@@ -1,4 +1,4 @@
-/* A run that is written down: a folder with manifest.json, which names a program, its buffers and the machine
+/* The manifest of a run: a folder with manifest.json, which names a program, its buffers and the machine
    (docs/manifest.md). trax-render --prepare writes one, trax-sim runs it. */
 #ifndef TRAX_MANIFEST_H
 #define TRAX_MANIFEST_H
@@ -15,22 +15,22 @@ extern "C" {
 
 /* --- writing: emulator/host/manifest_write.c --- */
 
-/* How a buffer of the machine is written down. */
+/* The description of a buffer of the machine. */
 struct trax_manifest_buffer {
   const char *symbol;
   const char *file;          /* for its bytes; NULL: they are zeros */
-  const char *output;        /* for its bytes after the run; NULL: they are not wanted */
+  const char *output;        /* for its bytes after the run; NULL: none */
   uint32_t bytes_per_thread; /* of zeros: the size on another chip; 0: the same on all */
 };
 
 struct trax_manifest_contents {
-  const struct trax_manifest_buffer *buffers; /* of all symbols that may be bound */
+  const struct trax_manifest_buffer *buffers; /* for all symbols that may be bound */
   size_t buffer_count;
-  uint64_t items;   /* that the program will finish; 0: not known */
-  const char *more; /* further members, of which trax-sim knows the names only, as a JSON object; NULL: none */
+  uint64_t items;   /* the items that the program will finish; 0: unknown */
+  const char *more; /* further members, which trax-sim accepts but does not read, as a JSON object; NULL: none */
 };
 
-/* Writes what is loaded and bound, in the order in which it was bound, since addresses depend on it. */
+/* Writes the loaded program and the buffers in the order in which they were bound, since addresses depend on it. */
 trax_status trax_manifest_write(trax_machine *machine, const char *folder,
                                 const struct trax_manifest_contents *contents, trax_error *error);
 
@@ -38,25 +38,26 @@ trax_status trax_manifest_write(trax_machine *machine, const char *folder,
 
 typedef struct trax_manifest trax_manifest;
 
-/* Is that the name of a manifest, and not of a program? It ends in .json. */
+/* Whether the path names a manifest, and not a program: it ends in .json. */
 bool trax_manifest_is(const char *path);
-/* Checks everything but the files that it names. Messages have the file and the line or the key. NULL: an error. */
+/* Reads a manifest and checks everything except the files that it names. Messages have the file and the line or the
+   key. NULL: an error. */
 trax_manifest *trax_manifest_read(const char *path, trax_error *error);
 void trax_manifest_release(trax_manifest *manifest); /* which may be NULL */
 
 const char *trax_manifest_program(const trax_manifest *manifest); /* its path */
 uint64_t trax_manifest_items(const trax_manifest *manifest);      /* 0: not known */
-/* Adds what is read to files. */
+/* Adds the files that the manifest reads. */
 void trax_manifest_inputs(const trax_manifest *manifest, trax_files *files);
-/* The i-th buffer that is written after the run, and where to; false behind the last one. */
+/* The i-th buffer that is written after the run, and its file; false after the last one. */
 bool trax_manifest_output(const trax_manifest *manifest, size_t i, const char **symbol, const char **path);
 
-/* The buffer that is a picture, and its size; false if none is named, or with members that are not understood. */
+/* The buffer that is a picture, and its size; false if there is none, or if its members are not supported. */
 bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, uint32_t *width, uint32_t *height,
                            bool *is_float);
 
 trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *config, trax_error *error);
-/* Loads the program and binds the buffers, if their files have the sizes and hashes that the manifest says. */
+/* Loads the program and binds the buffers, if their files have the sizes and hashes of the manifest. */
 trax_status trax_manifest_load(const trax_manifest *manifest, trax_machine *machine, trax_error *error);
 
 #ifdef __cplusplus
