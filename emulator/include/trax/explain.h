@@ -56,7 +56,7 @@ struct trax_explain_options {
   /* An item's place is the address of its last store to this buffer, as an offset in units of item_bytes. */
   const char *item_buffer; /* NULL: none */
   uint32_t item_bytes;
-  /* Of the page: its title (NULL: the program's name), and parts of buffers that are to be counted as objects. */
+  /* For the page: its title (NULL: the program's name), and parts of buffers that count as objects. */
   const char *title;
   const struct trax_explore_part *parts;
   size_t part_count;
@@ -72,7 +72,8 @@ enum { TRAX_SERIES_INTERVAL = 10000 };
 /* Whether the options want any explanation. */
 bool trax_explain_wanted(const struct trax_explain_options *options);
 
-/* Copies the options, but not what they point to. *explain is NULL if nothing is wanted, and on an error. */
+/* Copies the options, but not the objects to which they point. *explain is NULL if nothing is wanted, and on an error.
+   */
 trax_status trax_explain_begin(struct trax_explain **explain, trax_machine *machine,
                                const struct trax_explain_options *options, trax_error *error);
 /* Writes the files and releases explain, which may be NULL. */
@@ -100,15 +101,15 @@ void trax_explain_items(struct trax_explain *explain,
 struct trax_explore_picture {
   uint32_t width, height;
   const uint32_t *pixels; /* R, G, B, A in the bytes from the lowest */
-  /* What the caller has counted for each pixel besides; `values` is NULL behind the last. */
+  /* Further counts of the caller for each pixel; `values` is NULL after the last. */
   struct trax_explore_counts {
     const char *name, *unit, *meaning;
     const uint32_t *values;
   } counts[4];
 };
 
-/* To be called before trax_explain_end, until which what `picture` points to must stay valid. Without this call, and if
-   no page is wanted, the page has no picture. */
+/* To be called before trax_explain_end. The objects to which `picture` points must stay valid until then. Without this
+   call the page has no picture. */
 void trax_explain_picture(struct trax_explain *explain, const struct trax_explore_picture *picture);
 
 #ifdef __cplusplus

@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The limit, in bytes, of text files that people write: configurations, views, materials. The largest one of the
-   project has a hundredth of it. */
+/* The limit, in bytes, of text files that people write: configurations, views, materials. The project's largest one has
+   a hundredth of it. */
 #define TRAX_TEXT_LIMIT ((size_t)1 << 20)
 
 /* A file that is read in several steps. */

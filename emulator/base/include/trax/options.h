@@ -19,14 +19,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* The type of a value, and what it is stored to. */
+/* The type of a value, and of the member that receives it. */
 typedef enum trax_option_kind {
   TRAX_OPTION_PARSED,   /* parse() stores it */
   TRAX_OPTION_SWITCH,   /* a bool, which becomes true, or false if the row says `off` */
   TRAX_OPTION_TEXT,     /* a const char *, into the command line */
   TRAX_OPTION_UNSIGNED, /* an unsigned number from least to most, or, if there are choices, the index of one */
   TRAX_OPTION_UNSIGNED64,
-  TRAX_OPTION_HEADING, /* no option: its meaning stands above the group of those that follow */
+  TRAX_OPTION_HEADING, /* no option: its meaning is the heading of the following options */
   TRAX_OPTION_SHOW,    /* prints, and ends the program: this one by show() */
   TRAX_OPTION_SHOW_HELP,
   TRAX_OPTION_SHOW_VERSION

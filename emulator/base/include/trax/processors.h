@@ -1,4 +1,4 @@
-/* How many processors of the host this process may use. */
+/* The number of processors of the host that this process may use. */
 #ifndef TRAX_PROCESSORS_H
 #define TRAX_PROCESSORS_H
 

@@ -10,7 +10,7 @@ typedef struct trax_progress_line {
   const char *program; /* the line's first word */
   bool drawn;          /* the line is on the terminal */
   char step[64];
-  double begun, drawn_at, moved_at; /* seconds, of trax_seconds; moved_at: when the fraction was last another one */
+  double begun, drawn_at, moved_at; /* seconds, of trax_seconds; moved_at: the last change of the fraction */
   double first, latest;             /* the fraction at the beginning of the step, and now */
 } trax_progress_line;
 
