@@ -117,7 +117,7 @@ static bool classify(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tm *tm = ftm->tm;
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
-  uint16_t step = ftm->fast->program.step[trax_fast_head(ftm, number)] & (TRAX_STEP_KIND | TRAX_STEP_FETCH);
+  uint16_t step = ftm->fast->program.step[trax_fast_head(ftm, number)];
   if (inst->resource == TRAX_RESOURCE_ILLEGAL) {
     trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
     return false;
