@@ -185,14 +185,14 @@ static const trax_option rows[] = {
     {"max-cycles", .argument = "N", NUMBER(max_cycles, 1, UINT64_MAX),
      .meaning = "stop after N simulated cycles, with exit status 124"},
     {"watchdog", .argument = "N", NUMBER(watchdog, 1, UINT64_MAX / 2),
-     .meaning = "stop likewise after N cycles without the end of a thread, a ray, an item or output"},
+     .meaning = "also stop after N cycles without the end of a thread, a ray, an item or output"},
     {"progress-total", .argument = "N", NUMBER(total_items, 1, UINT64_MAX),
      .meaning = "number of items that the program will report, for the time left"},
     TRAX_OPTION_GROUP("Statistics"),
     {"stats", .argument = "FILE", OUTPUT(stats), .meaning = "statistics as JSON; - is standard output"},
     {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
     {"help-stats", .kind = TRAX_OPTION_SHOW, .show = trax_stats_describe, .meaning = "describe every statistic, and end"},
-    TRAX_OPTION_GROUP("What explains a run"),
+    TRAX_OPTION_GROUP("Explanations of a run"),
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore),
      .meaning = "one page that explains the whole run, for a browser"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
@@ -263,8 +263,8 @@ static const trax_command command = {
     .name = "trax-sim",
     .synopsis = "[OPTION...] PROGRAM [ARGUMENT...]\n[OPTION...] MANIFEST.json",
     .description = "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
-                   "output is standard output, and its exit status is that of trax-sim. What follows\n"
-                   "PROGRAM is for its main, or options if main has no parameters. A manifest\n"
+                   "output is standard output, and its exit status is that of trax-sim. Words after\n"
+                   "PROGRAM are for its main, or options if main has no parameters. A manifest\n"
                    "names program, buffers and machine (docs/manifest.md); options are added to it.",
     .rows = rows,
     .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
