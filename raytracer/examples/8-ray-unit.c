@@ -1,6 +1,6 @@
 /* Step 8: the ray unit. Boxes and triangles are tested by a unit that TPs share: two instructions, which read a ray and
-   a box or a triangle from registers. The paper's machine has no such unit (docs/results/ray-unit.md). The program
-   needs ray.units_per_group=1. */
+   a box or a triangle from registers. The data cache holds the threads up then, so two planes of a box are one load.
+   The paper's machine has no such unit (docs/results/ray-unit.md). The program needs ray.units_per_group=1. */
 #include "trax/render_params.h"
 #include "trax/scene_format.h"
 
@@ -74,17 +74,22 @@ struct hit {
   const struct trax_triangle *triangle; /* NULL: nothing was hit */
 };
 
-/* The number of 16 bits is not converted: taken for a float it is a subnormal, the number times 2^-149, which the unit
-   multiplies as any other. */
-static inline float plane(uint16_t number) {
-  return value(number);
+/* Two planes of a word. The numbers of 16 bits are not converted: taken for floats they are subnormals, the numbers
+   times 2^-149, which the unit multiplies as any other. */
+static inline float lower(uint32_t word) {
+  return value(word & 0xFFFF);
+}
+static inline float upper(uint32_t word) {
+  return value(word >> 16);
 }
 
 /* Where the ray enters the box, or infinity if it does not do so before `nearest`. */
-static inline float enter_box(const struct ray *ray, const uint16_t *min, const uint16_t *max, float nearest) {
+static inline float enter_box(const struct ray *ray, const uint16_t *planes, float nearest) {
+  uint32_t box[3];
+  __builtin_memcpy(box, __builtin_assume_aligned(planes, 4), sizeof box);
   return __builtin_trax_box(nearest, ray->factor.x, ray->factor.y, ray->factor.z, ray->start.x, ray->start.y,
-                            ray->start.z, plane(min[0]), plane(min[1]), plane(min[2]), plane(max[0]), plane(max[1]),
-                            plane(max[2]));
+                            ray->start.z, lower(box[0]), upper(box[0]), lower(box[1]), upper(box[1]), lower(box[2]),
+                            upper(box[2]));
 }
 
 /* Where the ray hits the triangle, if that is before `nearest`, else `nearest`. */
@@ -110,8 +115,8 @@ static inline __attribute__((always_inline)) bool trace(const struct ray *ray, b
     if (__builtin_expect(count == 0, 1)) { /* rays visit more nodes than triangles */
       const struct trax_quantised_node *node = (const void *)(bytes + reference);
       int nearest = in_units_of_boxes(hit->distance); /* not infinite */
-      int enter0 = bits(enter_box(ray, node->box[0].min, node->box[0].max, value(nearest)));
-      int enter1 = bits(enter_box(ray, node->box[1].min, node->box[1].max, value(nearest)));
+      int enter0 = bits(enter_box(ray, node->box[0].min, value(nearest)));
+      int enter1 = bits(enter_box(ray, node->box[1].min, value(nearest)));
       bool second = enter1 < enter0;
       if ((second ? enter1 : enter0) <= nearest) {
         if ((second ? enter0 : enter1) <= nearest)
