@@ -7,7 +7,8 @@
      trax_constants              the parameters, and what is behind them: the first colour of the palette, or struct
                                  trax_path_params; the compiler folds their loads into the instructions
 
-   and its scene's references are addresses, which saves an addition for each node and leaf. */
+   and its scene's references are addresses, which saves an addition for each node and leaf, and a leaf's is negated, so
+   that a branch tells it from a node's. */
 #ifndef TRAX_DEVICE_RUN_H
 #define TRAX_DEVICE_RUN_H
 
@@ -15,6 +16,7 @@
 #include "trax/render_params.h"
 #include "trax/scene_format.h"
 
+#include <stdbool.h>
 #include <trax.h>
 
 extern struct trax_buffer scene, params, image;
@@ -48,6 +50,14 @@ extern struct trax_buffer scene, params, image;
 /* path.h, or the paper's workload? */
 #define NEEDS_PATHS(run) ((RUN_FEATURES(run) & TRAX_PATH_FEATURES) != 0)
 
+/* Has the paper's instruction cache room for two loops over nodes? Not beside samples, smooth normals or path.h. */
+#ifdef TRAX_SPECIALISED_FEATURES
+#define LOOPS_FOR_BOTH_SIGNS                                                                                           \
+  (!(NEEDS(0, SAMPLES) || NEEDS(0, SMOOTH) || (TRAX_SPECIALISED_FEATURES & TRAX_PATH_FEATURES)))
+#else
+#define LOOPS_FOR_BOTH_SIGNS 0
+#endif
+
 /* How the scene's nodes are laid out (enum trax_node_layout). */
 #ifdef TRAX_NODE_LAYOUT
 #define RUN_LAYOUT(run) TRAX_NODE_LAYOUT
@@ -80,6 +90,25 @@ extern struct trax_buffer scene, params, image;
 static inline const void *path_table(uint32_t offset) {
   return (const char *)params.data + sizeof(struct trax_render_params) + offset;
 }
+
+static inline bool leads_to_leaf(trax_scene_ref reference) {
+#ifdef TRAX_SPECIALISED_FEATURES
+  return (int32_t)reference < 0;
+#else
+  return TRAX_SCENE_REF_COUNT(reference) != 0;
+#endif
+}
+
+/* Where a leaf is and how many triangles it has, of a reference that leads to one. */
+static inline trax_scene_ref leaf_of(trax_scene_ref reference) {
+#ifdef TRAX_SPECIALISED_FEATURES
+  return -reference;
+#else
+  return reference;
+#endif
+}
+
+#define NO_LEAF leaf_of(1) /* where the scene's header is */
 
 /* What a reference leads to, without its low three bits. */
 static inline const char *scene_at(const char *scene_bytes, uint32_t offset) {

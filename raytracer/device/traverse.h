@@ -12,7 +12,8 @@
 #include <stddef.h>
 
 /* The stack has the farther child of every inner node above the current one that is still to be visited: no more than
-   the tree is deep. */
+   the tree is deep. Below them is an entry that no limit leaves out, of a leaf that is none: so its end takes no
+   register and no branch of its own. */
 struct stack_entry {
   trax_scene_ref reference;
   int32_t enter; /* where the ray enters its box */
@@ -53,7 +54,7 @@ static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, co
 static inline __attribute__((always_inline)) bool descend(uint32_t layout, const char *scene, const struct ray *ray,
                                                           int32_t limit, trax_scene_ref *reference,
                                                           struct stack_entry **top) {
-  while (__builtin_expect_with_probability(TRAX_SCENE_REF_COUNT(*reference) == 0, 1, 0.95)) {
+  while (__builtin_expect_with_probability(!leads_to_leaf(*reference), 1, 0.95)) {
     const char *node = scene_at(scene, *reference);
     ACCESS_NODE(node);
     if (nodes_are_quantised(layout) ? !visit_node(TRAX_NODES_QUANTISED, node, ray, limit, reference, top)
@@ -63,18 +64,35 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
   return true;
 }
 
+/* The same, where there is room for it by a copy of the loop for either sign of the ray's x: addresses of planes of x
+   are then the node's and a constant. */
+static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layout, const char *scene,
+                                                                  const struct ray *ray, int32_t limit,
+                                                                  trax_scene_ref *reference, struct stack_entry **top) {
+  struct ray positive = *ray, negative = *ray;
+  if (!LOOPS_FOR_BOTH_SIGNS)
+    return descend(layout, scene, ray, limit, reference, top);
+  positive.near_offset_x = 0, negative.near_offset_x = 3 * (uint32_t)plane_bytes(layout);
+  return float_bits(ray->box.inverse.x) < 0 ? descend(layout, scene, &negative, limit, reference, top)
+                                            : descend(layout, scene, &positive, limit, reference, top);
+}
+
 /* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The probabilities
    tell the register allocator what matters: rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene, trax_scene_ref root,
                                                             const struct ray *ray, bool any, struct hit *hit) {
-  struct stack_entry stack[TRAX_TREE_DEPTH], *top = stack, entry;
+  struct stack_entry stack[TRAX_TREE_DEPTH + 1], *top = stack;
   trax_scene_ref reference = root;
   int32_t limit = limit_of(layout, hit->distance_bits); /* boxes that begin there or later are left out */
 
   if (root == 0)
     return false;
+  *top++ = (struct stack_entry){NO_LEAF, INT32_MIN};
   for (;;) {
-    if (descend(layout, scene, ray, limit, &reference, &top)) {
+    if (descend_by_sign(layout, scene, ray, limit, &reference, &top)) {
+      reference = leaf_of(reference);
+      if (TRAX_SCENE_REF_OFFSET(reference) == 0)
+        return hit->triangle != NULL;
       const char *triangle = scene_at(scene, TRAX_SCENE_REF_OFFSET(reference));
       const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
       do {
@@ -88,11 +106,10 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
     }
     KEEP_ROLLED
     do {
-      if (top == stack)
-        return hit->triangle != NULL;
-      entry = *--top;
-    } while (entry.enter >= limit);
-    reference = entry.reference;
+      --top;
+      HIDE_ORIGIN(top); /* else there would be two of it */
+    } while (top->enter >= limit);
+    reference = top->reference;
   }
 }
 

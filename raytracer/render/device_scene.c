@@ -73,20 +73,27 @@ void trax_device_scene_release(struct trax_device_scene *scene) {
   *scene = (struct trax_device_scene){0};
 }
 
+static trax_scene_ref at_address(trax_scene_ref reference, uint32_t address) {
+  const trax_scene_ref there = reference + address;
+  return TRAX_SCENE_REF_COUNT(reference) ? -there : there;
+}
+
 void trax_scene_relocate(void *bytes, uint32_t address) {
   struct trax_scene_header *header = bytes;
   const struct trax_scene_section *section = &header->sections[TRAX_SCENE_NODES];
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)bytes + section->offset;
   for (uint32_t i = 0; i < section->count; i++, node += format->bytes) {
-    for (uint32_t k = 0; k < 2; k++)
-      *(trax_scene_ref *)(void *)(node + trax_node_child(format, k)) += address;
+    for (uint32_t k = 0; k < 2; k++) {
+      trax_scene_ref *child = (trax_scene_ref *)(void *)(node + trax_node_child(format, k));
+      *child = at_address(*child, address);
+    }
   }
   const struct trax_scene_section *textures = &header->sections[TRAX_SCENE_TEXTURES];
   struct trax_texture *texture = (struct trax_texture *)(void *)((unsigned char *)bytes + textures->offset);
   for (uint32_t i = 0; i < textures->count; i++)
     texture[i].texels += address;
   if (header->root)
-    header->root += address;
+    header->root = at_address(header->root, address);
   header->base = address;
 }

@@ -89,7 +89,9 @@ struct trax_device_scene {
 /* With the sections that the frame's features need. */
 trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct trax_frame *frame, trax_error *error);
 void trax_device_scene_release(struct trax_device_scene *scene);
-/* Makes addresses of the references of a scene that the device has at `address`. */
+/* Makes addresses of the references of a scene that the device has at `address`, below 2^31; those of leaves are
+ * negated.
+ */
 void trax_scene_relocate(void *bytes, uint32_t address);
 
 /* --- specialise.c: the program for the TPs --- */

@@ -52,6 +52,9 @@ static trax_status relocate(trax_machine *machine, trax_error *error) {
   uint32_t address, size;
   if (trax_machine_buffer(machine, "scene", &address, &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
+  if ((uint64_t)address + size > INT32_MAX)
+    return trax_fail(error, "the scene ends above 2 GiB, where a specialised program finds no leaves; "
+                            "--no-specialise renders it");
   trax_scene_relocate(bytes, address);
   return TRAX_OK;
 }

@@ -15,6 +15,11 @@ def minus(a, b):
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
+def negated_if(is_leaf):
+    """Negates the references that lead to leaves: those that a specialised program reads are, here they are not."""
+    return lambda references: [-reference & 0xFFFFFFFF if is_leaf(reference) else reference for reference in references]
+
+
 class Scene:
     """What the device reads (trax/scene_format.h): its words, little endian as is the host (x86-64), and where things are in them."""
 
@@ -30,8 +35,10 @@ class Scene:
         self.end = self.nodes + node_bytes // 4
         lows, highs = (struct.unpack("<3f", words[at:at + 3].tobytes()) for at in (8, 11))
         self.units = [1.0] * 3 if layout == 0 else [high - low for low, high in zip(lows, highs)]
+        self.references(negated_if(lambda reference: reference >> 31))
 
     def write(self):
+        self.references(negated_if(lambda reference: reference & 7))
         self.path.write_bytes(self.words.tobytes())
 
     def references(self, change):

@@ -27,7 +27,7 @@ MUTANTS = [
     ("far-planes", "nodes_binary.h", "far_origin = minus(origin, margin)", "far_origin = plus(origin, margin)", "closed-globe"),
     ("length-of-direction", "ray.h", "return bits_float(larger(0x7F000000 - exponent, 0x00800000))",
      "return exponent ? 1.0f : 1.0f", "directions-10^-20"),
-    ("stack-dropped", "traverse.h", "entry.enter >= limit", "entry.enter >= 0", "soup"),
+    ("stack-dropped", "traverse.h", "top->enter >= limit", "top->enter >= 0", "soup"),
     ("no-offset", "shade.h", "times(bound * inverse_length, n)", "times(0 * inverse_length, n)", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
     ("exact-bound", "triangle.h", "* 0x1p-17f + 0x1p-38f", "* 0", "tiny-1e16"),

@@ -24,6 +24,11 @@ GRID_LAST, FINEST_CELL = 65535, 2**-7
 FRAME_EXPONENT, FRAME_LEAST, FRAME_BITS = 149, -7, 0x47800000  # the bits of 65536.0
 
 
+def plain(reference):
+    """Of those that a specialised program reads, the ones that lead to leaves are negated."""
+    return -reference & 0xFFFFFFFF if reference >> 31 else reference
+
+
 class Scene:
     """What the device has (trax/scene_format.h), little endian as the host is."""
 
@@ -44,7 +49,7 @@ class Scene:
         """Two boxes of six planes, least ones first, and two references."""
         at = self.nodes + number * self.node_bytes
         values = struct.unpack_from("<12f2I" if self.layout == BINARY else "<12H2I", self.data, at)
-        return values[:6], values[6:12], values[12:]
+        return values[:6], values[6:12], [plain(reference) for reference in values[12:]]
 
     def cells(self):
         """Origin and cell of the grid along each axis (trax_scene_grid_of)."""
@@ -166,7 +171,7 @@ def convert(path, name):
     scene = Scene(path)
     if scene.layout != (BINARY if name == "wide" else QUANTISED):
         sys.exit(f"nodes.py: error: {name}: the scene needs {'binary' if name == 'wide' else 'quantised'} nodes")
-    if not scene.root or scene.root & 7:
+    if not scene.root or scene.root >> 31:
         sys.exit("nodes.py: error: the scene has no nodes")
     if scene.words[5] > ENTRIES:
         sys.exit(f"nodes.py: error: the tree is {scene.words[5]} nodes deep; the stack has {ENTRIES} entries (trax-scene --depth)")
@@ -183,7 +188,7 @@ def convert(path, name):
     def moved(reference):
         if not reference:
             return 0
-        return reference + shift if reference & 7 else start + places[scene.node_of(reference)] * size
+        return -(reference + shift) & 0xFFFFFFFF if reference & 7 else start + places[scene.node_of(reference)] * size
 
     data = bytearray(scene.data[:HEADER])
     for number, children in nodes.items():
