@@ -14,8 +14,7 @@ case ${1:-} in
     without=(--exclude-regex "^($slow)\$") ;;
 esac
 ./setup.sh
-export PYTHONPYCACHEPREFIX=$PWD/build/tests/python # bytecode: trax-eval starts hundreds of times
-unset PYTHONDONTWRITEBYTECODE
+python3 -m compileall -q build/lib/trax/evaluation # trax-eval starts hundreds of times
 jobs=${JOBS:-$(nproc)}
 if [ ${#without[@]} -gt 0 ]; then
   tests=$(ctest --test-dir build -N | sed -n 's/^ *Test *#[0-9]*: //p')
