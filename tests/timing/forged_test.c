@@ -232,6 +232,7 @@ static void machine(struct trax_config config, uint64_t seed) {
   const size_t count = any_program(program);
   const trax_run_options options = {.max_cycles = STOP, .host_threads = 1};
   struct trax_checkpoint *checkpoint;
+  config.ray.units_per_group = 1;
   struct bench bench = bench_begin(&config, program, count);
   bench.machine->prepare = note_pieces;
   assert_int_equal(trax_machine_run(bench.machine, &options, &bench.error), TRAX_ERROR);

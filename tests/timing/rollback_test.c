@@ -260,6 +260,7 @@ static void from_a_checkpoint(void **state) {
   random_state = 5;
   const size_t count = any_program(program);
   struct trax_config config = bench_far(2, 4);
+  config.ray.units_per_group = 1;
   config.memory.channels = 2; /* so that every structure is there, with or without the second-level cache */
   const char *path = test_path("added");
   for (unsigned with_l2 = 0; with_l2 < 2; with_l2++) {
