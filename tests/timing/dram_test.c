@@ -228,6 +228,10 @@ static void test_mappings(void **state) {
   assert_int_equal(place.field[TRAX_DRAM_BANK], 6);
   assert_int_equal(place.field[TRAX_DRAM_CHANNEL], 1);
   assert_int_equal(place.field[TRAX_DRAM_COLUMN], 9 << 3 | 3);
+  /* Whole bursts of 32 bytes are moved. */
+  assert_int_equal(trax_dram_bytes(&config, 31, 1), 32);
+  assert_int_equal(trax_dram_bytes(&config, 32, 32), 32);
+  assert_int_equal(trax_dram_bytes(&config, 28, 8), 64);
   static const struct {
     const char *mapping, *message;
   } wrong[] = {{"row:rank:bank:channel:column3", "column lacks 4 of its 7 bits"},

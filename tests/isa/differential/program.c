@@ -97,14 +97,18 @@ static unsigned any_register(void) {
   return any(0, 31);
 }
 
+static bool may_be_written(const struct program *program, unsigned reg) {
+  bool free = reg != 0;
+  for (unsigned i = 0; i < ROLES; i++)
+    free &= reg != program->role[i];
+  return free;
+}
+
 /* One that may be written: not a role's. Once in a while r0. */
 static unsigned any_destination(const struct program *program) {
   while (true) {
     const unsigned reg = any_register();
-    bool free = true;
-    for (unsigned i = 0; i < ROLES; i++)
-      free &= reg != program->role[i];
-    if (free)
+    if (reg == 0 || may_be_written(program, reg))
       return reg;
   }
 }
@@ -152,6 +156,22 @@ static void emit_corner(struct program *program, unsigned reg) {
     emit(program, I(LW, reg, program->role[CONSTANTS], 4 * (int32_t)any(0, COMMON_BYTES / 4 - 1)));
 }
 
+/* Small floats in registers that follow one another, so that rays meet boxes and triangles. Returns the first. */
+static uint8_t emit_group(struct program *program, unsigned count, unsigned other) {
+  unsigned first = 0;
+  for (unsigned tries = 0, good = 0; tries < 64 && good < count; tries++) {
+    first = any_register();
+    for (good = 0; good < count && may_be_written(program, (first + good) % TRAX_NUM_REGISTERS) &&
+                   (first + good) % TRAX_NUM_REGISTERS != other;)
+      good++;
+  }
+  for (unsigned i = 0; i < count; i++)
+    if (may_be_written(program, (first + i) % TRAX_NUM_REGISTERS))
+      emit(program,
+           U(LUI, (first + i) % TRAX_NUM_REGISTERS, (int32_t)(any(0, 1) << 15 | any(122, 129) << 7 | any(0, 127))));
+  return (uint8_t)first;
+}
+
 /* Of corner values as often as of what earlier ones left: results soon have none. */
 static void emit_computation(struct program *program) {
   trax_op op;
@@ -175,6 +195,13 @@ static void emit_computation(struct program *program) {
   if (trax_op_table[op].flags & TRAX_READS_RB && one_in(2)) {
     inst.rb = (uint8_t)any_value_register(program);
     emit_corner(program, inst.rb);
+  }
+  const unsigned flags = trax_op_table[op].flags;
+  if (trax_group_b(flags) > 1 && one_in(2)) {
+    inst.ra = emit_group(program, trax_group_a(flags), inst.rd);
+    inst.rb = emit_group(program, trax_group_b(flags), inst.rd);
+    if (inst.rd)
+      emit_constant(program, inst.rd, 0x7F800000);
   }
   emit(program, trax_encode(inst));
 }
