@@ -77,7 +77,8 @@ def mark_rays():
         traps = [stats["instructions_by_operation"]["trap"] for stats in (plain, marked)]
         check(traps == [PIXELS * (samples + 1), PIXELS + plain["rays"]], words, "traps", traps)
         check(same == picture and marked["rays_by_kind"] == plain["rays_by_kind"], words, "the marked program has another picture, or rays")
-        check(abs(marked["instructions"] / plain["instructions"] - 1) < 0.02, words, marked["instructions"], plain["instructions"])
+        # A trap a ray, and what registers for it cost: 2.6 % where each pixel has one ray.
+        check(abs(marked["instructions"] / plain["instructions"] - 1) < 0.03, words, marked["instructions"], plain["instructions"])
     for words, least, most in ((["--mark-rays"], 0.05, 0.3), ([], 0.9, 1)):
         call("trax-render", "box.obj", *words, "--size", SIZE, "--config", "1x32", "--prepare", "run", "--quiet")
         call("trax-sim", "run/manifest.json", "--quiet", "--ray-kinds", "kinds.csv")
