@@ -102,6 +102,7 @@ def check_energy(stats):
                     0.001 * sum(count[name] for name in count if name.startswith("fcvt")),
         "int_mul": 0.0177 * stats["instructions_by_unit"]["int_mul"],
         "special": 0.1563 * stats["instructions_by_unit"]["special"],
+        "ray": 0.136568 * count["fbox"] + 0.67738 * count["ftri"],
         "integer": 0.000572 * sum(stats["instructions_by_unit"][unit] for unit in ("int", "control", "memory")),
         "registers": 0.00789613 * accesses,
         "local_memory": 0.00692867 * (local["loads"] + local["stores"]),

@@ -100,6 +100,8 @@ CASES = {
     "lockstep": Case(["out.txt"], file_holds("out.txt", r"width,.*\n1,\d+,(\d+),\1,1.0"), "items.elf", bad=FILES, twice="b"),
     "series": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES, twice="b"),
     "series-interval": Case(["100", "--series", "out.txt"], file_holds("out.txt", "(.*\n){4}"), bad=NUMBERS + ("0",)),
+    "memory-trace": Case(["out.csv"], file_holds("out.csv", r"^cycle,address,bytes,kind,tm,channel\n\d+,\d+,64,instruction_line,0,0\n"), bad=FILES, twice="b"),
+    "memory-trace-format": Case(["dramsim3", "--memory-trace", "out.txt"], file_holds("out.txt", r"^0x[0-9A-F]+ READ \d+\n"), bad=("x", "DRAMsim3", "ramulator2")),
     "trace": Case(["trace.txt"], file_holds("trace.txt", "addi"), bad=FILES, twice="b"),
     "perfetto": Case(["out.txt", "--window", "0:1000"], file_holds("out.txt", "traceEvents"), bad=FILES, twice="b"),
     "konata": Case(["out.txt", "--window", "0:1000"], file_holds("out.txt", "Kanata"), bad=FILES, twice="b"),

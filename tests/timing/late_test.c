@@ -78,9 +78,10 @@ static void fast_controller(const struct transfers *transfers, uint32_t channels
 static void reference_controller(const struct transfers *transfers, uint32_t channels) {
   const struct trax_config config = config_of(transfers, channels);
   static struct trax_ref_tm tm;
+  static struct trax_machine machine; /* nobody listens */
   struct trax_ref_request queue[REQUESTS];
   struct trax_memory_stats stats = {0};
-  struct trax_ref_chip chip = {.tm = &tm, .tms = 1, .config = &config, .stats = &stats};
+  struct trax_ref_chip chip = {.machine = &machine, .tm = &tm, .tms = 1, .config = &config, .stats = &stats};
   tm = (struct trax_ref_tm){.config = &config, .queue = queue, .places = REQUESTS};
   for (unsigned i = 0; i < REQUESTS; i++)
     queue[i] = (struct trax_ref_request){.kind = WRITE, .bytes = 64, .stage = AT_CHANNEL};
