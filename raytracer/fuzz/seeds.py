@@ -92,6 +92,21 @@ for kind, pixel in ((0, b"\x40"), (2, b"\x10\x20\x30"), (4, b"\x40\x80"), (6, b"
 add("trax-picture", JPEG)
 add("trax-picture", b"Pf\n3 2\n1.0\n" + struct.pack(">6f", 0, 1, 2, 3, 4, 5))
 
+
+def npy(kind, shape, data):
+    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + data
+
+
+# Over the fuzzer's mesh of nine triangles: a root and two leaves, and a deeper one; with boxes a triangle is in two leaves.
+everything = struct.pack("<6f", -99, -99, -99, 99, 99, 99)
+ORDER = npy("<i4", (9,), struct.pack("<9i", *range(9)))
+LEAVES = npy("<i4", (3, 3), struct.pack("<9i", 1, 2, 0, 0, 0, 5, 5, 0, 4))
+add_case("trax-scene-tree", "", ("nodes.npy", LEAVES), ("order.npy", ORDER))
+add_case("trax-scene-tree", "quantised twins smooth", ("nodes.npy", npy("<u8", (5, 3), struct.pack("<15Q", 1, 2, 0, 0, 0, 3, 3, 4, 0, 3, 0, 3, 6, 0, 3))), ("order.npy", ORDER))
+add_case("trax-scene-tree", "deep", ("nodes.npy", LEAVES), ("order.npy", ORDER), ("boxes.npy", npy("<f4", (3, 2, 3), 3 * everything)))
+add_case("trax-scene-tree", "lamps", ("nodes.npy", npy("<i4", (3, 3), struct.pack("<9i", 1, 2, 0, 0, 0, 5, 4, 0, 5))), ("order.npy", ORDER), ("boxes.npy", npy("<f4", (3, 6), 3 * everything)))
+
 with tempfile.TemporaryDirectory() as work:
     def write(name, data):
         with open(os.path.join(work, name), "wb") as file:
