@@ -99,7 +99,7 @@ def session(work, name, level, options, commands):
     port = re.search(r"localhost:(\d+)", sim.stderr.readline().decode())[1]
     with open(script, "w") as file:
         file.write("".join(f"{command}\n" for command, _ in commands if command))
-    run = subprocess.run([GDB, "-nx", "-batch", "-ex", "set pagination off", "-ex", f"target remote localhost:{port}",
+    run = subprocess.run([GDB, "-nx", "-batch", "-ex", "set pagination off", "-ex", f"target remote 127.0.0.1:{port}",
                           "-x", script, symbols], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                          stderr=subprocess.STDOUT, timeout=120, env={**os.environ, "LC_ALL": "C"})
     sim.kill() if sim.poll() is None and run.returncode else None
