@@ -95,6 +95,8 @@ class Run:
         self.asked.setdefault(self.index, set()).add(name)
         if name.startswith("values."):
             return number(self.values.get(name[len("values."):]))
+        if name == "host.processor_seconds":
+            return self.processor_seconds()
         value = self.stats
         for part in name.split("."):
             value = value.get(part) if isinstance(value, dict) else None
