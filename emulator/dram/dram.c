@@ -291,13 +291,14 @@ uint64_t trax_dram_cycles(const struct trax_dram *dram, uint64_t ticks) {
 /* --- states read from files --- */
 
 static bool check_queue(const struct trax_dram *dram, const struct trax_dram_channel *channel,
-                        enum trax_dram_queue queue) {
+                        enum trax_dram_queue queue, uint64_t now) {
   const uint32_t banks = dram->config->dram.ranks * dram->config->dram.banks;
   bool good = channel->count[queue] <= dram->capacity[queue];
   for (uint32_t i = 0; good && i < channel->count[queue]; i++) {
     const struct trax_dram_request *request = &channel->request[queue][i];
     good = request->bank < banks && request->bursts > 0 &&
-           request->bursts <= dram->config->dram.row_bytes / dram->burst_bytes + 1;
+           request->bursts <= dram->config->dram.row_bytes / dram->burst_bytes + 1 && request->came <= now &&
+           (i == 0 || request[-1].came <= request->came);
   }
   return good;
 }
@@ -308,9 +309,12 @@ bool trax_dram_check(const struct trax_dram *dram, uint32_t number, uint64_t t, 
   if (t >= (uint64_t)1 << 44)
     return false;
   const uint64_t last = first_tick(dram, t) + requests * trax_dram_most_ticks(dram);
-  bool good = check_queue(dram, channel, TRAX_DRAM_READ) && check_queue(dram, channel, TRAX_DRAM_WRITE) &&
-              channel->free_from <= last && channel->last_rank < config->dram.ranks &&
-              channel->last_queue < TRAX_DRAM_QUEUES && channel->batch <= TRAX_DRAM_MAX_QUEUE;
+  bool good = check_queue(dram, channel, TRAX_DRAM_READ, first_tick(dram, t)) &&
+              check_queue(dram, channel, TRAX_DRAM_WRITE, first_tick(dram, t)) && channel->free_from <= last &&
+              channel->last_rank < config->dram.ranks && channel->last_queue < TRAX_DRAM_QUEUES &&
+              channel->batch <= TRAX_DRAM_MAX_QUEUE;
+  for (unsigned queue = 0; queue < TRAX_DRAM_QUEUES; queue++)
+    good &= channel->overtaken[queue] <= config->dram.cap;
   for (uint32_t i = 0; good && i < config->dram.ranks; i++) {
     const struct trax_dram_rank *rank = &channel->rank[i];
     good = rank->activate_from <= last && rank->read_from <= last && rank->refresh_due <= last + config->dram.trefi;
