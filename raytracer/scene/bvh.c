@@ -1,6 +1,5 @@
-/* The tree: built by Embree, improved (reinsert.c), then renumbered depth first so that nothing depends on where or
- * when its callbacks ran. */
-#include "internal.h"
+/* The tree: built by Embree, improved (reinsert.c), then numbered (numbering.c). */
+#include "built_tree.h"
 
 #include <math.h>
 #include <rtcore.h>
@@ -17,16 +16,6 @@ static const char device_options[] = "threads=1,isa=sse2,start_threads=0,set_aff
 /* Deep enough for every tree that surface areas lead to; what is too deep for the device is rebuilt afterwards. Embree
    itself would give up where it comes near its limit with many triangles left. */
 #define BUILDER_DEPTH 1000
-
-/* What the callbacks make; Embree's allocator owns it. */
-struct built_node {
-  uint32_t triangle_count; /* 0: an inner node */
-  uint32_t below;          /* triangles of the subtree */
-  uint32_t height;         /* most inner nodes from here to a leaf */
-  struct built_node *child[2];
-  struct scene_box box; /* of a leaf */
-  uint32_t triangles[];
-};
 
 /* cancel.cpp; does not return. */
 void scene_cancel_builder(void);
@@ -124,9 +113,7 @@ static uint32_t fill_primitives(struct RTCBuildPrimitive *primitives, const stru
   for (uint32_t i = 0; i < mesh->triangle_count; i++) {
     if (duplicates && duplicates->first[i] != i)
       continue;
-    struct scene_box box = scene_empty_box();
-    for (int corner = 0; corner < 3; corner++)
-      scene_box_add_point(&box, mesh->vertices[mesh->triangles[i].vertices[corner]]);
+    const struct scene_box box = scene_triangle_box(mesh, i);
     primitives[count++] = (struct RTCBuildPrimitive){.lower_x = box.min[0],
                                                      .lower_y = box.min[1],
                                                      .lower_z = box.min[2],
@@ -145,181 +132,6 @@ static struct scene_box bounds_of(const struct RTCBuildPrimitive *primitives, ui
     scene_box_add_box(&bounds, &box);
   }
   return bounds;
-}
-
-/* --- numbering, depth first, and rebuilding what is too deep --- */
-
-struct numbering {
-  struct scene_tree *tree;
-  const struct RTCBuildPrimitive *primitives; /* by triangle */
-  const struct scene_duplicates *duplicates;  /* NULL: all triangles are in the tree already */
-  unsigned max_depth, max_leaf;
-  uint32_t *triangles; /* of a subtree to be rebuilt, or of a leaf: room for all */
-};
-
-/* The least height of a tree over so many triangles. */
-static unsigned least_height(uint32_t triangles, unsigned max_leaf) {
-  unsigned height = 0;
-  while ((uint64_t)max_leaf << height < triangles)
-    height++;
-  return height;
-}
-
-/* A leaf's triangles, and behind each the others at its place. */
-static uint32_t *add_leaf(uint32_t *end, const struct numbering *numbering, const struct built_node *leaf) {
-  for (uint32_t i = 0; i < leaf->triangle_count; i++) {
-    *end++ = leaf->triangles[i];
-    for (uint32_t other = leaf->triangles[i];
-         numbering->duplicates && (other = numbering->duplicates->after[other]) != SCENE_NO_DUPLICATE;)
-      *end++ = other;
-  }
-  return end;
-}
-
-/* False if the builder left something out. Recursion is bounded by BUILDER_DEPTH. */
-static bool measure_built(const struct numbering *numbering, struct built_node *node) {
-  node->below = node->triangle_count;
-  node->height = 0;
-  if (node->triangle_count) {
-    for (uint32_t i = 0; i < node->triangle_count && numbering->duplicates; i++)
-      for (uint32_t other = node->triangles[i]; (other = numbering->duplicates->after[other]) != SCENE_NO_DUPLICATE;)
-        node->below++;
-    node->height = least_height(node->below, numbering->max_leaf);
-    return true;
-  }
-  for (int i = 0; i < 2; i++) {
-    struct built_node *child = node->child[i];
-    if (!child || !measure_built(numbering, child))
-      return false;
-    node->below += child->below;
-    node->height = child->height + 1 > node->height ? child->height + 1 : node->height;
-  }
-  return true;
-}
-
-static struct scene_tree_node *add_node(struct scene_tree *tree, unsigned depth, const uint32_t *triangles,
-                                        uint32_t triangle_count) {
-  struct scene_tree_node *node = &tree->nodes[tree->node_count++];
-  node->triangle_count = triangle_count;
-  if (triangle_count) {
-    memcpy(node->triangles, triangles, triangle_count * sizeof *triangles);
-    tree->ref_count += triangle_count;
-    if (triangle_count > tree->max_leaf)
-      tree->max_leaf = triangle_count;
-  } else {
-    memset(node->child, 0, sizeof node->child);
-    tree->inner_count++;
-    if (depth + 1 > tree->max_depth)
-      tree->max_depth = depth + 1;
-  }
-  return node;
-}
-
-static uint32_t *collect(uint32_t *end, const struct numbering *numbering, const struct built_node *built) {
-  if (built->triangle_count)
-    return add_leaf(end, numbering, built);
-  for (int i = 0; i < 2; i++)
-    end = collect(end, numbering, built->child[i]);
-  return end;
-}
-
-static int compare_numbers(const void *a, const void *b) {
-  const uint32_t *left = a, *right = b;
-  return *left < *right ? -1 : *left > *right;
-}
-
-/* Each triangle once. */
-static uint32_t unite(uint32_t *triangles, uint32_t count) {
-  uint32_t kept = 0;
-  qsort(triangles, count, sizeof *triangles, compare_numbers);
-  for (uint32_t i = 0; i < count; i++)
-    if (kept == 0 || triangles[i] != triangles[kept - 1])
-      triangles[kept++] = triangles[i];
-  return kept;
-}
-
-struct sort_key {
-  double place; /* twice the middle of the triangle's box */
-  uint32_t triangle;
-};
-
-static int compare_keys(const void *a, const void *b) {
-  const struct sort_key *left = a, *right = b;
-  if (left->place != right->place)
-    return left->place < right->place ? -1 : 1;
-  return left->triangle < right->triangle ? -1 : left->triangle > right->triangle;
-}
-
-static double middle(const struct RTCBuildPrimitive *primitive, int axis) {
-  return (double)(&primitive->lower_x)[axis] + (double)(&primitive->upper_x)[axis];
-}
-
-/* Halves the triangles by number, along the axis on which their middles are spread furthest, until they fit in leaves:
-   the least height there is. False when out of memory. */
-static bool add_balanced(struct numbering *numbering, uint32_t *triangles, uint32_t count, unsigned depth) {
-  if (count <= numbering->max_leaf) {
-    qsort(triangles, count, sizeof *triangles, compare_numbers);
-    struct scene_tree_node *leaf = add_node(numbering->tree, depth, triangles, count);
-    leaf->box = scene_empty_box();
-    for (uint32_t i = 0; i < count; i++) {
-      const struct scene_box part = box_of(&numbering->primitives[triangles[i]]);
-      scene_box_add_box(&leaf->box, &part);
-    }
-    return true;
-  }
-  int widest = 0;
-  double most = -1;
-  for (int axis = 0; axis < 3; axis++) {
-    double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
-      double place = middle(&numbering->primitives[triangles[i]], axis);
-      low = fmin(low, place), high = fmax(high, place);
-    }
-    if (high - low > most)
-      most = high - low, widest = axis;
-  }
-  struct sort_key *keys = malloc(count * sizeof *keys);
-  if (!keys)
-    return false;
-  for (uint32_t i = 0; i < count; i++)
-    keys[i] = (struct sort_key){middle(&numbering->primitives[triangles[i]], widest), triangles[i]};
-  qsort(keys, count, sizeof *keys, compare_keys);
-  for (uint32_t i = 0; i < count; i++)
-    triangles[i] = keys[i].triangle;
-  free(keys);
-  struct scene_tree_node *node = add_node(numbering->tree, depth, NULL, 0);
-  const uint32_t half = (count + 1) / 2;
-  node->child[0] = numbering->tree->node_count;
-  if (!add_balanced(numbering, triangles, half, depth + 1))
-    return false;
-  node->child[1] = numbering->tree->node_count;
-  return add_balanced(numbering, triangles + half, count - half, depth + 1);
-}
-
-/* depth counts the inner nodes above. A subtree is rebuilt where its children would have no room left for any tree over
-   their triangles: as far down as possible. */
-static bool number_nodes(struct numbering *numbering, const struct built_node *built, unsigned depth) {
-  if (built->triangle_count) {
-    const uint32_t count = (uint32_t)(add_leaf(numbering->triangles, numbering, built) - numbering->triangles);
-    if (count > numbering->max_leaf)
-      return add_balanced(numbering, numbering->triangles, count, depth);
-    add_node(numbering->tree, depth, numbering->triangles, count)->box = built->box;
-    return true;
-  }
-  if (depth + built->height > numbering->max_depth)
-    for (int i = 0; i < 2; i++)
-      if (depth + 1 + least_height(built->child[i]->below, numbering->max_leaf) > numbering->max_depth) {
-        uint32_t *end = collect(numbering->triangles, numbering, built);
-        return add_balanced(numbering, numbering->triangles,
-                            unite(numbering->triangles, (uint32_t)(end - numbering->triangles)), depth);
-      }
-  struct scene_tree_node *node = add_node(numbering->tree, depth, NULL, 0);
-  for (int i = 0; i < 2; i++) {
-    node->child[i] = numbering->tree->node_count;
-    if (!number_nodes(numbering, built->child[i], depth + 1))
-      return false;
-  }
-  return true;
 }
 
 /* --- improving what was built --- */
@@ -341,7 +153,7 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
   return index;
 }
 
-/* A tree that is too deep is not: number_nodes rebuilds what is. */
+/* A tree that is too deep is not: scene_number_built rebuilds what is. */
 static trax_status improve(struct built_node **root, unsigned max_depth, const struct trax_build_options *options,
                            trax_error *error) {
   if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
@@ -365,22 +177,20 @@ static trax_status improve(struct built_node **root, unsigned max_depth, const s
 }
 
 static trax_status make_tree(struct scene_tree *tree, struct built_node *root, const struct trax_mesh *mesh,
-                             struct RTCBuildPrimitive *primitives, const struct scene_duplicates *duplicates,
-                             unsigned max_depth, unsigned max_leaf, const struct trax_build_options *options,
-                             trax_error *error) {
-  struct numbering numbering = {tree, primitives, duplicates, max_depth, max_leaf, NULL};
-  if (!measure_built(&numbering, root) || least_height(mesh->triangle_count, max_leaf) > max_depth)
+                             const struct scene_duplicates *duplicates, unsigned max_depth, unsigned max_leaf,
+                             const struct trax_build_options *options, trax_error *error) {
+  struct scene_numbering numbering = {tree, mesh, duplicates, max_depth, max_leaf, NULL};
+  if (!scene_measure_built(&numbering, root) || scene_least_height(mesh->triangle_count, max_leaf) > max_depth)
     return trax_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf", max_depth,
                      max_leaf);
   const trax_status improved = improve(&root, max_depth, options, error);
   if (improved != TRAX_OK)
     return improved;
-  measure_built(&numbering, root);
-  fill_primitives(primitives, mesh, NULL); /* the builder sorts and splits its own */
+  scene_measure_built(&numbering, root);
   numbering.triangles = malloc(root->below * sizeof *numbering.triangles);
   /* A binary tree over n triangles has at most 2n - 1 nodes. */
   tree->nodes = malloc(2 * (size_t)root->below * sizeof *tree->nodes);
-  bool good = numbering.triangles && tree->nodes && number_nodes(&numbering, root, 0);
+  bool good = numbering.triangles && tree->nodes && scene_number_built(&numbering, root);
   free(numbering.triangles);
   if (good && scene_is_interrupted(options->interrupt))
     return TRAX_INTERRUPTED;
@@ -408,57 +218,6 @@ static trax_status check_options(const struct trax_build_options *options, trax_
   return TRAX_OK;
 }
 
-bool trax_splits_choose(const char *text, struct trax_build_options *build) {
-  char *end = NULL;
-  build->choose_splits = text && strcmp(text, "auto") == 0;
-  build->splits = 0;
-  if (build->choose_splits)
-    return true;
-  const float factor = text ? strtof(text, &end) : TRAX_DEFAULT_SPLITS;
-  if (text && (end == text || *end || !(factor >= 1 && factor <= TRAX_SCENE_MAX_SPLITS)))
-    return false;
-  build->splits = factor;
-  return true;
-}
-
-static bool emits(const struct trax_mesh *mesh, const struct trax_mesh_triangle *triangle) {
-  const float *emission = mesh->materials[triangle->material].surface.emission;
-  return emission[0] > 0 || emission[1] > 0 || emission[2] > 0;
-}
-
-/* How many triangles' boxes a random line through the scene enters that it would not enter if each had the size of its
-   triangle as seen along the axes: many, where triangles are large and askew. */
-#define BOXES_IN_VAIN 2
-
-static bool splits_suit(const struct trax_mesh *mesh) {
-  struct scene_box bounds = scene_empty_box();
-  double in_vain = 0;
-  for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-    if (emits(mesh, &mesh->triangles[i]))
-      return false;
-    const uint32_t *vertices = mesh->triangles[i].vertices;
-    const float *a = mesh->vertices[vertices[0]], *b = mesh->vertices[vertices[1]], *c = mesh->vertices[vertices[2]];
-    struct scene_box box = scene_empty_box();
-    scene_box_add_point(&box, a), scene_box_add_point(&box, b), scene_box_add_point(&box, c);
-    scene_box_add_box(&bounds, &box);
-    in_vain += scene_half_area(box.min, box.max);
-    for (int axis = 0; axis < 3; axis++) {
-      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      in_vain -= fabs(((double)b[u] - a[u]) * ((double)c[v] - a[v]) - ((double)b[v] - a[v]) * ((double)c[u] - a[u]));
-    }
-  }
-  return in_vain > BOXES_IN_VAIN * scene_half_area(bounds.min, bounds.max);
-}
-
-/* A triangle that is split stands in the file several times, and would be several lamps. */
-static trax_status check_emitters(const struct trax_mesh *mesh, trax_error *error) {
-  for (uint32_t i = 0; i < mesh->triangle_count; i++)
-    if (emits(mesh, &mesh->triangles[i]))
-      return trax_fail(error, "no splits where triangles emit light (material '%s')",
-                       mesh->materials[mesh->triangles[i].material].name);
-  return TRAX_OK;
-}
-
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error) {
   *tree = (struct scene_tree){0};
@@ -471,14 +230,14 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
       scene_tree_release(tree);
     return result;
   }
-  const float factor = options->choose_splits ? (splits_suit(mesh) ? TRAX_DEFAULT_SPLITS : 0) : options->splits;
+  const float factor = options->choose_splits ? (scene_splits_suit(mesh) ? TRAX_DEFAULT_SPLITS : 0) : options->splits;
   const bool splits = factor > 1;
   struct trax_build_options chosen = *options; /* and no longer to be chosen */
   chosen.splits = factor;
   options = &chosen;
   struct scene_duplicates duplicates = {0};
   if (splits)
-    result = check_emitters(mesh, error);
+    result = scene_check_emitters(mesh, error);
   if (splits && result == TRAX_OK)
     result = scene_find_duplicates(&duplicates, mesh, error);
   if (result != TRAX_OK)
@@ -527,8 +286,8 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     else if (!root || context.failed)
       result = trax_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
     else
-      result = make_tree(tree, root, mesh, primitives, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize,
-                         options, error);
+      result =
+          make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize, options, error);
   }
   free(primitives);
   scene_duplicates_release(&duplicates);

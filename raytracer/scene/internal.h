@@ -231,6 +231,13 @@ static inline void scene_box_add_box(struct scene_box *box, const struct scene_b
   scene_box_add_point(box, other->max);
 }
 
+static inline struct scene_box scene_triangle_box(const struct trax_mesh *mesh, uint32_t triangle) {
+  struct scene_box box = scene_empty_box();
+  for (int corner = 0; corner < 3; corner++)
+    scene_box_add_point(&box, mesh->vertices[mesh->triangles[triangle].vertices[corner]]);
+  return box;
+}
+
 /* --- nodes.c --- */
 
 struct scene_tree;
@@ -295,6 +302,14 @@ struct scene_tree {
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 void scene_tree_release(struct scene_tree *tree);
+
+/* --- splits.c --- */
+
+/* Whether splits gain in this mesh. */
+bool scene_splits_suit(const struct trax_mesh *mesh);
+/* Refuses splits of a mesh that emits light: a triangle that is split stands in the file several times, and would be
+   several lamps. */
+trax_status scene_check_emitters(const struct trax_mesh *mesh, trax_error *error);
 
 /* --- own_tree.c --- */
 
