@@ -99,6 +99,17 @@ static inline bool trax_queue_is_taken(const struct trax_queue *queue, uint32_t 
   return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < queue->count;
 }
 
+/* Whether the taken place `index` has a request that has started. */
+static inline bool trax_queue_is_started(const struct trax_queue *queue, uint32_t index) {
+  if (queue->heap) {
+    for (uint32_t i = 0; i < queue->started; i++)
+      if (queue->heap[i] == index)
+        return true;
+    return false;
+  }
+  return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < queue->started;
+}
+
 /* Frees the place of the request that arrives next. */
 static inline void trax_queue_pop(struct trax_queue *queue) {
   if (queue->heap) {

@@ -278,6 +278,11 @@ struct scene_parts {
    the first that is not, or UINT32_MAX. What stands in more than 1024 is refused. */
 trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, trax_error *error);
 
+/* --- check_tree.c --- */
+
+/* Checks the tree of a file whose sections and triangles have been checked. name: of the file, for messages. */
+trax_status scene_check_tree(const struct trax_scene *view, const char *name, trax_error *error);
+
 /* --- bvh.c --- */
 
 /* A tree as the builder makes it; links are indices into nodes. */
