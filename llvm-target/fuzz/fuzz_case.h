@@ -44,9 +44,6 @@ size_t fuzz_case_words(char *options, char **words, size_t limit);
 /* What a program's own custom mutator is made of. words: options that may be added, NULL-terminated; "%" in one stands
    for the name of a file. */
 size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *const *words);
-/* Files of both cases in one. */
-size_t fuzz_case_cross(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                       uint8_t *result, size_t capacity, unsigned seed);
 
 /* --- fuzz_elf.c --- */
 
@@ -66,6 +63,10 @@ size_t fuzz_mutate_elf(uint8_t *bytes, size_t size, size_t capacity, fuzz_random
 /* --- in each fuzzer --- */
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
+/* Where it has them; the second is cross.c's. */
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
+                                 uint8_t *result, size_t capacity, unsigned seed);
 
 #ifdef __cplusplus
 }

@@ -10,9 +10,6 @@ bool __wrap_ld_read_file(ld_context *ctx, const char *path, const uint8_t **byte
 bool __wrap_ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, bool executable);
 int __wrap_access(const char *path, int mode);
 int __real_access(const char *path, int mode);
-size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                                 uint8_t *result, size_t capacity, unsigned seed);
 
 static const fuzz_case *current;
 static unsigned images; /* that the current link wrote */
@@ -129,9 +126,4 @@ size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, uns
                                       "--",
                                       NULL};
   return fuzz_case_mutate(bytes, size, capacity, seed, words);
-}
-
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                                 uint8_t *result, size_t capacity, unsigned seed) {
-  return fuzz_case_cross(first, first_size, second, second_size, result, capacity, seed);
 }

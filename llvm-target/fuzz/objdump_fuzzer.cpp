@@ -103,8 +103,3 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t *Bytes, size_t Size, size_t Ca
                                       nullptr};
   return fuzz_case_mutate(Bytes, Size, Capacity, Seed, Words);
 }
-
-extern "C" size_t LLVMFuzzerCustomCrossOver(const uint8_t *First, size_t FirstSize, const uint8_t *Second,
-                                            size_t SecondSize, uint8_t *Result, size_t Capacity, unsigned Seed) {
-  return fuzz_case_cross(First, FirstSize, Second, SecondSize, Result, Capacity, Seed);
-}

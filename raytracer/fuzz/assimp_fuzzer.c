@@ -245,14 +245,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     input = file->bytes;
     input_end = input + file->size;
     if (trax_mesh_import(&mesh, &path, 1, &options, NULL, &error) == TRAX_OK) {
-      struct trax_scene scene;
-      const struct trax_build_options build = {.smooth = true, .allow_empty = true};
-      if (trax_scene_build(&scene, &mesh, &build, &error) != TRAX_OK ||
-          trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error) != TRAX_OK) {
-        fprintf(stderr, "an imported mesh makes no scene: %s\n", error.message);
-        abort();
-      }
-      trax_scene_release(&scene);
+      fuzz_build(&mesh);
       trax_mesh_release(&mesh);
     } else if (!error.message[0])
       abort(); /* refused without a reason */

@@ -7,4 +7,11 @@
 
 extern const fuzz_case *fuzz_files; /* the case that runs */
 
+/* --- built.c --- */
+
+/* The scene passes every check; it is released. */
+void fuzz_check_built(struct trax_scene *scene);
+/* An imported mesh makes a scene, which passes every check. */
+void fuzz_build(const struct trax_mesh *mesh);
+
 #endif

@@ -2,26 +2,10 @@
    scene that passes every check. The words of the first line are materials as --material takes them. */
 #include "files.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { most_triangles = 3000 }; /* of which a tree is built */
-
-static void build(const struct trax_mesh *mesh) {
-  struct trax_scene scene;
-  trax_error error = {.message = ""};
-  const struct trax_build_options options = {.smooth = true, .allow_empty = true};
-  if (trax_scene_build(&scene, mesh, &options, &error) != TRAX_OK) {
-    fprintf(stderr, "an imported mesh makes no scene: %s\n", error.message);
-    abort();
-  }
-  if (trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error) != TRAX_OK) {
-    fprintf(stderr, "a scene that was built is refused: %s\n", error.message);
-    abort();
-  }
-  trax_scene_release(&scene);
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   enum { most_words = 8 };
@@ -43,7 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     error.message[0] = 0;
     if (trax_mesh_import(&mesh, &path, 1, &options, NULL, &error) == TRAX_OK) {
       if (mesh.triangle_count <= most_triangles)
-        build(&mesh);
+        fuzz_build(&mesh);
       trax_mesh_release(&mesh);
     } else if (!error.message[0])
       abort(); /* refused without a reason */
@@ -53,10 +37,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 }
 
 /* --- mutation: within files, by words of their formats --- */
-
-size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                                 uint8_t *result, size_t capacity, unsigned seed);
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
   static const char *const words[] = {"mirror", "glass:2", "a=ggx:0.5", "emit:1,2,3", "b=lambert", NULL};
@@ -104,9 +84,4 @@ size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, uns
   size = fuzz_case_write(&fuzz_case, bytes, capacity);
   fuzz_case_free(&fuzz_case);
   return size;
-}
-
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
-                                 uint8_t *result, size_t capacity, unsigned seed) {
-  return fuzz_case_cross(first, first_size, second, second_size, result, capacity, seed);
 }

@@ -72,8 +72,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 
 /* --- mutation: words, most of them where the structure is --- */
 
-size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
-
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
   static const uint32_t steps[] = {1, 2, 4, 7, 8, 16, 40, 64, 128, 0x80000000u, 0x7F800000u, 0x00800000u};
   fuzz_random random = {seed + 1u};

@@ -12,23 +12,13 @@ import sys
 import tempfile
 import zlib
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check, equal  # noqa: E402
+
 SIM, PROGRAM, DEEP, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:5])
 FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "lockstep", "series", "trace", "perfetto", "konata"]
 RESULTS = 400  # words
-failures = 0
-
-
-def check(condition, *message):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *(str(part)[:1000] for part in message))
-
-
-def equal(a, b, *what):
-    if isinstance(a, str) and isinstance(b, str) and a != b:  # the first lines that differ
-        a, b = next(((x, y) for x, y in zip(a.split("\n"), b.split("\n")) if x != y), (len(a), len(b)))
-    check(a == b, *what, a, "is not", b)
 
 
 def run(directory, engine, *options, files=FILES, expected=0, program=None):
@@ -503,8 +493,8 @@ def main():
         refuse("none/x: cannot be written", f"--{name}", "none/x", "--window", "0:9", "--trace=t" if name != "trace" else
                "--profile=t")
         refuse(f"--{name} is given twice", f"--{name}=a", f"--{name}=b")
-    print(f"{failures} failures" if failures else "all hold")
-    sys.exit(failures != 0)
+    print(f"{checking.failures} failures" if checking.failures else "all hold")
+    sys.exit(checking.failures != 0)
 
 
 main()

@@ -10,21 +10,13 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check, equal  # noqa: E402
+
 SIM, PROGRAM = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:3])
 KINDS = ["primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other"]
 ITEMS = 300
-failures = 0
-
-
-def check(condition, *message):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *(str(part)[:400] for part in message))
-
-
-def equal(a, b, *what):
-    check(a == b, *what, a, "is not", b)
 
 
 def run(directory, engine, *options):
@@ -171,4 +163,4 @@ def main(directory):
 
 with tempfile.TemporaryDirectory() as temporary:
     main(pathlib.Path(temporary))
-sys.exit(1 if failures else 0)
+sys.exit(checking.failures != 0)

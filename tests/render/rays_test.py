@@ -1,33 +1,24 @@
 #!/usr/bin/env python3
 """rays_test.py BIN: rays by kind, programs that count each ray where it begins, and ambient occlusion."""
 import csv
+import functools
 import json
 import math
 import os
 import pathlib
 import re
 import struct
-import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 KINDS = ["primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other"]
 SIZE, PIXELS = "40x24", 40 * 24
-failures = 0
-
-
-def check(condition, *message):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *(str(part)[:400] for part in message))
-
-
-def call(program, *words, status=0):
-    result = subprocess.run([BIN / program, *map(str, words)], capture_output=True, text=True, timeout=280)
-    check(result.returncode == status, program, *words, "status", result.returncode, result.stdout, result.stderr)
-    return result
+call = functools.partial(checking.call, BIN)
 
 
 def render(*words):
@@ -146,4 +137,4 @@ with tempfile.TemporaryDirectory() as folder:
     corner_occlusion()
     compare_occlusion()
     refusals()
-sys.exit(1 if failures else 0)
+sys.exit(checking.failures != 0)

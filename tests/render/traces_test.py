@@ -3,6 +3,7 @@
 docs/traces.md."""
 import collections
 import csv
+import functools
 import importlib
 import json
 import os
@@ -17,25 +18,14 @@ import time
 import zlib
 
 SOURCE, BIN = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-sys.path[:0] = [str(SOURCE / "tests/docs"), "."]
+sys.path[:0] = [str(SOURCE / "tests/docs"), str(SOURCE / "tests"), "."]
+import checking  # noqa: E402
 from blocks import read_blocks  # noqa: E402
+from checking import check  # noqa: E402
 
 SIZE = ["generate:forest", "--view", "forest", "--size", "24x16", "--quiet"]
 MOST_LINES = 30  # of a reader in the page
-failures = 0
-
-
-def check(condition, *message):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *(str(part)[:400] for part in message))
-
-
-def call(program, *words, status=0):
-    done = subprocess.run([BIN / program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False)
-    check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
-    return done
+call = functools.partial(checking.call, BIN)
 
 
 def readers():
@@ -98,12 +88,39 @@ def check_memory(reader, name, keys):
         check(moved["instruction_line"] == memory["instruction_read_bytes"], name, moved)
     check(moved["write"] == memory["written_bytes"], name, moved)
 
+    check_places(name, sim, reader, transfers)
     call(*sim, "--memory-trace", "fast.csv")
     with open("fast.csv", newline="") as file:
         rows = [(*map(int, (row["cycle"], row["address"], row["bytes"], row["tm"])), reader.KINDS.index(row["kind"]), int(row["channel"]))
                 for row in csv.DictReader(file)]
     check(rows == transfers, name, "CSV and binary differ")
     check_others(name, sim, keys, transfers)
+
+
+def table(path, **columns):
+    with open(path, newline="") as file:
+        return [{name: kind(row[name]) for name, kind in columns.items()} for row in csv.DictReader(file)]
+
+
+def check_places(name, sim, reader, transfers):
+    """Addresses, TMs and cycles against other reports of the run."""
+    call(*sim, "--heat-lines", "heat.csv", "--series", "series.csv", "--series-interval", "97")
+
+    def asked(kind, of):
+        return collections.Counter(of(transfer) for transfer in transfers if reader.KINDS[transfer.kind] == kind)
+
+    tms = load("with.json")["tms"]
+    if "l2" not in name:
+        lines = table("heat.csv", address=lambda text: int(text, 16), misses=int)
+        check(asked("data_line", lambda transfer: transfer.address) == {line["address"]: line["misses"] for line in lines if line["misses"]}, name, "lines that miss")
+        for kind, cache in (("data_line", "dcache"), ("instruction_line", "icache")):
+            check(asked(kind, lambda transfer: transfer.tm) == {tm["tm"]: tm[cache]["misses"] for tm in tms}, name, cache, "misses of TMs")
+    if "dram" not in name:  # there the statistics count a transfer when the DRAM serves it
+        moved = collections.Counter()
+        for transfer in transfers:
+            moved[transfer.cycle // 97] += transfer.bytes
+        rows = [row for row in table("series.csv", tm=str, begin=int, **{"memory.bytes": lambda text: int(text or 0)}) if row["tm"] == "all"]
+        check({row["begin"] // 97: row["memory.bytes"] for row in rows if row["memory.bytes"]} == moved, name, "bytes of intervals")
 
 
 def check_others(name, sim, keys, transfers):
@@ -255,7 +272,7 @@ def main():
         interrupted("--memory-trace")
         interrupted("--ray-trace")
         os.chdir("/")
-    return failures != 0
+    return checking.failures != 0
 
 
 if __name__ == "__main__":

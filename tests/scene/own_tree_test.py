@@ -1,29 +1,20 @@
 #!/usr/bin/env python3
 """own_tree_test.py BIN: trees that are built here, by a median split in Python, given to trax-scene as arrays."""
+import functools
 import json
 import os
 import pathlib
 import struct
-import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 BIN = pathlib.Path(sys.argv[1]).resolve()
 INFINITE = float("inf")
-failures = 0
-
-
-def check(condition, *message):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *(str(part)[:400] for part in message))
-
-
-def call(program, *words, status=0):
-    done = subprocess.run([BIN / program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False)
-    check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
-    return done
+call = functools.partial(checking.call, BIN)
 
 
 # --- arrays ---
@@ -277,7 +268,7 @@ def main():
         damaged()
         pictures()
         os.chdir("/")
-    return failures != 0
+    return checking.failures != 0
 
 
 if __name__ == "__main__":
