@@ -111,8 +111,10 @@ def check_places(name, sim, reader, transfers):
 
     tms = load("with.json")["tms"]
     if "l2" not in name:
-        lines = table("heat.csv", address=lambda text: int(text, 16), misses=int)
-        check(asked("data_line", lambda transfer: transfer.address) == {line["address"]: line["misses"] for line in lines if line["misses"]}, name, "lines that miss")
+        lines = table("heat.csv", address=lambda text: int(text, 16), atomics=int, loads=int, hits=int, misses=int, merged=int)
+        for kind, count in (("atomic", lambda line: line["atomics"] if name != "dram" else 0),  # which moves nothing in DRAM
+                            ("load", lambda line: line["loads"] - line["hits"] - line["misses"] - line["merged"]), ("data_line", lambda line: line["misses"])):
+            check(asked(kind, lambda transfer: transfer.address // 64 * 64) == {line["address"]: count(line) for line in lines if count(line)}, name, kind, "by address")
         for kind, cache in (("data_line", "dcache"), ("instruction_line", "icache")):
             check(asked(kind, lambda transfer: transfer.tm) == {tm["tm"]: tm[cache]["misses"] for tm in tms}, name, cache, "misses of TMs")
     if "dram" not in name:  # there the statistics count a transfer when the DRAM serves it
@@ -148,13 +150,28 @@ def check_others(name, sim, keys, transfers):
         return
     lines = [re.fullmatch(r"(R|W) (\d+),(\d+),(\d+),(\d+),(\d+)", line) for line in pathlib.Path("u").read_text().splitlines()]
     check(len(lines) == len(expected) and all(lines), name, "readwrite")
-    places = {}
-    for line, (write, address, _) in zip(lines, expected):
-        check((line[1] == "W") == write, name, line[0])
-        check(places.setdefault(address, line.groups()[1:]) == line.groups()[1:], name, "two places of", address)
-    check(len(set(places.values())) == len(places), name, "two blocks at one place")
-    if "memory.channels=2" in keys:
-        check({place[0] for place in places.values()} == {"0", "1"}, name, "channels")
+    fields = (("channel", key("channels")), ("rank", key("ranks")), ("bank", int(re.search(r"ranks = .*\n *banks = (\d+)", machine)[1])), ("row", 2**32), ("column", key("row_bytes") // block))
+    mapping = re.search(r'mapping = "(.*)"', machine)[1].split(":")
+    check([line[1] == "W" for line in lines] == [write for write, _, _ in expected], name, "reads and writes")
+    for line, (_, address, _) in zip(lines, expected):
+        place = place_of(address // block, mapping, dict(fields))
+        if place != tuple(map(int, line.groups()[1:])):
+            check(False, name, "place of", hex(address), line[0], "not", place)
+            break
+
+
+def place_of(burst, mapping, counts):
+    """(channel, rank, bank, row, column) of a burst, by timing-memory.md, "Mapping"."""
+    place, known, left = dict.fromkeys(counts, 0), dict.fromkeys(counts, 0), {name: count.bit_length() - 1 for name, count in counts.items()}
+    widths = [re.fullmatch(r"([a-z]+)(\d*)", part).groups() for part in mapping]
+    for name, width in widths:
+        left[name] -= int(width or 0)
+    for name, width in reversed(widths):
+        bits = int(width) if width else left[name]
+        place[name] |= (burst & (1 << bits) - 1) << known[name]
+        known[name] += bits
+        burst >>= bits
+    return tuple(place.values())
 
 
 def memory(reader):
