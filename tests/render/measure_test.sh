@@ -103,6 +103,11 @@ measure --source two --cache programs --keep kept-two -o x.png || fail "--source
 "$bin/trax-compare" -q x.png one.png || fail "--source, changed: another picture"
 cmp -s kept-one/program.elf kept-two/program.elf && fail "--source, changed: the same program"
 rm -f x.png
+# Without room for the scene below 2 GiB, beside the program's own memory.
+cp -r one far
+sed -i '1s/^/static char most[0x7ffff000];\n/; s/^NO_RETURN int main(void) {/&\n  __asm__ volatile("" : : "r"(most));/' far/main.c
+refuse 'the scene ends above 2 GiB' --source far --set memory.size_mib=4095 -o x.png
+[ ! -e x.png ] || fail "above 2 GiB: left x.png"
 echo 'not C' >two/main.c
 refuse '--source two: there is no program: .*main.c' --source two -o x.png
 refuse '--source three: there is no program: .*three' --source three -o x.png
