@@ -2,6 +2,7 @@
 """own_tree_test.py BIN: trees that are built here, by a median split in Python, given to trax-scene as arrays."""
 import functools
 import json
+import math
 import os
 import pathlib
 import struct
@@ -143,8 +144,17 @@ def refuse(message, *words, mesh="big.obj", place="nodes.npy"):
     pathlib.Path("old.trax").write_text("old")
     done = call("trax-scene", mesh, *(words or TREE), "-o", "old.trax", status=1)
     check(message in done.stderr and place in done.stderr, "expected", message, "but it says", done.stderr)
-    check(pathlib.Path("old.trax").read_text() == "old", "the file of before is gone")
+    check(pathlib.Path("old.trax").read_bytes() == b"old", "the file of before is gone")
     check(not [path for path in pathlib.Path().iterdir() if path.name.startswith("old.trax.")], "a file is left")
+
+
+def write_chain(inner_nodes):
+    """A tree for many.obj in which each left child is a leaf."""
+    counts = [1] * (inner_nodes + 1)
+    counts[-1] = min(7, 42 - len(counts))
+    counts[0] += 41 - sum(counts)
+    rows = [row for i in range(inner_nodes) for row in ((2 * i + 1, 2 * i + 2, 0), (sum(counts[:i]), 0, counts[i]))] + [(41 - counts[-1], 0, counts[-1])]
+    write(rows, list(range(41)), [[0] * 6] * len(rows))
 
 
 def refusals():
@@ -184,10 +194,12 @@ def refusals():
     other = next(i for i in range(2, len(good[1])) if good[1][i] != good[1][0])
     write(good[0], good[1][other:other + 1] + good[1][1:], good[2])
     refuse("needs --tree-boxes", place="order.npy")
-    chain = [row for i in range(40) for row in ((2 * i + 1, 2 * i + 2, 0), (i, 0, 1))] + [(40, 0, 1)]
-    write(chain, list(range(41)), [good[2][0]] * len(chain))
-    refuse("the tree is deeper than 32 inner nodes; --depth 62", mesh="many.obj")
-    call("trax-scene", "many.obj", *TREE, "--depth", "62", "-q", "-o", "s.trax")
+    for inner_nodes in (33, 40):
+        write_chain(inner_nodes)
+        refuse("the tree is deeper than 32 inner nodes; --depth 62", mesh="many.obj")
+        call("trax-scene", "many.obj", *TREE, "--depth", "62", "-q", "-o", "s.trax")
+    write_chain(32)
+    call("trax-scene", "many.obj", *TREE, "-q", "-o", "s.trax")
 
     def boxed(row, box, message):
         boxes = list(good[2])
@@ -212,6 +224,11 @@ def refusals():
     third, low, high = (one[3] - one[0]) / 3, one[:3], one[3:]
     write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [one, low + [low[0] + third, *high[1:]], [high[0] - third, *low[1:], *high]])
     refuse("triangle", *TREE, *BOXES, mesh="one.obj")
+    write([(0, 0, 1)], [0], [one])
+    refuse("no leaf has triangle 1", mesh="twins.obj", place="order.npy")
+    beyond = [2 * value for value in high]
+    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [low + beyond, one, [value + 1 for value in high] + beyond])
+    refuse("node 2: triangle 0 is not in its box", *TREE, *BOXES, mesh="one.obj", place="boxes.npy")
     write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [one, one, one])
     refuse("would be several lamps", *TREE, *BOXES, "--material", "emit:1,1,1", mesh="one.obj", place="order.npy")
     write([(1, 2, 0), (0, 0, 2), (2, 0, 2)], [0, 1, 0, 1], [one] * 3)
@@ -236,6 +253,7 @@ def damaged():
                             ("{'descr': '<i4', 'fortran_order': False, 'shape': (3, %d), }", "(N, 3)"),
                             ("{'descr': '<i4', 'fortran_order': 0, 'shape': (%d, 3), }", "True or False"),
                             ("{'descr': '<i4', 'shape': (%d, 3), }", "lacks"), ("{'descr': '<i4', 'other': (%d, 3), }", "no key 'other'"),
+                            ("{'descr': '<i4', 'descr': '<i4', 'shape': (%d, 3), }", "no key 'descr', or it has it once"),
                             ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 3, 1, 1), }", "more than 3 dimensions"),
                             ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 99999999999999999, 9999999), }", "2^60"),
                             ("[%d]", "a dictionary"), ("{'descr': [('left', '<i4')], 'shape': (%d, 3)}", "the type of the elements")):
@@ -244,8 +262,17 @@ def damaged():
     npy("nodes.npy", "<f4", (len(nodes), 3), rows)
     refuse("'<f4', not '<i4'")
     write(nodes, order, boxes)
+    npy("order.npy", "<i4", (len(order), 1), order)
+    refuse("the shape of the leaves' triangles is (M,)", place="order.npy")
+    for few in ([], order[:len(nodes) // 2]):
+        npy("order.npy", "<i4", (len(few),), few)
+        refuse(f"{len(nodes)} nodes; a binary tree over the {len(few)} triangles of order.npy has fewer")
+    write(nodes, order, boxes)
     npy("boxes.npy", "<f8", (len(nodes), 6), [value for box in boxes for value in box])
     refuse(".astype('<f4')", *TREE, *BOXES, place="boxes.npy")
+    for shape in ((len(nodes), 3, 2), (len(nodes), 5), (6 * len(nodes),)):
+        npy("boxes.npy", "<f4", shape, [0] * math.prod(shape))
+        refuse("(N, 2, 3) or (N, 6)", *TREE, *BOXES, place="boxes.npy")
     npy("boxes.npy", "<f4", (len(nodes) - 1, 6), [value for box in boxes[1:] for value in box])
     refuse("(N, 2, 3) or (N, 6)", *TREE, *BOXES, place="boxes.npy")
 
