@@ -23,7 +23,7 @@ import checking  # noqa: E402
 from blocks import read_blocks  # noqa: E402
 from checking import check  # noqa: E402
 
-SIZE = ["generate:forest", "--view", "forest", "--size", "24x16", "--quiet"]
+SIZE = ["forest.trax", "--view", "forest", "--size", "24x16", "--quiet"]  # its tree is built once
 MOST_LINES = 30  # of a reader in the page
 call = functools.partial(checking.call, BIN)
 
@@ -283,6 +283,7 @@ def interrupted(option):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
+        call("trax-scene", "generate:forest", "-o", "forest.trax", "--quiet")
         memory_reader, ray_reader = readers()
         memory(memory_reader)
         rays(ray_reader)
