@@ -8,6 +8,7 @@ tests/evaluation/ssh.sh. Exit status 77: what was asked for is not there.
 """
 
 import argparse
+import importlib
 import json
 import os
 import pathlib
@@ -17,7 +18,9 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+import unittest.mock
 
 from inside import Inside
 
@@ -463,6 +466,63 @@ def test_interrupt(evaluation, scratch):
     check(not list((scratch / "interrupted/runs").glob("*.error")), "an interrupt is no failure of a run")
 
 
+def test_held(evaluation, scratch):
+    """An interrupt finds every process that was started, at each place where it may come: test_interrupt hits only some of them."""
+    interrupts, runners, tools = (importlib.import_module(f"trax_eval.{name}") for name in ("interrupts", "runners", "tools"))
+    begun, ended, show = [], threading.Event(), runners.Progress(2, {}, True)
+
+    def interrupted(call, *arguments):
+        """Whether it ended so, and killed all of `begun` that had not ended by themselves."""
+        try:
+            call(*arguments)
+        except interrupts.Interrupted:
+            return [process.wait() < 0 for process in begun if process.args[0] == "sleep"] == [True]
+        return False
+
+    def job(out, tools, key, threads, on_start):
+        """One that sleeps, and one that has ended, but not its thread."""
+        process = subprocess.Popen(["sleep", "20"] if key == "long" else ["true"])
+        on_start(process)
+        begun.append(process)
+        process.wait()
+        if key == "short":
+            while len(begun) < 2:
+                time.sleep(0.001)
+            ended.set()
+            for other in begun:
+                other.wait()
+
+    def interrupt(*arguments):
+        raise interrupts.Interrupted(signal.SIGINT)
+
+    def second(self, *arguments):
+        if begun:
+            interrupt()
+        handed_out = submit(self, *arguments)
+        while not begun:
+            time.sleep(0.001)
+        return handed_out
+
+    submit, options = runners.concurrent.futures.ThreadPoolExecutor.submit, argparse.Namespace(jobs=2)
+    show.show = lambda: ended.is_set() and interrupt()
+    with unittest.mock.patch.object(runners, "try_job", job):
+        with unittest.mock.patch.object(runners.concurrent.futures.ThreadPoolExecutor, "submit", second):
+            check(interrupted(runners.run_locally, scratch, None, ["long", "short"], options, show), "interrupted while jobs are handed out")
+        begun.clear()
+        check(interrupted(runners.run_locally, scratch, None, ["long", "short"], options, show), "interrupted when a process has just ended")
+
+    class Started(subprocess.Popen):
+        def __init__(self, *words, **where):
+            super().__init__(*words, **where)
+            begun.append(self)
+            interrupts.interrupt(signal.SIGINT, None)
+
+    with unittest.mock.patch.object(tools.subprocess, "Popen", Started):
+        for call in (lambda: tools.run_tool(["sleep", "20"]), lambda: list(tools.run_tools([["sleep", "20"]], 1))):
+            begun.clear()
+            check(interrupted(call), "interrupted when a process has just started")
+
+
 # --- runners
 
 
@@ -513,13 +573,15 @@ def test_slurm(evaluation, scratch):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=("sweep", "rays", "options", "refusals", "names", "experiments", "kill", "interrupt", "parallel", "hosts", "slurm"))
+    parser.add_argument("--only", choices=("sweep", "rays", "options", "refusals", "names", "experiments", "kill", "interrupt", "held", "parallel", "hosts", "slurm"))
     parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
+    for number in (signal.SIGINT, signal.SIGHUP):  # what runs in the background of a shell, or by nohup, ignores them, and so would its children
+        signal.signal(number, signal.SIG_DFL)
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
         scratch = pathlib.Path(temporary).resolve()
         evaluation = Evaluation(options.bin.resolve(), scratch)
-        wanted = [options.only] if options.only else ["sweep", "rays", "options", "refusals", "names", "experiments", "kill", "interrupt", "parallel"]
+        wanted = [options.only] if options.only else ["sweep", "rays", "options", "refusals", "names", "experiments", "kill", "interrupt", "held", "parallel"]
         if "sweep" not in wanted and set(wanted) & {"kill", "parallel", "hosts", "slurm"}:
             evaluation.run(SMALL, "undisturbed", "--jobs", "2")
         for name in wanted:

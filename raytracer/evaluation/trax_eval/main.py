@@ -4,7 +4,6 @@ import argparse
 import os
 import pathlib
 import shlex
-import signal
 import sys
 import tempfile
 import time
@@ -15,6 +14,7 @@ from report.results import Results
 from report.tables import print_tables
 
 from . import runners
+from .interrupts import Interrupted, catch_interrupts, end_by_signal
 from .jobs import is_done
 from .new_sweep import new_sweep
 from .planner import Planner, check_machines, check_names, label
@@ -233,32 +233,8 @@ def dispatch(arguments, tools, data):
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 
-class Interrupted(BaseException):
-    """By the signal whose number is its argument."""
-
-
-SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-
-def interrupt(number, frame):
-    for other in SIGNALS:  # a second one ends it at once
-        if signal.getsignal(other) is interrupt:
-            signal.signal(other, signal.SIG_DFL)
-    raise Interrupted(number)
-
-
-def end_by_signal(number):
-    """As every program of the project: docs/architecture.md, "Signals"."""
-    print("trax-eval: interrupted; the same command goes on", file=sys.stderr)
-    sys.stdout.flush()
-    signal.signal(number, signal.SIG_DFL)
-    os.kill(os.getpid(), number)
-
-
 def main(arguments, folder, data):
-    for number in SIGNALS:
-        if signal.getsignal(number) is not signal.SIG_IGN:  # nohup
-            signal.signal(number, interrupt)
+    catch_interrupts()
     try:
         return dispatch(arguments, Tools(folder), data)
     except Problem as problem:

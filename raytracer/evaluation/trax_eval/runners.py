@@ -1,6 +1,7 @@
 """Who runs the jobs: this process, GNU parallel, or Slurm. Each starts `trax-eval job`, or does what that does."""
 
 import concurrent.futures
+import contextlib
 import os
 import pathlib
 import shlex
@@ -10,6 +11,7 @@ import sys
 import threading
 import time
 
+from .interrupts import held
 from .jobs import error_of, is_done, run_job
 from .util import Problem, duration, write_file
 
@@ -63,6 +65,13 @@ def try_job(out, tools, key, threads, on_start=None):
 # --- this host
 
 
+def kill(process):
+    """Not process.kill, which would wait for it, too. It may have ended by itself, and its thread not be done with it yet."""
+    if process.returncode is None:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process.pid, signal.SIGKILL)
+
+
 def run_locally(out, tools, keys, options, progress):
     """One job a core: two of one thread get more done than one of two (raytracer/evaluation/README.md)."""
     workers = min(options.jobs, len(keys))
@@ -77,7 +86,7 @@ def run_locally(out, tools, keys, options, progress):
                 mine.append(process)
                 running.add(process)
             if stopped.is_set():
-                os.kill(process.pid, signal.SIGKILL)
+                kill(process)
 
         if stopped.is_set():
             return key, None
@@ -87,8 +96,8 @@ def run_locally(out, tools, keys, options, progress):
         return key, error
 
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        waiting = {pool.submit(work, key) for key in keys}
-        try:
+        try:  # an interrupt while jobs are handed out ends those that have begun
+            waiting = {pool.submit(work, key) for key in keys}
             while waiting:
                 finished, waiting = concurrent.futures.wait(waiting, timeout=POLL_SECONDS, return_when=concurrent.futures.FIRST_COMPLETED)
                 for future in finished:
@@ -98,7 +107,7 @@ def run_locally(out, tools, keys, options, progress):
             stopped.set()
             with lock:
                 for process in running:
-                    os.kill(process.pid, signal.SIGKILL)  # not process.kill, which would wait for it, too
+                    kill(process)
             pool.shutdown(cancel_futures=True)
             for key in keys:
                 (out / "runs" / f"{key}.error").unlink(missing_ok=True)  # of the runs just killed
@@ -141,15 +150,17 @@ def run_parallel(out, tools, keys, options, progress):
     errors = open(out / "parallel.errors", "wb")
     command = ["parallel", "--arg-file", str(names), "--joblog", str(out / "parallel.log")]
     command += ["--sshlogin", options.hosts, "--jobs", "100%"] if options.hosts else ["--jobs", str(options.jobs)]
+    process = None
     try:
-        process = subprocess.Popen([*command, *map(shlex.quote, job_command(tools, out, 1)), "{}"], stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=errors)
-    except FileNotFoundError:
-        raise Problem("GNU parallel is not installed (Debian's package is called parallel)") from None
-    try:
+        try:
+            with held():
+                process = subprocess.Popen([*command, *map(shlex.quote, job_command(tools, out, 1)), "{}"], stdin=subprocess.DEVNULL,
+                                           stdout=subprocess.DEVNULL, stderr=errors)
+        except FileNotFoundError:
+            raise Problem("GNU parallel is not installed (Debian's package is called parallel)") from None
         watch(out, keys, progress, lambda: process.poll() is None, lambda: f"GNU parallel: {last_line(errors.name)}")
     finally:
-        if process.poll() is None:
+        if process and process.poll() is None:
             process.terminate()
             process.terminate()  # the second one ends its jobs too
             process.wait()
@@ -187,8 +198,9 @@ def run_slurm(out, tools, keys, options, progress):
             names = logs / f"keys.{os.getpid()}.{first}"
             write_file(names, "".join(key + "\n" for key in some))
             command = shlex.join([*job_command(tools, out, 1), "--list", str(names)])
-            arrays.append(slurm("sbatch", "--parsable", f"--array=0-{len(some) - 1}", "--ntasks=1", "--cpus-per-task=1", "--job-name=trax-eval",
-                                f"--output={logs}/%A_%a.log", *shlex.split(options.slurm_options), "--wrap", command).split(";")[0])
+            with held():
+                arrays.append(slurm("sbatch", "--parsable", f"--array=0-{len(some) - 1}", "--ntasks=1", "--cpus-per-task=1", "--job-name=trax-eval",
+                                    f"--output={logs}/%A_%a.log", *shlex.split(options.slurm_options), "--wrap", command).split(";")[0])
         watch(out, keys, progress, lambda: slurm_knows(arrays), lambda: f"Slurm: the tasks' output is in {logs}")
         arrays.clear()
     finally:

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import time
 
+from .interrupts import held
 from .util import Problem, hash_file
 
 POLL_SECONDS = 0.05
@@ -14,12 +15,15 @@ POLL_SECONDS = 0.05
 
 def run_tool(command, **where):
     """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not finished. where: cwd, env."""
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
+    process = None
     try:
+        with held():
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
         out, errors = process.communicate()
     except BaseException:
-        process.terminate()
-        process.wait()
+        if process:
+            process.terminate()
+            process.wait()
         raise
     return subprocess.CompletedProcess(command, process.returncode, out, errors)
 
@@ -32,7 +36,8 @@ def run_tools(commands, jobs):
             while waiting and len(running) < jobs:
                 place, command = waiting.pop(0)
                 said = tempfile.TemporaryFile()
-                running[place] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
+                with held():
+                    running[place] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
             ended = [place for place, (process, _) in running.items() if process.poll() is not None]
             if not ended:
                 time.sleep(POLL_SECONDS)
