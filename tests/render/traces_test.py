@@ -281,6 +281,7 @@ def interrupted(option):
 
 
 def main():
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # what runs in the background of a shell ignores it, and so would its children
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         call("trax-scene", "generate:forest", "-o", "forest.trax", "--quiet")
