@@ -23,7 +23,8 @@ import checking  # noqa: E402
 from blocks import read_blocks  # noqa: E402
 from checking import check  # noqa: E402
 
-SIZE = ["forest.trax", "--view", "forest", "--size", "24x16", "--quiet"]  # its tree is built once
+PICTURE = ["--view", "forest", "--size", "24x16", "--quiet"]
+SIZE = ["forest.trax", *PICTURE]  # its tree is built once
 MOST_LINES = 30  # of a reader in the page
 call = functools.partial(checking.call, BIN)
 
@@ -193,13 +194,13 @@ PICTURES = {
     "samples": ["--samples", "3"],
     "paths": ["--paths", "3", "--samples", "2", "--one-sided"],
     "occlusion": ["--occlusion", "3"],
-    "mirrors": ["--material", "mirror"],
+    "mirrors": [],  # of a scene of them
     "moller-trumbore": ["--triangle", "moller-trumbore"],
 }
 
 
 def check_rays(reader, name, words):
-    render = ["trax-render", *SIZE, *words]
+    render = ["trax-render", "mirrors.trax" if name == "mirrors" else "forest.trax", *PICTURE, *words]
     call(*render, "-o", "with.png", "--stats", "with.json", "--ray-trace", "rays.bin")
     call(*render, "-o", "without.png", "--stats", "without.json")
     check(pathlib.Path("with.png").read_bytes() == pathlib.Path("without.png").read_bytes(), name, "another picture with a trace")
@@ -210,6 +211,7 @@ def check_rays(reader, name, words):
     rays = list(reader.read("rays.bin"))
     counts = collections.Counter(reader.KINDS[ray.kind] for ray in rays)
     expected = {kind: count for kind, count in load("with.json")["rays_by_kind"].items() if count}
+    check(("mirror" in expected) == (name == "mirrors"), name, expected)
     check(dict(counts) == expected, name, counts, expected)
     check(any(ray.hit for ray in rays) and not all(ray.hit for ray in rays), name, "hits")
     for ray in rays:
@@ -285,6 +287,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         call("trax-scene", "generate:forest", "-o", "forest.trax", "--quiet")
+        call("trax-scene", "generate:forest", "--material", "mirror", "-o", "mirrors.trax", "--quiet")
         memory_reader, ray_reader = readers()
         memory(memory_reader)
         rays(ray_reader)
