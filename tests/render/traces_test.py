@@ -6,6 +6,7 @@ import csv
 import functools
 import importlib
 import json
+import math
 import os
 import pathlib
 import re
@@ -18,8 +19,9 @@ import time
 import zlib
 
 SOURCE, BIN = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-sys.path[:0] = [str(SOURCE / "tests/docs"), str(SOURCE / "tests"), "."]
+sys.path[:0] = [str(SOURCE / "tests" / folder) for folder in ("docs", "report", "")]
 import checking  # noqa: E402
+import explore_page  # noqa: E402
 from blocks import read_blocks  # noqa: E402
 from checking import check  # noqa: E402
 
@@ -31,6 +33,7 @@ call = functools.partial(checking.call, BIN)
 
 def readers():
     """The modules that the page has as files."""
+    sys.path.insert(0, os.getcwd())
     modules = []
     for words, text, line in read_blocks((SOURCE / "docs/traces.md").read_text()):
         if words.startswith("python "):
@@ -220,13 +223,29 @@ def check_rays(reader, name, words):
 
     call(*render, "--ray-trace", "rays.csv")
     with open("rays.csv", newline="") as file:
-        rows = [(row["kind"], int(row["x"]), int(row["y"]), int(row["sample"]), float(row["direction_y"]), row["triangle"], int(row["nodes"]))
-                for row in csv.DictReader(file)]
-    check([(kind, x, y, sample, nodes) for kind, x, y, sample, _, _, nodes in rows] ==
-          [(reader.KINDS[ray.kind], ray.x, ray.y, ray.sample, ray.nodes) for ray in rays], name, "CSV and binary differ")
-    check(all(abs(row[4] - ray.direction[1]) <= 1e-8 * abs(row[4]) for row, ray in zip(rows, rays)), name, "directions")
-    check([row[5] for row in rows] == ["" if ray.triangle == 2**32 - 1 else str(ray.triangle) for ray in rays], name, "triangles")
+        rows = list(csv.DictReader(file))
+    check([[row["kind"], *(int(row[word]) for word in ("x", "y", "sample", "hit", "nodes", "triangles")), row["triangle"]] for row in rows] ==
+          [[reader.KINDS[ray.kind], ray.x, ray.y, ray.sample, ray.hit, ray.nodes, ray.triangles, "" if ray.triangle == 2**32 - 1 else str(ray.triangle)] for ray in rays], name, "CSV and binary differ")
+    places = [f"{what}_{axis}" for what in ("origin", "direction") for axis in "xyz"] + ["begin", "end", "distance", "weight1", "weight2"]
+    for row, ray in zip(rows, rays):
+        written = [float(row[place] or 0) for place in places]
+        check(all(abs(a - b) <= 1e-8 * abs(a) for a, b in zip(written, (*ray.origin, *ray.direction, *ray.interval, ray.distance, *ray.weights))), name, row, ray)
     return rays
+
+
+def check_way(rays):
+    """Rays from the eye begin there, those to the light where the ray before them hit, and each visits what its pixel's do in --explore."""
+    eye = list(map(float, re.search(r"eye = \[(.*)\]", (SOURCE / "raytracer/views/forest.view").read_text())[1].split(",")))
+    for before, ray in zip([None, *rays], rays):
+        expected = eye if ray.kind == 0 else [origin + before.distance * way for origin, way in zip(before.origin, before.direction)]
+        check(math.dist(ray.origin, expected) <= 1e-4 * math.hypot(*expected), "origin of", ray, "not", expected)
+    call("trax-render", *SIZE, "-o", "p.png", "--explore", "p.html")
+    columns = explore_page.unpack(pathlib.Path("p.html"))[1]
+    for what in ("nodes", "triangles"):
+        visited = collections.Counter()
+        for ray in rays:
+            visited[ray.y * 24 + ray.x] += getattr(ray, what)
+        check([visited[place] for place in range(24 * 16)] == columns[f"counts.{what}"], what, "of pixels")
 
 
 def shown_triangles(path):
@@ -259,6 +278,7 @@ def rays(reader):
             shown = shown_triangles("id.png")
             primary = {(ray.x, ray.y): (ray.triangle + 1) % 2**32 for ray in traced if ray.kind == 0}
             check(primary == shown, "triangles of the rays from the eye are not those of --id-picture")
+            check_way(traced)
     for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "embree"), (["--fast-math"], "--fast-math"),
                            (["--frames", "2"], "--frames"), (["--prepare", "d"], "--prepare")):
         out = [] if "--prepare" in words else ["-o", "q.png"]

@@ -2,7 +2,6 @@
 """The page of --explore: explore_test.py BIN SOURCE [--keep DIR]. Whether its data are those of the other outputs, whether its bytes depend on the run
 alone, and whether a browser shows it without a word on its console. --keep leaves pages, pictures and the PDF in a folder, to be looked at."""
 
-import base64
 import collections
 import csv
 import io
@@ -15,9 +14,9 @@ import sys
 import tempfile
 import time
 import unittest
-import zlib
 
 from browser import Browser, PageTests, find_chromium, take_keep
+from explore_page import unpack
 
 BIN, SOURCE = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
 del sys.argv[1:3]
@@ -26,23 +25,6 @@ KEEP = take_keep()
 WIDTH, HEIGHT = 48, 27
 OF_HOST = ("host_seconds", "instructions_per_host_second")
 HOSTILE = "<img src=x onerror=alert(1)> & </script>.obj".replace("/", "\u2044")
-
-
-def unpack(path):
-    """The data of a page, and its picture's columns by name."""
-    packed = {name: zlib.decompress(base64.b64decode(text)) for name, text in re.findall(r'octet-stream" id="(\w+)">([^<]*)</script>', path.read_text())}
-    data, numbers, columns = json.loads(packed["data"]), iter(packed["pixels"]), {}
-    if "picture" in data:
-        for column in filter(None, data["picture"]["columns"]):
-            values = columns[f"{column[0]}.{column[1]}"] = []
-            for _ in range(data["picture"]["width"] * data["picture"]["height"]):
-                value = shift = 0
-                while (byte := next(numbers)) >= 128:
-                    value |= (byte & 127) << shift
-                    shift += 7
-                values.append(value | byte << shift)
-    assert next(numbers, None) is None
-    return data, columns
 
 
 def render(folder, *words, check=True, mesh=None):
