@@ -26,10 +26,6 @@ class Failure(Exception):
     """What ends the program with a message."""
 
 
-class Unavailable(Exception):
-    """Why this host cannot count."""
-
-
 def run(command):
     """Run a command; return what it printed to standard output and to standard error."""
     try:
@@ -40,6 +36,26 @@ def run(command):
     if done.returncode != 0:
         raise Failure(f"{' '.join(map(str, command))}\n  ended with status {done.returncode}\n{done.stderr}{done.stdout}")
     return done.stdout, done.stderr
+
+
+def run_logged(command, counter):
+    """Run a command whose standard error the program `counter` reads; return what both printed to standard output."""
+    with subprocess.Popen([counter], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as counting:
+        try:
+            done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=counting.stdin, text=True, timeout=SECONDS, check=False,
+                                  stdin=subprocess.DEVNULL)
+        except subprocess.TimeoutExpired as expired:
+            raise Failure(f"{' '.join(map(str, command))}\n  did not end in {SECONDS} s") from expired
+        counted, _ = counting.communicate()
+    if done.returncode != 0 or counting.returncode != 0:
+        raise Failure(f"{' '.join(map(str, command))}\n  ended with status {done.returncode}, its counter with {counting.returncode}")
+    return done.stdout, counted
+
+
+@functools.lru_cache(maxsize=None)
+def takes_plugins():
+    """Debian 13's qemu-user is linked statically, and so takes none."""
+    return "-plugin" in run(["qemu-riscv32", "-help"])[0]
 
 
 class Trax:
@@ -68,8 +84,9 @@ class Riscv:
                          *flags]
         if not library: # to compile only
             return
-        self.plugin = work / f"{name}-count.so"
-        run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", BENCH / "count_plugin.c", "-o", self.plugin])
+        how = ["-shared", "-fPIC", BENCH / "count_plugin.c"] if takes_plugins() else [BENCH / "count_trace.c"]
+        self.counter = work / f"{name}-count"
+        run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", *how, "-o", self.counter])
         self.library = self.make_library()
 
     def make_library(self):
@@ -88,7 +105,12 @@ class Riscv:
         run(["ld.lld-19", "--gc-sections", *objects, self.library, "-o", output])
 
     def execute(self, program):
-        printed, counted = run(["qemu-riscv32", "-cpu", "rv32,zfinx=true,zbb=true,f=false,d=false", "-plugin", self.plugin, program])
+        qemu = ["qemu-riscv32", "-cpu", "rv32,zfinx=true,zbb=true,f=false,d=false"]
+        if takes_plugins():
+            printed, counted = run([*qemu, "-plugin", self.counter, program])
+        else:
+            qemu[-1] += ",zfa=false" # which needs f in the releases without plugins
+            printed, counted = run_logged([*qemu, "-d", "in_asm,exec,nochain", program], self.counter)
         return printed, int(counted.split()[1])
 
 
@@ -144,12 +166,6 @@ def check_counter(machine):
     counts = [build_and_run(machine, BENCH / "counted_loop.c", 1, [f"-DITERATIONS={n}"])[2] for n in (100000, 200000)]
     if counts[1] - counts[0] != 300000:
         raise Failure(f"the counter of {machine.name} finds {counts[1] - counts[0]} instructions in a loop of 300000")
-
-
-def check_plugins():
-    """Debian 13's qemu-user is linked statically, and so takes no plugins."""
-    if "-plugin" not in run(["qemu-riscv32", "-help"])[0]:
-        raise Unavailable("this qemu-riscv32 takes no -plugin, by which RISC-V's instructions are counted; Debian 12's does")
 
 
 def check_programs(build):
