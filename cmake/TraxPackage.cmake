@@ -3,7 +3,7 @@
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME trax)
-set(CPACK_PACKAGE_CONTACT "The authors of trax <trax@localhost>")
+set(CPACK_PACKAGE_CONTACT "The authors of trax <trax@trax.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "compiler, simulator and ray tracer for a mobile ray-tracing chip")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "A cycle-exact simulator of the accelerator of the paper
 A Mobile Accelerator Architecture for Ray Tracing, with a C and C++

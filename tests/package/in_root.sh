@@ -29,8 +29,10 @@ quietly trax-eval sweep.json . -o out
 expect '"runs"' cat out/results.json
 
 for program in trax-clang trax-clang++ trax-compare trax-eval trax-ld trax-mc trax-objdump trax-render trax-scene trax-sim; do quietly "$program" --version; done
-for page in trax-compare trax-render trax-scene trax-sim; do
+for page in trax-clang trax-clang++ trax-compare trax-eval trax-ld trax-mc trax-objdump trax-render trax-scene trax-sim; do
   expect ".TH" gzip -dc "/usr/share/man/man1/$page.1.gz"
+done
+for page in trax-compare trax-render trax-scene trax-sim; do
   expect "complete" bash -c ". /usr/share/bash-completion/completions/$page && complete -p $page"
 done
 
