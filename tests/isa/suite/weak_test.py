@@ -23,7 +23,7 @@ def run(broken, seed, *words):
 with open(SOURCE) as file:
     rules = re.findall(r'^  X\(\w+, "([a-z-]+)"\)', file.read(), re.M)
 failures = 0
-for seed in SEEDS if os.environ.get("TRAX_WHOLE") else SEEDS[:2]:
+for seed in SEEDS if os.environ.get("TRAX_WHOLE") else SEEDS[:1]:
     done = run("none", seed, "--only", ABOUT_MEMORY)
     print(f"seed {seed}:", done.stdout.splitlines()[-1] if done.stdout else done.stderr)
     if done.returncode:

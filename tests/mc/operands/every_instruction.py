@@ -5,6 +5,7 @@ messages follow from the description.
   every_instruction.py DESCRIPTION MC    from llvm-tblgen --dump-json isa/Isa.td; the assembler
 """
 
+import collections
 import json
 import re
 import subprocess
@@ -96,11 +97,14 @@ def main():
             expected.append(f"<stdin>:{len(statements)}:{column}: error: {message}")
     result = subprocess.run([sys.argv[2]], input="\n".join(statements) + "\n", stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True, check=False)
-    errors = [line for line in result.stderr.splitlines() if ": error: " in line]
+    errors = collections.defaultdict(list)
+    for line in result.stderr.splitlines():
+        if ": error: " in line:
+            errors[line.split(":")[1]].append(line)
     different = 0
     for line, statement in enumerate(statements, 1):
         wanted = expected[line - 1]
-        got = [error for error in errors if error.startswith(f"<stdin>:{line}:")]
+        got = errors[str(line)]
         if got != [wanted]:
             different += 1
             print(f"{statement}\n  expected {wanted}\n  got      {'; '.join(got) or 'nothing'}")
