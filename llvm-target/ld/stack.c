@@ -364,9 +364,11 @@ static void refuse(const walk *walk, uint32_t root, uint64_t limit, const char *
   void (*report)(ld_context *, const char *, ...) = ctx->options.stack_check == LD_STACK_ERROR ? ld_error : ld_warning;
   report(ctx,
          "the stack takes %s%llu bytes, there are %llu (%s); the deepest path is\n%s"
-         ">>> -mstack=global gives the stack more room, --stack-check=none links all the same",
+         ">>> %s, --stack-check=none links all the same",
          ctx->stack_is_bounded ? "" : "at least ", (unsigned long long)ctx->stack_depth, (unsigned long long)limit,
-         where, path_text(walk, root, ">>> "));
+         where, path_text(walk, root, ">>> "),
+         ld_symbol_find(ctx, "__trax_stack_size") ? "-mstack-size= makes it larger"
+                                                  : "-mstack=global gives the stack more room");
 }
 
 bool ld_check_stack(ld_context *ctx) {

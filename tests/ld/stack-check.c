@@ -60,6 +60,9 @@
    ROOM: stack: at most {{[0-9]+}} bytes, of 4096 (-z stack-size)
    RUN: %clang -DBIG=70 %s -o two -Wl,--defsym=__trax_stack_size=0x10000,--print-stack | FileCheck %s --check-prefix=GLOBAL
    GLOBAL: stack: at most {{[0-9]+}} bytes, of 65536 (__trax_stack_size)
+   RUN: not %clang -DBIG=70 %s -o no -mstack=global -mstack-size=64 2>&1 | FileCheck %s --check-prefix=SIZE
+   SIZE: trax-ld: error: the stack takes {{[0-9]+}} bytes, there are 64 (__trax_stack_size)
+   SIZE: >>> -mstack-size= makes it larger, --stack-check=none links all the same
    RUN: not %clang -DBIG=20 %s -o no -Wl,-z,stack-size=64 2>&1 | FileCheck %s --check-prefix=LESS
    LESS: trax-ld: error: the stack takes {{[0-9]+}} bytes, there are 64 (-z stack-size)
 

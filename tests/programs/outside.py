@@ -158,7 +158,7 @@ def run(command, cwd, log, env=None):
 class Workshop:
     def __init__(self, build, work, engine):
         self.build, self.work, self.engine = build, work, engine
-        self.flags = "--target=trax -mstack=global -mstack-size=256k"
+        self.flags = "--target=trax -mstack=global -mstack-size=2M"
         self.compilers = {"host": "cc", "trax": f"{build}/bin/clang {self.flags}"}
 
     def apt(self, *arguments, cwd=None):
