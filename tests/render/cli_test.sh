@@ -114,7 +114,9 @@ refuse 'view missing.view: there is no such file, and trax comes with no such vi
 refuse 'nowhere/a.view: ' "$render" "$box" -o x.png --view nowhere/a.view
 refuse 'did you mean bunny? (--views lists them)' "$render" "$box" -o x.png --view buny
 "$render" --views >views.txt
-grep -q '^bunny  *The Stanford bunny' views.txt || fail "--views has no line about bunny"
+grep -q '^bunny  *The Stanford bunny of glmark2 (bunny.obj, .* a little above$' views.txt || fail "--views has no line about bunny"
+grep -q '^forest  *The generated forest (generate:forest, 174,117 triangles), from .* into the clearing$' views.txt || fail "--views: $(grep forest views.txt)"
+[ "$(cut -d ' ' -f 1 views.txt)" = "$(cd "$source/../../raytracer/views" && ls *.view | sed 's/\.view$//' | LC_ALL=C sort)" ] || fail "--views: $(cat views.txt)"
 # A known mesh has its view, unless it is told otherwise; another mesh of that name is framed.
 bunny=/usr/share/glmark2/models/bunny.obj
 accept "$render" $bunny -o known.png --engine native --size 32x24
