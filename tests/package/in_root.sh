@@ -29,8 +29,9 @@ quietly trax-eval sweep.json . -o out
 expect '"runs"' cat out/results.json
 
 for program in trax-clang trax-clang++ trax-compare trax-eval trax-ld trax-mc trax-objdump trax-render trax-scene trax-sim; do quietly "$program" --version; done
+quietly apt-get install -q -y --no-install-recommends man-db
 for page in trax-clang trax-clang++ trax-compare trax-eval trax-ld trax-mc trax-objdump trax-render trax-scene trax-sim; do
-  expect ".TH" gzip -dc "/usr/share/man/man1/$page.1.gz"
+  expect "SYNOPSIS" man "$page"
 done
 for page in trax-compare trax-render trax-scene trax-sim; do
   expect "complete" bash -c ". /usr/share/bash-completion/completions/$page && complete -p $page"
