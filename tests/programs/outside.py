@@ -142,8 +142,6 @@ PROGRAMS = [
     Program("potrace", "potrace", "src/potrace", [Case(["-s", "picture.pbm", "-o", "out.svg"]), Case(["-b", "pgm", "picture.pbm", "-o", "out.pgm"])],
             [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--disable-zlib"], ["make", "-C", "src", "potrace"]],
             files={"picture.pbm": b"P1\n24 24\n" + b"".join(b"1 " if (x - 12) ** 2 + (y - 12) ** 2 < 100 else b"0 " for y in range(24) for x in range(24))}),
-    Program("testart", "libart-lgpl", "testart", [Case([name]) for name in ("testpat", "gradient", "dash", "dist", "intersect")],
-            [["./configure", "--host=arm-elf", "--build=x86_64-linux-gnu", CC, "--disable-shared"], ["make", "testart"]]),
 ]
 
 
@@ -158,7 +156,7 @@ def run(command, cwd, log, env=None):
 class Workshop:
     def __init__(self, build, work, engine):
         self.build, self.work, self.engine = build, work, engine
-        self.flags = "--target=trax -mstack=global -mstack-size=2M"
+        self.flags = "--target=trax -mstack=global -mstack-size=256k"
         self.compilers = {"host": "cc", "trax": f"{build}/bin/clang {self.flags}"}
 
     def apt(self, *arguments, cwd=None):
