@@ -106,6 +106,12 @@ void TraxDAGToDAGISel::Select(SDNode *N) {
   }
   if (N->getOpcode() == TraxISD::GROUPS)
     return selectGroups(N);
+  // An address, unless loads and stores share its upper half.
+  if (N->getOpcode() == TraxISD::ADD_LO && N->getOperand(0).getOpcode() == TraxISD::HI && N->getOperand(0).hasOneUse()) {
+    ReplaceNode(N, CurDAG->getMachineNode(Trax::PseudoLUIADDI, SDLoc(N), MVT::i32, N->getOperand(0).getOperand(0),
+                                          N->getOperand(1)));
+    return;
+  }
   if (selectMask(N))
     return;
   SelectCode(N);

@@ -98,7 +98,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   MaxStoresPerMemcpy = MaxStoresPerMemmove = 8;
   MaxStoresPerMemsetOptSize = MaxStoresPerMemcpyOptSize = MaxStoresPerMemmoveOptSize = 4;
 
-  setTargetDAGCombine({ISD::ADD, ISD::SELECT});
+  setTargetDAGCombine({ISD::ADD, ISD::SELECT, ISD::XOR, ISD::SETCC, ISD::BR_CC});
 }
 
 const char *TraxTargetLowering::getTargetNodeName(unsigned Opcode) const {
@@ -349,6 +349,10 @@ SDValue TraxTargetLowering::PerformDAGCombine(SDNode *N, DAGCombinerInfo &DCI) c
     if (SDValue Word = lesserOrGreaterWord(N, DCI.DAG))
       return Word;
     return performSelectCombine(N, DCI);
+  case ISD::XOR:
+  case ISD::SETCC:
+  case ISD::BR_CC:
+    return performUnalignedCombine(N, DCI);
   default:
     return SDValue();
   }

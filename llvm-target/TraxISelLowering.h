@@ -125,6 +125,7 @@ private:
   SDValue lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const;
   SDValue performAddCombine(SDNode *N, DAGCombinerInfo &DCI) const;
   SDValue performSelectCombine(SDNode *N, DAGCombinerInfo &DCI) const;
+  SDValue performUnalignedCombine(SDNode *N, DAGCombinerInfo &DCI) const;
 };
 
 /// Whether this memory access is known to be of local memory (thread-local objects; the stack, unless it is in global

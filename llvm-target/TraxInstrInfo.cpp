@@ -138,13 +138,19 @@ bool TraxInstrInfo::expandPostRAPseudo(MachineInstr &MI) const {
   case Trax::PseudoReloadGroup9:
     accessGroup(MI, *this);
     return true;
+  case Trax::PseudoLUIADDI: {
+    const Register Rd = MI.getOperand(0).getReg();
+    BuildMI(*MI.getParent(), MI, MI.getDebugLoc(), get(Trax::LUI), Rd).add(MI.getOperand(1));
+    BuildMI(*MI.getParent(), MI, MI.getDebugLoc(), get(Trax::ADDI), Rd).addReg(Rd).add(MI.getOperand(2));
+    MI.eraseFromParent();
+    return true;
+  }
   case Trax::PseudoLONGJMP:
-    break;
+    expandTraxLongJmp(MI, *this);
+    return true;
   default:
     return false;
   }
-  expandTraxLongJmp(MI, *this);
-  return true;
 }
 
 unsigned TraxInstrInfo::getInstSizeInBytes(const MachineInstr &MI) const {

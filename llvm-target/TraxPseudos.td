@@ -49,6 +49,10 @@ def PseudoTAILIndirect : TraxPseudo<(outs), (ins GPRTC:$ra, variable_ops)>; // j
 let isReMaterializable = true, isAsCheapAsAMove = true in
 def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstExpansion<(RDSR GPR:$rd, srnum:$imm)>;
 
+// An address: computed again rather than kept in memory where registers are short.
+let isReMaterializable = true, Size = 8, SchedRW = [UnitInt] in
+def PseudoLUIADDI : TraxPseudo<(outs GPR:$rd), (ins uimm16:$upper, simm16:$lower)>;
+
 // halt in the middle of a block: the front end need not have marked what follows unreachable.
 let hasSideEffects = true in
 def PseudoHALT : TraxPseudo<(outs), (ins)>, PseudoInstExpansion<(HALT)>;

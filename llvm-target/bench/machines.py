@@ -71,7 +71,7 @@ class Trax:
     def execute(self, program):
         """Run a program; return what it printed and how many instructions it took."""
         statistics = program.with_suffix(".json")
-        printed, _ = run([self.build / "bin/trax-sim", "--engine", "fast", "--quiet", "--stats", statistics, program])
+        printed, _ = run([self.build / "bin/trax-sim", "--engine", "functional", "--quiet", "--stats", statistics, program])
         return printed, json.loads(statistics.read_text())["instructions"]
 
 

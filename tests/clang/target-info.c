@@ -27,7 +27,7 @@
 // ABSENT-NOT: __linux__
 // ABSENT-NOT: __x86_64__
 
-// IR: target datalayout = "e-m:e-p:32:32-i64:32-f64:32-n32-S32"
+// IR: target datalayout = "e-m:e-p:32:32-i64:32-f64:32-a:0:32-n32-S32"
 // IR: target triple = "trax"
 
 #ifdef __cplusplus

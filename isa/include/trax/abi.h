@@ -9,7 +9,7 @@
 #define TRAX_EM 0x7472 /* e_machine; unofficial: 't' 'r' */
 
 /* Sizes and alignments, in LLVM's notation. */
-#define TRAX_DATA_LAYOUT "e-m:e-p:32:32-i64:32-f64:32-n32-S32"
+#define TRAX_DATA_LAYOUT "e-m:e-p:32:32-i64:32-f64:32-a:0:32-n32-S32"
 
 /* Relocations: name, number. */
 #define TRAX_RELOCATIONS(X)                                                                                            \
