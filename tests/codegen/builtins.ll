@@ -104,8 +104,8 @@ define i32 @opaque_constant() {
   ret i32 %r
 }
 ; CHECK-LABEL: address_taken:
-; CHECK: lui r12, %hi(__builtin_trax_ainc)
-; CHECK: addi r4, r12, %lo(__builtin_trax_ainc)
+; CHECK: lui r4, %hi(__builtin_trax_ainc)
+; CHECK: addi r4, r4, %lo(__builtin_trax_ainc)
 ; CHECK: ret
 define ptr @address_taken() {
   ret ptr @__builtin_trax_ainc

@@ -104,8 +104,8 @@ define i32 @element(i32 %i) {
   ret i32 %r
 }
 ; CHECK-LABEL: address:
-; CHECK: lui r12, %hi(global)
-; CHECK: addi r4, r12, %lo(global)
+; CHECK: lui r4, %hi(global)
+; CHECK: addi r4, r4, %lo(global)
 ; CHECK: ret
 define ptr @address() {
   ret ptr @global
