@@ -70,14 +70,21 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
   if (Exiting.size() > 2)
     return;
   InstructionCost Cost = 0;
+  bool AccessesMemory = false;
   for (const BasicBlock *Block : L->blocks())
     for (const Instruction &I : *Block) {
       if (const auto *Call = dyn_cast<CallBase>(&I))
         if (const Function *Callee = Call->getCalledFunction(); !Callee || isLoweredToCall(Callee))
           return;
+      AccessesMemory |= I.mayReadOrWriteMemory();
       Cost += getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
     }
+  // Rounds that are left over take a dozen instructions more. A long loop does not make up for them in a few rounds,
+  // unless it only computes, where copies save moves.
+  const int LongestUncounted = 12;
   bool IsCounted = SE.getSmallConstantTripCount(L) != 0;
+  if (Aggressive && !IsCounted && !IsJammed && !UP.UnrollAndJam && AccessesMemory && Cost > LongestUncounted)
+    return;
   UP.PartialThreshold = !Aggressive ? 40 : UP.UnrollAndJam ? 160 : IsJammed || IsCounted ? 240 : 80;
   UP.UnrollAndJamInnerLoopThreshold = 100;
   UP.MaxCount = UP.DefaultUnrollRuntimeCount = Aggressive ? 8 : 4;
