@@ -70,8 +70,34 @@ def main():
     check(completed("trax-render", "--size", "1") == set(), "what only the user knows")
     check(completed("trax-sim", "--stats", "manif") == completed("trax-sim", "manif") == {"manifest.md"}, "files")
     check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"), "headings")
+    evaluation_completion()
     help_pages()
     return failures != 0
+
+
+def stems(folder):
+    return {path.stem for path in (SOURCE / "raytracer/evaluation" / folder).glob("*.json")}
+
+
+def evaluation_completion():
+    """trax-eval: the options of its help, their values, and experiments."""
+    script = printed("trax-eval", "--help-completion")
+    check((BIN.parent / "share/bash-completion/completions/trax-eval").read_text() == script, "the installed completion is not what trax-eval prints")
+    options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", printed("trax-eval", "--help"), re.MULTILINE))
+    check({word[2:] for word in completed("trax-eval", "--")} == options and len(options) >= 18, "options of trax-eval:", completed("trax-eval", "--"))
+    experiments = stems("sweeps")
+    for words in ([""], ["--quick", ""]):
+        found = completed("trax-eval", *words)
+        check(experiments | {"report", "docs", "new-sweep", "index.md"} <= found and len(experiments) >= 30, "experiments:", sorted(experiments - found))
+    check(completed("trax-eval", "table2", "table") == {"table1", "table2", "table3"}, "an experiment that is begun")
+    for words, expected in ((["--mode", ""], {"exact", "quick"}), (["--runner", "p"], {"parallel"}), (["--runner", "=", "s"], {"slurm"}), (["--size", "1"], set()),
+                            (["--jobs", ""], set()), (["--chip", "4x32,8x4"], {"4x32,8x48"}), (["--program", "pap"], {"paper"}),
+                            (["--scene", "sibenik,cryt"], {"sibenik,crytek-sponza"}), (["--scene", "ind"], set()), (["--chip", "ind"], {"index.md"}), (["-o", "resu"], {"results"}), (["-o", "inde"], set()),
+                            (["docs", "--"], {"--anew", "--check", "--help"}), (["report", "--o"], {"--output"}), (["report", "inde"], {"index.md"}),
+                            (["new-sweep", "--"], set())):
+        check(completed("trax-eval", *words) == expected, *words, completed("trax-eval", *words))
+    check(stems("programs") <= completed("trax-eval", "--program", ""), "programs of trax-eval")
+    check(stems("scenes") <= completed("trax-eval", "--scene", ""), "scenes of trax-eval")
 
 
 # Programs whose page is made of their help, with the least number of options that prove something.

@@ -142,6 +142,13 @@ PROGRAMS = [
     Program("potrace", "potrace", "src/potrace", [Case(["-s", "picture.pbm", "-o", "out.svg"]), Case(["-b", "pgm", "picture.pbm", "-o", "out.pgm"])],
             [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--disable-zlib"], ["make", "-C", "src", "potrace"]],
             files={"picture.pbm": b"P1\n24 24\n" + b"".join(b"1 " if (x - 12) ** 2 + (y - 12) ** 2 < 100 else b"0 " for y in range(24) for x in range(24))}),
+    Program("graph", "plotutils", "graph/graph",
+            [Case(["-T", "pnm", "-C", "--bitmap-size", "160x120", "-m", "2", "-S", "16", "0.06", "-q", "0.6", "-W", "0.02", "-X", "x", "-L", "Title \\*G", "points.txt"]),
+             Case(["-T", "gif", "--bitmap-size", "120x90", "-l", "y", "-I", "e"], b"1 2 0.5  2 40 3  3 900 50  4 7 1\n"),
+             Case(["-T", "svg", "-S", "4", "-B", "points.txt"]), Case(["-T", "meta", "missing"])],
+            [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--without-x", "--without-libpng", "--disable-shared"],
+             *(["make", "-C", folder] for folder in ("lib", "libxmi", "libplot", "graph"))],
+            files={"points.txt": "".join(f"{i} {i * i % 37}\n" for i in range(41)).encode()}),
 ]
 
 

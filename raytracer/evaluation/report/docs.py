@@ -189,12 +189,16 @@ def write_pages(pages, paper, check):
     return stale
 
 
-def main(arguments=None):
+def new_parser():
     parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="RESULTS.json or PAGE.md")
     parser.add_argument("--check", action="store_true", help="write nothing; status 1 if a block is not what the file gives")
     parser.add_argument("--anew", action="store_true", help="earlier runs of the sweeps and programs of RESULTS.json are dropped, whatever their size")
-    options = parser.parse_args(arguments)
+    return parser
+
+
+def main(arguments=None):
+    options = new_parser().parse_args(arguments)
     try:
         sources, paper = [name for name in options.files if name.endswith(".json")], Paper(HERE.parent / "paper")
         wrong = [name for name in options.files if not name.endswith((".json", ".md")) and not pathlib.Path(name).is_dir()]

@@ -185,13 +185,17 @@ def write(path, text):
         temporary.unlink(missing_ok=True)
 
 
-def main(arguments=None):
+def new_parser():
     parser = argparse.ArgumentParser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
     parser.add_argument("results", type=pathlib.Path, metavar="RESULTS.json")
     parser.add_argument("-o", "--output", metavar="FILE.html", help="the page (default: report.html beside the results)")
     parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR", help="the paper's tables (default: those that come with trax)")
     parser.add_argument("--gnuplot", default="gnuplot", metavar="PROGRAM", help="what draws the figures")
-    options = parser.parse_args(arguments)
+    return parser
+
+
+def main(arguments=None):
+    options = new_parser().parse_args(arguments)
     output = pathlib.Path(options.output or "report.html")
     try:
         if options.output == "" or not options.results.name:

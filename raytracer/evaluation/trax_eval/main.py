@@ -1,6 +1,5 @@
 """The command line."""
 
-import argparse
 import os
 import pathlib
 import shlex
@@ -13,15 +12,16 @@ from report.paper import Paper
 from report.results import Results
 from report.tables import print_tables
 
-from . import runners
+from . import completion, runners
 from .interrupts import Interrupted, catch_interrupts, end_by_signal
 from .jobs import is_done
 from .new_sweep import new_sweep
+from .options import OPTIONS, Parser, described, new_parser
 from .planner import Planner, check_machines, check_names, label
 from .programs import find_programs
 from .results import collect, plan_file, write_plan
 from .scratch import clean_scratch
-from .sweep import MODES, parse_size, read_sweep
+from .sweep import parse_size, read_sweep
 from .tools import Tools
 from .util import Problem, check_files, complain
 from .values import Areas
@@ -41,42 +41,10 @@ of lib/trax/evaluation has the format). SCENES is the folder with the scenes' me
 variable TRAX_SCENES, or else ./scenes).
 
 %s
-What is run:
-      --all             every experiment that is about a figure of the paper, and the page
-      --program NAMES   those of a sweep's programs, with commas between (default: all); a file NAME.json takes the place
-                        of the sweep's
-      --scene NAMES     those of a sweep's scenes
-      --variant NAMES   those of its variants, with semicolons between
-      --chip NAMES      instead of the sweep's: presets, files
-      --size WxH        of the pictures (default: what the sweep says, 1280x720)
-      --mode WHICH      exact or quick, instead of what the sweep says
-      --quick           the same as --mode quick: some parts of each picture are simulated, and figures are estimates
-                        with intervals (trax-render --sampled). If --size is not given, pictures have two thirds of
-                        their sides; those of less than 640x360 are 80 pixels wide, and all of them is simulated
-
-Where it runs:
-      --runner WHICH    local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's
-      --jobs N          runs at the same time on this host (default: its processors)
-      --hosts LIST      --runner parallel: hosts as for its --sshlogin; they see the folders at the same place
-      --slurm-options T --runner slurm: more options for sbatch
-
-Results:
-  -o, --output DIR      the folder of results (default: out/eval)
-      --dry-run         prints the runs that are missing, and ends; imports no scene and writes nothing
-      --report          writes the page, too: report.html in the folder of results
-
-Other:
-  -q, --quiet           neither progress nor tables
-  -h, --help            print this, and end
-      --version         print the version, and end
+%s
 
 Exit status: 0 if all runs that were asked for are there, 1 if some are not. Interrupts end it and what it has started.
 """
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise Problem(f"{message} (trax-eval --help lists the options)")
 
 
 def experiments(data):
@@ -89,41 +57,18 @@ def help_text(data):
     for path in experiments(data):
         sweep = read_sweep(path)
         lines.append(f"  {sweep.name:21} {sweep.title} ({len(sweep.points)} runs)")
-    return HELP % ("Experiments:\n" + "\n".join(lines) + "\n")
-
-
-def path_argument(text):
-    if not text:
-        raise Problem("--output: the value is empty")
-    return pathlib.Path(text)
+    return HELP % ("Experiments:\n" + "\n".join(lines) + "\n", described())
 
 
 def parse(arguments):
-    parser = Parser(prog="trax-eval", add_help=False, allow_abbrev=False)
-    parser.add_argument("words", nargs="*")
-    parser.add_argument("-o", "--output", default="out/eval", type=path_argument)
-    parser.add_argument("--program")
-    parser.add_argument("--scene")
-    parser.add_argument("--variant")
-    parser.add_argument("--chip")
-    parser.add_argument("--size")
-    parser.add_argument("--mode", choices=MODES)
-    parser.add_argument("--quick", dest="mode", action="store_const", const="quick")
-    parser.add_argument("--runner", default="local", choices=tuple(runners.RUNNERS))
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--hosts")
-    parser.add_argument("--slurm-options", default="")
-    parser.add_argument("--dry-run", action="store_true")
-    parser.add_argument("--report", action="store_true")
-    parser.add_argument("--all", action="store_true")
-    parser.add_argument("-q", "--quiet", action="store_true")
-    options = parser.parse_intermixed_args(arguments)
+    options = new_parser().parse_intermixed_args(arguments)
     options.programs = None if options.program is None else [find_programs(name, ".", False)[0] if name.endswith(".json") else name for name in options.program.split(",")]
-    for name, mark in (("scene", ","), ("variant", ";"), ("chip", ",")):
-        given = getattr(options, name)
-        setattr(options, name, None if given is None else [word.strip() for word in given.split(mark)])
-        if given is not None and not all(getattr(options, name)):
-            raise Problem(f"--{name}: the value is empty")
+    for option in OPTIONS:
+        given = getattr(options, option.name, None) if option.mark and option.name != "program" else None
+        if given is not None:
+            setattr(options, option.name, [word.strip() for word in given.split(option.mark)])
+            if not all(getattr(options, option.name)):
+                raise Problem(f"--{option.name}: the value is empty")
     if options.size is not None and not parse_size(options.size):
         raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
     if not 1 <= options.jobs <= 4096:
@@ -216,6 +161,9 @@ def run_one_job(arguments, tools):
 def dispatch(arguments, tools, data):
     if "-h" in arguments or "--help" in arguments:
         print(help_text(data), end="")
+        return 0
+    if arguments == ["--help-completion"]:
+        print(completion.script(data, [path.stem for path in experiments(data)]))
         return 0
     if "--version" in arguments:
         print(f"trax-eval {tools.version()}")

@@ -1,0 +1,70 @@
+"""The completion of trax-eval in bash, from its options, experiments, programs and scenes."""
+
+from report import docs, make
+
+from .options import OPTIONS
+
+COMMANDS = {"report": make.new_parser, "docs": docs.new_parser, "new-sweep": None}  # the last has no options
+
+SCRIPT = """\
+# Completes the options and experiments of trax-eval in bash.
+_trax_eval() {
+  local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]}
+  if [[ $word == = ]]; then
+    word=
+  elif [[ $option == = ]]; then
+    option=${COMP_WORDS[COMP_CWORD - 2]}
+  fi
+  COMPREPLY=()
+  if ((COMP_CWORD > 1)); then
+    case ${COMP_WORDS[1]} in
+%s
+    esac
+  fi
+  case $option in
+%s
+  esac
+  if [[ $word == -* ]]; then
+    COMPREPLY=(%s)
+  else
+    COMPREPLY=(%s)
+  fi
+}
+complete -o filenames -F _trax_eval trax-eval"""
+
+
+def words(values, mark=""):
+    """Bash: those of the words that begin as the word does; of a list, its last value."""
+    values = " ".join(values)
+    if mark:
+        return f"$(compgen -P \"${{word%\"${{word##*{mark}}}\"}}\" -W '{values}' -- \"${{word##*{mark}}}\")"
+    return f"$(compgen -W '{values}' -- \"$word\")"
+
+
+def files(kind):
+    return f'$(compgen -{kind} -- "$word")'
+
+
+def value_of(option, data):
+    """A row of `case`: what is offered behind the option."""
+    values = (*option.words, *(stems(data, option.folder) if option.folder else ()))
+    offered = " ".join([*([words(values, option.mark)] if values else []), *([files(option.files)] if option.files else [])])
+    return f"    {f'-{option.letter} | ' if option.letter else ''}--{option.name}) {f'COMPREPLY=({offered}); ' if offered else ''}return ;;"
+
+
+def stems(data, folder):
+    return sorted(path.stem for path in (data / folder).glob("*.json"))
+
+
+def of_command(name, new_parser):
+    """A row of `case`: another command of trax-eval has options of its own, and files."""
+    names = sorted(name for name in new_parser()._option_string_actions if name.startswith("--")) if new_parser else []  # argparse offers no other way
+    return f"      {name}) if [[ $word == -* ]]; then COMPREPLY=({words(names)}); else COMPREPLY=({files('f')}); fi; return ;;"
+
+
+def script(data, experiments):
+    """experiments: their names."""
+    return SCRIPT % ("\n".join(of_command(*command) for command in COMMANDS.items()),
+                     "\n".join(value_of(option, data) for option in OPTIONS if option.argument),
+                     words(f"--{option.name}" for option in OPTIONS),
+                     f"{words([*experiments, *COMMANDS])} {files('f')}")
