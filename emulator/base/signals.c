@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 volatile sig_atomic_t trax_signal;
 
@@ -55,4 +56,14 @@ void trax_hold_signals(sigset_t *before) {
 
 void trax_allow_signals(const sigset_t *before) {
   sigprocmask(SIG_SETMASK, before, NULL);
+}
+
+pid_t trax_fork(void) {
+  sigset_t before;
+  trax_hold_signals(&before);
+  const pid_t child = fork();
+  if (child == 0)
+    trax_default_signals();
+  trax_allow_signals(&before);
+  return child;
 }

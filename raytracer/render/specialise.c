@@ -4,6 +4,7 @@
 #include "render.h"
 #include "trax/input.h"
 #include "trax/output.h"
+#include "trax/signals.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -248,7 +249,7 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
   FILE *said = tmpfile();
   if (!said)
     return trax_fail(error, "no temporary file: %s", strerror(errno));
-  const pid_t parent = getpid(), child = fork();
+  const pid_t parent = getpid(), child = trax_fork();
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent)
@@ -277,6 +278,8 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
       nanosleep(&pause, NULL);
     }
   }
+  if (result == TRAX_OK && recipe->interrupt && *recipe->interrupt) /* ended before the loop saw it, or by it */
+    result = TRAX_INTERRUPTED;
   if (result == TRAX_OK && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) {
     char line[160];
     first_line(line, fileno(said), status);

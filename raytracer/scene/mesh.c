@@ -119,7 +119,6 @@ static bool write_arrays(FILE *out, struct trax_mesh *mesh) {
 
 static _Noreturn void run_child(FILE *out, const char *path, const struct trax_import_options *options) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  trax_default_signals();
   setrlimit(RLIMIT_CPU, &(struct rlimit){max_import_seconds, max_import_seconds});
   /* What a crashing importer prints is of no use to the user. */
   int null = open("/dev/null", O_WRONLY);
@@ -205,7 +204,7 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
   }
   fflush(NULL); /* or the child would write what is buffered a second time */
   trax_status result;
-  pid_t child = fork();
+  pid_t child = trax_fork();
   if (child == 0)
     run_child(exchange, path, options);
   if (child < 0)

@@ -103,7 +103,7 @@ class Commands:
 
     @functools.cached_property
     def evaluation(self):
-        return "".join(path.read_text() for path in (self.source / "raytracer/evaluation").rglob("*.py"))
+        return help_of(self.binaries / "trax-eval") + "".join(path.read_text() for path in (self.source / "raytracer/evaluation").rglob("*.py"))
 
     def options_of(self, word):
         """The text in which options of the command must stand; None: its options are not ours; Failure: no such program."""

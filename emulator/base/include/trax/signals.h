@@ -6,6 +6,7 @@
 #define TRAX_SIGNALS_H
 
 #include <signal.h>
+#include <sys/types.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,8 +19,11 @@ extern volatile sig_atomic_t trax_signal;
 void trax_catch_signals(void);
 /* Handles one more signal in the same way. */
 void trax_catch_signal(int number);
-/* Restores the default actions, as in a child. */
+/* Restores the default actions. */
 void trax_default_signals(void);
+/* fork() with the default actions in the child. A plain fork() leaves the child the handlers until it calls exec: a signal
+   that arrives before only sets the child's copy of trax_signal, and the child goes on. */
+pid_t trax_fork(void);
 /* Ends the program by the signal in trax_signal, which must not be 0. */
 __attribute__((noreturn)) void trax_end_by_signal(void);
 
