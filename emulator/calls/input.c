@@ -24,10 +24,12 @@ static int refill(struct trax_calls *calls) {
   input->end -= input->at;
   input->at = 0;
   struct pollfd ready = {.fd = descriptor, .events = POLLIN};
-  do
-    if (interrupted(calls))
+  int count;
+  do {
+    count = poll(&ready, 1, PATIENCE);
+    if (interrupted(calls)) /* before poll, or in it */
       return EINTR;
-  while (poll(&ready, 1, PATIENCE) <= 0);
+  } while (count <= 0);
   const ssize_t got = read(descriptor, input->bytes + input->end, CAPACITY - input->end);
   if (got < 0)
     return errno == EINTR && !interrupted(calls) ? 0 : errno;

@@ -343,6 +343,10 @@ for engine in fast functional; do
   [ $engine != fast ] || checkpoint="--checkpoint stopped.bin"
   rm -f stats.json
   env --default-signal=INT "$sim" --engine $engine $checkpoint --stats stats.json spin.elf >out 2>err &
+  for _ in $(seq 600); do # until it handles SIGINT
+    [ /proc/$!/exe -ef "$sim" ] && grep -q '^SigCgt:.*[2367abef]$' /proc/$!/status && break
+    sleep 0.1
+  done
   sleep 0.5
   kill -INT $!
   wait $!

@@ -312,7 +312,7 @@ class Progress(unittest.TestCase):
             r"(?:, (?:(\d+):)?(\d+):(\d\d) left)?")
 
     def on_a_terminal(self, *words, seconds=0.7):
-        """What is written to a terminal on standard error until the run is interrupted."""
+        """What is written to a terminal on standard error until the run is interrupted, after so many seconds and some lines."""
         master, slave = pty.openpty()
         process = subprocess.Popen([SIM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=slave)
         os.close(slave)
@@ -328,7 +328,7 @@ class Progress(unittest.TestCase):
                     written += data
                 if interrupt is None and (b"left" in written or words[0] == "--quiet"):
                     interrupt = time.monotonic() + seconds
-                if interrupt and time.monotonic() > interrupt:
+                if interrupt and time.monotonic() > interrupt and (written.count(b"\r") > 8 or words[0] == "--quiet"):
                     process.send_signal(signal.SIGINT)
                     interrupt = float("inf")
         finally:

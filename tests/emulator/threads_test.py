@@ -11,15 +11,13 @@ BIN = pathlib.Path(sys.argv[1]).resolve()
 
 
 def threads_of(command, folder, processors=None):
-    """Start the command on these processors and return how many threads it has when it runs, at most, within a second."""
+    """Start the command on these processors and return how many threads it has, at most, in its first second of processor time."""
     prefix = ["taskset", "-c", ",".join(map(str, processors))] if processors else []
     with subprocess.Popen([*prefix, *command], cwd=folder, stdout=subprocess.DEVNULL) as process:
-        most, end = 0, time.monotonic() + 1
-        while time.monotonic() < end and process.poll() is None:
-            try:
-                most = max(most, len(os.listdir(f"/proc/{process.pid}/task")))
-            except FileNotFoundError:
-                break
+        most = ticks = 0
+        while ticks < os.sysconf("SC_CLK_TCK") and process.poll() is None:
+            status = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+            most, ticks = max(most, int(status[17])), int(status[11]) + int(status[12])
             time.sleep(0.02)
         assert process.poll() is None, "it has ended too soon"
         process.kill()

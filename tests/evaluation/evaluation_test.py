@@ -384,33 +384,34 @@ def simulators(folder, program="trax-sim"):
     return found
 
 
-def wait_for_simulators(folder, seconds):
-    """What a killed command had started ends by itself, and soon."""
-    deadline = time.monotonic() + seconds
+def wait_for_simulators(folder):
+    """What a killed command had started ends by itself."""
+    deadline = time.monotonic() + 60
     while simulators(folder) and time.monotonic() < deadline:
         time.sleep(0.02)
     check(not simulators(folder), "simulators live on")
 
 
 def test_kill(evaluation, scratch, kills):
-    """kills moments at random; a command that is at its end before its moment comes begins again in another folder."""
+    """kills moments at random; a command that is at its end before its moment comes begins again in another folder, and tells how long one takes."""
     generator = random.Random(7)
     begin = time.monotonic()
     evaluation.run(SMALL, "once", "--jobs", "2")
     whole = time.monotonic() - begin
-    hit, folders = 0, 1
+    hit, folders, fresh = 0, 1, True
     while hit < kills and folders < 3 * kills:
-        name = f"killed-{folders}"
+        name, begin = f"killed-{folders}", time.monotonic()
         process = subprocess.Popen(evaluation.command(SMALL, name, "--jobs", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                    start_new_session=True)
         try:
             process.wait(timeout=generator.uniform(0, whole))
             check(process.returncode == 0, f"{name}: exit status {process.returncode} after kills")
             same_bytes(scratch, "undisturbed", name)
-            folders += 1
+            whole = time.monotonic() - begin if fresh else whole
+            folders, fresh = folders + 1, True
             continue
         except subprocess.TimeoutExpired:
-            pass
+            fresh = False
         if hit % 2:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -419,7 +420,7 @@ def test_kill(evaluation, scratch, kills):
         else:  # the command alone: what it started is to end by itself
             process.kill()
         hit += process.wait() == -signal.SIGKILL
-        wait_for_simulators(scratch / name, 5)
+        wait_for_simulators(scratch / name)
         for path in (scratch / name).rglob("*.json"):
             if not path.name.startswith(".") and "scratch" not in path.parts:
                 json.loads(path.read_text())
@@ -444,7 +445,7 @@ def wait_for_reader(pipe):
 def test_interrupt(evaluation, scratch):
     """Each signal ends the command, by itself, and what it has started: a simulator, an importer; and while it waits for a pipe."""
     os.mkfifo(scratch / "pipe.json")
-    slow, large = dict(SMALL, size="400x240"), {"name": "w", "chips": "4x32", "scenes": [{"name": "large", "meshes": ["generate:forest"]}]}
+    slow, large = dict(SMALL, size="1280x720"), {"name": "w", "chips": "4x32", "scenes": [{"name": "large", "meshes": ["generate:forest"]}]}
     sweeps, numbers = {"simulated": slow, "imported": large, "read": None}, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     for place, number in enumerate(numbers):
         for name in list(sweeps)[:place] + list(sweeps)[place + 1:]:  # two of the three each
@@ -524,6 +525,19 @@ def test_held(evaluation, scratch):
             begun.clear()
             check(interrupted(call), "interrupted when a process has just started")
 
+    class Unnoticed(subprocess.Popen):
+        """The interrupt comes just before the wait, and Python notices it at the wait's end."""
+        def communicate(self, *words, **where):
+            begun.append(self)
+            try:
+                return super().communicate(*words, **where)
+            finally:
+                interrupts.interrupt(signal.SIGINT, None)
+
+    begun.clear()
+    with unittest.mock.patch.object(tools.subprocess, "Popen", Unnoticed):
+        check(interrupted(tools.run_tool, ["sleep", "20"]), "interrupted just before it waits")
+
 
 # --- runners
 
@@ -552,7 +566,7 @@ def test_hosts(evaluation, scratch):
     # A host that does not answer is an error that names it; an interrupt ends what runs on the others.
     run = evaluation.run(dict(SMALL, chips="1x32"), "no-host", "--runner", "parallel", "--hosts", hosts.replace("first", "nowhere.invalid").split(",")[0])
     check(run.returncode == 1 and "nowhere.invalid" in run.stderr and "Traceback" not in run.stderr, f"a host that is not there: {run.returncode}: {run.stderr}")
-    process = subprocess.Popen(evaluation.command(dict(SMALL, size="400x240"), "hosts-interrupted", "--runner", "parallel", "--hosts", hosts),
+    process = subprocess.Popen(evaluation.command(dict(SMALL, size="1280x720"), "hosts-interrupted", "--runner", "parallel", "--hosts", hosts),
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
     while not simulators(scratch / "hosts-interrupted") and time.monotonic() < deadline:
@@ -560,7 +574,7 @@ def test_hosts(evaluation, scratch):
     process.send_signal(signal.SIGINT)
     errors = process.communicate(timeout=60)[1]
     check(process.returncode == -signal.SIGINT and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
-    wait_for_simulators(scratch / "hosts-interrupted", 15)
+    wait_for_simulators(scratch / "hosts-interrupted")
 
 
 def test_slurm(evaluation, scratch):

@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 BIN, PRELOADED, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), pathlib.Path(__file__).resolve().parent
-SECONDS = 10  # a child that lost the signal waits for ever
+SECONDS = 120  # a child that lost the signal waits for ever
 
 
 def ends(folder, name, **environment):

@@ -287,11 +287,13 @@ static void test_interrupt(void **state) {
   const char *pipe = test_path("pipe.obj"), *scene = test_path("interrupted.trax");
   assert_int_equal(mkfifo(pipe, 0600), 0);
   unsigned files = count_files();
-  int writer = open(pipe, O_RDWR | O_CLOEXEC); /* so that opening it for reading does not wait */
-  assert_true(writer >= 0);
-  int null = open("/dev/null", O_RDWR | O_CLOEXEC), err = memfd_create("err", MFD_CLOEXEC);
+  int null = open("/dev/null", O_RDWR | O_CLOEXEC), err = memfd_create("err", MFD_CLOEXEC), writer;
   pid_t child = start(null, err, (const char *const[]){pipe, "-o", scene, NULL});
-  usleep(300000);
+  while ((writer = open(pipe, O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0) { /* until the importer reads */
+    assert_int_equal(errno, ENXIO);
+    assert_int_equal(waitpid(child, NULL, WNOHANG), 0);
+    usleep(10000);
+  }
   assert_int_equal(kill(child, SIGINT), 0);
   int status;
   assert_int_equal(waitpid(child, &status, 0), child);

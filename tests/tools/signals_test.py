@@ -75,7 +75,7 @@ def interrupted(command, scratch, folder, number, pipe):
     what = " ".join(str(word) for word in command).replace(str(scratch), "")
     check(process.returncode == -number, f"{what}: {process.returncode} instead of {-number}: {errors[-300:]}")
     check("error" not in errors and "Traceback" not in errors, f"{what}: {errors[-300:]}")
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + 60
     while (any(map(living, started)) or list(folder.iterdir())) and time.monotonic() < deadline:
         time.sleep(0.05)
     check(not any(map(living, started)), f"{what}: children live on")

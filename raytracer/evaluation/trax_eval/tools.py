@@ -13,13 +13,22 @@ from .util import Problem, hash_file
 POLL_SECONDS = 0.05
 
 
+def communicate(process):
+    """What it said. In short steps: Python notices a signal that comes just before a wait only at the wait's end."""
+    while True:
+        try:
+            return process.communicate(timeout=POLL_SECONDS)
+        except subprocess.TimeoutExpired:
+            pass
+
+
 def run_tool(command, **where):
     """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not finished. where: cwd, env."""
     process = None
     try:
         with held():
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
-        out, errors = process.communicate()
+        out, errors = communicate(process)
     except BaseException:
         if process:
             process.terminate()

@@ -131,7 +131,7 @@ with tempfile.TemporaryDirectory() as folder:
         while not has_child(interrupted.pid) and time.monotonic() < until:  # an interpreter that starts does not catch signals yet
             pass
         interrupted.send_signal(number)
-        _, err = interrupted.communicate(timeout=15)
+        _, err = interrupted.communicate(timeout=60)
         if interrupted.returncode != -number or err:
             fail(f"interrupted: status {interrupted.returncode}", err.decode())
     os.chdir("/")
