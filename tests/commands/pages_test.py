@@ -3,6 +3,7 @@
 
 The options are those of the tables in the sources; what is installed is what the commands print."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -39,10 +40,11 @@ def table(command):
 
 
 def completed(command, *words):
-    """What bash offers for the last word."""
+    """What bash offers for the last word, as in a shell that finds the programs."""
     script = BIN.parent / "share/bash-completion/completions" / command
     run = subprocess.run(["bash", "--norc", "-c", 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; printf "%s\\n" "${COMPREPLY[@]}"',
-                          "bash", script, command, *words], capture_output=True, text=True, timeout=60, cwd=SOURCE / "docs")
+                          "bash", script, command, *words], capture_output=True, text=True, timeout=60, cwd=SOURCE / "docs",
+                         env=os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}"})
     check(run.returncode == 0 and not run.stderr, command, *words, run.stderr)
     return set(run.stdout.split())
 
@@ -119,6 +121,9 @@ def help_pages():
         there = names_in(manual.replace("\\-", "-").replace("\\fB", " ").replace("\\fR", " "))
         check(options <= there, f"the page of {command} lacks", sorted(options - there))
         check(manual.count("\n.SS ") >= 2, f"the page of {command} has no groups")
+        there = completed(command, "-")
+        check({name for name in options if name.startswith("-")} == there or command == "trax-eval", f"the completion of {command}:", sorted(options ^ there))
+        check(completed(command, "inde") == {"index.md"}, f"files behind {command}")
     check("aarch64" not in printed("trax-mc", "--help"), "trax-mc --help lists the options of other targets")
     clang = page("trax-clang").replace("\\-", "-").replace("\\fI", "").replace("\\fR", "")
     own = re.findall(r"^  (-[\w-]+=?)\S* .*$\n?(?=.*)", "\n".join(line for line in printed("trax-clang", "--help").splitlines() if "trax: " in line), re.MULTILINE)
@@ -126,6 +131,8 @@ def help_pages():
     for name in own:
         check(f"\\fB{name}" in clang, "the page of trax-clang lacks", name)
     check("trax-clang.1" in page("trax-clang++"), "trax-clang++ has the page of trax-clang")
+    for words, expected in ((["-mstack-s"], {"-mstack-size="}), (["-mstack", "="], {"global", "local"}), (["-O2", "-mstack", "=", "gl"], {"global"}), (["-c", "inde"], {"index.md"})):
+        check(completed("trax-clang", *words) == expected, "trax-clang", *words, completed("trax-clang", *words))
 
 
 def page(command):

@@ -33,7 +33,7 @@ quietly apt-get install -q -y --no-install-recommends man-db
 for page in trax-clang trax-clang++ trax-compare trax-eval trax-ld trax-mc trax-objdump trax-render trax-scene trax-sim; do
   expect "SYNOPSIS" man "$page"
 done
-for page in trax-compare trax-eval trax-render trax-scene trax-sim; do
+for page in trax-clang trax-clang++ trax-compare trax-eval trax-ld trax-mc trax-objdump trax-render trax-scene trax-sim; do
   expect "complete" bash -c ". /usr/share/bash-completion/completions/$page && complete -p $page"
 done
 
