@@ -1,8 +1,12 @@
 #include "trax/signals.h"
 
+#include <errno.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -66,4 +70,30 @@ pid_t trax_fork(void) {
     trax_default_signals();
   trax_allow_signals(&before);
   return child;
+}
+
+/* Also as a zombie, which a process is until its own parent has asked for its status. */
+static bool has_ended(pid_t process) {
+  if (kill(process, 0) < 0 && errno == ESRCH)
+    return true;
+  char name[64], text[512] = "";
+  snprintf(name, sizeof name, "/proc/%ld/stat", (long)process);
+  FILE *file = fopen(name, "r");
+  if (!file)
+    return false;
+  text[fread(text, 1, sizeof text - 1, file)] = 0;
+  fclose(file);
+  const char *state = strrchr(text, ')');
+  return state && strncmp(state, ") Z", 3) == 0;
+}
+
+void trax_end_with_parent(void) {
+  const char *text = getenv("TRAX_PARENT");
+  const pid_t parent = text ? (pid_t)atol(text) : 0;
+  if (parent <= 0)
+    return;
+  if (parent == getppid())
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (parent != getppid() && has_ended(parent)) /* before prctl, or before this process could look */
+    raise(SIGTERM);
 }

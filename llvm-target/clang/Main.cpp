@@ -11,6 +11,7 @@
 #include "TraxTargetInfo.h"
 #include "TraxToolChain.h"
 #include "trax/files.h"
+#include "trax/signals.h"
 #include "trax/version.h"
 #include "clang/Basic/DiagnosticDriver.h"
 #include "clang/Basic/DiagnosticOptions.h"
@@ -33,10 +34,8 @@
 #include "llvm/Support/VirtualFileSystem.h"
 #include "llvm/TargetParser/Host.h"
 
-#include <csignal>
 #include <cstdlib>
 #include <string>
-#include <sys/prctl.h>
 #include <unistd.h>
 
 using namespace clang;
@@ -79,16 +78,6 @@ struct Installation {
 
 bool hasArgument(llvm::ArrayRef<const char *> Args, StringRef Name) {
   return llvm::any_of(Args.drop_front(), [&](const char *Given) { return Given && Name == Given; });
-}
-
-/// Who ends the driver that waits for this process ends it, too.
-void endWithParent() {
-  const char *Parent = getenv("TRAX_PARENT");
-  if (!Parent || atol(Parent) != long(getppid()))
-    return;
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (atol(Parent) != long(getppid()))
-    raise(SIGTERM);
 }
 
 /// Runs a -cc1 or -cc1as command line in this process.
@@ -224,7 +213,7 @@ int main(int Argc, char **Argv) {
 
   ArgVector Args(Argv, Argv + Argc);
   if (Args.size() > 1 && StringRef(Args[1]).starts_with("-cc1"))
-    endWithParent();
+    trax_end_with_parent(); // the driver that waits for it
   if (Args.size() > 1 && StringRef(Args[1]).starts_with("-cc1"))
     return runTool(Args);
 

@@ -103,6 +103,24 @@ def test_signals(programs, scratch):
             end.result()
 
 
+def test_orphans(programs):
+    """A compiler or linker whose driver has ended before it could look ends, too; one that something else has started does not."""
+    ended = subprocess.Popen(["true"])
+    os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie
+
+    def status(command, parent):
+        return subprocess.run(["sh", "-c", f'TRAX_PARENT={parent} "$@"; exit $?', "sh", *command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+
+    def check_all(cases):
+        for command in ([programs / "trax-ld", "--version"], [programs / "clang", "-cc1", "-version"]):
+            for parent, wanted, what in cases:
+                check((found := status(command, parent)) == wanted, f"{command[0].name}, whose driver is {what}: {found}")
+
+    check_all([(ended.pid, 128 + signal.SIGTERM, "a zombie"), (os.getpid(), 0, "behind another process"), ("$$", 0, "its parent"), ("x", 0, "nobody")])
+    ended.wait()
+    check_all([(ended.pid, 128 + signal.SIGTERM, "gone")])
+
+
 def test_limits(programs, scratch):
     """/dev/zero in the place of each small input: refused, in memory that is small."""
     mesh = str(scratch / "triangle.obj")
@@ -124,6 +142,7 @@ def main():
         scratch = pathlib.Path(temporary).resolve()
         (scratch / "triangle.obj").write_text(TRIANGLE)
         test_limits(programs, scratch)
+        test_orphans(programs)
         test_signals(programs, scratch)
     return 1 if failures else 0
 

@@ -24,6 +24,9 @@ void trax_default_signals(void);
 /* fork() with the default actions in the child. A plain fork() leaves the child the handlers until it calls exec: a signal
    that arrives before only sets the child's copy of trax_signal, and the child goes on. */
 pid_t trax_fork(void);
+/* Ends this process when the one ends whose number is in the environment variable TRAX_PARENT, if that is its parent; at
+   once if it has ended already. */
+void trax_end_with_parent(void);
 /* Ends the program by the signal in trax_signal, which must not be 0. */
 __attribute__((noreturn)) void trax_end_by_signal(void);
 
