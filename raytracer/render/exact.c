@@ -1,27 +1,77 @@
 #include "exact.h"
 
+#include "double2.h"
 #include "rtc_query.h"
 
 #include <gmp.h>
 #include <string.h>
 
-/* --- in binary64, with bounds on the errors --- */
+/* --- with bounds on the errors --- */
 
 struct bounded {
   double value, error; /* |value - what it stands for| <= error */
 };
 
-/* det(direction, b, c) */
+/* The sum of the magnitudes of det(a, b, c)'s products. */
+static double volume_size(struct double3 a, struct double3 b, struct double3 c) {
+  return fabs(a.x) * (fabs(b.y * c.z) + fabs(b.z * c.y)) + fabs(a.y) * (fabs(b.z * c.x) + fabs(b.x * c.z)) +
+         fabs(a.z) * (fabs(b.x * c.y) + fabs(b.y * c.x));
+}
+
+/* det(direction, b, c), of vectors whose parts are rounded to binary64 */
 static struct bounded volume(struct double3 direction, struct double3 b, struct double3 c) {
-  const double size = fabs(direction.x) * (fabs(b.y * c.z) + fabs(b.z * c.y)) +
-                      fabs(direction.y) * (fabs(b.z * c.x) + fabs(b.x * c.z)) +
-                      fabs(direction.z) * (fabs(b.x * c.y) + fabs(b.y * c.x));
-  return (struct bounded){dot(direction, cross(b, c)), 0x1p-48 * size + 0x1p-900};
+  return (struct bounded){dot(direction, cross(b, c)), 0x1p-48 * volume_size(direction, b, c) + 0x1p-900};
+}
+
+static struct double3 high(const struct double2_3 *v) {
+  return (struct double3){v->x.high, v->y.high, v->z.high};
+}
+
+/* det(a, b, c) in double-double; the value is rounded at last. */
+static struct bounded long_volume(const struct double2_3 *a, const struct double2_3 *b, const struct double2_3 *c) {
+  const struct double2 value = double2_volume(a, b, c);
+  const double size = volume_size(high(a), high(b), high(c));
+  return (struct bounded){value.high, 0x1p-100 * size + 0x1p-52 * fabs(value.high) + 0x1p-900};
+}
+
+static struct bounded sum_of(const struct bounded edge[3]) {
+  return (struct bounded){edge[0].value + edge[1].value + edge[2].value,
+                          edge[0].error + edge[1].error + edge[2].error};
 }
 
 /* Of a sum of products of three: what is between -error and error may have either sign, and is 0 if that is exact. */
 static bool is_certain(struct bounded value) {
   return fabs(value.value) > value.error;
+}
+
+/* Distance and weights are within this of their values, as quotients. */
+#define DISTANCE_ERROR 0x1p-32
+
+static bool is_precise(struct bounded value) {
+  return value.error <= 0.25 * DISTANCE_ERROR * fabs(value.value);
+}
+
+enum answer { MISSED, HIT, UNCERTAIN };
+
+/* edge: of the direction and two vertices each, as seen from the origin; all of one sign where the ray meets the
+   triangle. The distance is scaled / slope. */
+static enum answer decide(const struct bounded edge[3], struct bounded slope, struct bounded scaled,
+                          struct exact_hit *hit) {
+  bool positive = false, negative = false, certain = true;
+  for (int i = 0; i < 3; i++) {
+    positive |= edge[i].value > edge[i].error;
+    negative |= edge[i].value < -edge[i].error;
+    certain = certain && is_certain(edge[i]);
+  }
+  if (positive && negative)
+    return MISSED;
+  const struct bounded sum = sum_of(edge);
+  if (!certain || !is_precise(slope) || !is_precise(scaled) || !is_precise(sum))
+    return UNCERTAIN;
+  hit->distance = scaled.value / slope.value;
+  hit->u = edge[1].value / sum.value;
+  hit->v = edge[2].value / sum.value;
+  return hit->distance > 0 ? HIT : MISSED;
 }
 
 /* --- exactly --- */
@@ -113,46 +163,49 @@ static bool rational_triangle(const struct trax_triangle *triangle, struct doubl
   return found;
 }
 
-/* --- both --- */
+/* --- one after another, until one is certain --- */
 
-/* Edge values are triple products of the direction and two vertices as seen from the origin. Binary64 decides where it
-   is certain, rational numbers where it is not: so what is hit is hit without error, and distance and weights are
-   within DISTANCE_ERROR. */
-#define DISTANCE_ERROR 0x1p-32
-
-bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
-                    struct exact_hit *hit) {
+static enum answer in_binary64(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
+                               struct exact_hit *hit) {
   const struct double3 a = minus(from(triangle->v0), origin), b = minus(from(triangle->v1), origin),
                        c = minus(from(triangle->v2), origin);
-  const struct bounded edge[3] = {volume(direction, c, b), volume(direction, a, c), volume(direction, b, a)};
-  bool positive = false, negative = false, certain = true;
-  for (int i = 0; i < 3; i++) {
-    positive |= edge[i].value > edge[i].error;
-    negative |= edge[i].value < -edge[i].error;
-    certain = certain && is_certain(edge[i]);
-  }
-  if (positive && negative)
-    return false;
   /* Edges of the triangle itself, whose rounding is that of floats' differences. */
   const struct double3 e = minus(from(triangle->v1), from(triangle->v0)),
                        f = minus(from(triangle->v2), from(triangle->v0));
-  const struct bounded slope = volume(direction, e, f), scaled = volume(a, e, f);
-  const double sum = edge[0].value + edge[1].value + edge[2].value;
-  const double sum_error = edge[0].error + edge[1].error + edge[2].error;
-  certain = certain && slope.error <= 0.25 * DISTANCE_ERROR * fabs(slope.value) &&
-            scaled.error <= 0.25 * DISTANCE_ERROR * fabs(scaled.value) &&
-            sum_error <= 0.25 * DISTANCE_ERROR * fabs(sum);
-  if (!certain) {
-    mpq_t distance;
-    mpq_init(distance);
-    const bool found = rational_triangle(triangle, origin, direction, hit, distance);
-    mpq_clear(distance);
-    return found;
-  }
-  hit->distance = scaled.value / slope.value;
-  hit->u = edge[1].value / sum;
-  hit->v = edge[2].value / sum;
-  return hit->distance > 0;
+  const struct bounded edge[3] = {volume(direction, c, b), volume(direction, a, c), volume(direction, b, a)};
+  return decide(edge, volume(direction, e, f), volume(a, e, f), hit);
+}
+
+static enum answer in_double2(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
+                              struct exact_hit *hit) {
+  const struct double2_3 a = double2_difference(triangle->v0, origin), b = double2_difference(triangle->v1, origin),
+                         c = double2_difference(triangle->v2, origin),
+                         way = {{direction.x, 0}, {direction.y, 0}, {direction.z, 0}};
+  const struct bounded edge[3] = {long_volume(&way, &c, &b), long_volume(&way, &a, &c), long_volume(&way, &b, &a)};
+  return decide(edge, sum_of(edge), long_volume(&a, &c, &b), hit);
+}
+
+/* Does the triangle lie at this place of an axis? Rooms are full of such triangles. They meet the rays that start in
+   their plane at a distance of 0, and those of one plane meet a ray at one distance: no need of rational numbers. */
+static bool lies_at(const struct trax_triangle *triangle, int axis, double place) {
+  return triangle->v0[axis] == place && triangle->v1[axis] == place && triangle->v2[axis] == place;
+}
+
+bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
+                    struct exact_hit *hit) {
+  enum answer answer = in_binary64(triangle, origin, direction, hit);
+  if (answer == UNCERTAIN &&
+      (lies_at(triangle, 0, origin.x) || lies_at(triangle, 1, origin.y) || lies_at(triangle, 2, origin.z)))
+    return false;
+  if (answer == UNCERTAIN)
+    answer = in_double2(triangle, origin, direction, hit);
+  if (answer != UNCERTAIN)
+    return answer == HIT;
+  mpq_t distance;
+  mpq_init(distance);
+  const bool found = rational_triangle(triangle, origin, direction, hit, distance);
+  mpq_clear(distance);
+  return found;
 }
 
 /* --- Embree's callbacks --- */
@@ -197,6 +250,9 @@ static bool is_nearer(const struct query *query, const struct trax_scene *source
                              *rival = &source->triangles[other->triangle];
   if (fabs(hit->distance - other->distance) > 2 * DISTANCE_ERROR * (hit->distance + other->distance))
     return hit->distance < other->distance;
+  for (int axis = 0; axis < 3; axis++)
+    if (lies_at(triangle, axis, triangle->v0[axis]) && lies_at(rival, axis, triangle->v0[axis]))
+      return comes_first(triangle, rival);
   struct exact_hit ignored;
   mpq_t distance, other_distance;
   mpq_inits(distance, other_distance, NULL);

@@ -1,6 +1,6 @@
 /* Rays against triangles without error, for the reference that errors are measured by. Embree's BVH finds the triangles
-   whose boxes a ray may meet; whether it meets them, and which is the nearest, is decided in binary64 where that is
-   certain and in rational numbers where it is not. */
+   whose boxes a ray may meet. Whether it meets them, and which is the nearest, is decided in binary64 where that is
+   certain, else in double-double where that is, else in rational numbers. */
 #ifndef TRAX_RENDER_EXACT_H
 #define TRAX_RENDER_EXACT_H
 

@@ -39,6 +39,20 @@ static void test_a_triangle(void **state) {
   assert_false(shoot((struct double3){0, 2, -4}, (struct double3){1, 0, 0}, &hit)); /* in its plane */
 }
 
+/* The edges' values cancel to their last bits: a small triangle far away, met where its weights are 1/4 and 1/2. */
+static void test_a_small_triangle(void **state) {
+  (void)state;
+  const float x = 4091.3701f, y = 1234.567f, z = -3210.987f, small = 0x1p-8f;
+  const struct trax_triangle triangle = {{x, y, z}, {x + small, y, z}, {x, y + small, z - small}, 0};
+  for (int k = 1; k < 40; k++) {
+    const struct double3 target = {x + 0.25 * small, y + 0.5 * small, z - 0.5 * small},
+                         origin = {k * 0x1.2345p-3, k * -0x1.789p-5, k * 0x1.05fp-1}; /* no direction is rounded */
+    struct exact_hit hit;
+    assert_true(exact_triangle(&triangle, origin, minus(target, origin), &hit));
+    assert_true(fabs(hit.distance - 1) < 0x1p-32 && fabs(hit.u - 0.25) < 0x1p-32 && fabs(hit.v - 0.5) < 0x1p-32);
+  }
+}
+
 static struct trax_frame frame_of(const struct trax_scene *scene, const struct trax_view *view, uint32_t width,
                                   uint32_t height, uint32_t samples) {
   const struct trax_frame_options options = {
@@ -89,6 +103,57 @@ static void test_against_all_triangles(void **state) {
           assert_true(exact.seen[i].distance == nearest.distance);
       }
   assert_in_range(hits, 300, 2 * 48 * 27 - 300);
+  trax_exact_release(&exact);
+  trax_frame_release(&frame);
+  trax_scene_release(&scene);
+  trax_mesh_release(&mesh);
+}
+
+static bool has_first_bits(const struct trax_triangle *triangle, const struct trax_triangle *other) {
+  uint32_t words[9], other_words[9];
+  memcpy(words, triangle, sizeof words);
+  memcpy(other_words, other, sizeof other_words);
+  for (int i = 0; i < 9; i++)
+    if (words[i] != other_words[i])
+      return words[i] < other_words[i];
+  return false;
+}
+
+/* All triangles lie in one plane, over one another: the one of the first bits is seen, whatever the rounding. */
+static void test_one_plane(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  struct trax_scene scene = {0};
+  uint32_t seed = 11, covered = 0;
+  for (int i = 0; i < 20; i++) {
+    uint32_t corner[3];
+    for (int k = 0; k < 3; k++)
+      corner[k] = mesh_vertex(&mesh, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, -0.7f);
+    mesh_triangle(&mesh, corner[0], corner[1], corner[2], 0);
+  }
+  mesh_material(&mesh, 1, 1, 1);
+  build(&scene, &mesh, NULL);
+  struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
+  struct trax_frame frame = frame_of(&scene, &view, 48, 27, 1);
+  struct trax_exact exact = exact_of(&frame);
+  for (uint32_t y = 0, i = 0; y < 27; y++)
+    for (uint32_t x = 0; x < 48; x++, i++) {
+      float direction[3];
+      for (int axis = 0; axis < 3; axis++)
+        direction[axis] = frame.params->corner[axis] + ((float)x + 0.5f) * frame.params->step_x[axis] +
+                          ((float)y + 0.5f) * frame.params->step_y[axis];
+      uint32_t first = TRAX_NO_TRIANGLE, hits = 0;
+      struct exact_hit hit;
+      for (uint32_t triangle = 0; triangle < scene.triangle_count; triangle++)
+        if (exact_triangle(&scene.triangles[triangle], from(frame.params->eye), from(direction), &hit)) {
+          hits++;
+          if (first == TRAX_NO_TRIANGLE || has_first_bits(&scene.triangles[triangle], &scene.triangles[first]))
+            first = triangle;
+        }
+      assert_int_equal(exact.seen[i].triangle, first);
+      covered += hits > 1;
+    }
+  assert_in_range(covered, 100, 48 * 27);
   trax_exact_release(&exact);
   trax_frame_release(&frame);
   trax_scene_release(&scene);
@@ -210,7 +275,8 @@ static void test_kinds_of_wrong_hits(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_triangle), cmocka_unit_test(test_against_all_triangles),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_triangle), cmocka_unit_test(test_a_small_triangle),
+                                     cmocka_unit_test(test_against_all_triangles), cmocka_unit_test(test_one_plane),
                                      cmocka_unit_test(test_no_gaps), cmocka_unit_test(test_against_embree),
                                      cmocka_unit_test(test_kinds_of_wrong_hits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
