@@ -29,7 +29,7 @@ BROKEN = {
     "nothing": "exit 3",
     "silent": "sim >/dev/null",
     "status": "sim; exit 7",
-    "hangs": "sleep 60",
+    "hangs": "sleep 600",
     "late": "case $image in */xor.elf) echo >$signature ;; *) sim ;; esac",
     "empty": "sim; : >$signature",
 }
@@ -126,7 +126,8 @@ with tempfile.TemporaryDirectory() as folder:
     if closed.stderr or not closed.stdout.startswith("#"):
         fail("nobody reads", closed.stderr)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) * 3:
-        interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE, "--timeout", "600"], stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE)
         until = time.monotonic() + 60
         while not has_child(interrupted.pid) and time.monotonic() < until:  # an interpreter that starts does not catch signals yet
             pass
