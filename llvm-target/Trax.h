@@ -19,6 +19,8 @@ class TraxTargetMachine;
 FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel);
 /// Writes va_arg instructions out as loads, for every type.
 FunctionPass *createTraxLowerVAArgPass();
+/// Splits branches on double words, and lets phis take values that branches have compared.
+FunctionPass *createTraxBranchesPass();
 
 /// Makes calls of atomic operations that the machine lacks.
 FunctionPass *createTraxLowerAtomicsPass();
@@ -31,6 +33,7 @@ StringRef getTraxAtomicFunction(AtomicRMWInst::BinOp Operation);
 /// Writes out __builtin_longjmp, once registers are allocated.
 void expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII);
 
+void initializeTraxBranchesPass(PassRegistry &);
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);

@@ -2,6 +2,7 @@
 #include "TraxMCInstLower.h"
 #include "MCTargetDesc/TraxBaseInfo.h"
 #include "MCTargetDesc/TraxMCExpr.h"
+#include "MCTargetDesc/TraxMCTargetDesc.h"
 #include "TraxInstrInfo.h"
 #include "llvm/CodeGen/AsmPrinter.h"
 #include "llvm/CodeGen/MachineBasicBlock.h"

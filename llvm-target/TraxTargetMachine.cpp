@@ -20,6 +20,7 @@ using namespace llvm;
 void LLVMInitializeTraxTarget() {
   RegisterTargetMachine<TraxTargetMachine> X(getTheTraxTarget());
   PassRegistry &PR = *PassRegistry::getPassRegistry();
+  initializeTraxBranchesPass(PR);
   initializeTraxDAGToDAGISelLegacyPass(PR);
   initializeTraxLowerAtomicsPass(PR);
   initializeTraxLowerVAArgPass(PR);
@@ -89,6 +90,12 @@ public:
     if (getOptLevel() != CodeGenOptLevel::None)
       addPass(createTypePromotionLegacyPass());
     TargetPassConfig::addCodeGenPrepare();
+  }
+
+  bool addPreISel() override {
+    if (getOptLevel() != CodeGenOptLevel::None)
+      addPass(createTraxBranchesPass());
+    return false;
   }
 
   bool addInstSelector() override {

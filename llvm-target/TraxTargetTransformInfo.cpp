@@ -119,7 +119,7 @@ InstructionCost TraxTTIImpl::getIntImmCost(const APInt &Imm, Type *Ty, TTI::Targ
 }
 
 InstructionCost TraxTTIImpl::getIntImmCostInst(unsigned Opcode, unsigned Idx, const APInt &Imm, Type *Ty,
-                                               TTI::TargetCostKind CostKind, Instruction *) {
+                                               TTI::TargetCostKind CostKind, Instruction *Inst) {
   bool Fits = Imm.getSignificantBits() <= 16;
   bool Encoded = false;
   switch (Opcode) {
@@ -131,8 +131,11 @@ InstructionCost TraxTTIImpl::getIntImmCostInst(unsigned Opcode, unsigned Idx, co
   case Instruction::Add:
   case Instruction::Or:
   case Instruction::Xor:
-  case Instruction::ICmp:
     Encoded = Fits;
+    break;
+  case Instruction::ICmp: // whether a word is less than a power of two is a shift
+    Encoded = Fits || (isa_and_nonnull<ICmpInst>(Inst) && cast<ICmpInst>(Inst)->isUnsigned() &&
+                       (Imm.isPowerOf2() || (Imm + 1).isPowerOf2()));
     break;
   case Instruction::Sub:
     Encoded = Idx == 1 && (-Imm).getSignificantBits() <= 16;
