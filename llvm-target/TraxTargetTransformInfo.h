@@ -24,6 +24,8 @@ public:
       : BaseT(TM, F.getDataLayout()), ST(TM->getSubtargetImpl(F)), TLI(ST->getTargetLowering()) {}
 
   bool isLoweredToCall(const Function *F) const;
+  // A call takes a jump there and back, moves, and saved registers on both sides.
+  unsigned adjustInliningThreshold(const CallBase *Call) const { return Call->getFunction()->hasOptSize() ? 0 : 100; }
   void getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::UnrollingPreferences &UP,
                                OptimizationRemarkEmitter *ORE);
   void getPeelingPreferences(Loop *L, ScalarEvolution &SE, TTI::PeelingPreferences &PP);

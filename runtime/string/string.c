@@ -74,10 +74,10 @@ char *strncat(char *restrict to, const char *restrict from, size_t size) {
 }
 
 char *strchr(const char *string, int c) {
-  for (;; string++) {
-    if (*string == (char)c)
-      return (char *)(uintptr_t)string;
-    if (!*string)
+  for (const unsigned char *s = (const unsigned char *)string;; s++) {
+    if (*s == (unsigned char)c)
+      return (char *)(uintptr_t)s;
+    if (!*s)
       return NULL;
   }
 }
