@@ -67,6 +67,12 @@ static bool isDoubleWordComparison(const Value *Condition, const BasicBlock *Blo
   if (!Compare || !Compare->hasOneUse() || Compare->getParent() != Block ||
       !Compare->getOperand(0)->getType()->isIntegerTy(64))
     return false;
+  // Pieces of words that may be unaligned are compared together (TraxUnaligned.cpp).
+  if (Compare->isEquality() && any_of(Compare->operands(), [](const Use &Operand) {
+        const auto *Load = dyn_cast<LoadInst>(Operand);
+        return Load && Load->getAlign() < 4;
+      }))
+    return false;
   const APInt *C;
   if (!match(Compare->getOperand(1), m_APInt(C)))
     return true;

@@ -3,8 +3,8 @@
 // Comparisons of words that may be unaligned are in TraxUnaligned.cpp.
 //
 //===----------------------------------------------------------------------===//
-#include "TraxISelLowering.h"
 #include "Trax.h"
+#include "TraxISelLowering.h"
 #include "llvm/Support/MathExtras.h"
 
 using namespace llvm;
