@@ -3,11 +3,9 @@
 // Before instruction selection, which sees one block at a time:
 //
 // - A branch on a comparison of double words becomes branches on comparisons of their halves. As a value, the
-// comparison
-//   of 64 bits takes up to five instructions.
+//   comparison of 64 bits takes up to five instructions.
 // - Where a branch has found that a value equals a constant, a phi takes the value instead of the constant: it may be
-// in
-//   the phi's register already.
+//   in the phi's register already.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
@@ -203,6 +201,8 @@ static bool forwardKnownValue(BranchInst *Branch) {
 }
 
 bool TraxBranches::runOnFunction(Function &F) {
+  if (skipFunction(F))
+    return false;
   bool Changed = false;
   SmallVector<BranchInst *, 32> Branches;
   for (BasicBlock &Block : F)
@@ -219,7 +219,6 @@ bool TraxBranches::runOnFunction(Function &F) {
     Value *Condition = Branch->getCondition();
     if (Branch->getSuccessor(0) != Branch->getSuccessor(1) &&
         containsDoubleWordComparison(Condition, Branch->getParent()))
-
       Changed |= isa<ICmpInst>(Condition) ? splitComparison(Branch) : splitTree(Branch);
   }
   return Changed;
