@@ -92,6 +92,11 @@ class DocsTest(unittest.TestCase):
                 self.assertIn(name, said)
                 self.assertEqual({other: other.read_text() for other in good if other != path}, {other: text for other, text in good.items() if other != path})
             path.write_text(good[path])
+        drawn_by = good[svg].partition(":")[0]
+        other = good[svg].replace(drawn_by, "<!-- gnuplot 0.1", 1).replace("<path", "<path id='x'", 1)
+        for changed, status in ((other, 0), (other.replace("0.1: ", "0.1: 0", 1), 1), (other.partition("\n")[2], 1), (other.replace(" gnuplot 0.1", "", 1), 1)):
+            svg.write_text(changed)  # drawn by another version; of other data; by nothing known
+            self.assertEqual(self.docs("--check", self.page)[0], status, changed.partition("\n")[0])
         svg.unlink()
         self.assertEqual(self.docs("--check", self.page)[0], 1)
         self.page.write_text(good[self.page].replace("| 4x32 |", "| 4x33 |", 1))

@@ -23,7 +23,7 @@ from .charts import all_figures, sweep_figure
 from .claims import UNKNOWN, claims
 from .data import compact, merged, read_data, results_of, without
 from .paper import Paper
-from .picture import standalone
+from .picture import is_same, standalone
 from .plots import PlotError
 from .results import HERE, ResultsError, read_results
 
@@ -182,7 +182,7 @@ def write_pages(pages, paper, check):
         for path, figure in files.items():
             if not check:
                 write_file(path, figure)
-            elif not path.exists() or path.read_text(encoding="utf-8") != figure:
+            elif not path.exists() or not is_same(figure, path.read_text(encoding="utf-8")):
                 stale.append(f"{path}: is not what {page.data} gives; trax-eval docs {page.path} writes it")
         if not check and text != page.text:
             write_file(page.path, text)

@@ -151,6 +151,14 @@ def _quoted(text):
     return "'" + str(text).replace("'", "''").replace("\n", " ").replace("\r", " ") + "'"
 
 
+def version_of(program):
+    """What the program says that it is; versions lay figures out differently."""
+    try:
+        return " ".join(subprocess.run([program, "--version"], capture_output=True, text=True, timeout=60).stdout.split())
+    except (OSError, subprocess.TimeoutExpired):
+        return ""  # run_gnuplot says what is wrong
+
+
 def run_gnuplot(figures, folder, program):
     script = ["set encoding utf8", "unset key"]
     for index, figure in enumerate(figures):
