@@ -163,7 +163,7 @@ def _joined(columns, rows):
         for place, column in enumerate(columns[1:], 1):
             weights = [(row[place], cycles * (sum(number(row[other]) or 0 for other in fetches) if column == "fetch_refused" and len(fetches) == 2 else 1))
                        for row, cycles in group if number(row[place]) is not None]
-            joined.append(ratio(sum(value * weight for value, weight in weights), sum(weight for _, weight in weights)))
+            joined.append(ratio(math.fsum(value * weight for value, weight in weights), math.fsum(weight for _, weight in weights)))
         yield joined
 
 

@@ -42,7 +42,7 @@ def mean(values):
     values = list(values)
     if not values or None in values:
         return None
-    return values[0] if len(values) == 1 else sum(values) / len(values)  # a count stays a whole number
+    return values[0] if len(values) == 1 else math.fsum(values) / len(values)  # a count stays a whole number; sum rounds otherwise from Python 3.12 on
 
 
 class Run:

@@ -1,6 +1,7 @@
 """Figures that follow from a run's statistics and are not among them."""
 
 import csv
+import math
 
 
 def ratio(numerator, denominator):
@@ -37,7 +38,7 @@ class Areas:
         if None in caches or configuration["l2"]["bytes"]:
             return None
         unit = self.units
-        tp = sum(unit[name] for name in ("register_file", "local_memory", "int_add", "branch", "bitwise"))
+        tp = math.fsum(unit[name] for name in ("register_file", "local_memory", "int_add", "branch", "bitwise"))
         compare = unit["fp_compare"] + unit["convert"]
         area = threads * (tp + (compare if fpu["compare_units"] else 0))
         area += groups(fpu["tps_per_cluster"]) * fpu["adders_per_cluster"] * (unit["fp_add"] + (0 if fpu["compare_units"] else compare))
@@ -97,7 +98,7 @@ def values_of_rays(result, statistics):
         mine = {"count": row["rays"], "share": ratio(cycles, live), "utilisation": ratio(row["issued"], cycles)}
         for stall, causes in STALLS.items():
             mine[stall] = ratio(sum(row[cause] for cause in causes), cycles)
-        mine["rest"] = max(0, 1 - sum(value or 0 for name, value in mine.items() if name in STALLS or name == "utilisation"))
+        mine["rest"] = max(0, 1 - math.fsum(value or 0 for name, value in mine.items() if name in STALLS or name == "utilisation"))
         if row["rays"]:
             mine |= {"mrps": row["mrps"], "bytes_per_ray": row["bytes_per_ray"], "energy_per_ray": 1e9 * row["energy_per_ray"]}
         mine |= {f"lanes.{width}": share for (kind, width), share in lanes.items() if kind == row["kind"]}
