@@ -98,7 +98,7 @@ class Consumer final : public ASTConsumer {
   }
 };
 
-class Plugin final : public PluginASTAction {
+class FormatPlugin final : public PluginASTAction {
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance &CI, llvm::StringRef) override {
     if (!trax::isTraxTriple(CI.getTarget().getTriple()))
       return std::make_unique<ASTConsumer>();
@@ -108,6 +108,7 @@ class Plugin final : public PluginASTAction {
   ActionType getActionType() override { return AddBeforeMainAction; }
 };
 
-const FrontendPluginRegistry::Add<Plugin> Registered("trax-format", "what the library's printf does not know");
+const FrontendPluginRegistry::Add<FormatPlugin> FormatRegistered("trax-format",
+                                                                 "what the library's printf does not know");
 
 } // namespace

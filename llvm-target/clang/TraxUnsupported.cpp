@@ -35,7 +35,7 @@ public:
   }
 };
 
-class Plugin final : public PluginASTAction {
+class UnsupportedPlugin final : public PluginASTAction {
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance &CI, llvm::StringRef) override {
     if (!trax::isTraxTriple(CI.getTarget().getTriple()))
       return std::make_unique<ASTConsumer>();
@@ -45,6 +45,7 @@ class Plugin final : public PluginASTAction {
   ActionType getActionType() override { return AddBeforeMainAction; }
 };
 
-const FrontendPluginRegistry::Add<Plugin> Registered("trax-unsupported", "refuses what the machine has no support for");
+const FrontendPluginRegistry::Add<UnsupportedPlugin>
+    UnsupportedRegistered("trax-unsupported", "refuses what the machine has no support for");
 
 } // namespace
