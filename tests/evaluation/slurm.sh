@@ -51,8 +51,10 @@ ReturnToService=2
 NodeName=$host NodeAddr=127.0.0.1 CPUs=$processors
 PartitionName=all Nodes=$host Default=YES State=UP MaxTime=INFINITE
 CONF
-# Before release 23 there is no such setting, and slurmd starts without control groups.
-[ "$(slurmd -V | sed 's/[^0-9]*\([0-9]*\).*/\1/')" -lt 23 ] || echo CgroupPlugin=disabled >"$work/cgroup.conf"
+# Control groups are not used. Before release 23 no setting says so, but a version that is named is not looked for in /sys.
+plugin=disabled
+[ "$(slurmd -V | sed 's/[^0-9]*\([0-9]*\).*/\1/')" -ge 23 ] || plugin=cgroup/v1
+echo "CgroupPlugin=$plugin" >"$work/cgroup.conf"
 export SLURM_CONF=$work/slurm.conf
 slurmctld -D -f "$SLURM_CONF" >"$work/out" 2>&1 &
 controller=$!
