@@ -1,6 +1,15 @@
-/* Memory functions: words where both addresses allow it, four at a time in copies, else bytes. */
+/* Memory functions: words where both addresses allow it, else bytes. Copies and fills take sixteen words at a time,
+   then four, then one. The loops are as long as they are written: most calls are about a few words. */
 #include <stdint.h>
 #include <string.h>
+
+#ifdef __clang__
+#define AS_WRITTEN _Pragma("clang loop unroll(disable)")
+#define WRITTEN_OUT _Pragma("clang loop unroll(full)")
+#else
+#define AS_WRITTEN
+#define WRITTEN_OUT
+#endif
 
 typedef uint32_t __attribute__((may_alias)) word;
 
@@ -11,6 +20,21 @@ static inline int aligned_alike(const void *p, const void *q) {
   return (((uintptr_t)p ^ (uintptr_t)q) & 3) == 0;
 }
 
+static inline void copy_four(void *to, const void *from) {
+  word *t = to;
+  const word *f = from;
+  word a = f[0], b = f[1], c = f[2], d = f[3];
+  t[0] = a;
+  t[1] = b;
+  t[2] = c;
+  t[3] = d;
+}
+
+static inline void fill_four(void *to, word pattern) {
+  word *t = to;
+  t[0] = t[1] = t[2] = t[3] = pattern;
+}
+
 void *memcpy(void *restrict to, const void *restrict from, size_t size) {
   unsigned char *t = to;
   const unsigned char *f = from;
@@ -19,15 +43,21 @@ void *memcpy(void *restrict to, const void *restrict from, size_t size) {
       *t++ = *f++;
       size--;
     }
-    for (; size >= 16; size -= 16, t += 16, f += 16) {
-      word a = ((const word *)f)[0], b = ((const word *)f)[1], c = ((const word *)f)[2], d = ((const word *)f)[3];
-      ((word *)t)[0] = a;
-      ((word *)t)[1] = b;
-      ((word *)t)[2] = c;
-      ((word *)t)[3] = d;
-    }
+    AS_WRITTEN
+    for (; size >= 64; size -= 64, t += 64, f += 64)
+      WRITTEN_OUT
+    for (unsigned i = 0; i < 64; i += 16)
+      copy_four(t + i, f + i);
+    AS_WRITTEN
+    for (; size >= 16; size -= 16, t += 16, f += 16)
+      copy_four(t, f);
+    AS_WRITTEN
     for (; size >= 4; size -= 4, t += 4, f += 4)
       *(word *)t = *(const word *)f;
+    AS_WRITTEN
+    for (; size; size--)
+      *t++ = *f++;
+    return to;
   }
   while (size--)
     *t++ = *f++;
@@ -75,14 +105,18 @@ void *memset(void *to, int byte, size_t size) {
     size--;
   }
   word pattern = (unsigned char)byte * 0x01010101u;
-  for (; size >= 16; size -= 16, t += 16) {
-    ((word *)t)[0] = pattern;
-    ((word *)t)[1] = pattern;
-    ((word *)t)[2] = pattern;
-    ((word *)t)[3] = pattern;
-  }
+  AS_WRITTEN
+  for (; size >= 64; size -= 64, t += 64)
+    WRITTEN_OUT
+  for (unsigned i = 0; i < 64; i += 16)
+    fill_four(t + i, pattern);
+  AS_WRITTEN
+  for (; size >= 16; size -= 16, t += 16)
+    fill_four(t, pattern);
+  AS_WRITTEN
   for (; size >= 4; size -= 4, t += 4)
     *(word *)t = pattern;
+  AS_WRITTEN
   while (size--)
     *t++ = (unsigned char)byte;
   return to;
