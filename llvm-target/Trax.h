@@ -22,6 +22,9 @@ FunctionPass *createTraxLowerVAArgPass();
 /// Splits branches on double words, and lets phis take values that branches have compared.
 FunctionPass *createTraxBranchesPass();
 
+/// Finds a block to save registers in, and one to restore them in, where LLVM's pass has found none.
+extern char &TraxShrinkWrapID;
+
 /// Makes calls of atomic operations that the machine lacks.
 FunctionPass *createTraxLowerAtomicsPass();
 
@@ -37,6 +40,7 @@ void initializeTraxBranchesPass(PassRegistry &);
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);
+void initializeTraxShrinkWrapPass(PassRegistry &);
 
 } // namespace llvm
 

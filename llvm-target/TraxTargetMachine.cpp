@@ -24,6 +24,7 @@ void LLVMInitializeTraxTarget() {
   initializeTraxDAGToDAGISelLegacyPass(PR);
   initializeTraxLowerAtomicsPass(PR);
   initializeTraxLowerVAArgPass(PR);
+  initializeTraxShrinkWrapPass(PR);
 }
 
 TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRef CPU, StringRef FS,
@@ -74,7 +75,9 @@ namespace {
 
 class TraxPassConfig : public TargetPassConfig {
 public:
-  TraxPassConfig(TraxTargetMachine &TM, PassManagerBase &PM) : TargetPassConfig(TM, PM) {}
+  TraxPassConfig(TraxTargetMachine &TM, PassManagerBase &PM) : TargetPassConfig(TM, PM) {
+    insertPass(&ShrinkWrapID, &TraxShrinkWrapID);
+  }
 
   TraxTargetMachine &getTraxTargetMachine() const { return getTM<TraxTargetMachine>(); }
 

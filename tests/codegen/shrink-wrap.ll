@@ -1,0 +1,146 @@
+; Registers are saved on the paths that need it, and no path saves them twice or restores them where they were not saved.
+; RUN: %trax_llc -O2 %s -o - | FileCheck %s
+
+declare void @use()
+declare void @fail() noreturn
+
+; Loads and stores behind a call are none of the stack: no address of it is in a register.
+; CHECK-LABEL: pointers:
+; CHECK-NOT: sw
+; CHECK: bnez r{{[0-9]+}}, [[END:\.LBB[0-9_]+]]
+; CHECK: sw r1,
+; CHECK: call use
+; CHECK: lw r1,
+; CHECK: [[END]]:
+; CHECK-NOT: r2
+; CHECK: ret
+define i32 @pointers(ptr %list, i32 %found) nounwind {
+  %skip = icmp ne i32 %found, 0
+  br i1 %skip, label %end, label %slow
+slow:
+  call void @use()
+  br label %end
+end:
+  %answer = phi i32 [ 1, %0 ], [ 2, %slow ]
+  %next = load ptr, ptr @head
+  %value = load i32, ptr %next
+  %sum = add i32 %value, %answer
+  ret i32 %sum
+}
+@head = external global ptr
+
+; A path that does not return needs no place to restore registers, but the frame to its end.
+; CHECK-LABEL: fails:
+; CHECK-NOT: sw
+; CHECK: ret
+; CHECK: addi r2, r2, -8
+; CHECK: call use
+; CHECK: beqz r{{[0-9]+}}, [[FAILED:\.LBB[0-9_]+]]
+; CHECK: addi r2, r2, 8
+; CHECK: ret
+; CHECK: [[FAILED]]:
+; CHECK-NEXT: .cfi_def_cfa_offset 8
+; CHECK-NEXT: .cfi_offset r1, -4
+; CHECK-NOT: addi r2
+; CHECK: call fail
+define i32 @fails(i32 %fast, ptr %state) {
+  %skip = icmp ne i32 %fast, 0
+  br i1 %skip, label %end, label %slow
+slow:
+  call void @use()
+  %bad = load i32, ptr %state
+  %is.bad = icmp eq i32 %bad, 0
+  br i1 %is.bad, label %failed, label %end
+failed:
+  call void @fail()
+  unreachable
+end:
+  %answer = phi i32 [ 1, %0 ], [ 2, %slow ]
+  ret i32 %answer
+}
+
+; Only what fails needs the frame.
+; CHECK-LABEL: checks:
+; CHECK-NOT: sw
+; CHECK: ret
+; CHECK: sw r1,
+; CHECK: call fail
+define i32 @checks(i32 %n) nounwind {
+  %bad = icmp slt i32 %n, 0
+  br i1 %bad, label %failed, label %end
+failed:
+  call void @fail()
+  unreachable
+end:
+  ret i32 %n
+}
+
+; Two ways to the end that called and one that did not: the former restore on their way.
+; CHECK-LABEL: joins:
+; CHECK-NOT: sw
+; CHECK: bnez r{{[0-9]+}}, [[END:\.LBB[0-9_]+]]
+; CHECK: sw r1,
+; CHECK: call use
+; CHECK: call use
+; CHECK: lw r1,
+; CHECK: [[END]]:
+; CHECK-NOT: r2
+; CHECK: ret
+define i32 @joins(i32 %fast, ptr %state) nounwind {
+  %skip = icmp ne i32 %fast, 0
+  br i1 %skip, label %end, label %slow
+slow:
+  call void @use()
+  %more = load i32, ptr %state
+  %is.more = icmp eq i32 %more, 0
+  br i1 %is.more, label %twice, label %end
+twice:
+  call void @use()
+  br label %end
+end:
+  %answer = phi i32 [ 1, %0 ], [ 2, %slow ], [ 3, %twice ]
+  %next = load ptr, ptr @head
+  store i32 %answer, ptr %next
+  ret i32 %answer
+}
+
+; Not within a loop: there, they would be saved in each round.
+; CHECK-LABEL: loops:
+; CHECK: sw r1,
+; CHECK: .LBB
+; CHECK: call use
+; CHECK: lw r1,
+define void @loops(i32 %n) nounwind {
+  br label %loop
+loop:
+  %i = phi i32 [ 0, %0 ], [ %next, %step ]
+  %odd = and i32 %i, 1
+  %skip = icmp eq i32 %odd, 0
+  br i1 %skip, label %step, label %slow
+slow:
+  call void @use()
+  br label %step
+step:
+  %next = add i32 %i, 1
+  %done = icmp uge i32 %next, %n
+  br i1 %done, label %end, label %loop
+end:
+  ret void
+}
+
+; The stack's address is in a register here: whether a load is of the stack is not known.
+; CHECK-LABEL: escapes:
+; CHECK: addi r2, r2, -
+; CHECK: bnez
+define i32 @escapes(i32 %fast, ptr %state) nounwind {
+  %local = alloca i32
+  store ptr %local, ptr %state
+  %skip = icmp ne i32 %fast, 0
+  br i1 %skip, label %end, label %slow
+slow:
+  call void @use()
+  br label %end
+end:
+  %value = load i32, ptr %local
+  ret i32 %value
+}
