@@ -6,13 +6,16 @@
 //   comparison of 64 bits takes up to five instructions.
 // - Where a branch has found that a value equals a constant, a phi takes the value instead of the constant: it may be
 //   in the phi's register already.
+// - A comparison with a constant that is computed from its neighbour becomes one with the neighbour.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/IRBuilder.h"
+#include "llvm/IR/InstIterator.h"
 #include "llvm/IR/Module.h"
 #include "llvm/IR/PatternMatch.h"
+#include "llvm/IR/ProfDataUtils.h"
 #include "llvm/InitializePasses.h"
 #include "llvm/Pass.h"
 #include "llvm/Support/KnownBits.h"
@@ -49,6 +52,21 @@ static BasicBlock *blockBehind(BranchInst *Branch) {
   BasicBlock *Block = Branch->getParent();
   return BasicBlock::Create(Block->getContext(), Block->getName(), Block->getParent(), Block->getNextNode());
 }
+
+/// How often a branch is taken and not taken, if that is known.
+struct Weights {
+  uint64_t True = 1, False = 1;
+  explicit Weights(const BranchInst &Branch) : IsKnown(extractBranchWeights(Branch, True, False)) {}
+  void set(BranchInst *Branch, uint64_t IfTrue, uint64_t IfFalse) const {
+    if (!IsKnown)
+      return;
+    const unsigned Excess = Log2_64(IfTrue | IfFalse | 1) > 31 ? Log2_64(IfTrue | IfFalse) - 31 : 0;
+    setBranchWeights(*Branch, {uint32_t(IfTrue >> Excess), uint32_t(IfFalse >> Excess)}, /*IsExpected=*/false);
+  }
+
+private:
+  bool IsKnown;
+};
 
 /// The phis of a block have the same values from New as from Old, or instead of those.
 static void addPredecessor(BasicBlock *Block, BasicBlock *Old, BasicBlock *New, bool Instead) {
@@ -122,6 +140,7 @@ bool TraxBranches::splitTree(BranchInst *Branch) {
   const bool IsAnd = match(Condition, m_LogicalAnd(m_Value(A), m_Value(B)));
   if (!IsAnd && !match(Condition, m_LogicalOr(m_Value(A), m_Value(B))))
     return false;
+  const Weights Whole(*Branch);
   BasicBlock *Second = blockBehind(Branch);
   BranchInst *OnSecond = branchIn(Second, B, True, False);
   Worklist.push_back(OnSecond);
@@ -130,6 +149,14 @@ bool TraxBranches::splitTree(BranchInst *Branch) {
   Branch->setCondition(A);
   Branch->setSuccessor(IsAnd ? 0 : 1, Second);
   Branch->setMetadata(LLVMContext::MD_prof, nullptr);
+  // Where one condition decides, either does half as often.
+  if (IsAnd) {
+    Whole.set(Branch, 2 * Whole.True + Whole.False, Whole.False);
+    Whole.set(OnSecond, 2 * Whole.True, Whole.False);
+  } else {
+    Whole.set(Branch, Whole.True, 2 * Whole.False + Whole.True);
+    Whole.set(OnSecond, Whole.True, 2 * Whole.False);
+  }
   Worklist.push_back(Branch);
   cast<Instruction>(Condition)->eraseFromParent();
   moveConditions(B, OnSecond);
@@ -160,21 +187,32 @@ bool TraxBranches::splitComparison(BranchInst *Branch) {
     UpperBlock = Predicate == ICmpInst::ICMP_EQ ? False : True;
   else if (ICmpInst::isUnsigned(Predicate) && IsWord(B)) // the upper half of A is greater than 0
     UpperBlock = ICmpInst::isLT(Predicate) || ICmpInst::isLE(Predicate) ? False : True;
+  const Weights Whole(*Branch);
+  BranchInst *OnUpper = branchIn(Block, AreUpperEqual, LowerBlock, UpperBlock ? UpperBlock : LowerBlock);
+  OnUpper->setDebugLoc(Branch->getDebugLoc());
   Builder.SetInsertPoint(LowerBlock);
-  Builder.CreateCondBr(Builder.CreateICmp(ICmpInst::getUnsignedPredicate(Predicate), LowerA, LowerB), True, False);
+  BranchInst *OnLower =
+      Builder.CreateCondBr(Builder.CreateICmp(ICmpInst::getUnsignedPredicate(Predicate), LowerA, LowerB), True, False);
   if (!UpperBlock) {
     UpperBlock = blockBehind(Branch);
+    OnUpper->setSuccessor(1, UpperBlock);
     Builder.SetInsertPoint(UpperBlock);
-    Builder.CreateCondBr(Builder.CreateICmp(Predicate, UpperA, UpperB), True, False); // which are not equal
+    BranchInst *OnUnequal = Builder.CreateCondBr(Builder.CreateICmp(Predicate, UpperA, UpperB), True, False);
+    Whole.set(OnLower, Whole.True, Whole.False);
+    Whole.set(OnUnequal, Whole.True, Whole.False);
     for (BasicBlock *Successor : {True, False}) {
       addPredecessor(Successor, Block, LowerBlock, /*Instead=*/false);
       addPredecessor(Successor, Block, UpperBlock, /*Instead=*/true);
     }
   } else {
+    // The upper halves decide half of what either half can.
+    const bool UpperIsTrue = UpperBlock == True;
+    const uint64_t Either = UpperIsTrue ? Whole.True : Whole.False, Other = UpperIsTrue ? Whole.False : Whole.True;
+    Whole.set(OnUpper, 2 * Other + Either, Either);
+    Whole.set(OnLower, UpperIsTrue ? Either : 2 * Other, UpperIsTrue ? 2 * Other : Either);
     addPredecessor(UpperBlock, Block, LowerBlock, /*Instead=*/false);
-    addPredecessor(UpperBlock == True ? False : True, Block, LowerBlock, /*Instead=*/true);
+    addPredecessor(UpperIsTrue ? False : True, Block, LowerBlock, /*Instead=*/true);
   }
-  branchIn(Block, AreUpperEqual, LowerBlock, UpperBlock)->setDebugLoc(Branch->getDebugLoc());
   Branch->eraseFromParent();
   Compare->eraseFromParent();
   return true;
@@ -200,10 +238,28 @@ static bool forwardKnownValue(BranchInst *Branch) {
   return Changed;
 }
 
+/// Constant hoisting computes a constant from its neighbour: x < C + 1 is x <= C, and x > C - 1 is x >= C.
+static bool compareWithNeighbour(ICmpInst *Compare) {
+  Value *Hoisted;
+  const APInt *C, *Step;
+  if (!match(Compare->getOperand(1), m_Add(m_CombineAnd(m_Value(Hoisted), m_BitCast(m_APInt(C))), m_APInt(Step))))
+    return false;
+  const CmpInst::Predicate Predicate = Compare->getPredicate();
+  const bool IsNext = ICmpInst::isLT(Predicate) ? Step->isOne() : ICmpInst::isGT(Predicate) && Step->isAllOnes();
+  if (!IsNext || !ICmpInst::compare(*C, *C + *Step, Predicate)) // the latter: it is no neighbour where it wraps
+    return false;
+  Compare->setPredicate(ICmpInst::getNonStrictPredicate(Predicate));
+  Compare->setOperand(1, Hoisted);
+  return true;
+}
+
 bool TraxBranches::runOnFunction(Function &F) {
   if (skipFunction(F))
     return false;
   bool Changed = false;
+  for (Instruction &I : instructions(F))
+    if (auto *Compare = dyn_cast<ICmpInst>(&I))
+      Changed |= compareWithNeighbour(Compare);
   SmallVector<BranchInst *, 32> Branches;
   for (BasicBlock &Block : F)
     if (auto *Branch = dyn_cast<BranchInst>(Block.getTerminator()); Branch && Branch->isConditional())
