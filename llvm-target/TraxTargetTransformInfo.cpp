@@ -17,20 +17,24 @@ bool TraxTTIImpl::isLoweredToCall(const Function *F) const {
   return BaseT::isLoweredToCall(F);
 }
 
+/// Whether a value takes a step with each round of a loop.
+static bool advancesIn(const Loop &L, const SCEV *Value) {
+  return SCEVExprContains(Value, [&](const SCEV *Part) {
+    const auto *Recurrence = dyn_cast<SCEVAddRecExpr>(Part);
+    return Recurrence && Recurrence->getLoop() == &L;
+  });
+}
+
 /// Of the loads in the only, innermost loop in this one: how many vary with this one for each that does not; 0 if none
 /// is of the latter kind. Copies of the inner loop, run as one, load these once.
 static unsigned loadsPerSharedLoad(const Loop &Outer, ScalarEvolution &SE) {
   if (Outer.getSubLoops().size() != 1 || Outer.getSubLoops().front()->getNumBlocks() != 1)
     return 0;
-  auto RecursIn = [&](const SCEV *Part) {
-    const auto *Recurrence = dyn_cast<SCEVAddRecExpr>(Part);
-    return Recurrence && Recurrence->getLoop() == &Outer;
-  };
   SmallPtrSet<const SCEV *, 8> Shared, Varying; // copies load from the same address until they are merged
   for (Instruction &I : *Outer.getSubLoops().front()->getHeader())
     if (auto *Load = dyn_cast<LoadInst>(&I)) {
       const SCEV *Address = SE.getSCEV(Load->getPointerOperand());
-      (SCEVExprContains(Address, RecursIn) ? Varying : Shared).insert(Address);
+      (advancesIn(Outer, Address) ? Varying : Shared).insert(Address);
     }
   return Shared.empty() ? 0 : Varying.size() / Shared.size();
 }
@@ -70,24 +74,32 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
   if (Exiting.size() > 2)
     return;
   InstructionCost Cost = 0;
-  bool AccessesMemory = false;
+  bool AccessesMemory = false, StepsThroughArray = false;
   for (const BasicBlock *Block : L->blocks())
     for (const Instruction &I : *Block) {
       if (const auto *Call = dyn_cast<CallBase>(&I))
         if (const Function *Callee = Call->getCalledFunction(); !Callee || isLoweredToCall(Callee))
           return;
       AccessesMemory |= I.mayReadOrWriteMemory();
+      if (const Value *Pointer = getLoadStorePointerOperand(&I))
+        StepsThroughArray |= advancesIn(*L, SE.getSCEV(const_cast<Value *>(Pointer)));
       Cost += getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
     }
-  // Rounds that are left over take a dozen instructions more. A long loop does not make up for them in a few rounds,
-  // unless it only computes, where copies save moves.
+  // Copies of a search have all its tests. Before copies of another loop, a dozen instructions compute how many rounds
+  // are left over: a long loop does not make up for them in a few rounds, nor does one that steps through no array. One
+  // that only computes does, since copies save moves. A search through arrays with a second end, as in the comparison
+  // of two strings, usually ends early.
   const int LongestUncounted = 12;
-  bool IsCounted = SE.getSmallConstantTripCount(L) != 0;
-  if (Aggressive && !IsCounted && !IsJammed && !UP.UnrollAndJam && AccessesMemory && Cost > LongestUncounted)
+  const bool IsCounted = SE.getSmallConstantTripCount(L) != 0;
+  const bool Searches =
+      any_of(Exiting, [&](BasicBlock *Block) { return isa<SCEVCouldNotCompute>(SE.getExitCount(L, Block)); });
+  if (Aggressive && !IsCounted && !IsJammed && !UP.UnrollAndJam && AccessesMemory &&
+      (Cost > LongestUncounted || !(StepsThroughArray || Searches)))
     return;
+  const bool IsShortSearch = Searches && StepsThroughArray && Exiting.size() == 2;
   UP.PartialThreshold = !Aggressive ? 40 : UP.UnrollAndJam ? 160 : IsJammed || IsCounted ? 240 : 80;
   UP.UnrollAndJamInnerLoopThreshold = 100;
-  UP.MaxCount = UP.DefaultUnrollRuntimeCount = Aggressive ? 8 : 4;
+  UP.MaxCount = UP.DefaultUnrollRuntimeCount = !Aggressive ? 4 : IsShortSearch ? 2 : 8;
   UP.Partial = UP.Runtime = true;
   UP.Force = L->isInnermost() && Cost < 12;
 }
