@@ -97,9 +97,11 @@ def run_locally(out, tools, keys, options, progress):
 
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
         try:  # an interrupt while jobs are handed out ends those that have begun
-            waiting = {pool.submit(work, key) for key in keys}
+            with held():  # an exception within the pool's functions could leave one of its locks locked
+                waiting = {pool.submit(work, key) for key in keys}
             while waiting:
-                finished, waiting = concurrent.futures.wait(waiting, timeout=POLL_SECONDS, return_when=concurrent.futures.FIRST_COMPLETED)
+                with held():
+                    finished, waiting = concurrent.futures.wait(waiting, timeout=POLL_SECONDS, return_when=concurrent.futures.FIRST_COMPLETED)
                 for future in finished:
                     progress.finished(*future.result())
                 progress.show()
