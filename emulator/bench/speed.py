@@ -7,6 +7,7 @@
 SCENES_DIRECTORY holds the meshes of trax-eval's scenes. The rows are those of engine-bench (emulator/bench/engines.c):
 million simulated instructions per second of wall time for each engine, and ratios. The timed engines run the first cycles of
 the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without the reference.
+The first line names the host's processor: processors differ by more than versions do.
 """
 
 import argparse
@@ -48,6 +49,15 @@ def prepare(options, scene, scratch):
                                            for buffer in manifest["buffers"])]
 
 
+def processor():
+    """The host's processor, as Linux names it, with its family and model, since names may be those of a whole family."""
+    facts = {}
+    for line in pathlib.Path("/proc/cpuinfo").read_text().split("\n\n")[0].splitlines():
+        name, _, value = line.partition(":")
+        facts[name.strip()] = value.strip()
+    return f"{facts.get('model name', 'unknown')} (family {facts.get('cpu family', '?')}, model {facts.get('model', '?')})"
+
+
 def main():
     parser = arguments(__doc__, "320x180")
     parser.add_argument("--scenes", dest="names", default="conference,dragon,sibenik")
@@ -57,6 +67,7 @@ def main():
     parser.add_argument("--repeats", default="3")
     options = parser.parse_args()
 
+    print(f"processor: {processor()}")
     header = True
     for scene in options.names.split(","):
         with tempfile.TemporaryDirectory() as scratch:
