@@ -2,21 +2,23 @@
 
 #include "machine/machine.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static void destroy(void *context) {
   struct trax_calls *calls = context;
-  while (calls->files)
-    trax_file_forget(calls, calls->files);
-  for (size_t i = 0; i < calls->folder_count; i++) {
-    close(calls->folders[i].descriptor);
-    free(calls->folders[i].host);
-    free(calls->folders[i].name);
+  for (struct trax_name *it = calls->names, *next; it; it = next) {
+    next = it->next;
+    trax_folder_release(calls, it->place.folder);
+    free(it);
   }
-  free(calls->folders);
+  for (struct trax_file *it = calls->files, *next; it; it = next) {
+    next = it->next;
+    trax_contents_free(&it->contents);
+    free(it);
+  }
+  while (calls->folders) /* only the allowed ones are left */
+    trax_folder_release(calls, calls->folders);
   free(calls->input.bytes);
   if (calls->input.digest)
     XXH3_freeState(calls->input.digest);
@@ -42,22 +44,18 @@ trax_status trax_calls_begin(struct trax_machine *machine, const struct trax_cal
   if (!calls)
     return trax_fail(error, "out of memory");
   calls->streams = *streams;
+  if (streams->input && fileno(streams->input) >= 0)
+    fflush(streams->input); /* its descriptor is then where the stream is, if it can be */
   return TRAX_OK;
 }
 
 static trax_status commit(struct trax_calls *calls, bool open_ones, trax_error *error) {
-  trax_status status = TRAX_OK;
-  for (struct trax_file *file = calls->files, *next; file; file = next) {
-    next = file->next;
-    if (file->opens && file->exists && !open_ones)
-      continue;
-    const int failure = trax_file_commit(file);
-    if (failure && status == TRAX_OK)
-      status = trax_fail(error, "%s: the program's file cannot be written: %s", file->path, strerror(failure));
-    if (!file->opens)
-      trax_file_forget(calls, file);
-  }
-  return status;
+  char *path;
+  const int failure = trax_commit_all(calls, open_ones, &path);
+  if (failure)
+    trax_fail(error, "%s: the program's file cannot be written: %s", path ? path : "", strerror(failure));
+  free(path);
+  return failure ? TRAX_ERROR : TRAX_OK;
 }
 
 trax_status trax_calls_commit(struct trax_machine *machine, trax_error *error) {
@@ -65,10 +63,7 @@ trax_status trax_calls_commit(struct trax_machine *machine, trax_error *error) {
 }
 
 trax_status trax_calls_end(struct trax_machine *machine, bool completed, trax_error *error) {
-  struct trax_calls *calls = machine->calls.context;
-  if (!calls || (calls->deferred && !completed)) /* the latest checkpoint's files are those that there are */
-    return TRAX_OK;
-  return commit(calls, completed, error);
+  return machine->calls.context && completed ? commit(machine->calls.context, true, error) : TRAX_OK;
 }
 
 void trax_calls_defer(struct trax_machine *machine) {

@@ -1,11 +1,9 @@
 /* The calls one by one: descriptors and names. */
-#define _GNU_SOURCE /* faccessat with AT_EACCESS */
 #include "calls/internal.h"
 
 #include "machine/host_call.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -24,9 +22,10 @@ static int read_path(const struct trax_host_call *call, uint32_t address, char p
   return ENAMETOOLONG;
 }
 
-static int find_place(const struct trax_calls *calls, const struct trax_host_call *call, unsigned word, bool follow,
-                      char path[PATH_MAX], struct trax_place *place) {
-  place->folder = -1;
+static int find_place(struct trax_calls *calls, const struct trax_host_call *call, unsigned word,
+                      enum trax_follow follow, struct trax_place *place) {
+  char path[PATH_MAX];
+  place->folder = NULL;
   const int failure = read_path(call, call->words[word], path);
   return failure ? failure : trax_place_find(calls, path, follow, place);
 }
@@ -44,43 +43,79 @@ static FILE *stream_of(const struct trax_calls *calls, uint32_t number, bool *is
   return *is ? streams[number] : NULL;
 }
 
+/* Whether a file at the place, of the kind that is there, may be opened so. */
+static int check_open(struct trax_calls *calls, const struct trax_place *place, uint32_t flags, mode_t kind) {
+  const bool creates = flags & TRAX_OPEN_CREATE, writes = (flags & 3) != TRAX_OPEN_READ || flags & TRAX_OPEN_TRUNCATE;
+  if (creates && place->slash)
+    return EISDIR;
+  if (!kind && !creates)
+    return ENOENT;
+  if (kind && creates && (flags & TRAX_OPEN_NEW))
+    return EEXIST;
+  if (S_ISDIR(kind))
+    return EISDIR;
+  if (kind && place->slash)
+    return ENOTDIR;
+  if (kind && !S_ISREG(kind))
+    return EPERM;
+  return writes || !kind ? trax_folder_check(calls, place->folder) : 0; /* where it will be replaced */
+}
+
+static int find_or_create(struct trax_calls *calls, const struct trax_place *place, uint32_t flags,
+                          struct trax_file **file) {
+  const bool writes = (flags & 3) != TRAX_OPEN_READ || flags & TRAX_OPEN_TRUNCATE;
+  struct trax_name *name = NULL;
+  mode_t kind = S_IFDIR;
+  int failure = place->last == TRAX_LAST_NAME ? trax_name_look(calls, place, &kind, &name) : 0;
+  if (!failure && place->last != TRAX_LAST_NAME)
+    failure = EISDIR;
+  if (!failure)
+    failure = check_open(calls, place, flags, kind);
+  if (failure)
+    return failure;
+  if (!kind) {
+    failure = trax_file_create(calls, place, file);
+    if (!failure && !trax_name_set(calls, place, *file))
+      failure = ENOMEM;
+    if (!failure)
+      (*file)->differs = true;
+    return failure;
+  }
+  failure = trax_name_take(calls, place, flags & TRAX_OPEN_TRUNCATE, &name);
+  if (!failure && writes && !name->file->writable)
+    failure = EACCES;
+  if (failure)
+    return failure;
+  *file = name->file;
+  if (flags & TRAX_OPEN_TRUNCATE) {
+    trax_contents_resize(&(*file)->contents, 0);
+    (*file)->differs = true;
+  }
+  return 0;
+}
+
 static int32_t open_file(struct trax_calls *calls, const struct trax_host_call *call) {
-  const uint32_t flags = call->words[2], access_mode = flags & 3;
-  char path[PATH_MAX];
+  const uint32_t flags = call->words[2];
+  const bool is_new = (flags & TRAX_OPEN_CREATE) && (flags & TRAX_OPEN_NEW);
   struct trax_place place;
+  struct trax_file *file;
   uint32_t number = TRAX_FIRST_DESCRIPTOR;
   while (number < TRAX_MOST_DESCRIPTORS && calls->descriptors[number].file)
     number++;
   if (number == TRAX_MOST_DESCRIPTORS)
     return -EMFILE;
-  if (access_mode == 3)
+  if ((flags & 3) == 3)
     return -EINVAL;
-  const bool is_new = (flags & TRAX_OPEN_CREATE) && (flags & TRAX_OPEN_NEW);
-  int failure = find_place(calls, call, 1, !is_new, path, &place);
-  struct trax_file *file = failure ? NULL : trax_file_find(calls, &place);
-  if (!failure && access_mode != TRAX_OPEN_READ &&
-      (faccessat(place.folder, ".", W_OK, AT_EACCESS) != 0 ||
-       (faccessat(place.folder, place.name, W_OK, AT_EACCESS) != 0 && errno != ENOENT)))
-    failure = errno;
-  if (!failure && !file)
-    failure = trax_file_load(calls, &place, path, flags & TRAX_OPEN_CREATE, &file);
-  trax_place_release(&place);
-  if (!failure && file->exists && is_new)
-    failure = EEXIST;
-  if (!failure && !file->exists && !(flags & TRAX_OPEN_CREATE))
-    failure = ENOENT;
-  if (failure) {
-    if (file && !file->opens && !file->changed)
-      trax_file_forget(calls, file);
-    return -failure;
+  int failure = find_place(calls, call, 1, is_new ? TRAX_FOLLOW_NONE : TRAX_FOLLOW_ALL, &place);
+  if (!failure)
+    failure = find_or_create(calls, &place, flags, &file);
+  if (!failure) {
+    file->opens++;
+    calls->descriptors[number] = (struct trax_descriptor){.file = file, .flags = flags};
   }
-  if (!file->exists || ((flags & TRAX_OPEN_TRUNCATE) && access_mode != TRAX_OPEN_READ)) {
-    file->exists = file->changed = true;
-    file->size = 0;
-  }
-  file->opens++;
-  calls->descriptors[number] = (struct trax_descriptor){.file = file, .flags = flags};
-  return (int32_t)number;
+  trax_files_forget(calls);
+  trax_place_release(calls, &place);
+  return failure ? -failure : (int32_t)number;
 }
 
 static int32_t close_file(struct trax_calls *calls, const struct trax_host_call *call) {
@@ -94,9 +129,14 @@ static int32_t close_file(struct trax_calls *calls, const struct trax_host_call 
   if (!descriptor)
     return -EBADF;
   struct trax_file *file = descriptor->file;
+  int failure = 0;
   descriptor->file = NULL;
-  file->opens--;
-  return -trax_file_settle(calls, file);
+  if (--file->opens == 0 && !calls->deferred) {
+    failure = trax_commit_file(calls, file);
+    file->differs = false; /* what could not be written is lost; the former file stays */
+  }
+  trax_files_forget(calls);
+  return -failure;
 }
 
 static int32_t read_bytes(struct trax_calls *calls, const struct trax_host_call *call) {
@@ -107,8 +147,8 @@ static int32_t read_bytes(struct trax_calls *calls, const struct trax_host_call 
   if (is_stream ? number != STDIN_FILENO : !descriptor || (descriptor->flags & 3) == TRAX_OPEN_WRITE)
     return -EBADF;
   uint32_t got = 0;
-  if (!is_stream && descriptor->offset < descriptor->file->size) {
-    const uint64_t left = descriptor->file->size - descriptor->offset;
+  if (!is_stream && descriptor->offset < descriptor->file->contents.size) {
+    const uint64_t left = descriptor->file->contents.size - descriptor->offset;
     got = left < count ? (uint32_t)left : count;
   }
   uint8_t *bytes = trax_host_call_bytes(call, call->words[2], is_stream ? count : got, true);
@@ -121,9 +161,26 @@ static int32_t read_bytes(struct trax_calls *calls, const struct trax_host_call 
     return failure ? -failure : (int32_t)got;
   }
   if (got)
-    memcpy(bytes, descriptor->file->bytes + descriptor->offset, got);
+    trax_contents_read(&descriptor->file->contents, descriptor->offset, bytes, got);
   descriptor->offset += got;
   return (int32_t)got;
+}
+
+static int32_t write_file(struct trax_descriptor *descriptor, const uint8_t *bytes, uint32_t count) {
+  struct trax_file *file = descriptor->file;
+  const uint64_t offset = descriptor->flags & TRAX_OPEN_APPEND ? file->contents.size : descriptor->offset;
+  if (!count)
+    return 0;
+  if (offset >= trax_contents_most)
+    return -EFBIG;
+  if (count > trax_contents_most - offset)
+    count = (uint32_t)(trax_contents_most - offset);
+  const int failure = trax_contents_write(&file->contents, offset, bytes, count);
+  if (failure)
+    return -failure;
+  file->differs = true;
+  descriptor->offset = offset + count;
+  return (int32_t)count;
 }
 
 static int32_t write_bytes(struct trax_calls *calls, const struct trax_host_call *call) {
@@ -136,21 +193,14 @@ static int32_t write_bytes(struct trax_calls *calls, const struct trax_host_call
   const uint8_t *bytes = trax_host_call_bytes(call, call->words[2], count, false);
   if (!bytes)
     return -EFAULT;
-  if (is_stream) {
-    if (stream == calls->streams.errors && stream != calls->streams.output && calls->streams.output)
-      fflush(calls->streams.output); /* on a terminal both are in the order in which they were written */
-    if (stream) {
-      fwrite(bytes, 1, count, stream); /* its owner reports a failure at the end */
-      fflush(stream);
-    }
-    return (int32_t)count;
+  if (!is_stream)
+    return write_file(descriptor, bytes, count);
+  if (stream == calls->streams.errors && stream != calls->streams.output && calls->streams.output)
+    fflush(calls->streams.output); /* on a terminal both are in the order in which they were written */
+  if (stream) {
+    fwrite(bytes, 1, count, stream); /* its owner reports a failure at the end */
+    fflush(stream);
   }
-  if (descriptor->flags & TRAX_OPEN_APPEND)
-    descriptor->offset = descriptor->file->size;
-  const int failure = trax_file_write(descriptor->file, descriptor->offset, bytes, count);
-  if (failure)
-    return -failure;
-  descriptor->offset += count;
   return (int32_t)count;
 }
 
@@ -165,30 +215,34 @@ static int32_t seek(struct trax_calls *calls, const struct trax_host_call *call)
   if (!bytes)
     return -EFAULT;
   memcpy(&offset, bytes, sizeof offset);
-  const uint64_t origins[] = {0, descriptor->offset, descriptor->file->size};
-  if (call->words[3] > TRAX_SEEK_END || offset < -INT64_C(0x4000000000000000) || offset > INT64_C(0x4000000000000000))
+  const uint64_t origins[] = {0, descriptor->offset, descriptor->file->contents.size};
+  if (call->words[3] > TRAX_SEEK_END)
     return -EINVAL;
-  offset += (int64_t)origins[call->words[3]];
-  if (offset < 0)
+  const uint64_t result = origins[call->words[3]] + (uint64_t)offset; /* both are below 2^63 */
+  if (result > INT64_MAX)
     return -EINVAL;
-  descriptor->offset = (uint64_t)offset;
-  memcpy(bytes, &offset, sizeof offset);
+  descriptor->offset = result;
+  memcpy(bytes, &result, sizeof result);
   return 0;
 }
 
 static int32_t truncate_file(struct trax_calls *calls, const struct trax_host_call *call) {
   const struct trax_descriptor *descriptor = descriptor_of(calls, call->words[1]);
   const uint8_t *bytes = trax_host_call_bytes(call, call->words[2], 8, false);
+  bool is_stream;
   int64_t size;
-  if (!descriptor || (descriptor->flags & 3) == TRAX_OPEN_READ)
-    return descriptor ? -EINVAL : -EBADF;
+  stream_of(calls, call->words[1], &is_stream);
   if (!bytes)
     return -EFAULT;
   memcpy(&size, bytes, sizeof size);
   if (size < 0)
     return -EINVAL;
-  const int failure = trax_file_resize(descriptor->file, (uint64_t)size);
-  descriptor->file->changed |= !failure;
+  if (!descriptor)
+    return is_stream ? -EINVAL : -EBADF;
+  if ((descriptor->flags & 3) == TRAX_OPEN_READ)
+    return -EINVAL;
+  const int failure = trax_contents_resize(&descriptor->file->contents, (uint64_t)size);
+  descriptor->file->differs |= !failure;
   return -failure;
 }
 
@@ -213,26 +267,38 @@ static int32_t put_stat(const struct trax_host_call *call, uint32_t mode, uint64
 }
 
 static int32_t put_file_stat(const struct trax_host_call *call, const struct trax_file *file) {
-  return put_stat(call, TRAX_MODE_FILE | 0600, file->size, XXH3_64bits(file->path, strlen(file->path)));
+  return put_stat(call, TRAX_MODE_FILE | (file->mode ? file->mode & 0700 : 0600), file->contents.size, file->number);
 }
 
-static int32_t stat_path(const struct trax_calls *calls, const struct trax_host_call *call) {
-  char path[PATH_MAX];
-  struct trax_place place;
+static int32_t put_host_stat(struct trax_calls *calls, const struct trax_host_call *call,
+                             const struct trax_place *place) {
   struct stat status;
-  int failure = find_place(calls, call, 1, call->words[3] != 0, path, &place);
-  const struct trax_file *file = failure ? NULL : trax_file_find(calls, &place);
-  if (!failure && file)
-    failure = file->exists ? -put_file_stat(call, file) : ENOENT;
-  else if (!failure && !(failure = trax_place_stat(&place, &status))) {
-    const uint32_t kind = S_ISREG(status.st_mode)   ? TRAX_MODE_FILE
-                          : S_ISDIR(status.st_mode) ? TRAX_MODE_FOLDER
-                          : S_ISLNK(status.st_mode) ? TRAX_MODE_LINK
-                                                    : TRAX_MODE_OTHER;
-    failure = -put_stat(call, kind | (status.st_mode & 0700), (uint64_t)(kind == TRAX_MODE_FILE ? status.st_size : 0),
-                        XXH3_64bits(path, strlen(path)));
-  }
-  trax_place_release(&place);
+  const int failure = trax_place_stat(calls, place, &status);
+  if (failure)
+    return -failure;
+  if (place->slash && !S_ISDIR(status.st_mode))
+    return -ENOTDIR;
+  const uint32_t kind = S_ISREG(status.st_mode)   ? TRAX_MODE_FILE
+                        : S_ISDIR(status.st_mode) ? TRAX_MODE_FOLDER
+                        : S_ISLNK(status.st_mode) ? TRAX_MODE_LINK
+                                                  : TRAX_MODE_OTHER;
+  return put_stat(call, kind | (status.st_mode & 0700), (uint64_t)(kind == TRAX_MODE_FILE ? status.st_size : 0),
+                  trax_file_number(calls, place));
+}
+
+static int32_t stat_path(struct trax_calls *calls, const struct trax_host_call *call) {
+  struct trax_place place;
+  struct trax_name *name = NULL;
+  mode_t kind;
+  int failure = find_place(calls, call, 1, call->words[3] ? TRAX_FOLLOW_ALL : TRAX_FOLLOW_SLASH, &place);
+  if (!failure && place.last == TRAX_LAST_NAME)
+    failure = trax_name_look(calls, &place, &kind, &name);
+  if (!failure && name)
+    failure = name->file ? place.slash ? ENOTDIR : -put_file_stat(call, name->file) : ENOENT;
+  else if (!failure)
+    failure = -put_host_stat(calls, call, &place);
+  trax_files_forget(calls);
+  trax_place_release(calls, &place);
   return -failure;
 }
 
@@ -247,54 +313,25 @@ static int32_t stat_descriptor(struct trax_calls *calls, const struct trax_host_
 
 /* --- names --- */
 
-static int32_t remove_file(struct trax_calls *calls, const struct trax_host_call *call) {
-  char path[PATH_MAX];
+static int32_t change_name(struct trax_calls *calls, const struct trax_host_call *call,
+                           int (*change)(struct trax_calls *calls, const struct trax_place *place)) {
   struct trax_place place;
-  struct stat status;
-  int failure = find_place(calls, call, 1, false, path, &place);
-  struct trax_file *file = failure ? NULL : trax_file_find(calls, &place);
-  if (!failure && !file && !(failure = trax_place_stat(&place, &status)) && S_ISLNK(status.st_mode)) {
-    failure = calls->deferred ? EPERM : unlinkat(place.folder, place.name, 0) != 0 ? errno : 0;
-    trax_place_release(&place);
-    return -failure;
-  }
-  if (!failure && !file)
-    failure = trax_file_load(calls, &place, path, false, &file);
-  trax_place_release(&place);
-  if (!failure && !file->exists)
-    failure = ENOENT;
-  if (!failure) {
-    file->exists = false;
-    file->changed = true;
-    failure = trax_file_settle(calls, file);
-  }
+  int failure = find_place(calls, call, 1, TRAX_FOLLOW_NONE, &place);
+  if (!failure)
+    failure = change(calls, &place);
+  trax_place_release(calls, &place);
   return -failure;
 }
 
 static int32_t rename_file(struct trax_calls *calls, const struct trax_host_call *call) {
-  char from_path[PATH_MAX], to_path[PATH_MAX];
-  struct trax_place from, to = {.folder = -1};
-  int failure = find_place(calls, call, 1, false, from_path, &from);
+  struct trax_place from, to = {.folder = NULL};
+  int failure = find_place(calls, call, 1, TRAX_FOLLOW_NONE, &from);
   if (!failure)
-    failure = find_place(calls, call, 2, false, to_path, &to);
+    failure = find_place(calls, call, 2, TRAX_FOLLOW_NONE, &to);
   if (!failure)
-    failure = trax_file_rename(calls, &from, &to, to_path);
-  trax_place_release(&from);
-  trax_place_release(&to);
-  return -failure;
-}
-
-/* Folders are made and removed at once, which a resumed run would do again. */
-static int32_t change_folder(const struct trax_calls *calls, const struct trax_host_call *call, bool make) {
-  char path[PATH_MAX];
-  struct trax_place place;
-  int failure = find_place(calls, call, 1, false, path, &place);
-  if (!failure && calls->deferred)
-    failure = EPERM;
-  if (!failure &&
-      (make ? mkdirat(place.folder, place.name, 0777) : unlinkat(place.folder, place.name, AT_REMOVEDIR)) != 0)
-    failure = errno;
-  trax_place_release(&place);
+    failure = trax_name_rename(calls, &from, &to);
+  trax_place_release(calls, &from);
+  trax_place_release(calls, &to);
   return -failure;
 }
 
@@ -321,13 +358,13 @@ int32_t trax_calls_serve(void *context, struct trax_host_call *call) {
   case TRAX_HOST_TERMINAL:
     return is_terminal(calls, call);
   case TRAX_HOST_REMOVE:
-    return remove_file(calls, call);
+    return change_name(calls, call, trax_name_remove);
   case TRAX_HOST_RENAME:
     return rename_file(calls, call);
   case TRAX_HOST_MAKE_FOLDER:
-    return change_folder(calls, call, true);
+    return change_name(calls, call, trax_folder_make);
   case TRAX_HOST_REMOVE_FOLDER:
-    return change_folder(calls, call, false);
+    return change_name(calls, call, trax_folder_remove);
   default:
     return -TRAX_HOST_NO_CALL;
   }

@@ -1,183 +1,191 @@
+/* Files, and the names that refer to them. */
+#define _GNU_SOURCE /* AT_EACCESS */
 #include "calls/internal.h"
 
-#include "trax/output.h"
-
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static const uint64_t most_bytes = (uint64_t)1 << 32; /* of a file: more than a program can read into its memory */
+/* --- names --- */
 
-/* --- the files that are kept --- */
-
-struct trax_file *trax_file_find(const struct trax_calls *calls, const struct trax_place *place) {
-  struct trax_file *file = calls->files;
-  while (file && (file->place.device != place->device || file->place.inode != place->inode ||
-                  strcmp(file->place.name, place->name) != 0))
-    file = file->next;
-  return file;
+struct trax_name *trax_name_at(const struct trax_calls *calls, const struct trax_folder *folder, const char *name) {
+  struct trax_name *it = calls->names;
+  while (it && (it->place.folder->device != folder->device || it->place.folder->inode != folder->inode ||
+                strcmp(it->place.name, name) != 0))
+    it = it->next;
+  return it;
 }
 
-static void free_file(struct trax_file *file) {
-  trax_place_release(&file->place);
-  free(file->path);
-  free(file->bytes);
-  free(file);
-}
-
-void trax_file_forget(struct trax_calls *calls, struct trax_file *file) {
-  struct trax_file **link = &calls->files;
-  while (*link != file)
-    link = &(*link)->next;
-  *link = file->next;
-  free_file(file);
-}
-
-/* --- contents --- */
-
-int trax_file_resize(struct trax_file *file, uint64_t size) {
-  if (size > most_bytes)
-    return EFBIG;
-  if (size > file->capacity) {
-    const uint64_t capacity = size < 4096 ? 4096 : size + size / 2;
-    uint8_t *grown = realloc(file->bytes, capacity);
-    if (!grown)
-      return ENOSPC;
-    file->bytes = grown;
-    file->capacity = capacity;
+struct trax_name *trax_name_set(struct trax_calls *calls, const struct trax_place *place, struct trax_file *file) {
+  struct trax_name *name = trax_name_at(calls, place->folder, place->name);
+  if (!name) {
+    if (!(name = calloc(1, sizeof *name)))
+      return NULL;
+    name->place = *place;
+    name->place.slash = false;
+    trax_folder_refer(place->folder);
+    name->next = calls->names;
+    calls->names = name;
   }
-  if (size > file->size)
-    memset(file->bytes + file->size, 0, size - file->size);
-  file->size = size;
-  return 0;
+  if (file)
+    file->names++;
+  if (name->file && --name->file->names == 0)
+    name->file->inode = 0; /* the host may give the number to another file */
+  name->file = file;
+  return name;
 }
 
-int trax_file_write(struct trax_file *file, uint64_t offset, const uint8_t *bytes, uint32_t count) {
-  if (!count)
-    return 0;
-  if (offset > most_bytes)
-    return EFBIG;
-  const int failure = offset + count > file->size ? trax_file_resize(file, offset + count) : 0;
-  if (failure)
-    return failure;
-  memcpy(file->bytes + offset, bytes, count);
-  file->changed = true;
-  return 0;
-}
-
-/* Reads the host's file of the place into `file`. ENOENT: there is none. */
-static int read_host_file(struct trax_file *file) {
-  struct stat status;
-  int failure = trax_place_stat(&file->place, &status);
-  if (failure)
-    return failure;
-  if (!S_ISREG(status.st_mode)) /* to open a pipe or a device may wait or have effects */
-    return S_ISDIR(status.st_mode) ? EISDIR : EPERM;
-  const int descriptor = openat(file->place.folder, file->place.name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0)
-    return errno;
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
-    failure = EPERM;
-  else
-    failure = trax_file_resize(file, (uint64_t)status.st_size);
-  uint64_t got = 0;
-  while (!failure && got < file->size) {
-    const ssize_t part = read(descriptor, file->bytes + got, file->size - got);
-    if (part < 0 && errno != EINTR)
-      failure = errno;
-    if (part == 0)
-      file->size = got;
-    got += part > 0 ? (uint64_t)part : 0;
+/* Names the file of the host at the place. */
+static struct trax_name *add_host_name(struct trax_calls *calls, const struct trax_place *place,
+                                       struct trax_file *file) {
+  struct trax_name *name = trax_name_set(calls, place, file);
+  if (name && calls->deferred) {
+    name->was_there = true;
+    name->digest = file->read;
+    name->was = file;
   }
-  close(descriptor);
-  file->read = XXH3_128bits(file->bytes, file->size);
-  return failure;
+  return name;
 }
 
-int trax_file_load(struct trax_calls *calls, struct trax_place *place, const char *path, bool create,
-                   struct trax_file **file) {
-  struct trax_file *fresh = calloc(1, sizeof *fresh);
-  if (!fresh || !(fresh->path = strdup(path))) {
-    free(fresh);
+static bool is_needed(const struct trax_calls *calls, const struct trax_name *name) {
+  return name->file ? name->file->differs || name->file->opens : calls->deferred && name->was_there;
+}
+
+void trax_files_forget(struct trax_calls *calls) {
+  for (struct trax_name **link = &calls->names, *name; (name = *link);) {
+    if (is_needed(calls, name)) {
+      link = &name->next;
+      continue;
+    }
+    *link = name->next;
+    if (name->file)
+      name->file->names--;
+    trax_folder_release(calls, name->place.folder);
+    free(name);
+  }
+  for (struct trax_file **link = &calls->files, *file; (file = *link);) {
+    if (file->opens || file->names) {
+      link = &file->next;
+      continue;
+    }
+    *link = file->next;
+    for (struct trax_name *it = calls->names; it; it = it->next)
+      if (it->was == file)
+        it->was = NULL;
+    trax_contents_free(&file->contents);
+    free(file);
+  }
+}
+
+/* --- files --- */
+
+uint64_t trax_file_number(const struct trax_calls *calls, const struct trax_place *place) {
+  char *path = trax_place_path(place);
+  uint64_t number = path ? XXH3_64bits(path, strlen(path)) : 0;
+  free(path);
+  for (const struct trax_file *it = calls->files; it;) { /* a file that has had this name may still be there */
+    const bool is_other = it->number != number;
+    number = is_other ? number : XXH3_64bits(&number, sizeof number);
+    it = is_other ? it->next : calls->files;
+  }
+  return number;
+}
+
+int trax_file_create(struct trax_calls *calls, const struct trax_place *place, struct trax_file **file) {
+  const uint64_t number = trax_file_number(calls, place);
+  if (!(*file = calloc(1, sizeof **file)))
     return ENOMEM;
-  }
-  fresh->place = *place;
-  int failure = read_host_file(fresh);
-  fresh->was_there = fresh->exists = !failure;
-  if (failure == ENOENT && create)
-    failure = 0;
-  if (failure) {
-    fresh->place.folder = -1; /* still the caller's */
-    free(fresh->path);
-    free(fresh->bytes);
-    free(fresh);
-    return failure;
-  }
-  place->folder = -1;
-  fresh->next = calls->files;
-  calls->files = fresh;
-  *file = fresh;
+  (*file)->number = number;
+  (*file)->writable = true;
+  (*file)->next = calls->files;
+  calls->files = *file;
   return 0;
 }
 
-/* --- the host's files --- */
-
-static int write_host_file(const struct trax_file *file) {
-  char path[NAME_MAX + 64];
-  trax_error error;
-  snprintf(path, sizeof path, "/proc/self/fd/%d/%s", file->place.folder, file->place.name);
-  errno = 0;
-  return trax_write_file(path, file->bytes, file->size, &error) == TRAX_OK ? 0 : errno ? errno : EIO;
+static bool is_file_of(const struct trax_file *file, const struct stat *status) {
+  return file->inode && file->inode == status->st_ino && file->device == status->st_dev &&
+         file->changed.tv_sec == status->st_ctim.tv_sec && file->changed.tv_nsec == status->st_ctim.tv_nsec;
 }
 
-int trax_file_commit(struct trax_file *file) {
-  if (!file->changed)
+int trax_name_look(struct trax_calls *calls, const struct trax_place *place, mode_t *kind, struct trax_name **name) {
+  struct stat status;
+  *kind = 0;
+  *name = trax_name_at(calls, place->folder, place->name);
+  if (*name) {
+    *kind = (*name)->file ? S_IFREG : 0;
     return 0;
-  int failure = 0;
-  if (file->exists)
-    failure = write_host_file(file);
-  else if (file->was_there && unlinkat(file->place.folder, file->place.name, 0) != 0)
-    failure = errno;
-  file->changed = false;
-  file->was_there = file->exists;
-  return failure;
-}
-
-int trax_file_settle(struct trax_calls *calls, struct trax_file *file) {
-  int failure = 0;
-  if (file->opens && file->exists)
-    return 0;
-  if (!calls->deferred)
-    failure = trax_file_commit(file);
-  if (!file->opens && !file->changed)
-    trax_file_forget(calls, file);
-  return failure;
-}
-
-int trax_file_rename(struct trax_calls *calls, struct trax_place *from, struct trax_place *to, const char *to_path) {
-  struct trax_file *source = trax_file_find(calls, from), *target = trax_file_find(calls, to);
-  int failure = 0;
-  if (source == target && source)
-    return 0;
-  if (source ? !source->exists : (failure = trax_file_load(calls, from, to_path, false, &source)) != 0)
-    return failure ? failure : ENOENT;
-  if (!target)
-    failure = trax_file_load(calls, to, to_path, true, &target);
-  if (failure) {
-    trax_file_settle(calls, source);
-    return failure;
   }
-  failure = trax_file_resize(target, source->size);
+  const int failure = trax_place_stat(calls, place, &status);
+  if (failure)
+    return failure == ENOENT ? 0 : failure;
+  *kind = status.st_mode & S_IFMT;
+  for (struct trax_file *it = calls->files; it && S_ISREG(status.st_mode); it = it->next)
+    if (is_file_of(it, &status) && !(*name = add_host_name(calls, place, it))) /* another name of it */
+      return ENOMEM;
+  return 0;
+}
+
+/* Names the file's other names in the folder, which the program may use later. */
+static void find_links(struct trax_calls *calls, const struct trax_place *place, struct trax_file *file) {
+  const int folder = trax_folder_descriptor(calls, place->folder);
+  const int listed = folder < 0 ? -1 : openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  DIR *list = listed < 0 ? NULL : fdopendir(listed);
+  if (!list) { /* the program may not list it, so it will not find them by chance */
+    if (listed >= 0)
+      close(listed);
+    return;
+  }
+  for (const struct dirent *entry; (entry = readdir(list));) {
+    struct trax_place other = {.folder = place->folder};
+    struct stat status;
+    if (entry->d_ino != file->inode || strlen(entry->d_name) > NAME_MAX)
+      continue;
+    strcpy(other.name, entry->d_name);
+    if (!trax_name_at(calls, place->folder, other.name) && trax_place_stat(calls, &other, &status) == 0 &&
+        is_file_of(file, &status))
+      add_host_name(calls, &other, file);
+  }
+  closedir(list);
+}
+
+/* Reads the host's file into `file`. */
+static int read_host(struct trax_calls *calls, const struct trax_place *place, bool empty, struct trax_file *file) {
+  struct stat status;
+  int failure = empty && !calls->deferred ? trax_place_stat(calls, place, &status)
+                                          : trax_host_read(calls, place, &file->contents, &status);
+  const int folder = trax_folder_descriptor(calls, place->folder);
+  if (!failure && folder < 0)
+    failure = -folder;
   if (failure)
     return failure;
-  if (source->size)
-    memcpy(target->bytes, source->bytes, source->size);
-  target->exists = target->changed = true;
-  source->exists = false;
-  source->changed = true;
-  failure = trax_file_settle(calls, target);
-  const int other = failure ? 0 : trax_file_settle(calls, source);
-  return failure ? failure : other;
+  file->device = status.st_dev;
+  file->inode = status.st_ino;
+  file->changed = status.st_ctim;
+  file->mode = status.st_mode;
+  file->writable = faccessat(folder, place->name, W_OK, AT_EACCESS) == 0;
+  if (calls->deferred)
+    file->read = trax_contents_digest(&file->contents);
+  if (!add_host_name(calls, place, file))
+    return ENOMEM;
+  if (status.st_nlink > 1)
+    find_links(calls, place, file);
+  return 0;
+}
+
+int trax_name_take(struct trax_calls *calls, const struct trax_place *place, bool empty, struct trax_name **name) {
+  mode_t kind;
+  struct trax_file *file;
+  int failure = trax_name_look(calls, place, &kind, name);
+  if (!failure && !kind)
+    failure = ENOENT;
+  if (failure || *name)
+    return failure;
+  failure = trax_file_create(calls, place, &file);
+  if (!failure)
+    failure = read_host(calls, place, empty, file);
+  *name = failure ? NULL : trax_name_at(calls, place->folder, place->name);
+  return failure;
 }

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* O_PATH */
 /* The allowed folders, and the walk from one of them along a path. Each part of a path is looked up in the folder
    before it, links are followed here, and ".." goes back along the walk: so nothing outside can be reached, even if the
-   host's folders change meanwhile. */
+   host's folders change meanwhile. openat2 would not help, because a place need not exist. */
 #include "calls/internal.h"
 
 #include "machine/machine.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_DEPTH = 256, MOST_LINKS = 40 };
+enum { MOST_LINKS = 40, MOST_OPEN = 64 /* folders besides the allowed ones */ };
 
 /* Skips what does not change a name: "./" and "//" at its beginning. */
 static const char *plain(const char *name) {
@@ -24,29 +24,137 @@ static const char *plain(const char *name) {
   return name;
 }
 
+static int make_folder(struct trax_calls *calls, struct trax_folder *parent, const char *name, int descriptor) {
+  struct trax_folder *fresh = calloc(1, sizeof *fresh);
+  struct stat status;
+  char *copy = strdup(name);
+  if (!fresh || !copy || fstat(descriptor, &status) != 0) {
+    const int failure = fresh && copy ? errno : ENOMEM;
+    free(fresh);
+    free(copy);
+    return failure;
+  }
+  *fresh = (struct trax_folder){.next = calls->folders,
+                                .parent = parent,
+                                .name = copy,
+                                .device = status.st_dev,
+                                .inode = status.st_ino,
+                                .descriptor = descriptor,
+                                .references = 1};
+  if (parent)
+    trax_folder_refer(parent);
+  calls->folders = fresh;
+  return 0;
+}
+
 trax_status trax_calls_allow(struct trax_machine *machine, const char *folder, const char *name, trax_error *error) {
   struct trax_calls *calls = trax_calls_of(machine);
-  struct trax_folder *folders =
-      calls ? realloc(calls->folders, (calls->folder_count + 1) * sizeof *calls->folders) : NULL;
-  if (!folders)
-    return trax_fail(error, "out of memory");
-  calls->folders = folders;
-  const int descriptor = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0)
-    return trax_fail(error, "%s: %s", folder, strerror(errno));
-  struct trax_folder *fresh = &folders[calls->folder_count];
-  *fresh = (struct trax_folder){strdup(folder), strdup(plain(name)), descriptor};
-  if (!fresh->host || !fresh->name) {
-    free(fresh->host);
-    free(fresh->name);
-    close(descriptor);
+  char *short_name = strdup(plain(name));
+  if (!calls || !short_name) {
+    free(short_name);
     return trax_fail(error, "out of memory");
   }
-  for (size_t length = strlen(fresh->name); length > 1 && fresh->name[length - 1] == '/';)
-    fresh->name[--length] = '\0';
-  calls->folder_count++;
-  return TRAX_OK;
+  for (size_t length = strlen(short_name); length > 1 && short_name[length - 1] == '/';)
+    short_name[--length] = '\0';
+  const int descriptor = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+  const int failure = descriptor < 0 ? errno : make_folder(calls, NULL, short_name, descriptor);
+  free(short_name);
+  if (failure && descriptor >= 0)
+    close(descriptor);
+  return failure ? trax_fail(error, "%s: %s", folder, strerror(failure)) : TRAX_OK;
 }
+
+/* --- folders on the way --- */
+
+void trax_folder_refer(struct trax_folder *folder) {
+  folder->references++;
+}
+
+void trax_folder_release(struct trax_calls *calls, struct trax_folder *folder) {
+  while (folder && --folder->references == 0) {
+    struct trax_folder *parent = folder->parent, **link = &calls->folders;
+    while (*link != folder)
+      link = &(*link)->next;
+    *link = folder->next;
+    if (folder->descriptor >= 0)
+      close(folder->descriptor);
+    free(folder->name);
+    free(folder);
+    folder = parent;
+  }
+}
+
+/* Opens a folder in another one; a link is not followed. */
+static int open_below(int parent, const char *name) {
+  return openat(parent, name, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+/* Opens a folder that was closed: the same one, at the place that it had. */
+static int open_again(const struct trax_folder *folder) {
+  if (folder->descriptor >= 0)
+    return fcntl(folder->descriptor, F_DUPFD_CLOEXEC, 0);
+  const int parent = open_again(folder->parent);
+  if (parent < 0)
+    return -1;
+  int descriptor = open_below(parent, folder->name), failure = errno;
+  struct stat status;
+  if (descriptor >= 0 && (fstat(descriptor, &status) != 0 || status.st_dev != folder->device ||
+                          status.st_ino != folder->inode)) { /* another process has put another one there */
+    close(descriptor);
+    descriptor = -1;
+    failure = ENOENT;
+  }
+  close(parent);
+  errno = failure;
+  return descriptor;
+}
+
+/* Makes room for one more descriptor: closes the one that was not used for the longest time. */
+static void make_room(struct trax_calls *calls) {
+  struct trax_folder *oldest = NULL;
+  unsigned count = 0;
+  for (struct trax_folder *it = calls->folders; it; it = it->next) {
+    if (!it->parent || it->descriptor < 0)
+      continue;
+    count++;
+    if (!oldest || it->used < oldest->used)
+      oldest = it;
+  }
+  if (count < MOST_OPEN)
+    return;
+  close(oldest->descriptor);
+  oldest->descriptor = -1;
+}
+
+int trax_folder_descriptor(struct trax_calls *calls, struct trax_folder *folder) {
+  if (folder->descriptor < 0) {
+    make_room(calls);
+    folder->descriptor = open_again(folder);
+  }
+  folder->used = ++calls->folder_uses;
+  return folder->descriptor < 0 ? -errno : folder->descriptor;
+}
+
+void trax_folder_moved(struct trax_calls *calls, const struct stat *status, const struct trax_place *to) {
+  for (struct trax_folder *it = calls->folders; it;) {
+    const bool is_there = it->parent == to->folder && strcmp(it->name, to->name) == 0;
+    char *name = NULL;
+    if (!it->parent || is_there || it->device != status->st_dev || it->inode != status->st_ino ||
+        !(name = strdup(to->name))) {
+      it = it->next;
+      continue;
+    }
+    struct trax_folder *former = it->parent;
+    free(it->name);
+    it->name = name;
+    it->parent = to->folder;
+    trax_folder_refer(to->folder);
+    trax_folder_release(calls, former); /* which may be the next one */
+    it = calls->folders;
+  }
+}
+
+/* --- the walk --- */
 
 /* Returns what follows the folder's name in the path; NULL if the path does not begin with it. */
 static const char *below(const struct trax_folder *folder, const char *path) {
@@ -58,31 +166,25 @@ static const char *below(const struct trax_folder *folder, const char *path) {
   return path + length;
 }
 
-/* The folder with the longest name that the path begins with. */
-static const struct trax_folder *find_folder(const struct trax_calls *calls, const char *path, const char **rest) {
-  const struct trax_folder *found = NULL;
-  for (size_t i = 0; i < calls->folder_count; i++) {
-    const char *after = below(&calls->folders[i], path);
-    if (after && (!found || strlen(calls->folders[i].name) >= strlen(found->name))) {
-      found = &calls->folders[i];
+/* The allowed folder with the longest name that the path begins with; of equal ones, the last that was allowed. */
+static struct trax_folder *find_folder(const struct trax_calls *calls, const char *path, const char **rest) {
+  struct trax_folder *found = NULL;
+  for (struct trax_folder *it = calls->folders; it; it = it->next) {
+    const char *after = it->parent ? NULL : below(it, path);
+    if (after && (!found || strlen(it->name) > strlen(found->name))) {
+      found = it;
       *rest = after;
     }
   }
   return found;
 }
 
-/* A walk: the folders from the allowed one to where it is, and the path that is left. */
 struct walk {
-  int folders[MOST_DEPTH];
-  unsigned depth, links;
-  char *left; /* from malloc */
+  struct trax_calls *calls;
+  struct trax_folder *here; /* a reference */
+  unsigned links;
+  char *left; /* of the path; from malloc */
 };
-
-static void end_walk(struct walk *walk) {
-  while (walk->depth)
-    close(walk->folders[--walk->depth]);
-  free(walk->left);
-}
 
 /* Puts the link's target before the rest of the path. */
 static int follow_link(struct walk *walk, const char *target, const char *rest) {
@@ -90,90 +192,158 @@ static int follow_link(struct walk *walk, const char *target, const char *rest) 
     return EPERM;
   if (++walk->links > MOST_LINKS)
     return ELOOP;
-  char *joined = malloc(strlen(target) + strlen(rest) + 2);
+  char *joined = malloc(strlen(target) + strlen(rest) + 1);
   if (!joined)
     return ENOMEM;
-  strcat(strcat(strcpy(joined, target), *rest ? "/" : ""), rest);
+  strcat(strcpy(joined, target), rest);
   free(walk->left);
   walk->left = joined;
   return 0;
 }
 
-/* Goes one part further; *name receives the last part, which is not entered. */
-static int step(struct walk *walk, bool follow, char name[NAME_MAX + 1]) {
-  const char *part = walk->left + strspn(walk->left, "/");
-  const size_t length = strcspn(part, "/");
-  const char *rest = part + length + strspn(part + length, "/");
-  const bool is_last = !*rest, ends_in_slash = is_last && part[length] == '/';
+static void go_to(struct walk *walk, struct trax_folder *folder) {
+  struct trax_folder *former = walk->here;
+  trax_folder_refer(folder);
+  walk->here = folder;
+  trax_folder_release(walk->calls, former);
+}
+
+static int enter(struct walk *walk, int here, const char *name) {
+  struct stat status;
+  const int descriptor = open_below(here, name);
+  if (descriptor < 0)
+    return errno;
+  if (fstat(descriptor, &status) != 0) {
+    const int failure = errno;
+    close(descriptor);
+    return failure;
+  }
+  for (struct trax_folder *it = walk->calls->folders; it; it = it->next) {
+    if (it->parent != walk->here || it->device != status.st_dev || it->inode != status.st_ino ||
+        strcmp(it->name, name) != 0)
+      continue;
+    close(descriptor);
+    go_to(walk, it);
+    return 0;
+  }
+  make_room(walk->calls);
+  const int failure = make_folder(walk->calls, walk->here, name, descriptor);
+  if (failure) {
+    close(descriptor);
+    return failure;
+  }
+  struct trax_folder *fresh = walk->calls->folders;
+  fresh->used = ++walk->calls->folder_uses;
+  go_to(walk, fresh);
+  fresh->references--;
+  return 0;
+}
+
+/* A part that is a name. *ends: it is the last one, and not a link to be followed. */
+static int step_by_name(struct walk *walk, enum trax_follow follow, const char *after, const struct trax_place *place,
+                        bool *ends) {
+  const bool is_last = !after[strspn(after, "/")];
+  const struct trax_name *known = trax_name_at(walk->calls, walk->here, place->name);
+  const int here = trax_folder_descriptor(walk->calls, walk->here);
   char target[PATH_MAX];
-  if (length > NAME_MAX)
-    return ENAMETOOLONG;
-  memcpy(name, part, length);
-  name[length] = '\0';
-  if (strcmp(name, "..") == 0) {
-    if (walk->depth == 1)
-      return EPERM;
-    close(walk->folders[--walk->depth]);
-    strcpy(name, ".");
-  } else if (length != 0 && strcmp(name, ".") != 0) {
-    const int here = walk->folders[walk->depth - 1];
-    const ssize_t got = is_last && !follow && !ends_in_slash ? -1 : readlinkat(here, name, target, sizeof target - 1);
+  if (here < 0)
+    return -here;
+  if (known && !is_last)
+    return known->file ? ENOTDIR : ENOENT;
+  if (!known && (!is_last || follow == TRAX_FOLLOW_ALL || (follow == TRAX_FOLLOW_SLASH && *after))) {
+    const ssize_t got = readlinkat(here, place->name, target, sizeof target - 1);
     if (got >= 0) {
       target[got] = '\0';
-      return follow_link(walk, target, rest);
+      return follow_link(walk, target, after);
     }
-    if (is_last && !ends_in_slash) {
-      walk->left[0] = '\0';
-      return 0;
-    }
-    if (walk->depth == MOST_DEPTH)
-      return ENAMETOOLONG;
-    const int next = openat(here, name, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (next < 0)
-      return errno;
-    walk->folders[walk->depth++] = next;
-    strcpy(name, ".");
+  }
+  *ends = is_last;
+  return is_last ? 0 : enter(walk, here, place->name);
+}
+
+/* Goes one part further. *ends: the place is found. */
+static int step(struct walk *walk, enum trax_follow follow, struct trax_place *place, bool *ends) {
+  const char *part = walk->left + strspn(walk->left, "/"), *left = walk->left;
+  const size_t length = strcspn(part, "/");
+  const char *after = part + length, *rest = after + strspn(after, "/");
+  if (length > NAME_MAX)
+    return ENAMETOOLONG;
+  memcpy(place->name, part, length);
+  place->name[length] = '\0';
+  place->slash = *after == '/';
+  place->last = TRAX_LAST_NAME;
+  if (length == 0 || strcmp(place->name, ".") == 0)
+    place->last = TRAX_LAST_HERE;
+  else if (strcmp(place->name, "..") == 0)
+    place->last = TRAX_LAST_ABOVE;
+  *ends = !*rest && place->last != TRAX_LAST_NAME;
+  if (place->last == TRAX_LAST_NAME) {
+    const int failure = step_by_name(walk, follow, after, place, ends);
+    if (failure || walk->left != left) /* a link was followed */
+      return failure;
   } else {
-    strcpy(name, ".");
+    if (place->last == TRAX_LAST_ABOVE) {
+      if (!walk->here->parent)
+        return EPERM;
+      go_to(walk, walk->here->parent);
+    }
+    strcpy(place->name, ".");
   }
   memmove(walk->left, rest, strlen(rest) + 1);
   return 0;
 }
 
-int trax_place_find(const struct trax_calls *calls, const char *path, bool follow, struct trax_place *place) {
+int trax_place_find(struct trax_calls *calls, const char *path, enum trax_follow follow, struct trax_place *place) {
   const char *rest = NULL;
+  place->folder = NULL;
   if (!*path)
     return ENOENT;
-  const struct trax_folder *folder = find_folder(calls, plain(path), &rest);
+  struct trax_folder *folder = find_folder(calls, plain(path), &rest);
   if (!folder)
     return ENOENT;
-  struct walk walk = {.depth = 1, .left = strdup(rest)};
-  walk.folders[0] = fcntl(folder->descriptor, F_DUPFD_CLOEXEC, 0);
-  int failure = !walk.left ? ENOMEM : walk.folders[0] < 0 ? errno : 0;
-  if (walk.folders[0] < 0)
-    walk.depth = 0;
-  do {
-    if (!failure)
-      failure = step(&walk, follow, place->name);
-  } while (!failure && *walk.left);
-  struct stat status;
-  if (!failure && fstat(walk.folders[walk.depth - 1], &status) != 0)
-    failure = errno;
-  if (!failure) {
-    place->folder = walk.folders[--walk.depth];
-    place->device = status.st_dev;
-    place->inode = status.st_ino;
-  }
-  end_walk(&walk);
+  struct walk walk = {.calls = calls, .here = folder, .left = strdup(rest)};
+  trax_folder_refer(folder);
+  int failure = walk.left ? 0 : ENOMEM;
+  for (bool ends = false; !failure && !ends;)
+    failure = step(&walk, follow, place, &ends);
+  free(walk.left);
+  if (failure)
+    trax_folder_release(calls, walk.here);
+  else
+    place->folder = walk.here;
   return failure;
 }
 
-void trax_place_release(struct trax_place *place) {
-  if (place->folder >= 0)
-    close(place->folder);
-  place->folder = -1;
+void trax_place_release(struct trax_calls *calls, struct trax_place *place) {
+  trax_folder_release(calls, place->folder);
+  place->folder = NULL;
 }
 
-int trax_place_stat(const struct trax_place *place, struct stat *status) {
-  return fstatat(place->folder, place->name, status, AT_SYMLINK_NOFOLLOW) == 0 ? 0 : errno;
+int trax_place_stat(struct trax_calls *calls, const struct trax_place *place, struct stat *status) {
+  const int folder = trax_folder_descriptor(calls, place->folder);
+  if (folder < 0)
+    return -folder;
+  return fstatat(folder, place->name, status, AT_SYMLINK_NOFOLLOW) == 0 ? 0 : errno;
+}
+
+static void put_folder(FILE *stream, const struct trax_folder *folder) {
+  if (folder->parent)
+    put_folder(stream, folder->parent);
+  fputs(folder->name, stream);
+  if (*folder->name && strcmp(folder->name, "/") != 0)
+    fputc('/', stream);
+}
+
+char *trax_place_path(const struct trax_place *place) {
+  char *path = NULL;
+  size_t size;
+  FILE *stream = open_memstream(&path, &size);
+  if (!stream)
+    return NULL;
+  put_folder(stream, place->folder);
+  fputs(place->name, stream);
+  if (fclose(stream) == 0)
+    return path;
+  free(path);
+  return NULL;
 }

@@ -14,6 +14,19 @@ static bool interrupted(const struct trax_calls *calls) {
   return calls->streams.interrupt && *calls->streams.interrupt;
 }
 
+/* Of a stream without a descriptor (fmemopen), up to the end of a line: it cannot be asked what there is. */
+static int refill_by_stdio(struct trax_stream_input *input, FILE *stream) {
+  for (int byte = 0; input->end < CAPACITY && byte != '\n';) {
+    byte = getc(stream);
+    if (byte == EOF) {
+      input->ended = true;
+      return ferror(stream) ? EIO : 0;
+    }
+    input->bytes[input->end++] = (uint8_t)byte;
+  }
+  return 0;
+}
+
 /* Reads what there is, after the bytes that are kept, of which there are fewer than CAPACITY. */
 static int refill(struct trax_calls *calls) {
   struct trax_stream_input *input = &calls->input;
@@ -23,6 +36,8 @@ static int refill(struct trax_calls *calls) {
   memmove(input->bytes, input->bytes + input->at, input->end - input->at);
   input->end -= input->at;
   input->at = 0;
+  if (descriptor < 0)
+    return refill_by_stdio(input, calls->streams.input);
   struct pollfd ready = {.fd = descriptor, .events = POLLIN};
   int count;
   do {

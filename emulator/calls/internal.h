@@ -1,67 +1,137 @@
 /* What the files of emulator/calls/ share. Functions return 0 or an error number (errno.h) unless they say otherwise.
- */
+
+   A *folder* is one of the host that a path led through. The allowed ones are open for the whole run, the others as far
+   as there are descriptors for them; they are found again by their names below an allowed one.
+   A *place* is a name in a folder: device and inode of the folder, and the name. There need not be anything.
+   A *file* is contents that the program reads and writes. Descriptors and names refer to it, and it lives as long as
+   one of them does. It *differs* if no file of the host is known to have its contents under its names. A *name* says
+   what the program finds at a place if that may not be what the host has there: a file, or nothing, because the program
+   has removed it. At a place without a name the program finds what the host has. A *pending change* is a name whose
+   file differs, or a name of nothing. Without checkpoints the host's names change at once, and a file that differs is
+   written when its last descriptor is closed. With checkpoints all changes wait for trax_calls_commit. New files are
+   complete on the host before names change, a name changes by one rename, and what the host has at a place goes only
+   after the file that was there is at its new place. A checkpoint has all names and descriptors, and the contents of
+   each file that the host does not have: those that differ, and those without a name. An earlier checkpoint or commit
+   does not matter. */
 #ifndef TRAX_CALLS_INTERNAL_H
 #define TRAX_CALLS_INTERNAL_H
 
 #include "calls/calls.h"
+#include "calls/contents.h"
 
 #include <limits.h>
 #include <sys/stat.h>
 #include <sys/types.h>
-#include <xxhash.h>
 
 /* --- folders.c: what the user allowed --- */
 
 struct trax_folder {
-  char *host, *name; /* as given; name without "./" and slashes at its end, "" for the folder the program begins in */
-  int descriptor;
-};
-
-/* A name in a folder; it need not exist. */
-struct trax_place {
-  int folder; /* a descriptor of the place's own */
+  struct trax_folder *next, *parent; /* NULL: the user allowed it */
+  char *name;                        /* in the parent. Of an allowed one without "./" and slashes at its end */
   dev_t device;
-  ino_t inode;             /* of the folder */
-  char name[NAME_MAX + 1]; /* "." for the folder itself */
+  ino_t inode;
+  int descriptor; /* -1: to be opened again */
+  uint64_t used;  /* when the descriptor was used */
+  unsigned references;
 };
 
-/* Finds the place that a path of the program names. No path leads out of the allowed folders, by no link either.
-   follow: if the last part is a symbolic link, the place is what it names. */
-int trax_place_find(const struct trax_calls *calls, const char *path, bool follow, struct trax_place *place);
-void trax_place_release(struct trax_place *place);
-/* lstat of the place. */
-int trax_place_stat(const struct trax_place *place, struct stat *status);
+enum trax_last { TRAX_LAST_NAME, TRAX_LAST_HERE, TRAX_LAST_ABOVE };
 
-/* --- files.c: contents --- */
+/* What a path ends in; it need not exist. */
+struct trax_place {
+  struct trax_folder *folder; /* a reference of the place's own; NULL: released */
+  enum trax_last last;        /* a name, "." or ".." */
+  bool slash;                 /* after the name: it must be a folder */
+  char name[NAME_MAX + 1];    /* "." for the folder itself */
+};
+
+enum trax_follow {
+  TRAX_FOLLOW_NONE,  /* a link as the last part is not followed */
+  TRAX_FOLLOW_SLASH, /* only before a slash */
+  TRAX_FOLLOW_ALL
+};
+
+/* Finds the place that a path of the program names. No path leads out of the allowed folders, by no link either. */
+int trax_place_find(struct trax_calls *calls, const char *path, enum trax_follow follow, struct trax_place *place);
+void trax_place_release(struct trax_calls *calls, struct trax_place *place);
+/* lstat of the host. */
+int trax_place_stat(struct trax_calls *calls, const struct trax_place *place, struct stat *status);
+/* The path of the place below an allowed folder, by which the program finds it; from malloc. */
+char *trax_place_path(const struct trax_place *place);
+/* The folder's descriptor, which the next two calls leave open, or an error number times -1. */
+int trax_folder_descriptor(struct trax_calls *calls, struct trax_folder *folder);
+void trax_folder_refer(struct trax_folder *folder);
+void trax_folder_release(struct trax_calls *calls, struct trax_folder *folder);
+/* A folder of the host has another place now. */
+void trax_folder_moved(struct trax_calls *calls, const struct stat *status, const struct trax_place *to);
+
+/* --- files.c: files, and names of them --- */
 
 struct trax_file {
   struct trax_file *next;
-  struct trax_place place;
-  char *path; /* by which the program opened it, for messages and checkpoints */
-  uint8_t *bytes;
-  uint64_t size, capacity;
-  XXH128_hash_t read; /* digest of the contents as they were read from the host, if it had such a file */
-  bool was_there;     /* the host has a file here, as far as it is known */
-  bool exists;        /* false: the program has removed it */
-  bool changed;       /* the host's file must be written or removed */
-  unsigned opens;     /* descriptors */
+  struct trax_contents contents;
+  uint64_t number; /* for the program: differs between files */
+  /* The host's file that it was read from; inode 0: none. */
+  dev_t device;
+  ino_t inode;
+  struct timespec changed;
+  mode_t mode;        /* 0: a new file's */
+  bool writable;      /* the user may */
+  bool differs;       /* no file of the host is known to have the contents under its names */
+  XXH128_hash_t read; /* with checkpoints: digest of the contents as they were read */
+  unsigned opens, names;
+  /* While changes are committed: */
+  bool complete, failed;  /* the temporary file is complete; something failed */
+  bool orphaned;          /* the temporary file is the only copy */
+  char temporary[24];     /* "": none */
+  struct trax_name *home; /* in its folder is the temporary file; later, the first name that was given to it */
 };
 
-/* Finds the file of a place among those that are kept. NULL: there is none. */
-struct trax_file *trax_file_find(const struct trax_calls *calls, const struct trax_place *place);
-/* Keeps the file of a place, which it takes over if it succeeds, with the contents that the host has; `create`: there
-   may be none. */
-int trax_file_load(struct trax_calls *calls, struct trax_place *place, const char *path, bool create,
-                   struct trax_file **file);
-int trax_file_write(struct trax_file *file, uint64_t offset, const uint8_t *bytes, uint32_t count);
-int trax_file_resize(struct trax_file *file, uint64_t size);
-/* Makes the host's file what this one is. */
-int trax_file_commit(struct trax_file *file);
-/* To be called after a descriptor was closed, a file removed or renamed: commits the file and forgets it, as far as
-   nothing needs it any more. */
-int trax_file_settle(struct trax_calls *calls, struct trax_file *file);
-void trax_file_forget(struct trax_calls *calls, struct trax_file *file);
-int trax_file_rename(struct trax_calls *calls, struct trax_place *from, struct trax_place *to, const char *to_path);
+struct trax_name {
+  struct trax_name *next;
+  struct trax_place place;
+  struct trax_file *file; /* NULL: removed */
+  /* With checkpoints, what the host had here when the program first changed the place: */
+  bool was_there;
+  XXH128_hash_t digest;
+  struct trax_file *was; /* NULL: nothing, or a file that is no more */
+  bool committed;        /* while changes are committed */
+};
+
+/* The name at a place; NULL: there is none. */
+struct trax_name *trax_name_at(const struct trax_calls *calls, const struct trax_folder *folder, const char *name);
+/* What the program finds at a place: the kind (S_IFMT of stat's mode), 0 for nothing, and the name, NULL for none. */
+int trax_name_look(struct trax_calls *calls, const struct trax_place *place, mode_t *kind, struct trax_name **name);
+/* Finds the name of the file at a place, where the program finds one, or reads the host's. `empty`: without its
+   contents, which are about to be replaced. */
+int trax_name_take(struct trax_calls *calls, const struct trax_place *place, bool empty, struct trax_name **name);
+/* Makes the place's name refer to the file, NULL for nothing. The former one loses the name. NULL: out of memory. */
+struct trax_name *trax_name_set(struct trax_calls *calls, const struct trax_place *place, struct trax_file *file);
+/* A new file without contents. */
+int trax_file_create(struct trax_calls *calls, const struct trax_place *place, struct trax_file **file);
+/* The number of the file at a place without a name. */
+uint64_t trax_file_number(const struct trax_calls *calls, const struct trax_place *place);
+/* Forgets names and files that nothing needs any more. */
+void trax_files_forget(struct trax_calls *calls);
+
+/* --- names.c --- */
+
+/* The user may make and remove names in the folder. */
+int trax_folder_check(struct trax_calls *calls, struct trax_folder *folder);
+int trax_name_remove(struct trax_calls *calls, const struct trax_place *place);
+int trax_name_rename(struct trax_calls *calls, const struct trax_place *from, const struct trax_place *to);
+int trax_folder_make(struct trax_calls *calls, const struct trax_place *place);
+int trax_folder_remove(struct trax_calls *calls, const struct trax_place *place);
+
+/* --- commit.c --- */
+
+/* Reads the host's file at a place. ENOENT: there is none. EPERM: something else, which is not opened. */
+int trax_host_read(struct trax_calls *calls, const struct trax_place *place, struct trax_contents *contents,
+                   struct stat *status);
+/* Makes pending changes those of the host: of one file, or all of files that no descriptor refers to, or all.
+   Returns the first failure; *path, from malloc, says where. Changes that failed are still pending. */
+int trax_commit_file(struct trax_calls *calls, struct trax_file *file);
+int trax_commit_all(struct trax_calls *calls, bool open_ones, char **path);
 
 /* --- input.c --- */
 
@@ -90,13 +160,14 @@ struct trax_calls {
   struct trax_machine *machine;
   struct trax_calls_streams streams;
   struct trax_folder *folders;
-  size_t folder_count;
+  uint64_t folder_uses;
   struct trax_file *files;
+  struct trax_name *names;
   struct trax_descriptor descriptors[TRAX_MOST_DESCRIPTORS];
   bool closed[TRAX_FIRST_DESCRIPTOR]; /* of standard input, output and errors */
   struct trax_stream_input input;
-  bool deferred;
-  bool used; /* a call has been made */
+  bool deferred; /* changes wait for trax_calls_commit */
+  bool used;     /* a call has been made */
 };
 
 struct trax_host_call;

@@ -23,7 +23,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 5, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
+enum { PAGE = 4096, VERSION = 6, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
 
 static const char magic[8] = "TRAXckpt";
 
