@@ -1,14 +1,13 @@
 #include "trax/files.h"
 
 #include "trax/output.h"
+#include "trax/reads.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-enum { MOST_LINKS = 40 };
 
 struct trax_file_use {
   char *path, *option; /* option: NULL if no message needs to name it */
@@ -32,17 +31,6 @@ static char *joined(const char *folder, size_t length, const char *name) {
   return path;
 }
 
-/* Returns the target of a symbolic link, from malloc; NULL if path is not a symbolic link. */
-static char *link_target(const char *path) {
-  char target[4096];
-  const ssize_t length = readlink(path, target, sizeof target - 1);
-  if (length <= 0 || length == sizeof target - 1)
-    return NULL;
-  target[length] = '\0';
-  const char *slash = strrchr(path, '/');
-  return target[0] == '/' || !slash ? strdup(target) : joined(path, (size_t)(slash - path), target);
-}
-
 /* Identifies a path that does not exist by its nearest existing folder and the rest of the path. False: out of memory.
  */
 static bool find_folder(struct trax_file_use *use, const char *path) {
@@ -59,7 +47,7 @@ static bool find_folder(struct trax_file_use *use, const char *path) {
       free(folder);
       return true;
     }
-    if (links < MOST_LINKS && (target = link_target(folder))) { /* a link to a file that does not exist */
+    if (links < TRAX_MOST_LINKS && (target = trax_link_target(folder))) { /* a link to a file that does not exist */
       free(folder);
       folder = target;
       links++;
@@ -91,6 +79,8 @@ static bool identify(struct trax_file_use *use) {
   use->kind = !S_ISREG(status.st_mode) ? ANY_NUMBER : stream >= 0 ? STREAM : REGULAR;
   use->device = status.st_dev;
   use->inode = status.st_ino;
+  if (!use->is_output)
+    trax_reads_note(&status);
   return (use->rest = strdup("")) != NULL;
 }
 
@@ -169,6 +159,8 @@ trax_status trax_files_check(const trax_files *files, trax_error *error) {
     return trax_fail(error, "out of memory");
   for (size_t i = 0; i < files->count; i++) {
     const struct trax_file_use *output = &files->uses[i];
+    const struct stat file = {.st_dev = output->device, .st_ino = output->inode, .st_mode = S_IFREG};
+    const bool exists = output->kind == REGULAR && !*output->rest;
     for (size_t j = 0; output->is_output && j < files->count; j++) {
       const struct trax_file_use *other = &files->uses[j];
       if (other == output || !same_file(output, other))
@@ -178,6 +170,8 @@ trax_status trax_files_check(const trax_files *files, trax_error *error) {
       if (output->kind != STREAM || other->kind != STREAM)
         return refuse_output(j < i ? other : output, j < i ? output : other, error);
     }
+    if (output->is_output && exists && trax_reads_has(&file)) /* read before, such as a response file */
+      return refuse_input(output, output, error);
   }
   return TRAX_OK;
 }

@@ -1,5 +1,6 @@
 #include "trax/input.h"
 
+#include "trax/reads.h"
 #include "trax/signals.h"
 
 #include <errno.h>
@@ -26,6 +27,7 @@ trax_status trax_input_open(trax_input *input, const char *path, trax_error *err
     return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
   if (S_ISDIR(status.st_mode))
     return trax_fail(error, "%s: cannot be read: %s", path, strerror(EISDIR));
+  trax_reads_note(&status);
   input->is_regular = S_ISREG(status.st_mode);
   input->expected = input->is_regular ? (size_t)status.st_size : 0;
   return TRAX_OK;

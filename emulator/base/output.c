@@ -1,13 +1,28 @@
+#define _GNU_SOURCE /* mkostemp */
 #include "trax/output.h"
+
+#include "trax/reads.h"
+#include "trax/signals.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+/* Before main, in every program. A file that is opened while a standard stream is closed would get its number, and what
+   is printed would go into it. A file beyond the size limit is one that cannot be written, and does not end the
+   program. */
+__attribute__((constructor)) static void prepare_process(void) {
+  signal(SIGXFSZ, SIG_IGN);
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
+    if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0)
+      return;
+}
 
 /* The permissions that open would set. mkstemp makes private files. */
 static mode_t usual_mode(mode_t wanted) {
@@ -37,6 +52,78 @@ static trax_status fail_closed(trax_output *output, int code, trax_error *error)
   return status;
 }
 
+char *trax_link_target(const char *path) {
+  char target[PATH_MAX];
+  const ssize_t length = readlink(path, target, sizeof target - 1);
+  if (length <= 0 || length == sizeof target - 1)
+    return NULL;
+  target[length] = '\0';
+  const char *slash = strrchr(path, '/');
+  const size_t folder = target[0] == '/' || !slash ? 0 : (size_t)(slash - path) + 1;
+  char *joined = malloc(folder + (size_t)length + 1);
+  if (joined)
+    strcpy(memcpy(joined, path, folder) + folder, target);
+  return joined;
+}
+
+/* Returns the path behind all symbolic links, whether a file is there or not; NULL with errno if there is none. */
+static char *behind_links(const char *path) {
+  char *at = strdup(path);
+  for (int links = 0; at; links++) {
+    char *target = trax_link_target(at);
+    if (!target)
+      return at;
+    free(at);
+    at = target;
+    if (links == TRAX_MOST_LINKS) {
+      free(at);
+      errno = ELOOP;
+      return NULL;
+    }
+  }
+  errno = ENOMEM;
+  return NULL;
+}
+
+/* Returns the name of a temporary file beside the target, whatever the length of the target's name. */
+static char *temporary_name(const char *target) {
+  static const char ending[] = ".XXXXXX";
+  const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
+  const size_t most = NAME_MAX + 1 - sizeof ending, length = strlen(name) < most ? strlen(name) : most;
+  char *temporary = malloc((size_t)(name - target) + length + sizeof ending);
+  if (temporary)
+    strcpy(memcpy(temporary, target, (size_t)(name - target) + length) + (name - target) + length, ending);
+  return temporary;
+}
+
+static trax_status refuse_input(trax_output *output, trax_error *error) {
+  trax_status status = trax_fail(error, "%s: is an input and the output", output->path);
+  trax_output_discard(output);
+  return status;
+}
+
+/* Opens the temporary file. */
+static trax_status open_temporary(trax_output *output, mode_t mode, trax_error *error) {
+  output->temporary = temporary_name(output->target);
+  if (!output->temporary)
+    return fail_closed(output, ENOMEM, error);
+  const int descriptor = mkostemp(output->temporary, O_CLOEXEC);
+  if (descriptor < 0) {
+    int code = errno;
+    free(output->temporary);
+    output->temporary = NULL;
+    return fail_closed(output, code, error);
+  }
+  fchmod(descriptor, mode);
+  output->file = fdopen(descriptor, "wb");
+  if (!output->file) {
+    int code = errno;
+    close(descriptor);
+    return fail_closed(output, code, error);
+  }
+  return TRAX_OK;
+}
+
 trax_status trax_output_open(trax_output *output, const char *path, trax_error *error) {
   *output = (trax_output){.path = strdup(path)};
   if (!output->path)
@@ -52,36 +139,21 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
   struct stat existing;
-  if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode)) {
+  const bool exists = stat(path, &existing) == 0;
+  if (exists && !S_ISREG(existing.st_mode)) {
     if (S_ISDIR(existing.st_mode))
       return fail_closed(output, EISDIR, error);
-    output->file = fopen(path, "wb");
+    const int descriptor = open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY); /* creates nothing if it is gone meanwhile */
+    output->file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
-  /* If path is a symbolic link, the file that it refers to is replaced, not the link. */
-  output->target = realpath(path, NULL);
-  const bool exists = output->target != NULL;
-  if (exists ? access(path, W_OK) != 0 : !(output->target = strdup(path)))
+  if (exists && trax_reads_has(&existing))
+    return refuse_input(output, error);
+  /* If path is a symbolic link, the file that it refers to is written, not the link. */
+  output->target = behind_links(path);
+  if (!output->target || (exists && access(path, W_OK) != 0))
     return fail_closed(output, errno, error);
-  output->temporary = malloc(strlen(output->target) + sizeof ".XXXXXX");
-  if (!output->temporary)
-    return fail_closed(output, ENOMEM, error);
-  strcat(strcpy(output->temporary, output->target), ".XXXXXX");
-  int descriptor = mkstemp(output->temporary);
-  if (descriptor < 0) {
-    int code = errno;
-    free(output->temporary);
-    output->temporary = NULL;
-    return fail_closed(output, code, error);
-  }
-  fchmod(descriptor, exists ? existing.st_mode & 07777 : usual_mode(0666));
-  output->file = fdopen(descriptor, "wb");
-  if (!output->file) {
-    int code = errno;
-    close(descriptor);
-    return fail_closed(output, code, error);
-  }
-  return TRAX_OK;
+  return open_temporary(output, exists ? existing.st_mode & 07777 : usual_mode(0666), error);
 }
 
 void trax_output_make_executable(trax_output *output) {
@@ -103,12 +175,21 @@ trax_status trax_output_commit(trax_output *output, trax_error *error) {
     if (failure == EPIPE) /* the reader has closed the pipe; main reports that by its exit status */
       failure = 0;
   } else {
+    struct stat written;
+    if (output->temporary && fstat(fileno(output->file), &written) == 0)
+      trax_reads_drop(&written);
     if (fclose(output->file) != 0 && !failure)
       failure = errno;
     output->file = NULL;
   }
+  struct stat existing;
+  if (!failure && output->temporary && lstat(output->target, &existing) == 0) { /* what it has become meanwhile */
+    if (trax_reads_has(&existing))
+      return refuse_input(output, error);
+    failure = S_ISREG(existing.st_mode) ? 0 : S_ISDIR(existing.st_mode) ? EISDIR : EEXIST;
+  }
   if (!failure && output->temporary) {
-    if (rename(output->temporary, output->target) != 0) {
+    if (renameat(AT_FDCWD, output->temporary, AT_FDCWD, output->target) != 0) {
       failure = errno;
     } else {
       free(output->temporary);
@@ -125,7 +206,7 @@ void trax_output_discard(trax_output *output) {
   if (output->file && output->file != stdout)
     fclose(output->file);
   if (output->temporary)
-    unlink(output->temporary);
+    unlinkat(AT_FDCWD, output->temporary, 0);
   free(output->temporary);
   free(output->target);
   free(output->path);
@@ -153,12 +234,29 @@ trax_status trax_output_check(const char *path, trax_error *error) {
   return status;
 }
 
-trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error) {
+trax_status trax_write_whole(const char *path, const void *bytes, size_t size, bool executable, trax_error *error) {
+  struct stat existing;
   trax_output output;
-  if (trax_output_open(&output, path, error) != TRAX_OK)
-    return TRAX_ERROR;
-  fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
-  return trax_output_commit(&output, error);
+  sigset_t before;
+  /* What is written directly may keep it waiting, as a pipe, and leaves nothing to remove. */
+  const bool is_replaced =
+      trax_output_descriptor(path) < 0 && (stat(path, &existing) != 0 || S_ISREG(existing.st_mode));
+  if (is_replaced)
+    trax_hold_signals(&before);
+  trax_status status = trax_output_open(&output, path, error);
+  if (status == TRAX_OK) {
+    if (executable)
+      trax_output_make_executable(&output);
+    fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
+    status = trax_output_commit(&output, error);
+  }
+  if (is_replaced)
+    trax_allow_signals(&before);
+  return status;
+}
+
+trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error) {
+  return trax_write_whole(path, bytes, size, false, error);
 }
 
 /* Returns the ending, without its dot; NULL if there is none. */

@@ -33,7 +33,6 @@ static void catch_signals(void) {
   struct sigaction broken_pipe = {.sa_handler = on_broken_pipe};
   sigemptyset(&broken_pipe.sa_mask);
   sigaction(SIGPIPE, &broken_pipe, NULL);
-  signal(SIGXFSZ, SIG_IGN); /* a file beyond the size limit is reported as a failed write */
 }
 
 static int complain(const trax_error *error) {

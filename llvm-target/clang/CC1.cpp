@@ -6,6 +6,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "CC1.h"
+#include "FileCalls.h"
 #include "TraxABI.h"
 #include "TraxTargetInfo.h"
 #include "clang/Basic/DiagnosticFrontend.h"
@@ -30,17 +31,12 @@
 #include "llvm/Support/Timer.h"
 #include "llvm/Target/TargetMachine.h"
 
+#include <unistd.h>
+
 using namespace clang;
 using llvm::StringRef;
 
 namespace {
-
-/// A fatal error of LLVM's becomes a diagnostic like any other.
-void reportFatalError(void *Diags, const char *Message, bool GenCrashDiag) {
-  static_cast<DiagnosticsEngine *>(Diags)->Report(diag::err_fe_error_backend) << Message;
-  llvm::sys::RunInterruptHandlers(); // removes outputs half written
-  llvm::sys::Process::Exit(GenCrashDiag ? 70 : 1, /*NoCleanup=*/true);
-}
 
 void parseBackendOptions(llvm::ArrayRef<std::string> Options) {
   if (Options.empty())
@@ -151,16 +147,26 @@ int printSupportedCPUs(StringRef Triple) {
   return 0;
 }
 
-void writeTimeTrace(CompilerInstance &CI) {
+bool writeTimeTrace(CompilerInstance &CI) {
   llvm::SmallString<128> Path(CI.getFrontendOpts().TimeTracePath);
   // Diagnostics are over by now, but this may still fail, for which createOutputFile needs a place to report to.
-  if (auto Out = CI.createOutputFile(Path, /*Binary=*/false, /*RemoveFileOnSignal=*/false, /*UseTemporary=*/false))
+  auto Out = CI.createOutputFile(Path, /*Binary=*/false, /*RemoveFileOnSignal=*/false, /*UseTemporary=*/false);
+  if (Out)
     llvm::timeTraceProfilerWrite(*Out);
   llvm::timeTraceProfilerCleanup();
   CI.clearOutputFiles(/*EraseFiles=*/false);
+  return Out != nullptr;
 }
 
 } // namespace
+
+void trax::reportFatalError(void *Diags, const char *Message, bool GenCrashDiag) {
+  static_cast<DiagnosticsEngine *>(Diags)->Report(diag::err_fe_error_backend) << Message;
+  llvm::sys::RunInterruptHandlers(); // removes outputs half written
+  if (!GenCrashDiag)                 // as of a full disk; Process::Exit would print a trace within the driver's process
+    _exit(1);
+  llvm::sys::Process::Exit(70, /*NoCleanup=*/true);
+}
 
 int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
   auto CI = std::make_unique<CompilerInstance>();
@@ -183,13 +189,14 @@ int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
   CI->createDiagnostics();
   if (!CI->hasDiagnostics())
     return 1;
-  llvm::ScopedFatalErrorHandler FatalErrors(reportFatalError, &CI->getDiagnostics());
+  llvm::ScopedFatalErrorHandler FatalErrors(trax::reportFatalError, &CI->getDiagnostics());
   Buffer->FlushDiagnostics(CI->getDiagnostics());
   if (!Success) {
     CI->getDiagnosticClient().finish();
     return 1;
   }
 
+  followRule(isTraxTriple(llvm::Triple(Triple)));
   const bool NeedsTarget = !Options.ShowHelp && !Options.ShowVersion;
   if (NeedsTarget && isTraxTriple(llvm::Triple(Triple)))
     Success = compileForTrax(*CI);
@@ -199,7 +206,7 @@ int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
   llvm::TimerGroup::printAll(llvm::errs());
   llvm::TimerGroup::clearAll();
   if (llvm::timeTraceProfilerEnabled())
-    writeTimeTrace(*CI);
+    Success = writeTimeTrace(*CI) && Success;
   if (CI->getFrontendOpts().DisableFree)
     llvm::BuryPointer(std::move(CI)); // the process ends, or soon does: nobody needs the memory
   return !Success;

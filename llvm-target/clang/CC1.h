@@ -12,6 +12,10 @@ int runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0);
 /// `clang -cc1as`: assembles one file. The arguments follow `-cc1as`. Returns the exit status.
 int runCC1As(llvm::ArrayRef<const char *> Args, const char *Argv0);
 
+/// For llvm::ScopedFatalErrorHandler, with a DiagnosticsEngine: a fatal error of LLVM's becomes a diagnostic like any
+/// other.
+void reportFatalError(void *Diags, const char *Message, bool GenCrashDiag);
+
 } // namespace trax
 
 #endif

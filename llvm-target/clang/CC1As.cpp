@@ -6,6 +6,7 @@
 
 #include "CC1.h"
 #include "TraxTargetInfo.h"
+#include "trax/output.h"
 #include "clang/Basic/Diagnostic.h"
 #include "clang/Basic/DiagnosticDriver.h"
 #include "clang/Basic/DiagnosticFrontend.h"
@@ -30,6 +31,7 @@
 #include "llvm/Option/ArgList.h"
 #include "llvm/Option/OptTable.h"
 #include "llvm/Support/CommandLine.h"
+#include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/FileSystem.h"
 #include "llvm/Support/FormattedStream.h"
 #include "llvm/Support/MemoryBuffer.h"
@@ -111,65 +113,6 @@ void defineSymbols(llvm::MCContext &Context, llvm::MCStreamer &Streamer, const l
   }
 }
 
-/// Where the result goes. A regular file appears under its name only when all went well.
-class Output {
-public:
-  /// Returns false after a diagnostic.
-  bool open(StringRef OutputPath, OutputKind Kind, DiagnosticsEngine &Diags) {
-    Path = OutputPath.str();
-    const bool ToFile = Path != "-" && Kind != OutputKind::Null;
-    std::string Failure;
-    if (ToFile && (!llvm::sys::fs::exists(Path) || llvm::sys::fs::is_regular_file(Path))) {
-      auto Created = llvm::sys::fs::TempFile::create(Path + "-%%%%%%%%.tmp");
-      if (Created) {
-        Temporary.emplace(std::move(*Created));
-        File = std::make_unique<llvm::raw_fd_ostream>(Temporary->FD, /*shouldClose=*/false);
-      } else {
-        Failure = llvm::errorToErrorCode(Created.takeError()).message();
-      }
-    } else { // a device, or standard output
-      std::error_code Error;
-      File = std::make_unique<llvm::raw_fd_ostream>(ToFile ? Path : "-", Error);
-      if (Error)
-        Failure = Error.message();
-    }
-    if (!Failure.empty()) {
-      Diags.Report(diag::err_fe_unable_to_open_output) << Path << Failure;
-      return false;
-    }
-    if (Kind == OutputKind::Object && !File->supportsSeeking()) // object files are patched after they are written
-      Buffered = std::make_unique<llvm::buffer_ostream>(*File);
-    return true;
-  }
-
-  llvm::raw_pwrite_stream &stream() { return Buffered ? *Buffered : static_cast<llvm::raw_pwrite_stream &>(*File); }
-
-  /// Keeps or discards what was written.
-  bool close(bool Keep, DiagnosticsEngine &Diags) {
-    Buffered.reset();
-    File->flush();
-    if (const std::error_code Error = File->error()) {
-      Diags.Report(diag::err_fe_unable_to_open_output) << Path << Error.message();
-      File->clear_error();
-      Keep = false;
-    }
-    File.reset();
-    if (!Temporary)
-      return Keep;
-    if (llvm::Error Failed = Keep ? Temporary->keep(Path) : Temporary->discard()) {
-      Diags.Report(diag::err_fe_unable_to_open_output) << Path << toString(std::move(Failed));
-      return false;
-    }
-    return Keep;
-  }
-
-private:
-  std::string Path;
-  std::optional<llvm::sys::fs::TempFile> Temporary;
-  std::unique_ptr<llvm::raw_fd_ostream> File;
-  std::unique_ptr<llvm::buffer_ostream> Buffered;
-};
-
 llvm::MCTargetOptions targetOptions(const llvm::opt::ArgList &Args) {
   llvm::MCTargetOptions Options;
   Options.MCRelaxAll = Args.hasArg(options::OPT_mrelax_all);
@@ -221,22 +164,21 @@ bool assemble(const llvm::opt::InputArgList &Args, DiagnosticsEngine &Diags) {
   setUpDebugInfo(Context, Args, InputPath, Sources.getMemoryBuffer(Source)->getBuffer(), Diags);
 
   const OutputKind Kind = outputKind(Args, Diags);
-  Output Out;
-  if (!Out.open(Args.getLastArgValue(options::OPT_o, "-"), Kind, Diags))
-    return false;
+  llvm::SmallString<0> Bytes;
+  llvm::raw_svector_ostream Out(Bytes);
   std::unique_ptr<llvm::MCStreamer> Streamer;
   if (Kind == OutputKind::Object) {
     std::unique_ptr<llvm::MCCodeEmitter> Emitter(Target->createMCCodeEmitter(*Instructions, Context));
     std::unique_ptr<llvm::MCAsmBackend> Backend(Target->createMCAsmBackend(*Subtarget, *Registers, Options));
-    std::unique_ptr<llvm::MCObjectWriter> Writer = Backend->createObjectWriter(Out.stream());
+    std::unique_ptr<llvm::MCObjectWriter> Writer = Backend->createObjectWriter(Out);
     Streamer.reset(Target->createMCObjectStreamer(Triple, Context, std::move(Backend), std::move(Writer),
                                                   std::move(Emitter), *Subtarget));
     Streamer->initSections(Args.hasArg(options::OPT_mno_exec_stack), *Subtarget);
     Streamer->emitVersionForTarget(Triple, {}, nullptr, {});
   } else if (Kind == OutputKind::Assembly) {
     llvm::MCInstPrinter *Printer = Target->createMCInstPrinter(Triple, 0, *AsmInfo, *Instructions, *Registers);
-    Streamer.reset(Target->createAsmStreamer(Context, std::make_unique<llvm::formatted_raw_ostream>(Out.stream()),
-                                             Printer, nullptr, nullptr));
+    Streamer.reset(Target->createAsmStreamer(Context, std::make_unique<llvm::formatted_raw_ostream>(Out), Printer,
+                                             nullptr, nullptr));
   } else {
     Streamer.reset(Target->createNullStreamer(Context));
   }
@@ -249,7 +191,13 @@ bool assemble(const llvm::opt::InputArgList &Args, DiagnosticsEngine &Diags) {
 
   const bool Success = !Diags.hasErrorOccurred() && !Parser->Run(Args.hasArg(options::OPT_n)) && !Context.hadError();
   Streamer.reset(); // flushes
-  return Out.close(Success, Diags);
+  trax_error Reason;
+  if (!Success || Kind == OutputKind::Null ||
+      trax_write_file(Args.getLastArgValue(options::OPT_o, "-").str().c_str(), Bytes.data(), Bytes.size(), &Reason) ==
+          TRAX_OK)
+    return Success;
+  Diags.Report(Diags.getCustomDiagID(DiagnosticsEngine::Error, "%0")) << Reason.message;
+  return false;
 }
 
 } // namespace
@@ -257,6 +205,8 @@ bool assemble(const llvm::opt::InputArgList &Args, DiagnosticsEngine &Diags) {
 int trax::runCC1As(llvm::ArrayRef<const char *> RawArgs, const char *) {
   IntrusiveRefCntPtr<DiagnosticOptions> Options(new DiagnosticOptions());
   DiagnosticsEngine Diags(new DiagnosticIDs(), &*Options, new TextDiagnosticPrinter(llvm::errs(), &*Options));
+
+  const llvm::ScopedFatalErrorHandler FatalErrors(reportFatalError, &Diags);
 
   unsigned MissingIndex, MissingCount;
   const llvm::opt::InputArgList Args =

@@ -6,11 +6,14 @@
 //===----------------------------------------------------------------------===//
 
 #include "CC1.h"
+#include "FileCalls.h"
 #include "LLVMTrax.h"
+#include "PrivateMember.h"
 #include "TraxOptions.h"
 #include "TraxTargetInfo.h"
 #include "TraxToolChain.h"
 #include "trax/files.h"
+#include "trax/reads.h"
 #include "trax/signals.h"
 #include "trax/version.h"
 #include "clang/Basic/DiagnosticDriver.h"
@@ -41,6 +44,19 @@
 using namespace clang;
 using namespace clang::driver;
 using llvm::StringRef;
+
+namespace trax {
+struct ResultFiles {
+  using Type = ArgStringMap Compilation::*;
+  friend Type addressOf(ResultFiles);
+};
+template struct Publish<ResultFiles, &Compilation::ResultFiles>;
+struct FailureResultFiles {
+  using Type = ArgStringMap Compilation::*;
+  friend Type addressOf(FailureResultFiles);
+};
+template struct Publish<FailureResultFiles, &Compilation::FailureResultFiles>;
+} // namespace trax
 
 namespace {
 
@@ -90,10 +106,12 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
   }
   const StringRef Tool = Args[1];
   const auto Rest = llvm::ArrayRef(Args).drop_front(2);
-  if (Tool == "-cc1")
-    return trax::runCC1(Rest, Args[0]);
-  if (Tool == "-cc1as")
-    return trax::runCC1As(Rest, Args[0]);
+  if (Tool == "-cc1" || Tool == "-cc1as") {
+    const void *const Before = trax::outputsSoFar(); // of the driver, if it is this process
+    const int Result = Tool == "-cc1" ? trax::runCC1(Rest, Args[0]) : trax::runCC1As(Rest, Args[0]);
+    // After errors, too: diagnostics may be an output.
+    return trax::commitOutputs("clang", /*Keep=*/true, Before) ? Result : 1;
+  }
   llvm::errs() << "error: unknown integrated tool '" << Tool << "'. Valid tools include '-cc1' and '-cc1as'.\n";
   return 1;
 }
@@ -102,7 +120,12 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
 int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   for (const char *Temporary : C.getTempFiles()) // the driver removes them itself only if it ends by itself
     llvm::sys::RemoveFileOnSignal(Temporary);
+  trax_reads_share();                                                       // what one job reads, no other may write
   setenv("TRAX_PARENT", std::to_string(getpid()).c_str(), /*overwrite=*/1); // what is started ends with this process
+  if (trax::isTraxTriple(C.getDefaultToolChain().getTriple())) { // no job leaves a part of a file, so none is removed
+    (C.*addressOf(trax::ResultFiles())).clear();
+    (C.*addressOf(trax::FailureResultFiles())).clear();
+  }
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {
@@ -119,7 +142,8 @@ int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   return Result;
 }
 
-/// An output of the jobs, or the file of dependencies, that is one of the inputs, and what two jobs write, is an error.
+/// An output that is one of the inputs, and what two jobs write, is an error, told before anything runs. What the
+/// inputs include, and the outputs of other options, are compared when they are written (FileCalls.h).
 void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_files Files = {};
   trax_error Reason;
@@ -129,8 +153,11 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
     for (const std::string &Output : Job.getOutputFilenames())
       if (!Output.empty() && !llvm::is_contained(C.getTempFiles(), Output))
         trax_files_output(&Files, "-o", Output.c_str());
-  if (const llvm::opt::Arg *Dependencies = C.getArgs().getLastArg(options::OPT_MF))
-    trax_files_output(&Files, "-MF", Dependencies->getValue());
+  for (const unsigned Id :
+       {options::OPT_MF, options::OPT_MJ, options::OPT__serialize_diags, options::OPT_ftime_trace_EQ,
+        options::OPT_fproc_stat_report_EQ, options::OPT_foptimization_record_file_EQ})
+    if (const llvm::opt::Arg *Other = C.getArgs().getLastArgNoClaim(Id))
+      trax_files_output(&Files, Other->getSpelling().str().c_str(), Other->getValue());
   if (trax_files_check(&Files, &Reason) != TRAX_OK)
     Diags.Report(Diags.getCustomDiagID(DiagnosticsEngine::Error, "%0")) << Reason.message;
   trax_files_release(&Files);
@@ -149,8 +176,8 @@ std::string findSysRoot(const Installation &Installed, const ParsedClangName &Na
   return Probe.SysRoot;
 }
 
-/// Does what the command line says.
-int drive(ArgVector Args, llvm::StringSaver &Strings) {
+/// Does what the command line says. Executed: the jobs ran.
+int drive(ArgVector Args, llvm::StringSaver &Strings, bool &Executed) {
   const Installation Installed(Args[0], !hasArgument(Args, "-no-canonical-prefixes"));
 
   ParsedClangName Name = ToolChain::getTargetAndModeFromProgramName(Args[0]);
@@ -189,7 +216,8 @@ int drive(ArgVector Args, llvm::StringSaver &Strings) {
     checkFiles(*C, Diags);
   int Result = 1;
   bool Crashed = false;
-  if (C && !C->containsError() && !Diags.hasErrorOccurred())
+  Executed = C && !C->containsError() && !Diags.hasErrorOccurred();
+  if (Executed)
     Result = execute(TheDriver, *C, Crashed);
   Diags.getClient()->finish();
   // LLVM's lists still have the timers that were on the stack of what crashed: going through them may never end.
@@ -226,5 +254,7 @@ int main(int Argc, char **Argv) {
   llvm::StringSet<> Overrides;
   if (const char *Edits = std::getenv("CCC_OVERRIDE_OPTIONS"))
     applyOverrideOptions(Args, Edits, Overrides, &llvm::errs());
-  return drive(Args, Strings);
+  bool Executed = false;
+  const int Result = drive(Args, Strings, Executed);
+  return trax::commitOutputs("clang", Executed) ? Result : 1;
 }

@@ -4,12 +4,10 @@
 #include "trax/input.h"
 #include "trax/message.h"
 #include "trax/output.h"
-#include "trax/signals.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* --- memory: chunks that are freed together --- */
 
@@ -193,24 +191,8 @@ bool ld_read_file(ld_context *ctx, const char *path, const uint8_t **bytes, size
 }
 
 bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t size, bool executable) {
-  struct stat existing;
-  trax_output output;
   trax_error error;
-  sigset_t before;
-  /* What is written directly may keep it waiting, as a pipe, and leaves nothing to remove. */
-  const bool is_replaced =
-      trax_output_descriptor(path) < 0 && (stat(path, &existing) != 0 || S_ISREG(existing.st_mode));
-  if (is_replaced)
-    trax_hold_signals(&before);
-  trax_status status = trax_output_open(&output, path, &error);
-  if (status == TRAX_OK) {
-    if (executable)
-      trax_output_make_executable(&output);
-    fwrite(bytes, 1, size, output.file); /* a failure shows again when the file is closed */
-    status = trax_output_commit(&output, &error);
-  }
-  if (is_replaced)
-    trax_allow_signals(&before);
+  const trax_status status = trax_write_whole(path, bytes, size, executable, &error);
   if (status != TRAX_OK)
     ld_error(ctx, "%s", error.message);
   return status == TRAX_OK;

@@ -1,8 +1,10 @@
 //===- ToolSupport.cpp - What the command-line tools share ---------------===//
 #include "ToolSupport.h"
+#include "FileCalls.h"
 #include "LLVMTrax.h"
 #include "trax/files.h"
 #include "trax/message.h"
+#include "trax/output.h"
 #include "trax/version.h"
 #include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/CommandLine.h"
@@ -52,11 +54,12 @@ void trax::checkFiles(ArrayRef<std::string> Inputs, const std::string &Output) {
     fail(Reason.message);
 }
 
-void trax::writeOutput(StringRef File, StringRef Bytes) {
-  Error E = writeToOutput(File, [&](raw_ostream &OS) {
-    OS << Bytes;
-    return Error::success();
-  });
-  if (E)
-    fail(std::move(E), File);
+void trax::writeOutput(const std::string &File, StringRef Bytes) {
+  trax_error Reason;
+  if (trax_write_file(File.c_str(), Bytes.data(), Bytes.size(), &Reason) != TRAX_OK)
+    fail(Reason.message);
+}
+
+int trax::endTool(int Status) {
+  return commitOutputs(ToolName.c_str(), Status == 0) ? Status : 1;
 }

@@ -1,7 +1,7 @@
 //===- ToolSupport.h - What the command-line tools share -----------------===//
 //
-// These tools take the options of LLVM's tools of the same kind, so options (cl::opt), messages and files are LLVM's and
-// not those of emulator/base; the check that no output is an input is base's.
+// These tools take the options of LLVM's tools of the same kind, so options (cl::opt), messages and files are LLVM's
+// and not those of emulator/base; outputs are base's.
 //
 //===----------------------------------------------------------------------===//
 #ifndef TRAX_TOOLS_TOOLSUPPORT_H
@@ -27,11 +27,14 @@ const llvm::Target &startTool(int Argc, char **Argv, llvm::StringRef Overview);
 [[noreturn]] void fail(const llvm::Twine &Message);
 [[noreturn]] void fail(llvm::Error E, llvm::StringRef File);
 
-/// Fails if one of the inputs is the output. Called before any work, and again when all that was included is known.
+/// Fails if one of the inputs is the output. Called before any work; what is included is compared when it is written.
 void checkFiles(llvm::ArrayRef<std::string> Inputs, const std::string &Output);
 
-/// Puts the bytes into the file by way of a temporary beside it; "-" is the standard output.
-void writeOutput(llvm::StringRef File, llvm::StringRef Bytes);
+/// Puts the bytes into the file by the rule of trax/output.h; "-" is the standard output.
+void writeOutput(const std::string &File, llvm::StringRef Bytes);
+
+/// The exit status, after LLVM's own outputs (FileCalls.h).
+int endTool(int Status);
 
 } // namespace trax
 

@@ -99,5 +99,5 @@ int main(int Argc, char **Argv) {
   if (HasErrors)
     return 1;
   trax::writeOutput(Output, Bytes);
-  return 0;
+  return trax::endTool(0);
 }

@@ -172,10 +172,6 @@ int main(int Argc, char **Argv) {
   raw_svector_ostream OS(Bytes);
   if (!(Disassemble ? disassemble(T, M, OS) : assemble(T, M, OS)))
     return 1;
-  std::vector<std::string> Included;
-  for (unsigned I = 1; I < M.Sources.getNumBuffers(); ++I) // numbers begin with 1, which is the input
-    Included.push_back(M.Sources.getMemoryBuffer(I + 1)->getBufferIdentifier().str());
-  trax::checkFiles(Included, Output);
   trax::writeOutput(Output, Bytes);
-  return 0;
+  return trax::endTool(0);
 }

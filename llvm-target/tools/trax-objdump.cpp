@@ -156,5 +156,5 @@ int main(int Argc, char **Argv) {
     outs().clear_error();
     trax::fail("cannot write: " + EC.message());
   }
-  return Good ? 0 : 1;
+  return trax::endTool(Good ? 0 : 1);
 }

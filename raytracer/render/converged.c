@@ -2,6 +2,7 @@
 #include "picture_error.h"
 #include "trax/input.h"
 #include "trax/output.h"
+#include "trax/reads.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -79,6 +80,7 @@ static bool read_converged(struct trax_converged *converged, const struct trax_f
     }
   }
   free(bytes);
+  trax_reads_drop_path(path); /* damaged: it is made anew */
   return false;
 }
 

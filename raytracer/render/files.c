@@ -5,6 +5,7 @@
 #include "trax/output.h"
 #include "views.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,12 +19,32 @@ char *numbered(const char *path, unsigned number) {
   return name;
 }
 
+/* The sources in the folder of --source, and in the folder of its headers. What else they include is known when they
+   are compiled. */
+static void add_sources(trax_files *files, const char *source) {
+  static const char *const folders[] = {"%s/%s", "%s/trax/%s"};
+  for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+    char folder[TRAX_PATH_SIZE], path[TRAX_PATH_SIZE];
+    if (snprintf(folder, sizeof folder, folders[i], source, "") >= (int)sizeof folder)
+      continue; /* a longer one is refused later */
+    DIR *entries = opendir(folder);
+    for (const struct dirent *entry; entries && (entry = readdir(entries));)
+      if (trax_is_source_name(entry->d_name) &&
+          snprintf(path, sizeof path, folders[i], source, entry->d_name) < (int)sizeof path)
+        trax_files_input(files, NULL, path);
+    if (entries)
+      closedir(entries);
+  }
+}
+
 static trax_status add_inputs(trax_files *files, const struct options *options, trax_error *error) {
   for (size_t i = 0; i < options->mesh_count; i++)
     if (!trax_mesh_is_generated(options->meshes[i]))
       trax_files_input(files, NULL, options->meshes[i]);
   if (options->config && !trax_config_is_preset(options->config))
     trax_files_input(files, NULL, options->config);
+  if (options->source)
+    add_sources(files, options->source);
   char view[TRAX_PATH_SIZE];
   const char *camera;
   if (known_view(view, options))

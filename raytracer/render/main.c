@@ -118,7 +118,6 @@ int main(int argc, char **argv) {
     trax_progress_line_begin(&progress, "trax-render", options.quiet);
     trax_catch_signals();
     signal(SIGPIPE, on_broken_pipe);
-    signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
     trax_files files = {0};
     options.import.files = &files;
     trax_status status = check_files(&files, &options, &error);

@@ -123,6 +123,9 @@ struct trax_specialise_options {
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 
+/* Whether a file of a folder of sources is one by its name. */
+bool trax_is_source_name(const char *name);
+
 /* $XDG_CACHE_HOME/trax/programs, or .cache/trax/programs in the home directory; false if there is neither. */
 bool trax_program_cache(char path[TRAX_PATH_SIZE]);
 

@@ -4,6 +4,7 @@
 #include "render.h"
 #include "trax/input.h"
 #include "trax/output.h"
+#include "trax/reads.h"
 #include "trax/signals.h"
 
 #include <dirent.h>
@@ -115,6 +116,21 @@ static int is_file(const struct dirent *entry) {
   return entry->d_name[0] != '.' && strchr(entry->d_name, '.') != NULL; /* folders of ours have no dot */
 }
 
+bool trax_is_source_name(const char *name) {
+  static const char *const endings[] = {"c", "h", "inc", "def", "s", "cc", "cpp", "hpp"};
+  bool found = false;
+  for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+    found = found || trax_output_has_ending(name, endings[i]);
+  return found;
+}
+
+/* Others may lie there, such as pictures of earlier runs: they are in the key, and no inputs. */
+static void drop_other(const char *folder, const char *name) {
+  char path[TRAX_PATH_SIZE];
+  if (!trax_is_source_name(name) && join_path(path, folder, name, ""))
+    trax_reads_drop_path(path);
+}
+
 /* All files of a folder, by name. */
 static trax_status hash_folder(XXH3_state_t *state, const char *folder, trax_error *error) {
   struct dirent **entries;
@@ -125,6 +141,7 @@ static trax_status hash_folder(XXH3_state_t *state, const char *folder, trax_err
   for (int i = 0; i < count; i++) {
     if (status == TRAX_OK)
       status = hash_file(state, folder, entries[i]->d_name, error);
+    drop_other(folder, entries[i]->d_name);
     free(entries[i]);
   }
   free(entries);
@@ -249,6 +266,8 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
   FILE *said = tmpfile();
   if (!said)
     return trax_fail(error, "no temporary file: %s", strerror(errno));
+  trax_reads_share();                          /* what the source includes is an input, too */
+  trax_reads_drop_path(recipe->work->program); /* an earlier attempt, which was measured */
   const pid_t parent = getpid(), child = trax_fork();
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -8,7 +8,6 @@
 
 #include <jansson.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -195,7 +194,6 @@ int main(int argc, char **argv) {
   if (parsed != TRAX_PARSED_RUN)
     return parsed == TRAX_PARSED_DONE ? end_of_output(0) : complain(&error);
   trax_catch_signals();
-  signal(SIGXFSZ, SIG_IGN); /* a file beyond the limit is one that cannot be written */
   trax_progress_line line;
   trax_files files = {0};
   trax_progress_line_begin(&line, "trax-scene", arguments.quiet);

@@ -1,4 +1,7 @@
-/* Files that appear only when they are complete. */
+/* Files that appear only when they are complete. One rule for the outputs of all programs:
+   - An output is whole, or is not there, or is the earlier file of its name. Nothing removes that file.
+   - What is no regular file is written to, never replaced, and a symbolic link leads to the file that is replaced.
+   - No output is a file that was read (trax/reads.h). */
 #ifndef TRAX_OUTPUT_H
 #define TRAX_OUTPUT_H
 
@@ -38,8 +41,15 @@ trax_status trax_output_name_check(const char *path, const char *endings, trax_e
 /* Whether the path has the ending, in upper or lower case. */
 bool trax_output_has_ending(const char *path, const char *ending);
 
-/* Writes a whole file. */
+/* Writes a whole file, and holds signals until it is done. */
 trax_status trax_write_file(const char *path, const void *bytes, size_t size, trax_error *error);
+/* The same. executable: for everyone whom the umask permits. */
+trax_status trax_write_whole(const char *path, const void *bytes, size_t size, bool executable, trax_error *error);
+
+/* Returns the target of a symbolic link, from malloc; NULL if path is not a symbolic link. A path with more than
+   TRAX_MOST_LINKS of them in a row is none. */
+char *trax_link_target(const char *path);
+enum { TRAX_MOST_LINKS = 40 };
 
 /* Returns the descriptor that a path names: 1 for "-" and /dev/stdout, 2 for /dev/stderr, N for /dev/fd/N; -1 for a
    file. */
