@@ -113,12 +113,9 @@ static trax_status check_fit(const struct trax_machine *machine, const trax_imag
   return TRAX_OK;
 }
 
-trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error) {
-  if (machine->host || machine->has_program || machine->has_run)
-    return trax_fail(error, "%s: the machine has a program already", path);
-  trax_image *image = trax_image_open(path, error);
-  if (!image)
-    return TRAX_ERROR;
+/* The machine takes the image. */
+static trax_status load(struct trax_machine *machine, trax_image *image, trax_error *error) {
+  const char *path = trax_image_path(image);
   size_t count;
   const struct trax_load_segment *segments = trax_image_segments(image, &count);
   const struct trax_load_segment *last = &segments[count - 1];
@@ -153,6 +150,24 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
     return trax_fail(error, "%s: %s", path, reason.message);
   place_stacks(machine);
   return fill_words(machine, error) == TRAX_OK ? trax_host_name_program(machine, error) : TRAX_ERROR;
+}
+
+static bool is_new(const struct trax_machine *machine, const char *path, trax_error *error) {
+  if (!machine->host && !machine->has_program && !machine->has_run)
+    return true;
+  trax_fail(error, "%s: the machine has a program already", path);
+  return false;
+}
+
+trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error) {
+  trax_image *image = is_new(machine, path, error) ? trax_image_open(path, error) : NULL;
+  return image ? load(machine, image, error) : TRAX_ERROR;
+}
+
+trax_status trax_machine_load_bytes(trax_machine *machine, const char *path, const void *bytes, size_t size,
+                                    trax_error *error) {
+  trax_image *image = is_new(machine, path, error) ? trax_image_of(path, bytes, size, error) : NULL;
+  return image ? load(machine, image, error) : TRAX_ERROR;
 }
 
 trax_status trax_host_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error) {
