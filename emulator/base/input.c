@@ -1,5 +1,6 @@
 #include "trax/input.h"
 
+#include "trax/beneath.h"
 #include "trax/reads.h"
 #include "trax/signals.h"
 
@@ -18,10 +19,12 @@ static trax_status interrupted(const trax_input *input, trax_error *error) {
   return TRAX_INTERRUPTED;
 }
 
-trax_status trax_input_open(trax_input *input, const char *path, trax_error *error) {
-  /* Without O_NONBLOCK, open would wait for the writer of a pipe, and a signal that arrives just before open would not
-     interrupt the wait. */
-  *input = (trax_input){.path = path, .descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+/* Without O_NONBLOCK, open would wait for the writer of a pipe, and a signal that arrives just before open would not
+   interrupt the wait. */
+enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
+
+static trax_status begin(trax_input *input, const char *path, int descriptor, trax_error *error) {
+  *input = (trax_input){.path = path, .descriptor = descriptor};
   struct stat status;
   if (input->descriptor < 0 || fstat(input->descriptor, &status) != 0)
     return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
@@ -31,6 +34,20 @@ trax_status trax_input_open(trax_input *input, const char *path, trax_error *err
   input->is_regular = S_ISREG(status.st_mode);
   input->expected = input->is_regular ? (size_t)status.st_size : 0;
   return TRAX_OK;
+}
+
+trax_status trax_input_open(trax_input *input, const char *path, trax_error *error) {
+  return begin(input, path, open(path, FLAGS), error);
+}
+
+trax_status trax_input_open_beneath(trax_input *input, int folder, const char *path, const char *shown,
+                                    trax_error *error) {
+  const int descriptor = trax_beneath_open(folder, path, FLAGS);
+  if (descriptor < 0 && errno == EXDEV) {
+    *input = (trax_input){.path = shown, .descriptor = -1};
+    return trax_fail(error, "%s: cannot be read: leaves its folder", shown);
+  }
+  return begin(input, shown, descriptor, error);
 }
 
 /* Makes room for one more byte and the NUL. */
@@ -78,18 +95,24 @@ void trax_input_close(trax_input *input) {
   *input = (trax_input){.descriptor = -1};
 }
 
+trax_status trax_input_read_all(trax_input *input, trax_status opened, size_t limit, uint8_t **bytes, size_t *size,
+                                trax_error *error) {
+  trax_status status = opened;
+  if (status == TRAX_OK && input->expected <= limit)
+    status = trax_input_read(input, limit + 1, error); /* one byte more proves that the file is too large */
+  if (status == TRAX_OK && (input->expected > limit || input->size > limit))
+    status = trax_fail(error, "%s: more than %zu bytes", input->path, limit);
+  if (status == TRAX_OK) {
+    *bytes = input->bytes;
+    *size = input->size;
+    input->bytes = NULL;
+  }
+  trax_input_close(input);
+  return status;
+}
+
 trax_status trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error) {
   trax_input input;
-  trax_status status = trax_input_open(&input, path, error);
-  if (status == TRAX_OK && input.expected <= limit)
-    status = trax_input_read(&input, limit + 1, error); /* one byte more proves that the file is too large */
-  if (status == TRAX_OK && (input.expected > limit || input.size > limit))
-    status = trax_fail(error, "%s: more than %zu bytes", path, limit);
-  if (status == TRAX_OK) {
-    *bytes = input.bytes;
-    *size = input.size;
-    input.bytes = NULL;
-  }
-  trax_input_close(&input);
-  return status;
+  const trax_status opened = trax_input_open(&input, path, error);
+  return trax_input_read_all(&input, opened, limit, bytes, size, error);
 }

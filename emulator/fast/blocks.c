@@ -20,6 +20,9 @@ trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struc
   if (state == MAP_FAILED)
     return trax_fail(error, "cannot reserve %zu bytes of host memory", blocks->bytes);
   blocks->state = state;
+  for (size_t i = 0; i < space->hole_count; i++) /* so that loads from holes end bursts, and fault at issue */
+    for (uint64_t at = space->holes[i].begin; at < space->holes[i].end; at += 1u << TRAX_BLOCK_SHIFT)
+      blocks->state[at >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_WRITTEN;
   return TRAX_OK;
 }
 

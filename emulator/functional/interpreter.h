@@ -44,7 +44,7 @@ static enum stop run_slice(struct chip *chip, struct thread *thread, uint64_t en
     word = 0;                                                                                                          \
     if (address & (BYTES - 1))                                                                                         \
       goto slow;                                                                                                       \
-    if (address - TRAX_NULL_END < accessible)                                                                          \
+    if (address - TRAX_NULL_END < accessible && !(space->restrictions[address / TRAX_GRANULE] & TRAX_HAS_HOLE))        \
       memcpy(&word, space->bytes + address, BYTES);                                                                    \
     else if (address >= TRAX_LOCAL_BASE)                                                                               \
       memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
@@ -61,7 +61,7 @@ static enum stop run_slice(struct chip *chip, struct thread *thread, uint64_t en
     if (address >= TRAX_LOCAL_BASE)                                                                                    \
       memcpy(local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                       \
     else if (address - TRAX_NULL_END < accessible &&                                                                   \
-             !(space->restrictions[address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE))                                     \
+             !(space->restrictions[address / TRAX_GRANULE] & (TRAX_RESTRICT_WRITE | TRAX_HAS_HOLE)))                   \
       memcpy(space->bytes + address, &word, BYTES);                                                                    \
     else                                                                                                               \
       goto slow;                                                                                                       \

@@ -178,18 +178,17 @@ static trax_status write_post_mortem(const struct trax_post_mortem *post_mortem,
   return trax_output_commit(&output, error);
 }
 
-static trax_status write_dump(trax_machine *machine, const struct trax_assignment *dump, trax_error *error) {
+static trax_status write_dump(trax_machine *machine, const struct trax_options *options,
+                              const struct trax_assignment *dump, trax_error *error) {
   const uint8_t *bytes;
   uint32_t size;
-  trax_output output;
   if (trax_machine_read_buffer(machine, dump->name, &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
+  if (dump->in_manifest)
+    return trax_manifest_put_output(options->manifest, dump->name, bytes, size, error);
   if (dump->width)
     return trax_png_write(dump->value, bytes, dump->width, dump->height, error);
-  if (trax_output_open(&output, dump->value, error) != TRAX_OK)
-    return TRAX_ERROR;
-  fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
-  return trax_output_commit(&output, error);
+  return trax_write_file(dump->value, bytes, size, error);
 }
 
 /* Writes all outputs; after a failure the others are still written, and the first failure is reported. Buffers are only
@@ -210,8 +209,7 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
     result = trax_fail(error, "%s", reason.message);
   for (size_t i = 0; finished && i < options->assignment_count; ++i) {
     const struct trax_assignment *dump = &options->assignments[i];
-    if (dump->kind == TRAX_ASSIGN_DUMP && write_dump(machine, dump, &reason) != TRAX_OK &&
-        result == TRAX_OK)
+    if (dump->kind == TRAX_ASSIGN_DUMP && write_dump(machine, options, dump, &reason) != TRAX_OK && result == TRAX_OK)
       result = trax_fail(error, "%s", reason.message);
   }
   return result;

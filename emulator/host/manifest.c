@@ -1,18 +1,24 @@
 /* Manifests: what trax-sim reads. Nothing in them is believed: every member is checked before anything is loaded. */
+#define _GNU_SOURCE /* O_PATH */
 #include "trax/manifest.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "host/manifest.h"
 #include "machine/config.h"
+#include "trax/beneath.h"
 #include "trax/input.h"
 #include "trax/names.h"
 
 /* A file that the manifest names. */
 struct file {
-  char *path; /* with the manifest's folder; NULL: there is none */
+  char *path;       /* with the manifest's folder, for messages; NULL: there is none */
+  const char *name; /* in the folder; into the document */
   uint32_t bytes;
   char hash[TRAX_HASH_DIGITS + 1];
 };
@@ -21,11 +27,12 @@ struct buffer {
   const char *symbol; /* into the document */
   struct file file;   /* without a path: bytes of zeros */
   uint32_t bytes_per_thread;
-  char *output; /* path; NULL: none */
+  struct file output; /* path and name */
 };
 
 struct trax_manifest {
   char *path;
+  int folder; /* a descriptor: its files lie beneath it, also through links */
   json_t *root;
   struct file program;
   struct buffer *buffers;
@@ -96,8 +103,8 @@ static trax_status read_text(const struct place *place, const char **text, trax_
   return *text && **text ? TRAX_OK : refuse(place, error, "must be a text that is not empty");
 }
 
-/* A path that stays in the manifest's folder. */
-static trax_status read_path(const struct place *place, char **path, trax_error *error) {
+/* A path that stays in the manifest's folder, as text. */
+static trax_status read_path(const struct place *place, struct file *file, trax_error *error) {
   const char *text;
   if (read_text(place, &text, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -109,10 +116,11 @@ static trax_status read_path(const struct place *place, char **path, trax_error 
   const char *own = place->manifest->path, *slash = strrchr(own, '/');
   const int folder = slash ? (int)(slash - own) + 1 : 0;
   const size_t size = (size_t)folder + strlen(text) + 1;
-  *path = malloc(size);
-  if (!*path)
+  file->name = text;
+  file->path = malloc(size);
+  if (!file->path)
     return trax_fail(error, "out of memory");
-  snprintf(*path, size, "%.*s%s", folder, own, text);
+  snprintf(file->path, size, "%.*s%s", folder, own, text);
   return TRAX_OK;
 }
 
@@ -128,7 +136,7 @@ static trax_status read_hash(const struct place *place, char hash[TRAX_HASH_DIGI
 static trax_status read_file(const struct place *place, struct file *file, trax_error *error) {
   const struct place path = member(place, "file"), bytes = member(place, "bytes"), hash = member(place, "xxh128");
   uint64_t number = 0;
-  if (read_path(&path, &file->path, error) != TRAX_OK || read_number(&bytes, 0, UINT32_MAX, &number, error) != TRAX_OK)
+  if (read_path(&path, file, error) != TRAX_OK || read_number(&bytes, 0, UINT32_MAX, &number, error) != TRAX_OK)
     return TRAX_ERROR;
   file->bytes = (uint32_t)number;
   return read_hash(&hash, file->hash, error);
@@ -202,6 +210,17 @@ bool trax_manifest_is(const char *path) {
   return length > ending && strcmp(path + length - ending, ".json") == 0;
 }
 
+/* Opens the manifest's folder. */
+static trax_status open_folder(struct trax_manifest *manifest, trax_error *error) {
+  const char *slash = strrchr(manifest->path, '/');
+  char *folder = slash ? strndup(manifest->path, (size_t)(slash - manifest->path + 1)) : strdup(".");
+  if (folder)
+    manifest->folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+  const int code = folder ? errno : ENOMEM;
+  free(folder);
+  return manifest->folder >= 0 ? TRAX_OK : trax_fail(error, "%s: its folder: %s", manifest->path, strerror(code));
+}
+
 trax_manifest *trax_manifest_read(const char *path, trax_error *error) {
   uint8_t *bytes;
   size_t size;
@@ -210,8 +229,12 @@ trax_manifest *trax_manifest_read(const char *path, trax_error *error) {
   json_error_t reason;
   struct trax_manifest *manifest = calloc(1, sizeof *manifest);
   trax_status status = TRAX_OK;
+  if (manifest)
+    manifest->folder = -1;
   if (!manifest || !(manifest->path = strdup(path)))
     status = trax_fail(error, "out of memory");
+  else if (open_folder(manifest, error) != TRAX_OK)
+    status = TRAX_ERROR;
   else if (!(manifest->root = json_loadb((const char *)bytes, size, JSON_REJECT_DUPLICATES, &reason)))
     status = trax_fail(error, "%s:%d: %s", path, reason.line > 0 ? reason.line : 1, reason.text);
   else
@@ -228,11 +251,13 @@ void trax_manifest_release(trax_manifest *manifest) {
     return;
   for (size_t i = 0; i < manifest->buffer_count; i++) {
     free(manifest->buffers[i].file.path);
-    free(manifest->buffers[i].output);
+    free(manifest->buffers[i].output.path);
   }
   free(manifest->buffers);
   free(manifest->program.path);
   json_decref(manifest->root);
+  if (manifest->folder >= 0)
+    close(manifest->folder);
   free(manifest->path);
   free(manifest);
 }
@@ -256,12 +281,30 @@ void trax_manifest_inputs(const trax_manifest *manifest, trax_files *files) {
 
 bool trax_manifest_output(const trax_manifest *manifest, size_t i, const char **symbol, const char **path) {
   for (size_t buffer = 0; buffer < manifest->buffer_count; buffer++)
-    if (manifest->buffers[buffer].output && i-- == 0) {
+    if (manifest->buffers[buffer].output.path && i-- == 0) {
       *symbol = manifest->buffers[buffer].symbol;
-      *path = manifest->buffers[buffer].output;
+      *path = manifest->buffers[buffer].output.path;
       return true;
     }
   return false;
+}
+
+static const struct file *output_of(const trax_manifest *manifest, const char *symbol) {
+  size_t i = 0;
+  while (!manifest->buffers[i].output.path || strcmp(manifest->buffers[i].symbol, symbol) != 0)
+    i++;
+  return &manifest->buffers[i].output;
+}
+
+trax_status trax_manifest_check_output(const trax_manifest *manifest, const char *symbol, trax_error *error) {
+  const struct file *output = output_of(manifest, symbol);
+  return trax_beneath_check(manifest->folder, output->name, output->path, error);
+}
+
+trax_status trax_manifest_put_output(const trax_manifest *manifest, const char *symbol, const void *bytes, size_t size,
+                                     trax_error *error) {
+  const struct file *output = output_of(manifest, symbol);
+  return trax_beneath_write(manifest->folder, output->name, output->path, bytes, size, error);
 }
 
 bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, uint32_t *width, uint32_t *height,
@@ -282,16 +325,20 @@ bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, u
 
 /* As trax_config_set takes it. */
 static trax_status value_text(const struct place *place, char text[TRAX_CONFIG_WORD], trax_error *error) {
-  if (json_is_string(place->value))
-    snprintf(text, TRAX_CONFIG_WORD, "%s", json_string_value(place->value));
-  else if (json_is_boolean(place->value))
-    snprintf(text, TRAX_CONFIG_WORD, "%s", json_is_true(place->value) ? "true" : "false");
-  else if (json_is_integer(place->value))
+  if (json_is_string(place->value)) {
+    const char *word = json_string_value(place->value);
+    if (json_string_length(place->value) >= TRAX_CONFIG_WORD)
+      return refuse(place, error, "is longer than any value");
+    strcpy(text, word);
+  } else if (json_is_boolean(place->value)) {
+    strcpy(text, json_is_true(place->value) ? "true" : "false");
+  } else if (json_is_integer(place->value)) {
     snprintf(text, TRAX_CONFIG_WORD, "%" JSON_INTEGER_FORMAT, json_integer_value(place->value));
-  else if (json_is_real(place->value))
+  } else if (json_is_real(place->value)) {
     snprintf(text, TRAX_CONFIG_WORD, "%.17g", json_real_value(place->value));
-  else
+  } else {
     return refuse(place, error, "must be a number, true, false or a word");
+  }
   return TRAX_OK;
 }
 
@@ -327,8 +374,10 @@ trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *
 static trax_status check_file(const struct trax_manifest *manifest, const struct file *file, uint8_t **bytes,
                               trax_error *error) {
   size_t size;
+  trax_input input;
   *bytes = NULL;
-  if (trax_read_file(file->path, FILE_LIMIT, bytes, &size, error) != TRAX_OK)
+  const trax_status opened = trax_input_open_beneath(&input, manifest->folder, file->name, file->path, error);
+  if (trax_input_read_all(&input, opened, FILE_LIMIT, bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
   char hash[TRAX_HASH_DIGITS + 1];
   trax_hash(hash, *bytes, size);
@@ -350,8 +399,8 @@ trax_status trax_manifest_load(const trax_manifest *manifest, trax_machine *mach
   trax_status status = check_file(manifest, &manifest->program, &bytes, error);
   if (status != TRAX_OK)
     return status;
+  status = trax_machine_load_bytes(machine, manifest->program.path, bytes, manifest->program.bytes, error);
   free(bytes);
-  status = trax_machine_load_elf(machine, manifest->program.path, error);
   const trax_config *config = trax_machine_config(machine);
   const double threads = trax_config_get(config, "chip.tms") * trax_config_get(config, "chip.tps_per_tm");
   for (size_t i = 0; i < manifest->buffer_count && status == TRAX_OK; i++) {

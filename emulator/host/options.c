@@ -356,7 +356,9 @@ trax_status trax_options_check_outputs(const struct trax_options *options, trax_
   trax_status status = trax_command_check_outputs(&command, options, error);
   for (size_t i = 0; i < options->assignment_count && status == TRAX_OK; i++)
     if (options->assignments[i].kind == TRAX_ASSIGN_DUMP)
-      status = trax_output_check(options->assignments[i].value, error);
+      status = options->assignments[i].in_manifest
+                   ? trax_manifest_check_output(options->manifest, options->assignments[i].name, error)
+                   : trax_output_check(options->assignments[i].value, error);
   return status;
 }
 
@@ -377,8 +379,8 @@ static trax_status take_manifest(struct trax_options *options, trax_error *error
     while (other < given && (options->assignments[other].kind != TRAX_ASSIGN_DUMP ||
                              strcmp(options->assignments[other].name, symbol) != 0))
       other++;
-    if (other == given && append(options, (struct trax_assignment){.kind = TRAX_ASSIGN_DUMP}, symbol, strlen(symbol),
-                                 path, error) != TRAX_OK)
+    if (other == given && append(options, (struct trax_assignment){.kind = TRAX_ASSIGN_DUMP, .in_manifest = true},
+                                 symbol, strlen(symbol), path, error) != TRAX_OK)
       return TRAX_ERROR;
   }
   return TRAX_OK;

@@ -18,6 +18,7 @@ struct trax_assignment {
   const char *value; /* in name's allocation, after its NUL */
   uint32_t bytes;    /* of --alloc */
   uint32_t width, height; /* of --dump: a picture of this size; 0: the bytes as they are */
+  bool in_manifest;       /* a --dump that the manifest wants, to a file beneath its folder */
   enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP, TRAX_ASSIGN_DIR } kind;
 };
 

@@ -37,6 +37,7 @@ void trax_space_destroy(struct trax_space *space) {
   if (space->restrictions)
     munmap(space->restrictions, space->restriction_bytes);
   free(space->segments);
+  free(space->holes);
   memset(space, 0, sizeof *space);
 }
 
@@ -76,9 +77,44 @@ void trax_space_guard(struct trax_space *space, uint32_t address, uint32_t bytes
   memset(space->restrictions + address / TRAX_GRANULE, TRAX_RESTRICT_WRITE | TRAX_STACK_END, bytes / TRAX_GRANULE);
 }
 
-trax_fault_kind trax_space_why_not_written(const struct trax_space *space, uint32_t address) {
-  return space->restrictions[address / TRAX_GRANULE] & TRAX_STACK_END ? TRAX_FAULT_STACK_OVERFLOW
-                                                                      : TRAX_FAULT_READ_ONLY;
+trax_status trax_space_dig(struct trax_space *space, uint64_t begin, uint64_t end, trax_error *error) {
+  if (begin >= end)
+    return TRAX_OK;
+  struct trax_hole *holes = realloc(space->holes, (space->hole_count + 1) * sizeof *holes);
+  if (!holes)
+    return trax_fail(error, "out of memory");
+  space->holes = holes;
+  holes[space->hole_count++] = (struct trax_hole){begin, end};
+  for (uint64_t granule = begin / TRAX_GRANULE; granule < end / TRAX_GRANULE; granule++)
+    space->restrictions[granule] |= TRAX_HAS_HOLE;
+  return TRAX_OK;
+}
+
+bool trax_space_in_hole(const struct trax_space *space, uint32_t address, uint64_t bytes, bool write) {
+  for (size_t i = 0; i < space->hole_count; i++) {
+    const uint64_t begin = write ? space->holes[i].begin : (space->holes[i].begin + 3) / 4 * 4;
+    if (address < space->holes[i].end && address + bytes > begin)
+      return true;
+  }
+  return false;
+}
+
+uint64_t trax_space_end(const struct trax_space *space, uint32_t address) {
+  uint64_t end = space->size;
+  for (size_t i = 0; i < space->hole_count; i++)
+    if (space->holes[i].end > address && space->holes[i].begin < end)
+      end = space->holes[i].begin;
+  return end;
+}
+
+trax_fault_kind trax_space_why_restricted(const struct trax_space *space, uint32_t address, uint32_t bytes,
+                                          bool write) {
+  const uint8_t restrictions = space->restrictions[address / TRAX_GRANULE];
+  if (restrictions & TRAX_HAS_HOLE && trax_space_in_hole(space, address, bytes, write))
+    return TRAX_FAULT_UNMAPPED;
+  if (!write || !(restrictions & TRAX_RESTRICT_WRITE))
+    return TRAX_FAULT_NONE;
+  return restrictions & TRAX_STACK_END ? TRAX_FAULT_STACK_OVERFLOW : TRAX_FAULT_READ_ONLY;
 }
 
 trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address, uint32_t bytes) {
@@ -86,6 +122,8 @@ trax_fault_kind trax_space_why(const struct trax_space *space, uint32_t address,
     return TRAX_FAULT_NULL_PAGE;
   if (address >= space->size && address < TRAX_LOCAL_BASE)
     return address >= TRAX_LOCAL_BASE - STACK_OVERFLOW_WINDOW ? TRAX_FAULT_STACK_OVERFLOW : TRAX_FAULT_UNMAPPED;
+  if (address < TRAX_LOCAL_BASE && trax_space_in_hole(space, address, 1, false))
+    return TRAX_FAULT_UNMAPPED;
   return address & (bytes - 1) ? TRAX_FAULT_MISALIGNED : TRAX_FAULT_NOT_GLOBAL;
 }
 

@@ -13,7 +13,8 @@ uint8_t *trax_host_call_bytes(const struct trax_host_call *call, uint32_t addres
     return nothing;
   if (address >= TRAX_LOCAL_BASE)
     return address + (uint64_t)bytes <= granules_end ? call->local + (address - TRAX_LOCAL_BASE) : NULL;
-  if (address < TRAX_NULL_END || address + (uint64_t)bytes > space->size)
+  if (address < TRAX_NULL_END || address + (uint64_t)bytes > space->size ||
+      trax_space_in_hole(space, address, bytes, write))
     return NULL;
   for (uint32_t granule = address / TRAX_GRANULE; write && granule <= (address + bytes - 1) / TRAX_GRANULE; granule++)
     if (space->restrictions[granule] & TRAX_RESTRICT_WRITE)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Prints the string at an address of global memory or of the thread's local memory. Returns a fault and prints nothing
-   if the string reaches the end of memory before its NUL. */
+   if the string reaches the end of memory, or a hole, before its NUL. */
 static trax_fault_kind put_string(const struct trax_space *space, const uint8_t *local, uint32_t address,
                                   FILE *output) {
   const char *text, *end;
@@ -15,7 +15,7 @@ static trax_fault_kind put_string(const struct trax_space *space, const uint8_t 
     if (kind)
       return kind;
     text = (const char *)space->bytes + address;
-    end = (const char *)space->bytes + space->size;
+    end = (const char *)space->bytes + trax_space_end(space, address);
   }
   const char *nul = memchr(text, 0, (size_t)(end - text));
   if (!nul)

@@ -318,9 +318,8 @@ trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, tra
   return status;
 }
 
-static trax_status read_image(trax_image *image, trax_error *error) {
-  if (trax_image_read(image->path, &image->bytes, &image->size, error) != TRAX_OK ||
-      check_identification(image, error) != TRAX_OK)
+static trax_status check_image(trax_image *image, trax_error *error) {
+  if (check_identification(image, error) != TRAX_OK)
     return TRAX_ERROR;
   elf_version(EV_CURRENT);
   image->elf = elf_memory((char *)image->bytes, image->size);
@@ -334,18 +333,32 @@ static trax_status read_image(trax_image *image, trax_error *error) {
   return read_symbols(image, header, error);
 }
 
-trax_image *trax_image_open(const char *path, trax_error *error) {
+/* The image takes the bytes. */
+static trax_image *image_of(const char *path, uint8_t *bytes, size_t size, trax_error *error) {
   trax_image *image = calloc(1, sizeof *image);
-  if (!image || !(image->path = strdup(path))) {
+  if (image)
+    *image = (trax_image){.path = strdup(path), .bytes = bytes, .size = size};
+  else
+    free(bytes);
+  if (!image || !image->path || !bytes)
     trax_fail(error, "%s: out of memory", path);
-    trax_image_close(image);
-    return NULL;
-  }
-  if (read_image(image, error) != TRAX_OK) {
-    trax_image_close(image);
-    return NULL;
-  }
-  return image;
+  else if (check_image(image, error) == TRAX_OK)
+    return image;
+  trax_image_close(image);
+  return NULL;
+}
+
+trax_image *trax_image_of(const char *path, const uint8_t *bytes, size_t size, trax_error *error) {
+  uint8_t *copy = malloc(size + 1);
+  if (copy)
+    memcpy(copy, bytes, size);
+  return image_of(path, copy, size, error);
+}
+
+trax_image *trax_image_open(const char *path, trax_error *error) {
+  uint8_t *bytes;
+  size_t size;
+  return trax_image_read(path, &bytes, &size, error) == TRAX_OK ? image_of(path, bytes, size, error) : NULL;
 }
 
 void trax_image_close(trax_image *image) {

@@ -1,10 +1,10 @@
 /* Loads programs and buffers into a machine (docs/abi.md, "ELF" and "Buffers"). */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "program/program.h"
 #include "trax/abi.h"
+#include "trax/input.h"
 
 static void destroy_host(void *context) {
   struct trax_host *host = context;
@@ -113,12 +113,9 @@ static trax_status check_fit(const struct trax_machine *machine, const trax_imag
   return TRAX_OK;
 }
 
-trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error) {
-  if (machine->host || machine->has_program || machine->has_run)
-    return trax_fail(error, "%s: the machine has a program already", path);
-  trax_image *image = trax_image_open(path, error);
-  if (!image)
-    return TRAX_ERROR;
+/* The machine takes the image. */
+static trax_status load(struct trax_machine *machine, trax_image *image, trax_error *error) {
+  const char *path = trax_image_path(image);
   size_t count;
   const struct trax_load_segment *segments = trax_image_segments(image, &count);
   const struct trax_load_segment *last = &segments[count - 1];
@@ -155,6 +152,24 @@ trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_
   return fill_words(machine, error) == TRAX_OK ? trax_host_name_program(machine, error) : TRAX_ERROR;
 }
 
+static bool is_new(const struct trax_machine *machine, const char *path, trax_error *error) {
+  if (!machine->host && !machine->has_program && !machine->has_run)
+    return true;
+  trax_fail(error, "%s: the machine has a program already", path);
+  return false;
+}
+
+trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error) {
+  trax_image *image = is_new(machine, path, error) ? trax_image_open(path, error) : NULL;
+  return image ? load(machine, image, error) : TRAX_ERROR;
+}
+
+trax_status trax_machine_load_bytes(trax_machine *machine, const char *path, const void *bytes, size_t size,
+                                    trax_error *error) {
+  trax_image *image = is_new(machine, path, error) ? trax_image_of(path, bytes, size, error) : NULL;
+  return image ? load(machine, image, error) : TRAX_ERROR;
+}
+
 trax_status trax_host_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error) {
   struct trax_host *host = trax_host_of(machine);
   if (bytes > host->memory_end - host->free_address)
@@ -176,6 +191,17 @@ static struct trax_bound_buffer *find_buffer(const struct trax_host *host, const
   return NULL;
 }
 
+/* Where the next buffer begins: behind a guard, which it shares with the buffer directly before. */
+static uint64_t buffer_address(const struct trax_host *host) {
+  return host->free_address + (host->free_address == host->guard_end ? 0 : TRAX_BUFFER_GUARD);
+}
+
+/* The bytes that the next buffer can have. Its guard may reach beyond the end of memory, but not into stacks. */
+static uint64_t room_for_buffer(const struct trax_host *host) {
+  const uint64_t taken = buffer_address(host) + (host->stack_bytes ? TRAX_BUFFER_GUARD : 0);
+  return host->memory_end > taken ? host->memory_end - taken : 0;
+}
+
 /* Makes all checks that do not need the buffer's bytes, and room for one more buffer in the table. */
 static trax_status check_bind(struct trax_machine *machine, const char *symbol, trax_error *error) {
   struct trax_host *host = trax_host_of(machine);
@@ -195,28 +221,32 @@ static trax_status check_bind(struct trax_machine *machine, const char *symbol, 
 }
 
 static trax_status too_large(const struct trax_machine *machine, const char *symbol, trax_error *error) {
+  const struct trax_host *host = trax_host_of(machine);
   return trax_fail(error, "buffer %s does not fit into memory: %llu bytes are free of %llu; raise memory.size_mib",
-                   symbol,
-                   (unsigned long long)(trax_host_of(machine)->memory_end - trax_host_of(machine)->free_address),
-                   (unsigned long long)machine->space.size);
+                   symbol, (unsigned long long)room_for_buffer(host), (unsigned long long)machine->space.size);
 }
 
-/* Binds the buffer whose bytes have been copied to free_address. */
+/* Binds the buffer whose bytes have been copied to buffer_address. */
 static trax_status finish_bind(struct trax_machine *machine, const char *symbol, uint32_t bytes, bool filled,
                                trax_error *error) {
   struct trax_host *host = trax_host_of(machine);
+  const uint64_t address = buffer_address(host), end = address + bytes, words_end = align_up(end, 4);
+  const uint64_t guard_end = align_up(end, TRAX_GRANULE) + TRAX_BUFFER_GUARD;
   char *name = strdup(symbol);
   if (!name)
     return trax_fail(error, "buffer %s: out of memory", symbol);
-  uint32_t address = (uint32_t)host->free_address;
   const struct trax_symbol *object = trax_image_symbol(host->image, symbol);
-  trax_host_store_word(machine, object->address, address);
+  trax_host_store_word(machine, object->address, (uint32_t)address);
   trax_host_store_word(machine, object->address + 4, bytes);
-  host->buffers[host->buffer_count++] = (struct trax_bound_buffer){name, address, bytes};
-  host->free_address = align_up(host->free_address + bytes, TRAX_GRANULE);
-  if (filled && host->free_address - address > machine->space.input_bytes) {
-    machine->space.input = address;
-    machine->space.input_bytes = (uint32_t)host->free_address - address;
+  host->buffers[host->buffer_count++] = (struct trax_bound_buffer){name, (uint32_t)address, bytes};
+  const uint64_t before = host->free_address;
+  host->free_address = host->guard_end = guard_end < host->memory_end ? guard_end : host->memory_end;
+  if (trax_space_dig(&machine->space, before, address, error) != TRAX_OK ||
+      trax_space_dig(&machine->space, end, host->guard_end, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (filled && words_end - address > machine->space.input_bytes) {
+    machine->space.input = (uint32_t)address;
+    machine->space.input_bytes = (uint32_t)(words_end - address);
   }
   return fill_words(machine, error);
 }
@@ -225,8 +255,9 @@ trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const v
                               trax_error *error) {
   if (check_bind(machine, symbol, error) != TRAX_OK)
     return TRAX_ERROR;
-  uint64_t address = trax_host_of(machine)->free_address;
-  if (size > trax_host_of(machine)->memory_end - address)
+  const struct trax_host *host = trax_host_of(machine);
+  const uint64_t address = buffer_address(host);
+  if (size > room_for_buffer(host) || address > host->memory_end)
     return too_large(machine, symbol, error);
   if (bytes && size)
     memcpy(machine->space.bytes + address, bytes, size);
@@ -236,22 +267,21 @@ trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const v
 trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, const char *path, trax_error *error) {
   if (check_bind(machine, symbol, error) != TRAX_OK)
     return TRAX_ERROR;
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return trax_fail(error, "%s: cannot be read for buffer %s: %s", path, symbol, strerror(errno));
-  uint64_t address = trax_host_of(machine)->free_address;
-  uint64_t room = trax_host_of(machine)->memory_end - address;
-  errno = 0;
-  size_t got = fread(machine->space.bytes + address, 1, room, file);
-  int failure = ferror(file) ? (errno ? errno : EIO) : 0;
-  bool complete = failure || fgetc(file) == EOF;
-  fclose(file);
-  if (failure || !complete) {
-    memset(machine->space.bytes + address, 0, got);
-    return failure ? trax_fail(error, "%s: cannot be read for buffer %s: %s", path, symbol, strerror(failure))
-                   : too_large(machine, symbol, error);
-  }
-  return finish_bind(machine, symbol, (uint32_t)got, true, error);
+  const struct trax_host *host = trax_host_of(machine);
+  const uint64_t room = room_for_buffer(host);
+  trax_input input;
+  trax_error reason;
+  trax_status status = trax_input_open(&input, path, &reason);
+  if (status == TRAX_OK && input.expected <= room)
+    status = trax_input_read(&input, room + 1, &reason); /* one byte more proves that the file is too large */
+  if (status != TRAX_OK)
+    trax_fail(error, "buffer %s: %s", symbol, reason.message);
+  else if (input.expected > room || input.size > room)
+    status = too_large(machine, symbol, error);
+  else
+    status = trax_machine_bind(machine, symbol, input.bytes, (uint32_t)input.size, error);
+  trax_input_close(&input);
+  return status;
 }
 
 trax_status trax_machine_buffer(trax_machine *machine, const char *symbol, uint32_t *address, uint8_t **bytes,

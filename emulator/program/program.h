@@ -5,6 +5,10 @@
 #include "program/image.h"
 #include "machine/machine.h"
 
+/* Bytes before and behind each buffer that must not be accessed, so that a program's error is noticed. A multiple of
+   the size of a way of most caches, so that buffers keep their sets. */
+#define TRAX_BUFFER_GUARD 65536u
+
 struct trax_bound_buffer {
   char *symbol;
   uint32_t address, bytes;
@@ -14,7 +18,8 @@ struct trax_host {
   trax_image *image;
   struct trax_bound_buffer *buffers;
   size_t buffer_count;
-  uint64_t free_address; /* the end of image and buffers, a multiple of 64; at most memory_end */
+  uint64_t free_address; /* the end of image, buffers and their guards, a multiple of 64; at most memory_end */
+  uint64_t guard_end;    /* the end of the latest guard */
   uint64_t memory_end;   /* the end of image, buffers and heap: the lower end of the lowest stack, or of memory */
   uint32_t stack_bytes;  /* size of each thread's stack in global memory; 0: stacks are in local memory */
 };
@@ -30,6 +35,11 @@ const struct trax_symbol *trax_host_object(const struct trax_machine *machine, c
 void trax_host_store_word(struct trax_machine *machine, uint32_t address, uint32_t value);
 /* Takes memory behind image and buffers, where the heap begins. Error: there is too little. */
 trax_status trax_host_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error);
+
+/* --- unbound.c --- */
+/* Returns the name of the first symbol from number *from on, which is moved behind it, that is a struct trax_buffer to
+   which nothing is bound; NULL if there is none. Without debug information it may be another variable of that size. */
+const char *trax_host_unbound(const struct trax_machine *machine, size_t *from);
 
 /* --- arguments.c --- */
 /* The library's object for argc and argv, which programs have whose main uses them. */

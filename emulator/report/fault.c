@@ -50,6 +50,41 @@ void trax_print_place(const struct trax_host *host, const char *label, uint32_t 
   fprintf(out, "\n");
 }
 
+/* "28 bytes behind the buffer image (100 bytes from 0x00012000)". False: there is no buffer as near as its guard. */
+static bool print_nearest_buffer(const struct trax_host *host, const struct trax_fault *fault, FILE *out) {
+  const struct trax_bound_buffer *nearest = NULL;
+  uint64_t least = TRAX_BUFFER_GUARD + 1;
+  const char *where = "";
+  for (size_t i = 0; host && i < host->buffer_count; ++i) {
+    const struct trax_bound_buffer *buffer = &host->buffers[i];
+    const uint64_t begin = buffer->address, end = begin + buffer->bytes, at = fault->address;
+    const uint64_t distance = at < begin ? begin - at : at > end ? at - end : 0;
+    if (distance >= least)
+      continue;
+    least = distance;
+    nearest = buffer;
+    where = at < begin ? "before" : at > end ? "behind" : at == end ? "directly behind" : "across the end of";
+  }
+  if (!nearest)
+    return false;
+  fprintf(out, ", ");
+  if (least)
+    fprintf(out, "%" PRIu64 " byte%s ", least, least == 1 ? "" : "s");
+  fprintf(out, "%s the buffer %s (%u bytes from 0x%08x)", where, nearest->symbol, nearest->bytes, nearest->address);
+  return true;
+}
+
+/* Pointers to the data of buffers without contents are null. */
+static void print_unbound_buffers(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
+  enum { MOST = 4 };
+  size_t from = 0, count = 0;
+  if (fault->kind != TRAX_FAULT_NULL_PAGE && fault->kind != TRAX_FAULT_READ_ONLY)
+    return;
+  for (const char *name; count < MOST && (name = trax_host_unbound(machine, &from)); ++count)
+    fprintf(out, "  %-*snothing is bound to %s: --alloc %s=BYTES or --bind %s=FILE\n", LABEL, "buffer", name, name,
+            name);
+}
+
 /* "store of 4 bytes to 0x00001010 (table+0x10)" */
 static void print_access(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
   if (!fault->bytes)
@@ -63,7 +98,7 @@ static void print_access(const trax_machine *machine, const struct trax_fault *f
     print_symbol(symbol, fault->address, out);
     fprintf(out, ")");
   }
-  if (fault->kind == TRAX_FAULT_UNMAPPED)
+  if (fault->kind == TRAX_FAULT_UNMAPPED && !print_nearest_buffer(host, fault, out))
     fprintf(out, "; memory ends at 0x%08" PRIx64, machine->space.size);
   const uint32_t stack = host ? host->stack_bytes : 0;
   const uint64_t top = machine->space.size - fault->thread * ((uint64_t)stack + TRAX_STACK_GUARD);
@@ -74,6 +109,7 @@ static void print_access(const trax_machine *machine, const struct trax_fault *f
     fprintf(out, "; local memory is 0x%08x to 0xffffffff, %u bytes, sp is 0x%08x; -mstack=global has more room", TRAX_LOCAL_BASE, TRAX_LOCAL_SIZE,
             fault->registers[SP]);
   fprintf(out, "\n");
+  print_unbound_buffers(machine, fault, out);
 }
 
 /* Prints the message of an abort. Characters that cannot be printed are shown as codes. */

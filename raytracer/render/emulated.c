@@ -97,7 +97,7 @@ trax_status emulated_config(trax_config *config, const struct options *options, 
   uint64_t bytes = more_bytes;
   if (frame)
     bytes += frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);
-  uint64_t mib = (bytes >> 20) + 2;
+  uint64_t mib = (bytes >> 20) + 3; /* the rest is for the program and the buffers' guards */
   if (mib > 1024) {
     char text[32];
     snprintf(text, sizeof text, "%llu", (unsigned long long)mib);

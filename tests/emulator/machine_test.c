@@ -61,21 +61,24 @@ static double figure(const trax_machine *machine, const char *name) {
 
 /* --- buffers --- */
 
+enum { GUARD = 65536 }; /* bytes before and behind each buffer */
+
 static void test_buffers_are_placed_behind_the_image(void **state) {
   (void)state;
   trax_machine *machine = load("copy");
   trax_error error;
-  const uint32_t first = DATA + 128; /* the segment ends at DATA + 124 */
-  assert_int_equal(word(machine, COPY_HEAP), first);
+  const uint32_t end = DATA + 128, first = end + GUARD,
+                 second = first + 64 + GUARD; /* the segment ends at DATA + 124 */
+  assert_int_equal(word(machine, COPY_HEAP), end);
   assert_int_equal(word(machine, COPY_HEAP_END), 4 << 20);
 
   static const uint32_t values[] = {1, 0x80000000u, 0xDEADBEEFu};
   assert_int_equal(trax_machine_bind(machine, "input", values, sizeof values, &error), TRAX_OK);
   assert_int_equal(word(machine, COPY_INPUT), first);
   assert_int_equal(word(machine, COPY_INPUT + 4), 12);
-  assert_int_equal(word(machine, COPY_HEAP), first + 64);
+  assert_int_equal(word(machine, COPY_HEAP), second);
   assert_int_equal(trax_machine_bind(machine, "output", NULL, 100, &error), TRAX_OK);
-  assert_int_equal(word(machine, COPY_OUTPUT), first + 64);
+  assert_int_equal(word(machine, COPY_OUTPUT), second);
   assert_int_equal(word(machine, COPY_OUTPUT + 4), 100);
   uint32_t place, place_bytes;
   uint8_t *in_place;
@@ -88,7 +91,7 @@ static void test_buffers_are_placed_behind_the_image(void **state) {
   assert_int_equal(place, COPY_OUTPUT);
   assert_int_equal(place_bytes, 8);
   assert_false(trax_machine_find_symbol(machine, "none", &place, &place_bytes));
-  assert_int_equal(word(machine, COPY_HEAP), first + 64 + 128);
+  assert_int_equal(word(machine, COPY_HEAP), second + 128 + GUARD);
 
   assert_int_equal(trax_machine_run(machine, NULL, &error), TRAX_OK);
   const uint8_t *bytes;
@@ -103,6 +106,39 @@ static void test_buffers_are_placed_behind_the_image(void **state) {
   trax_machine_destroy(machine);
 }
 
+static trax_fault_kind load_of(const trax_machine *machine, uint32_t address, uint32_t bytes) {
+  return trax_space_check(&machine->space, address, bytes, false);
+}
+
+static trax_fault_kind store_to(const trax_machine *machine, uint32_t address, uint32_t bytes) {
+  return trax_space_check(&machine->space, address, bytes, true);
+}
+
+/* Every byte outside a buffer, within 64 KiB of it, cannot be accessed, whatever its size; every byte in it can. A load
+   of a word that is partly in the buffer is allowed: a search for a NUL reads whole words. */
+static void test_buffers_end_at_guards(void **state) {
+  (void)state;
+  for (uint32_t size = 0; size < 140; size += size < 9 ? 1 : 55) {
+    trax_machine *machine = load("copy");
+    assert_int_equal(trax_machine_bind(machine, "input", NULL, size, NULL), TRAX_OK);
+    assert_int_equal(trax_machine_bind(machine, "output", NULL, size, NULL), TRAX_OK);
+    const uint32_t addresses[] = {word(machine, COPY_INPUT), word(machine, COPY_OUTPUT)};
+    for (unsigned i = 0; i < 2; i++) {
+      const uint32_t begin = addresses[i], end = begin + size, words_end = (end + 3) / 4 * 4;
+      for (uint32_t at = begin - GUARD; at < end + GUARD; at++) {
+        const bool inside = at >= begin && at < end, readable = at >= begin && at < words_end;
+        assert_int_equal(store_to(machine, at, 1), inside ? TRAX_FAULT_NONE : TRAX_FAULT_UNMAPPED);
+        assert_int_equal(load_of(machine, at, 1), readable ? TRAX_FAULT_NONE : TRAX_FAULT_UNMAPPED);
+        if (at % 4)
+          continue;
+        assert_int_equal(store_to(machine, at, 4), inside && at + 4 <= end ? TRAX_FAULT_NONE : TRAX_FAULT_UNMAPPED);
+        assert_int_equal(load_of(machine, at, 4), readable ? TRAX_FAULT_NONE : TRAX_FAULT_UNMAPPED);
+      }
+    }
+    trax_machine_destroy(machine);
+  }
+}
+
 static void refuse_bind(trax_machine *machine, const char *symbol, uint32_t size, const char *message) {
   trax_error error = {.message = ""};
   const uint32_t heap = word(machine, COPY_HEAP);
@@ -115,7 +151,7 @@ static void refuse_bind(trax_machine *machine, const char *symbol, uint32_t size
 static void test_buffers_that_cannot_be(void **state) {
   (void)state;
   trax_machine *machine = load("copy");
-  const uint32_t room = (4u << 20) - (DATA + 128);
+  const uint32_t room = (4u << 20) - (DATA + 128 + GUARD);
   refuse_bind(machine, "none", 4, "the program has no symbol none");
   refuse_bind(machine, "_start", 4, "is not an object of 8 bytes in the program's data");
   refuse_bind(machine, "__trax_heap", 4, "is not an object of 8 bytes");
@@ -143,9 +179,9 @@ static void test_files_as_buffers(void **state) {
   assert_int_equal(trax_machine_bind_file(machine, "input", path, &error), TRAX_ERROR);
   expect_message(&error, "buffer input does not fit into memory");
   assert_int_equal(trax_machine_bind_file(machine, "input", "/nonexistent", &error), TRAX_ERROR);
-  expect_message(&error, "/nonexistent: cannot be read for buffer input: No such file or directory");
+  expect_message(&error, "buffer input: /nonexistent: cannot be read: No such file or directory");
   assert_int_equal(trax_machine_bind_file(machine, "input", "/", &error), TRAX_ERROR);
-  expect_message(&error, "/: cannot be read for buffer input: Is a directory");
+  expect_message(&error, "buffer input: /: cannot be read: Is a directory");
   assert_int_equal(ftruncate(descriptor, 0), 0);
   assert_int_equal(write(descriptor, "abcdefgh", 8), 8);
   assert_int_equal(trax_machine_bind_file(machine, "input", path, &error), TRAX_OK);
@@ -504,6 +540,7 @@ static void test_no_fault_no_report(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_buffers_are_placed_behind_the_image),
+      cmocka_unit_test(test_buffers_end_at_guards),
       cmocka_unit_test(test_buffers_that_cannot_be),
       cmocka_unit_test(test_files_as_buffers),
       cmocka_unit_test(test_loading_twice_or_too_large),

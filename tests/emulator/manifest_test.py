@@ -5,6 +5,7 @@
 import copy
 import json
 import pathlib
+import os
 import random
 import shutil
 import subprocess
@@ -124,6 +125,9 @@ REFUSED = [
     (["configuration", "chip", "tns"], 4, "did you mean chip.tms"),
     (["configuration", "memory", "bandwidth_gbps"], True, "configuration.memory.bandwidth_gbps: "),
     (["configuration", "icache", "bytes"], 96, "configuration.icache.bytes: "),
+    (["configuration", "memory", "model"], "limit" + 90 * " ", "configuration.memory.model: is longer than any value"),
+    (["configuration", "dram", "mapping"], "row:rank:bank:column:channel0".ljust(79, "0") + "x", "mapping: is longer"),
+    (["configuration", "chip", "tms"], "2".rjust(79, "0") + "x", "configuration.chip.tms: is longer than any value"),
 ]
 TEXTS = [("", "manifest.json:1: "), ("[]", "must be an object"), ("{", "manifest.json:1: "), ('{\n"trax_manifest": 1,\n]', "manifest.json:3: "),
          ('{"trax_manifest": 1, "trax_manifest": 1}', "manifest.json:1: duplicate"), ("\0", "manifest.json:1: "), ("[" * 100000, "manifest.json:1: "),
@@ -163,6 +167,76 @@ def refusals(scratch):
     check(run("trax-sim", folder / "manifest.json", "--quiet").returncode == 0, "whole again")
 
 
+def links(scratch):
+    """Links in the folder: what they lead to is read if it is beneath the folder, and never written."""
+    folder, outside = scratch / "folder", scratch / "outside"
+    good = prepare(folder)
+    outside.mkdir()
+    (outside / "kept").write_text("kept")
+    (folder / "sub").mkdir()
+    for name in ("program.elf", "scene.trax"):
+        shutil.copy(folder / name, outside / name)
+        shutil.copy(folder / name, folder / "sub" / name)
+    (folder / "away").symlink_to(outside)
+    (folder / "near").symlink_to("sub")
+    (folder / "up").symlink_to("..")
+    (folder / "kept").symlink_to("../outside/kept")
+    (folder / "absolute").symlink_to(outside / "kept")
+    (folder / "new").symlink_to("../outside/new")
+    (folder / "inner").symlink_to("image.raw")
+    (folder / "null").symlink_to("/dev/null")
+    os.mkfifo(folder / "pipe")
+    place = ["buffers", len(good["buffers"]) - 1, "output"]
+    index = next(i for i, one in enumerate(good["buffers"]) if one.get("file") == "scene.trax")
+    for output in ("kept", "absolute", "new", "inner", "null", "pipe", "sub", "away/kept", "away/new", "up/outside/kept", "near/../../outside/kept",
+                   "program.elf/x"):
+        (folder / "image.raw").unlink(missing_ok=True)
+        expect_refusal(folder, json.dumps(change(good, place, output)), f"{output}: cannot be written: |output: must be a path within")
+    for path, name in ((["program", "file"], "program.elf"), (["buffers", index, "file"], "scene.trax")):
+        for way in ("away", "up/outside"):
+            expect_refusal(folder, json.dumps(change(good, path, f"{way}/{name}")), f"{way}/{name}: cannot be read: ")
+    check(sorted(os.listdir(outside)) == ["kept", "program.elf", "scene.trax"] and (outside / "kept").read_text() == "kept", "outside")
+    near = change(change(good, ["program", "file"], "near/program.elf"), ["buffers", index, "file"], "near/scene.trax")
+    (folder / "manifest.json").write_text(json.dumps(change(near, place, "near/picture.raw")))
+    result = run("trax-sim", folder / "manifest.json", "--quiet")
+    check(result.returncode == 0 and (folder / "sub/picture.raw").stat().st_size == 576, "links within the folder", result.stderr)
+    # A link that appears during the run, where the output or its folder was.
+    for target in (folder / "image.raw", folder / "sub"):
+        output = "image.raw" if target.suffix else "sub/picture.raw"
+        (folder / "manifest.json").write_text(json.dumps(change(good, place, output)))
+        wait = folder / f"wait-{output[:3]}"
+        os.mkfifo(wait)
+        command = [BIN / "trax-sim", folder / "manifest.json", "--quiet", "--memory-trace", wait]
+        with subprocess.Popen(command, stderr=subprocess.PIPE) as process:
+            with open(wait, "rb") as reader:  # opened by trax-sim when the run begins, after its checks
+                if target.is_dir():
+                    shutil.rmtree(target)
+                else:
+                    target.unlink(missing_ok=True)
+                target.symlink_to(outside / "kept" if target.suffix else outside)
+                reader.read()
+            process.communicate()
+        check((outside / "kept").read_text() == "kept" and not (outside / "picture.raw").exists(), "a link that appears", output)
+
+
+def one_reading(scratch):
+    """The bytes that were checked are those that run: the program is read once."""
+    folder = scratch / "once"
+    good = prepare(folder)
+    program = (folder / "program.elf").read_bytes()
+    (folder / "program.elf").unlink()
+    os.mkfifo(folder / "program.elf")
+    (folder / "manifest.json").write_text(json.dumps(good))
+    with subprocess.Popen([BIN / "trax-sim", folder / "manifest.json", "--quiet"], stderr=subprocess.PIPE) as process:
+        (folder / "program.elf").write_bytes(program)
+        try:
+            _, said = process.communicate(timeout=20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            _, said = b"", b"it waits for the program again"
+        check(process.returncode == 0 and (folder / "image.raw").exists(), "a program from a pipe", said)
+
+
 def values_of(node):
     """Paths of all members."""
     below = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
@@ -198,7 +272,7 @@ def mutations(scratch):
 
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for test in (runs, refusals, mutations):
+        for test in (runs, refusals, links, one_reading, mutations):
             scratch = pathlib.Path(name, test.__name__)
             scratch.mkdir()
             test(scratch)

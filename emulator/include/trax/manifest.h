@@ -51,6 +51,10 @@ uint64_t trax_manifest_items(const trax_manifest *manifest);      /* 0: not know
 void trax_manifest_inputs(const trax_manifest *manifest, trax_files *files);
 /* The i-th buffer that is written after the run, and its file; false after the last one. */
 bool trax_manifest_output(const trax_manifest *manifest, size_t i, const char **symbol, const char **path);
+/* Checks that the file of such a buffer can be written, and writes it, beneath the manifest's folder. */
+trax_status trax_manifest_check_output(const trax_manifest *manifest, const char *symbol, trax_error *error);
+trax_status trax_manifest_put_output(const trax_manifest *manifest, const char *symbol, const void *bytes, size_t size,
+                                     trax_error *error);
 
 /* The buffer that is a picture, and its size; false if there is none, or if its members are not supported. */
 bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, uint32_t *width, uint32_t *height,

@@ -23,12 +23,19 @@ typedef struct trax_input {
 } trax_input;
 
 trax_status trax_input_open(trax_input *input, const char *path, trax_error *error);
+/* As trax_input_open, of a path that stays beneath a folder (trax/beneath.h). shown: the path in messages. */
+trax_status trax_input_open_beneath(trax_input *input, int folder, const char *path, const char *shown,
+                                    trax_error *error);
 /* Reads until `size` bytes or the whole file are in memory. Returns TRAX_INTERRUPTED if a signal arrives while it waits
    for a pipe or a terminal (trax/signals.h). */
 trax_status trax_input_read(trax_input *input, size_t size, trax_error *error);
 /* Closes the file and releases its bytes. A caller that keeps the bytes sets input->bytes to NULL before. */
 void trax_input_close(trax_input *input);
 
+/* Reads a file of at most limit bytes whole and closes it, whether trax_input_open succeeded (`opened`) or not.
+ *bytes and *size as trax_read_file. */
+trax_status trax_input_read_all(trax_input *input, trax_status opened, size_t limit, uint8_t **bytes, size_t *size,
+                                trax_error *error);
 /* Reads a whole file of at most limit bytes. *bytes is from malloc, has a NUL after the last byte, and belongs to the
    caller. */
 trax_status trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error);
