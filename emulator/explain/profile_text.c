@@ -9,7 +9,7 @@
 
 /* A row of a table. */
 struct row {
-  uint32_t name;
+  const char *name;
   struct trax_profile_counts own;  /* of the instructions themselves */
   uint64_t own_cycles, all_cycles; /* all: with functions that are inlined or called */
 };
@@ -55,13 +55,13 @@ static void add_record(struct tables *tables, size_t number) {
     add_frames(tables, profile->contexts[context].index, (uint32_t)number + 1, cycles);
 }
 
-static int by_own(const void *a, const void *b) { /* then by name, whose numbers are deterministic */
+static int by_own(const void *a, const void *b) { /* then by name, not its number, which other reports change */
   const struct row *x = a, *y = b;
   if (x->own_cycles != y->own_cycles)
     return x->own_cycles < y->own_cycles ? 1 : -1;
   if (x->all_cycles != y->all_cycles)
     return x->all_cycles < y->all_cycles ? 1 : -1;
-  return (x->name > y->name) - (x->name < y->name);
+  return strcmp(x->name, y->name);
 }
 
 static void print_head(FILE *out, const struct trax_profile_counts *total) {
@@ -96,7 +96,7 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
   const struct trax_places *places = tables->profile->explain->places;
   const uint64_t total_cycles = trax_profile_cycles(&tables->total);
   for (size_t i = 0; i <= tables->names; i++) {
-    rows[i].name = (uint32_t)i;
+    rows[i].name = i ? trax_places_name(places, (uint32_t)i) : "(no line)";
     rows[i].own_cycles = trax_profile_cycles(&rows[i].own);
   }
   qsort(rows, tables->names + 1, sizeof *rows, by_own);
@@ -107,7 +107,7 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
     if (!row->own_cycles && !row->all_cycles)
       continue;
     print_counts(out, &row->own, row->own_cycles, row->all_cycles, &tables->total);
-    fprintf(out, "  %s\n", row->name ? trax_places_name(places, row->name) : "(no line)");
+    fprintf(out, "  %s\n", row->name);
   }
   print_counts(out, &tables->total, total_cycles, total_cycles, &tables->total);
   fprintf(out, "  total\n");
