@@ -55,6 +55,15 @@ static inline bool trax_table_find(struct trax_table *table, uint64_t key, uint3
   return true;
 }
 
+/* Sets *value to the number of a key; false: the key has none. */
+static inline bool trax_table_has(const struct trax_table *table, uint64_t key, uint32_t *value) {
+  const struct trax_table_entry *entry = table->capacity ? &table->entries[trax_table_slot(table, key)] : NULL;
+  if (!entry || !entry->value)
+    return false;
+  *value = entry->value - 1;
+  return true;
+}
+
 static inline void trax_table_free(struct trax_table *table) {
   free(table->entries);
   *table = (struct trax_table){0};

@@ -234,6 +234,10 @@ static trax_status end_explanation(struct trax_shown *shown, trax_machine *machi
   return status;
 }
 
+static void note(const char *text) {
+  trax_message("trax-sim", TRAX_MESSAGE_NOTE, "%s", text);
+}
+
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
   catch_signals();
@@ -251,6 +255,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
     return EXIT_SUCCESS;
   }
   struct trax_explain_options wanted = options->explain;
+  wanted.note = options->quiet ? NULL : note;
   struct trax_shown shown = {0};
   if (status == TRAX_OK)
     status = trax_shown_find(&shown, &wanted, options, machine, &error);
