@@ -54,7 +54,7 @@ static bool list_objects(struct heat *heat) {
   const struct trax_host *host = trax_host_of(machine);
   size_t symbol_count = 0;
   const struct trax_symbol *symbols = host ? trax_image_symbols(host->image, &symbol_count) : NULL;
-  heat->objects = calloc(symbol_count + (host ? host->buffer_count : 0) + 3, sizeof *heat->objects);
+  heat->objects = calloc(symbol_count + (host ? host->buffer_count : 0) + 4, sizeof *heat->objects);
   if (!heat->objects)
     return false;
   for (size_t i = 0; i < symbol_count; i++)
@@ -150,6 +150,17 @@ static void put_counts(FILE *out, const struct heat_counts *counts) {
           counts->misses, counts->merged, counts->combined);
 }
 
+/* Writes a name as CSV (RFC 4180). */
+static void put_name(FILE *out, const char *name) {
+  fputc('"', out);
+  for (; *name; name++) {
+    if (*name == '"')
+      fputc('"', out);
+    fputc(*name, out);
+  }
+  fputc('"', out);
+}
+
 #define COLUMNS "loads,stores,atomics,load_bytes,store_bytes,hits,misses,merged,combined"
 
 static void put_table(const struct object *objects, size_t count, FILE *out) {
@@ -158,7 +169,8 @@ static void put_table(const struct object *objects, size_t count, FILE *out) {
     const struct object *object = &objects[i];
     if (!object->counts.loads && !object->counts.stores && !object->counts.atomics)
       continue;
-    fprintf(out, "\"%s\",0x%08" PRIx64 ",%" PRIu64 ",", object->name, object->begin, object->end - object->begin);
+    put_name(out, object->name);
+    fprintf(out, ",0x%08" PRIx64 ",%" PRIu64 ",", object->begin, object->end - object->begin);
     put_counts(out, &object->counts);
     fputc('\n', out);
   }
@@ -206,7 +218,9 @@ static trax_status write_lines(const struct heat *heat, trax_error *error) {
         continue;
       const uint32_t address = page << PAGE_SHIFT | i << LINE_SHIFT;
       const struct object *object = object_at(heat, address); /* the object of the line's first byte */
-      fprintf(output.file, "0x%08x,\"%s\",%" PRIu64 ",", address, object->name,
+      fprintf(output.file, "0x%08x,", address);
+      put_name(output.file, object->name);
+      fprintf(output.file, ",%" PRIu64 ",",
               object == &heat->objects[heat->object_count - 1] ? address : address - object->begin);
       put_counts(output.file, counts);
       fputc('\n', output.file);

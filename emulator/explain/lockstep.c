@@ -1,9 +1,10 @@
 /* The issue slots that the run's items, or its rays by kind, would take on a SIMD machine: the instructions of each
    item or ray are replayed in warps of threads that share one program counter.
 
-   A warp of width W has W items that are consecutive in the order in which the program took them. An item's number is
-   the value of the last atomic increment that its thread executed before the item ended. The warp executes the
-   instruction at the lowest address of its threads' pcs, for the threads that are at it. If code is laid out in the
+   A warp of width W has W items that are consecutive in the order in which the program took them from its queues, one
+   queue after the other. An item's queue is the address of the last atomic increment that its thread executed before
+   the item ended, and its number is the value. The warp executes the instruction at the lowest address of its threads'
+   pcs, for the threads that are at it. If code is laid out in the
    order of its control flow, threads reconverge as early as possible (Collange, "Stack-less SIMT reconvergence at low
    cost", ENS Lyon 2011). Memory and units take no time. So the result is the use of issue slots alone, an upper bound
    for a lockstep machine that does not repack its warps.
@@ -33,6 +34,7 @@ struct recording {
   uint32_t queue, number; /* of the item: the address that was incremented, and the value */
   unsigned kind;          /* of a ray; TRAX_NO_RAY for an item */
   uint32_t generation;
+  size_t end; /* the number of items or rays that had ended before: makes the order total */
 };
 
 struct lockstep {
@@ -51,6 +53,7 @@ static void end_item(struct lockstep *lockstep, struct recording *thread) {
     lockstep->out_of_memory = true;
     return;
   }
+  thread->end = lockstep->count;
   lockstep->items[lockstep->count++] = *thread;
   *thread = (struct recording){.queue = thread->queue, .number = thread->number, .kind = TRAX_NO_RAY};
 }
@@ -153,12 +156,8 @@ static uint64_t run_warp(const struct recording *items, size_t count, uint64_t *
   }
 }
 
-static int by_number(const void *a, const void *b) {
-  const struct recording *one = a, *other = b;
-  return (one->number > other->number) - (one->number < other->number);
-}
-
-static int by_kind(const void *a, const void *b) {
+/* In the order of kind, generation, queue, number. Items have no kind, and their generation is 0. */
+static int by_place(const void *a, const void *b) {
   const struct recording *one = a, *other = b;
   if (one->kind != other->kind)
     return one->kind < other->kind ? -1 : 1;
@@ -166,7 +165,9 @@ static int by_kind(const void *a, const void *b) {
     return one->generation < other->generation ? -1 : 1;
   if (one->queue != other->queue)
     return one->queue < other->queue ? -1 : 1;
-  return by_number(a, b);
+  if (one->number != other->number)
+    return one->number < other->number ? -1 : 1;
+  return one->end < other->end ? -1 : one->end > other->end;
 }
 
 /* Writes a row for each width. The items of a warp are of one generation. */
@@ -193,7 +194,7 @@ static trax_status finish(void *self, trax_error *error) {
   if (lockstep->out_of_memory)
     return trax_fail(error, "out of memory for the instructions of %zu items", lockstep->count);
   if (lockstep->count) /* qsort's array is not to be NULL */
-    qsort(lockstep->items, lockstep->count, sizeof *lockstep->items, lockstep->by_ray ? by_kind : by_number);
+    qsort(lockstep->items, lockstep->count, sizeof *lockstep->items, by_place);
   fprintf(out, "%swidth,warps,instructions,slots,utilisation,longest\n", lockstep->by_ray ? "kind,rays," : "");
   if (!lockstep->by_ray)
     write_rows(out, "", lockstep->items, lockstep->count);

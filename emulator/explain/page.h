@@ -18,6 +18,9 @@ trax_status trax_page_write(struct trax_explain *explain, trax_error *error);
 /* The page up to its data, and behind them; of the build. */
 extern const char *const trax_page_begin, *const trax_page_end;
 
+/* --- sources.c: members with the program's sources, and with the names of those that are left out --- */
+trax_status trax_sources_put(struct trax_explain *explain, FILE *out, trax_error *error);
+
 /* --- pixels.c: what each item cost, by its place --- */
 struct trax_pixels;
 struct trax_pixels *trax_pixels_create(size_t places); /* NULL: out of memory */

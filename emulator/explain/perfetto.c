@@ -36,6 +36,11 @@ static uint64_t clip(const struct trax_explain_options *options, uint64_t cycle)
   return cycle < options->window_end ? cycle : options->window_end;
 }
 
+static bool shows(const struct perfetto *perfetto, uint32_t tm) {
+  const uint64_t tms = perfetto->explain->options.window_tms;
+  return !tms || tms >> tm & 1;
+}
+
 /* Writes an event up to its name. The caller writes the rest. */
 static FILE *begin_event(struct perfetto *perfetto, const char *phase, uint32_t tm, uint32_t thread, uint64_t cycle,
                          const char *name) {
@@ -100,6 +105,8 @@ static void enter_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, st
 
 static void put_counters(struct perfetto *perfetto, uint64_t end) {
   for (uint32_t tm = 0; tm < perfetto->explain->machine->config.chip.tms; tm++) {
+    if (!shows(perfetto, tm))
+      continue;
     struct counters *counters = &perfetto->tms[tm];
     const double cycles = (double)(end - perfetto->counted_from);
     fprintf(begin_event(perfetto, "C", tm, 0, perfetto->counted_from, "instructions per cycle"),
@@ -148,7 +155,7 @@ static void put_names(struct perfetto *perfetto) {
   const struct trax_config *config = &perfetto->explain->machine->config;
   const struct trax_explain_options *options = &perfetto->explain->options;
   for (uint32_t tm = 0; tm < config->chip.tms; tm++) {
-    if (options->window_tms && !(options->window_tms >> tm & 1))
+    if (!shows(perfetto, tm))
       continue;
     fprintf(begin_event(perfetto, "M", tm, 0, 0, "process_name"), ",\"args\":{\"name\":\"TM %u\"}}", tm);
     for (uint32_t tp = 0; tp < config->chip.tps_per_tm; tp++) {

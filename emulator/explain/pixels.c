@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { THREAD, BEGIN, CAUSES, RAYS = CAUSES + TRAX_CAUSE_COUNT, COLUMNS = RAYS + TRAX_RAY_KIND_COUNT };
+enum { THREAD, BEGIN, MORE, CAUSES, RAYS = CAUSES + TRAX_CAUSE_COUNT, COLUMNS = RAYS + TRAX_RAY_KIND_COUNT };
 
 struct trax_pixels {
   size_t places;
   uint64_t *columns;                    /* [COLUMNS][places]; thread: its number + 1, and 0 where no item was */
-  uint64_t elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles of no place */
+  uint64_t elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles of no place: after a thread's last item, of items without one */
   bool any[COLUMNS];                    /* whether the column has another number than 0 */
 };
 
@@ -50,6 +50,7 @@ void trax_pixels_add(struct trax_pixels *pixels, const struct trax_item_cost *co
       pixels->elsewhere[cause] += cost->cycles[cause];
     return;
   }
+  add(pixels, MORE, cost->place, *at(pixels, THREAD, cost->place) != 0);
   *at(pixels, THREAD, cost->place) = cost->thread + 1;
   *at(pixels, BEGIN, cost->place) = cost->begin;
   pixels->any[THREAD] = pixels->any[BEGIN] = true;
@@ -91,6 +92,8 @@ static void put_name_of(FILE *members, unsigned column) {
     put_name(members, "", "thread", "", "the thread's number + 1; 0: no item ended here");
   else if (column == BEGIN)
     put_name(members, "", "begin", "cycle", "the end of the thread's item before");
+  else if (column == MORE)
+    put_name(members, "", "more", "items", "items that ended here before; thread and begin are those of the last");
   else if (column < RAYS)
     put_name(members, "causes", trax_cause_names[column - CAUSES], "thread-cycles", cause_meanings[column - CAUSES]);
   else

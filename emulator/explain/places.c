@@ -1,7 +1,6 @@
-#define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
 #include "explain/places.h"
 
-#include "explain/table.h"
+#include "explain/texts.h"
 #include "program/program.h"
 
 #include <stdio.h>
@@ -23,9 +22,7 @@ struct trax_places {
   struct trax_place *place; /* [count + 2]; `frames` is NULL until the first look-up */
   trax_inst *inst;          /* [count + 2] */
 
-  char **names; /* [name] */
-  size_t name_count, name_capacity;
-  struct trax_table by_hash; /* of names; if two names have the same hash, the second one's key is the hash + 1 */
+  struct trax_texts names;
 };
 
 struct trax_places *trax_places_create(const trax_machine *machine) {
@@ -60,13 +57,10 @@ void trax_places_destroy(struct trax_places *places) {
     return;
   for (uint32_t i = 0; places->place && i < places->count + 2; i++)
     free((void *)places->place[i].frames);
-  for (size_t i = 0; i < places->name_count; i++)
-    free(places->names[i]);
-  free(places->names);
+  trax_texts_free(&places->names);
   free(places->ranges);
   free(places->place);
   free(places->inst);
-  trax_table_free(&places->by_hash);
   free(places);
 }
 
@@ -95,37 +89,15 @@ const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t ind
 /* --- names --- */
 
 const char *trax_places_name(const struct trax_places *places, uint32_t name) {
-  return name ? places->names[name - 1] : "";
+  return trax_texts_at(&places->names, name);
 }
 
 uint32_t trax_places_names(const struct trax_places *places) {
-  return (uint32_t)places->name_count;
+  return (uint32_t)places->names.count;
 }
 
-static uint64_t hash_of(const char *text) {
-  uint64_t hash = 0xCBF29CE484222325u;
-  for (; *text; text++)
-    hash = (hash ^ (unsigned char)*text) * 0x100000001B3u;
-  return hash;
-}
-
-/* Returns the number of a name; 0: out of memory. */
 static uint32_t intern(struct trax_places *places, const char *text) {
-  for (uint64_t hash = hash_of(text);; hash++) {
-    uint32_t name;
-    if (!trax_table_find(&places->by_hash, hash, (uint32_t)places->name_count, &name))
-      return 0;
-    if (name < places->name_count) {
-      if (strcmp(places->names[name], text) == 0)
-        return name + 1;
-      continue;
-    }
-    if (!trax_grow((void **)&places->names, places->name_count, &places->name_capacity, sizeof *places->names) ||
-        !(places->names[name] = strdup(text)))
-      return 0;
-    places->name_count++;
-    return name + 1;
-  }
+  return trax_texts_number(&places->names, text);
 }
 
 static uint32_t intern_line(struct trax_places *places, const struct trax_source_line *line) {

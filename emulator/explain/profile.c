@@ -1,12 +1,19 @@
 /* Counts profiles. Each thread has a call stack: a jal or jalr that writes a register is a call, and a jump through a
    register to the return address of the latest call is a return. After a tail call, the caller's frame stays, with the
    code of another function. A longjmp ends the calls made with a stack pointer below the current one, and the call out
-   of the function that it returns to. */
+   of the function that it returns to.
+
+   A recursive program has as many call stacks as calls, so their number is limited: a stack that is one too many counts
+   as the first one that ended with the same call. */
 #include "explain/profile.h"
 
 #include <stdlib.h>
 
-enum { STACK_POINTER = 2, MAX_DEPTH = 512 };
+enum {
+  STACK_POINTER = 2,
+  MAX_DEPTH = 512,
+  MAX_RECORDS = 1 << 18 /* with so many records no new call stack is kept */
+};
 
 struct call {
   uint32_t return_pc, stack_pointer, context; /* context: of the callee */
@@ -47,39 +54,61 @@ static bool is_below(uint32_t stack_pointer, uint32_t other) {
   return stack_pointer - 1 < other - 1;
 }
 
-static void call(struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t index, uint32_t return_pc) {
+/* Returns the context of a call at `index`; 0: out of memory. */
+static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32_t index) {
+  const uint64_t key = (uint64_t)parent << 32 | index;
   uint32_t context;
-  if (thread->depth == MAX_DEPTH)
-    return;
-  if (!trax_table_find(&profile->context_of, (uint64_t)thread->context << 32 | index, (uint32_t)profile->context_count,
-                       &context) ||
+  if (trax_table_has(&profile->context_of, key, &context))
+    return context;
+  if (profile->record_count >= MAX_RECORDS && profile->first_of[index])
+    return profile->first_of[index];
+  if (!trax_table_find(&profile->context_of, key, (uint32_t)profile->context_count, &context) ||
       !trax_grow((void **)&profile->contexts, profile->context_count, &profile->context_capacity,
-                 sizeof *profile->contexts) ||
-      !trax_grow((void **)&thread->calls, thread->depth, &thread->capacity, sizeof *thread->calls)) {
+                 sizeof *profile->contexts))
+    return 0;
+  profile->contexts[profile->context_count++] = (struct trax_profile_context){parent, index};
+  if (!profile->first_of[index])
+    profile->first_of[index] = context;
+  return context;
+}
+
+static void call(struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t index, uint32_t return_pc) {
+  if (thread->depth == MAX_DEPTH || !profile->by_call)
+    return;
+  const uint32_t context = context_of(profile, thread->context, index);
+  if (!context || !trax_grow((void **)&thread->calls, thread->depth, &thread->capacity, sizeof *thread->calls)) {
     profile->out_of_memory = true;
     return;
   }
-  if (context == profile->context_count)
-    profile->contexts[profile->context_count++] = (struct trax_profile_context){thread->context, index};
   thread->calls[thread->depth++] = (struct call){return_pc, thread->stack_pointer, context};
   thread->context = context;
 }
 
-/* Whether the jump, which is no return, goes back into the middle of the function that made the latest call. */
-static bool leaves_call(const struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t pc) {
-  struct trax_places *places = profile->explain->places;
-  const struct call *latest = &thread->calls[thread->depth - 1];
-  const struct trax_place *from = trax_places_at(places, trax_places_index(places, latest->return_pc - 4));
-  const struct trax_place *to = trax_places_at(places, trax_places_index(places, pc));
-  return latest->return_pc != pc && latest->stack_pointer == thread->stack_pointer && to->offset &&
-         to->symbol == from->symbol;
+/* Returns where the function of an instruction begins; 0: it has no symbol. */
+static uint32_t function_at(struct trax_places *places, uint32_t pc) {
+  const struct trax_place *place = trax_places_at(places, trax_places_index(places, pc));
+  return place->symbol ? pc - place->offset : 0;
 }
 
-static void jump_through_register(const struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t pc) {
+/* Whether the jump from one pc to another, which is no return, goes back into the middle of the function that made the
+   latest call. A function's jump within itself leaves nothing, though it may have called itself. */
+static bool leaves_call(const struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t from,
+                        uint32_t to) {
+  struct trax_places *places = profile->explain->places;
+  const struct call *latest = &thread->calls[thread->depth - 1];
+  if (latest->return_pc == to || latest->stack_pointer != thread->stack_pointer)
+    return false;
+  const uint32_t function = function_at(places, to);
+  return function && function != to && function == function_at(places, latest->return_pc - 4) &&
+         function != function_at(places, from);
+}
+
+static void jump_through_register(const struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t from,
+                                  uint32_t to) {
   while (thread->depth && (is_below(thread->calls[thread->depth - 1].stack_pointer, thread->stack_pointer) ||
-                           leaves_call(profile, thread, pc)))
+                           leaves_call(profile, thread, from, to)))
     thread->depth--;
-  if (thread->depth && thread->calls[thread->depth - 1].return_pc == pc &&
+  if (thread->depth && thread->calls[thread->depth - 1].return_pc == to &&
       thread->calls[thread->depth - 1].stack_pointer == thread->stack_pointer) /* else of a call beyond MAX_DEPTH */
     thread->depth--;
   thread->context = thread->depth ? thread->calls[thread->depth - 1].context : 0;
@@ -92,7 +121,7 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
     if (inst.rd && span->issue->next_pc != span->pc + 4) /* else a call of a weak function that is not defined */
       call(profile, thread, index, span->pc + 4);
     else if (!inst.rd && inst.op == TRAX_OP_JALR)
-      jump_through_register(profile, thread, span->issue->next_pc);
+      jump_through_register(profile, thread, span->pc, span->issue->next_pc);
   } else if (inst.rd == STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
     thread->stack_pointer = span->issue->result;
   }
@@ -172,6 +201,7 @@ static void destroy(void *self) {
   free(profile->contexts);
   free(profile->records);
   free(profile->latest_of);
+  free(profile->first_of);
   trax_table_free(&profile->context_of);
   trax_table_free(&profile->record_of);
   free(profile);
@@ -184,8 +214,10 @@ trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader
     return trax_fail(error, "out of memory");
   profile->explain = explain;
   profile->threads = calloc(threads, sizeof *profile->threads);
+  profile->by_call = explain->options.profile || explain->options.folded || explain->options.explore;
   profile->latest_of = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *profile->latest_of);
-  if (!profile->threads || !profile->latest_of ||
+  profile->first_of = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *profile->first_of);
+  if (!profile->threads || !profile->latest_of || !profile->first_of ||
       !trax_grow((void **)&profile->contexts, 0, &profile->context_capacity, sizeof *profile->contexts)) {
     destroy(profile);
     return trax_fail(error, "out of memory");

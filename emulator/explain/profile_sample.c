@@ -20,16 +20,21 @@ struct site {
   unsigned discriminator;
 };
 
+struct node_list {
+  struct node **nodes; /* in order */
+  size_t count, capacity;
+};
+
 /* A line of a function, or a function that is inlined at it. */
 struct node {
-  struct node *next, *lines, *inlined; /* next: at the same level, in order */
-  const char *name;                    /* of a function; NULL: a line */
+  struct node_list lines, inlined;
+  const char *name; /* of a function; NULL: a line */
   struct site site;
   uint64_t count; /* lines: executions; functions: calls */
 };
 
 struct tree {
-  struct node *functions;
+  struct node_list functions;
   bool out_of_memory;
 };
 
@@ -41,29 +46,37 @@ static int compare(const struct node *node, struct site site, const char *name) 
   return name ? strcmp(node->name, name) : 0;
 }
 
-/* Finds a node in a list, which is in order, or adds it. */
-static struct node *find(struct tree *tree, struct node **list, struct site site, const char *name) {
-  while (*list && compare(*list, site, name) < 0)
-    list = &(*list)->next;
-  if (*list && compare(*list, site, name) == 0)
-    return *list;
+/* Finds a node in a list, or adds it. */
+static struct node *find(struct tree *tree, struct node_list *list, struct site site, const char *name) {
+  size_t low = 0, high = list->count;
+  while (low < high) { /* the first node that is not before it */
+    const size_t middle = (low + high) / 2;
+    const int order = compare(list->nodes[middle], site, name);
+    if (order == 0)
+      return list->nodes[middle];
+    if (order < 0)
+      low = middle + 1;
+    else
+      high = middle;
+  }
   struct node *node = calloc(1, sizeof *node);
-  if (!node) {
+  if (!node || !trax_grow((void **)&list->nodes, list->count, &list->capacity, sizeof(struct node *))) {
+    free(node);
     tree->out_of_memory = true;
     return NULL;
   }
-  *node = (struct node){.next = *list, .name = name, .site = site};
-  return *list = node;
+  *node = (struct node){.name = name, .site = site};
+  memmove(&list->nodes[low + 1], &list->nodes[low], (list->count++ - low) * sizeof(struct node *));
+  return list->nodes[low] = node;
 }
 
-static void release(struct node *list) {
-  while (list) {
-    struct node *next = list->next;
-    release(list->lines);
-    release(list->inlined);
-    free(list);
-    list = next;
+static void release(struct node_list *list) {
+  for (size_t i = 0; i < list->count; i++) {
+    release(&list->nodes[i]->lines);
+    release(&list->nodes[i]->inlined);
+    free(list->nodes[i]);
   }
+  free(list->nodes);
 }
 
 /* LLVM packs three numbers into a discriminator: what tells blocks of a line apart, how many copies the compiler made
@@ -102,10 +115,10 @@ static void add(struct tree *tree, const struct trax_source_line *lines, size_t 
 
 static uint64_t total_of(const struct node *function) {
   uint64_t total = 0;
-  for (const struct node *line = function->lines; line; line = line->next)
-    total += line->count;
-  for (const struct node *inlined = function->inlined; inlined; inlined = inlined->next)
-    total += total_of(inlined);
+  for (size_t i = 0; i < function->lines.count; i++)
+    total += function->lines.nodes[i]->count;
+  for (size_t i = 0; i < function->inlined.count; i++)
+    total += total_of(function->inlined.nodes[i]);
   return total;
 }
 
@@ -117,11 +130,12 @@ static void put_site(FILE *out, int depth, struct site site) {
 }
 
 static void put_body(FILE *out, const struct node *function, int depth) {
-  for (const struct node *line = function->lines; line; line = line->next) {
-    put_site(out, depth, line->site);
-    fprintf(out, "%" PRIu64 "\n", line->count);
+  for (size_t i = 0; i < function->lines.count; i++) {
+    put_site(out, depth, function->lines.nodes[i]->site);
+    fprintf(out, "%" PRIu64 "\n", function->lines.nodes[i]->count);
   }
-  for (const struct node *inlined = function->inlined; inlined; inlined = inlined->next) {
+  for (size_t i = 0; i < function->inlined.count; i++) {
+    const struct node *inlined = function->inlined.nodes[i];
     put_site(out, depth, inlined->site);
     fprintf(out, "%s:%" PRIu64 "\n", inlined->name, total_of(inlined));
     put_body(out, inlined, depth + 1);
@@ -145,12 +159,13 @@ trax_status trax_profile_write_sample(const struct trax_profile *profile, FILE *
       add(&tree, lines, frames, executions[i], place->symbol && place->offset == 0);
     }
   free(executions);
-  for (const struct node *function = tree.functions; !tree.out_of_memory && function; function = function->next) {
+  for (size_t i = 0; !tree.out_of_memory && i < tree.functions.count; i++) {
+    const struct node *function = tree.functions.nodes[i];
     fprintf(out, "%s:%" PRIu64 ":%" PRIu64 "\n", function->name, total_of(function), function->count);
     put_body(out, function, 1);
   }
-  const bool empty = !tree.functions;
-  release(tree.functions);
+  const bool empty = tree.functions.count == 0;
+  release(&tree.functions);
   if (tree.out_of_memory)
     return trax_fail(error, "out of memory for the profile");
   return empty ? trax_fail(error, "the program has no debug information: compile it with -g for a sample profile")

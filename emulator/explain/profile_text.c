@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
 /* Profiles as text: tables by function and line, folded stacks. */
 #include "explain/profile.h"
+#include "explain/texts.h"
 #include "report/statistics.h"
 
 #include <inttypes.h>
@@ -9,7 +10,7 @@
 
 /* A row of a table. */
 struct row {
-  uint32_t name;
+  const char *name;
   struct trax_profile_counts own;  /* of the instructions themselves */
   uint64_t own_cycles, all_cycles; /* all: with functions that are inlined or called */
 };
@@ -55,13 +56,13 @@ static void add_record(struct tables *tables, size_t number) {
     add_frames(tables, profile->contexts[context].index, (uint32_t)number + 1, cycles);
 }
 
-static int by_own(const void *a, const void *b) { /* then by name, whose numbers are deterministic */
+static int by_own(const void *a, const void *b) { /* then by name, not its number, which other reports change */
   const struct row *x = a, *y = b;
   if (x->own_cycles != y->own_cycles)
     return x->own_cycles < y->own_cycles ? 1 : -1;
   if (x->all_cycles != y->all_cycles)
     return x->all_cycles < y->all_cycles ? 1 : -1;
-  return (x->name > y->name) - (x->name < y->name);
+  return strcmp(x->name, y->name);
 }
 
 static void print_head(FILE *out, const struct trax_profile_counts *total) {
@@ -96,7 +97,7 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
   const struct trax_places *places = tables->profile->explain->places;
   const uint64_t total_cycles = trax_profile_cycles(&tables->total);
   for (size_t i = 0; i <= tables->names; i++) {
-    rows[i].name = (uint32_t)i;
+    rows[i].name = i ? trax_places_name(places, (uint32_t)i) : "(no line)";
     rows[i].own_cycles = trax_profile_cycles(&rows[i].own);
   }
   qsort(rows, tables->names + 1, sizeof *rows, by_own);
@@ -107,7 +108,7 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
     if (!row->own_cycles && !row->all_cycles)
       continue;
     print_counts(out, &row->own, row->own_cycles, row->all_cycles, &tables->total);
-    fprintf(out, "  %s\n", row->name ? trax_places_name(places, row->name) : "(no line)");
+    fprintf(out, "  %s\n", row->name);
   }
   print_counts(out, &tables->total, total_cycles, total_cycles, &tables->total);
   fprintf(out, "  total\n");
@@ -154,13 +155,29 @@ trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, tr
 
 /* --- folded stacks --- */
 
-struct stack {
+/* Stacks with equal texts are one: contexts and instructions may differ in their addresses alone. */
+struct folded {
+  const struct trax_profile *profile;
+  struct trax_texts texts;     /* of calls, and of what an instruction adds to them */
+  uint32_t *calls;             /* [contexts]: the text of its calls, the outermost first; of context 0 "" */
+  uint32_t *places;            /* [places]: the instruction's functions and line; 0: not needed yet */
+  struct trax_table stack_of;  /* (calls, place) */
+  struct folded_stack *stacks;
+  size_t count, capacity;
+};
+
+struct folded_stack {
+  uint32_t calls, place;
+  uint64_t cycles[TRAX_CAUSE_COUNT];
+};
+
+struct line {
   char *text;
   uint64_t cycles;
 };
 
 static int by_text(const void *a, const void *b) {
-  return strcmp(((const struct stack *)a)->text, ((const struct stack *)b)->text);
+  return strcmp(((const struct line *)a)->text, ((const struct line *)b)->text);
 }
 
 /* Writes a frame of the stack, without the characters that separate frames and stacks. */
@@ -170,71 +187,94 @@ static void put_frame(FILE *out, const char *name) {
   fputc(';', out);
 }
 
-/* Writes the calls, the outermost first. */
-static void put_calls(const struct trax_profile *profile, uint32_t context, FILE *out) {
-  struct trax_places *places = profile->explain->places;
-  uint32_t path[1024], depth = 0; /* more than profile.c's MAX_DEPTH */
-  for (; context && depth < sizeof path / sizeof *path; context = profile->contexts[context].parent)
-    path[depth++] = profile->contexts[context].index;
-  while (depth) {
-    const struct trax_place *place = trax_places_at(places, path[--depth]);
-    for (uint32_t i = place->frame_count; i--;)
-      put_frame(out, trax_places_name(places, place->frames[i].function));
-  }
-}
-
-static char *stack_text(const struct trax_profile *profile, const struct trax_profile_record *record) {
-  struct trax_places *places = profile->explain->places;
-  const struct trax_place *place = trax_places_at(places, record->index);
+/* Returns the number of a text: `before`, the functions of a place, and its line if that is wanted; 0: out of memory. */
+static uint32_t text_of(struct folded *folded, const char *before, uint32_t index, bool with_line) {
+  struct trax_places *places = folded->profile->explain->places;
+  const struct trax_place *place = trax_places_at(places, index);
   char *text = NULL;
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (!out)
-    return NULL;
-  put_calls(profile, record->context, out);
+    return 0;
+  fputs(before, out);
   for (uint32_t i = place->frame_count; i--;)
     put_frame(out, trax_places_name(places, place->frames[i].function));
-  if (place->frames->line) {
+  if (with_line && place->frames->line) {
     const char *line = trax_places_name(places, place->frames->line), *slash = strrchr(line, '/');
     put_frame(out, slash ? slash + 1 : line);
   }
-  if (fclose(out) != 0) {
-    free(text);
-    return NULL;
+  const uint32_t number = fclose(out) == 0 ? trax_texts_number(&folded->texts, text) : 0;
+  free(text);
+  return number;
+}
+
+static bool add_stack(struct folded *folded, const struct trax_profile_record *record) {
+  uint32_t *place = &folded->places[record->index], number;
+  if (!*place && !(*place = text_of(folded, "", record->index, true)))
+    return false;
+  const uint32_t calls = folded->calls[record->context];
+  if (!trax_table_find(&folded->stack_of, (uint64_t)calls << 32 | *place, (uint32_t)folded->count, &number) ||
+      !trax_grow((void **)&folded->stacks, folded->count, &folded->capacity, sizeof *folded->stacks))
+    return false;
+  if (number == folded->count)
+    folded->stacks[folded->count++] = (struct folded_stack){.calls = calls, .place = *place};
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    folded->stacks[number].cycles[cause] += record->counts.cycles[cause];
+  return true;
+}
+
+static bool fold(struct folded *folded) {
+  const struct trax_profile *profile = folded->profile;
+  folded->calls = calloc(profile->context_count, sizeof *folded->calls);
+  folded->places = calloc((size_t)trax_places_count(profile->explain->places) + 2, sizeof *folded->places);
+  bool complete = folded->calls && folded->places;
+  for (size_t i = 1; complete && i < profile->context_count; i++) { /* a parent precedes its contexts */
+    const struct trax_profile_context *context = &profile->contexts[i];
+    const char *calls = trax_texts_at(&folded->texts, folded->calls[context->parent]);
+    complete = (folded->calls[i] = text_of(folded, calls, context->index, false)) != 0;
   }
-  return text;
+  for (size_t i = 0; complete && i < profile->record_count; i++)
+    complete = add_stack(folded, &profile->records[i]);
+  return complete;
+}
+
+static void put_lines(struct line *lines, size_t count, FILE *out) {
+  qsort(lines, count, sizeof *lines, by_text);
+  for (size_t i = 0; i < count;) { /* a function may be called in one stack and inlined in another */
+    const char *text = lines[i].text;
+    uint64_t cycles = 0;
+    for (; i < count && strcmp(lines[i].text, text) == 0; i++)
+      cycles += lines[i].cycles;
+    fprintf(out, "%s %" PRIu64 "\n", text, cycles);
+  }
 }
 
 trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *out, trax_error *error) {
-  struct stack *stacks = calloc(profile->record_count * TRAX_CAUSE_COUNT + 1, sizeof *stacks);
+  struct folded folded = {.profile = profile};
+  bool complete = fold(&folded);
   size_t count = 0;
-  bool complete = stacks != NULL;
-  for (size_t i = 0; complete && i < profile->record_count; i++) {
-    char *text = stack_text(profile, &profile->records[i]);
-    complete = text != NULL;
+  struct line *lines = complete ? calloc(folded.count * TRAX_CAUSE_COUNT + 1, sizeof *lines) : NULL;
+  complete = lines != NULL;
+  for (size_t i = 0; complete && i < folded.count; i++)
     for (unsigned cause = 0; complete && cause < TRAX_CAUSE_COUNT; cause++)
-      if (profile->records[i].counts.cycles[cause]) {
-        const size_t size = strlen(text) + strlen(trax_cause_names[cause]) + 1;
-        complete = (stacks[count].text = malloc(size)) != NULL;
-        if (!complete)
-          break;
-        snprintf(stacks[count].text, size, "%s%s", text, trax_cause_names[cause]);
-        stacks[count++].cycles = profile->records[i].counts.cycles[cause];
+      if (folded.stacks[i].cycles[cause]) {
+        const char *calls = trax_texts_at(&folded.texts, folded.stacks[i].calls);
+        const char *place = trax_texts_at(&folded.texts, folded.stacks[i].place);
+        const size_t size = strlen(calls) + strlen(place) + strlen(trax_cause_names[cause]) + 1;
+        if ((complete = (lines[count].text = malloc(size)) != NULL)) {
+          snprintf(lines[count].text, size, "%s%s%s", calls, place, trax_cause_names[cause]);
+          lines[count++].cycles = folded.stacks[i].cycles[cause];
+        }
       }
-    free(text);
-  }
-  if (complete) {
-    qsort(stacks, count, sizeof *stacks, by_text);
-    for (size_t i = 0; i < count;) { /* instructions of one line have the same text and are added up */
-      uint64_t cycles = 0;
-      size_t first = i;
-      for (; i < count && strcmp(stacks[i].text, stacks[first].text) == 0; i++)
-        cycles += stacks[i].cycles;
-      fprintf(out, "%s %" PRIu64 "\n", stacks[first].text, cycles);
-    }
-  }
+  if (complete)
+    put_lines(lines, count, out);
   for (size_t i = 0; i < count; i++)
-    free(stacks[i].text);
-  free(stacks);
+    free(lines[i].text);
+  free(lines);
+  free(folded.calls);
+  free(folded.places);
+  free(folded.stacks);
+  trax_table_free(&folded.stack_of);
+  trax_texts_free(&folded.texts);
   return complete ? TRAX_OK : trax_fail(error, "out of memory for the folded profile");
 }

@@ -7,6 +7,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "trax/grow.h"
+
 struct trax_table_entry {
   uint64_t key;
   uint32_t value; /* the number + 1; 0: an empty entry */
@@ -53,22 +55,18 @@ static inline bool trax_table_find(struct trax_table *table, uint64_t key, uint3
   return true;
 }
 
+/* Sets *value to the number of a key; false: the key has none. */
+static inline bool trax_table_has(const struct trax_table *table, uint64_t key, uint32_t *value) {
+  const struct trax_table_entry *entry = table->capacity ? &table->entries[trax_table_slot(table, key)] : NULL;
+  if (!entry || !entry->value)
+    return false;
+  *value = entry->value - 1;
+  return true;
+}
+
 static inline void trax_table_free(struct trax_table *table) {
   free(table->entries);
   *table = (struct trax_table){0};
-}
-
-/* Makes room for one more element than `count`. False: out of memory, and the array is unchanged. */
-static inline bool trax_grow(void **array, size_t count, size_t *capacity, size_t size) {
-  if (count < *capacity)
-    return true;
-  const size_t more = *capacity ? 2 * *capacity : 64;
-  void *grown = realloc(*array, more * size);
-  if (!grown)
-    return false;
-  *array = grown;
-  *capacity = more;
-  return true;
 }
 
 #endif

@@ -78,7 +78,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   trax_machine *machine = trax_machine_create(config, &error);
   if (machine && current && trax_machine_load_elf(machine, "program.elf", &error) == TRAX_OK) {
     sum += look_up_symbols(trax_host_of(machine)->image);
-    if (trax_gdb_write_symbols("program.elf", "/dev/null", &error) == TRAX_ERROR && !error.message[0])
+    if (trax_gdb_write_symbols(machine, "/dev/null", &error) == TRAX_ERROR && !error.message[0])
+      abort();
+    if (strstr(fuzz_case.options, "main-on-0") && trax_machine_main_on_thread_0(machine, &error) == TRAX_ERROR &&
+        !error.message[0])
       abort();
     run(machine, fuzz_case.options, nowhere);
   } else if (machine && current && !error.message[0]) {
@@ -91,6 +94,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 }
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
-  static const char *const words[] = {"functional", NULL};
+  static const char *const words[] = {"functional", "main-on-0", NULL};
   return fuzz_case_mutate(bytes, size, capacity, seed, words);
 }

@@ -265,6 +265,8 @@ static void frame_instruction(struct cursor *cursor) {
 /* Renumbers a CIE; its length and identification have been read. */
 static void common_information(struct cursor *cursor) {
   const uint64_t version = fixed(cursor, 1);
+  if (version != 1 && version != 3 && version != 4)
+    cursor->in.bad = true;
   const uint8_t *augmentation = skip(cursor, 1);
   if (!augmentation || *augmentation) /* our compiler writes no augmentation */
     cursor->in.bad = true;
@@ -282,6 +284,8 @@ bool trax_dwarf_renumber_frames(uint8_t *bytes, size_t size, trax_register_map m
     const uint8_t *at = skip(&cursor, length);
     if (!at)
       break;
+    if (length == 0) /* a terminator: the end of an object's entries, or padding */
+      continue;
     struct cursor entry = {.in = {at, at + length, false}, .map = map};
     if (fixed(&entry, 4) == DW_CIE_ID_32)
       common_information(&entry);

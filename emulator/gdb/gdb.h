@@ -27,6 +27,7 @@ bool trax_gdb_killed(const struct trax_gdb *gdb);
 struct trax_gdb_port {
   int listener, connection; /* file descriptors; -1: none */
   unsigned number;
+  const volatile int *interrupt; /* since trax_gdb_accept */
 };
 
 /* Opens a port; 0 is any free one. port->number receives its number. */
@@ -38,8 +39,8 @@ void trax_gdb_port_close(struct trax_gdb_port *port);
 
 /* --- symbols.c --- */
 
-/* Writes a copy of an executable for a RISC-V debugger, with the machine type of RISC-V and the debugger's register
-   numbers in the debug information (registers.h). */
-trax_status trax_gdb_write_symbols(const char *executable, const char *path, trax_error *error);
+/* Writes a copy of the machine's program for a RISC-V debugger, with the machine type of RISC-V and the debugger's
+   register numbers in the debug information (registers.h). */
+trax_status trax_gdb_write_symbols(const trax_machine *machine, const char *path, trax_error *error);
 
 #endif

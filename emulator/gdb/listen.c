@@ -39,6 +39,7 @@ trax_status trax_gdb_listen(struct trax_gdb_port *port, unsigned number, trax_er
 
 trax_status trax_gdb_accept(struct trax_gdb_port *port, const volatile int *interrupt, trax_error *error) {
   const int yes = 1;
+  port->interrupt = interrupt;
   while (port->connection < 0) {
     struct pollfd wait = {.fd = port->listener, .events = POLLIN};
     if (interrupt && *interrupt) {
@@ -71,9 +72,14 @@ static bool transmit(void *context, const void *bytes, size_t size) {
   const struct trax_gdb_port *port = context;
   const char *next = bytes;
   while (size) {
-    const ssize_t sent = send(port->connection, next, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR)
+    const ssize_t sent = send(port->connection, next, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && (errno == EINTR || errno == EAGAIN)) { /* the debugger does not read */
+      struct pollfd wait = {.fd = port->connection, .events = POLLOUT};
+      if (port->interrupt && *port->interrupt)
+        return false;
+      poll(&wait, 1, POLL_MS);
       continue;
+    }
     if (sent <= 0)
       return false;
     next += sent;

@@ -27,6 +27,8 @@ static void on_issue(void *context, const struct trax_issue *issue) {
     gdb->catch_up--;
   else if (state->stepping && issue->next_pc - gdb->range_begin >= gdb->range_end - gdb->range_begin)
     state->events |= TRAX_GDB_STEPPED;
+  gdb->step_ended |= 
+      state->stepping && trax_text_at(&gdb->run->text, issue->pc)->resource == TRAX_RESOURCE_END;
   if (state->skip_breaks)
     state->skip_breaks--;
   else if (gdb->break_count && trax_gdb_breaks_at(gdb, issue->next_pc))
@@ -148,6 +150,29 @@ static void stop_for_event(struct trax_gdb *gdb) {
     }
 }
 
+/* Returns the thread for which an interrupt is reported: the stepping one, the selected one, or the first live one. */
+static uint32_t some_thread(const struct trax_gdb *gdb) {
+  uint32_t stepping;
+  if (find_stepping(gdb, &stepping) && trax_gdb_is_alive(gdb, stepping))
+    return stepping;
+  if (trax_gdb_is_alive(gdb, gdb->selected))
+    return gdb->selected;
+  for (uint32_t thread = 0; thread < gdb->threads; thread++)
+    if (trax_gdb_is_alive(gdb, thread))
+      return thread;
+  return 0;
+}
+
+/* Reports a stop of another thread if the last stepping one has ended: no other stop may follow. */
+static void stop_for_end(struct trax_gdb *gdb) {
+  const uint32_t other = some_thread(gdb);
+  gdb->step_ended = false;
+  if (!trax_gdb_is_alive(gdb, other) || gdb->thread[other].stepping)
+    return;
+  stop(gdb, other, TRAX_GDB_SIGTRAP, 0);
+  send_stop(gdb);
+}
+
 /* --- resuming --- */
 
 /* Drops the unreported events of a thread that are no longer true. */
@@ -169,7 +194,7 @@ void trax_gdb_resume(struct trax_gdb *gdb, bool named_only) {
   if (!named_only)
     trax_gdb_forget_breaks(gdb);
   gdb->phase = GDB_RUNNING;
-  gdb->eventful = false;
+  gdb->eventful = gdb->step_ended = false;
   for (uint32_t thread = 0; thread < gdb->threads && !gdb->over; thread++)
     review(gdb, thread);
   if (gdb->eventful)
@@ -209,19 +234,6 @@ static void serve_at(struct trax_gdb *gdb, uint64_t t) {
     trax_run_import(gdb->run, t);
 }
 
-/* Returns the thread for which an interrupt is reported: the stepping one, the selected one, or the first live one. */
-static uint32_t some_thread(const struct trax_gdb *gdb) {
-  uint32_t stepping;
-  if (find_stepping(gdb, &stepping) && trax_gdb_is_alive(gdb, stepping))
-    return stepping;
-  if (trax_gdb_is_alive(gdb, gdb->selected))
-    return gdb->selected;
-  for (uint32_t thread = 0; thread < gdb->threads; thread++)
-    if (trax_gdb_is_alive(gdb, thread))
-      return thread;
-  return 0;
-}
-
 /* Whether the debugger interrupts the running program, which is all that it may do. */
 static bool wants_stop(struct trax_gdb *gdb) {
   const enum trax_gdb_event event = trax_gdb_receive(&gdb->wire, 0);
@@ -247,11 +259,15 @@ static void stop_if_due(struct trax_gdb *gdb, uint64_t t) {
     gdb->listen_at = t + LISTEN_CYCLES;
     interrupted = wants_stop(gdb);
   }
-  if (!gdb->eventful && !interrupted)
+  if (gdb->atomic_count)
+    trax_gdb_note_changes(gdb);
+  if (!gdb->eventful && !interrupted && !gdb->step_ended)
     return;
   trax_run_export(gdb->run);
   if (gdb->eventful) {
     stop_for_event(gdb);
+  } else if (gdb->step_ended) {
+    stop_for_end(gdb);
   } else {
     stop(gdb, some_thread(gdb), TRAX_GDB_SIGINT, 0);
     send_stop(gdb);

@@ -41,11 +41,13 @@ struct trax_gdb_watch {
   char type; /* 2 write, 3 read, 4 access, as in the packet */
   uint32_t address, bytes;
   uint32_t thread; /* the thread to whose local memory the address refers */
+  bool removed;    /* since the run was last resumed. GDB removes and inserts at each stop: the thread stays the same */
 };
 
-/* An issued atomic increment of a watched word that has not arrived. */
+/* An issued atomic increment of a watched word that has not arrived. With rd r0 no arrival is notified; the word has
+   changed from `before` then. */
 struct trax_gdb_atomic {
-  uint32_t thread, rd, address;
+  uint32_t thread, rd, address, before;
 };
 
 struct trax_gdb {
@@ -73,7 +75,7 @@ struct trax_gdb {
   uint32_t listed;                /* the next thread of a list that is sent in parts */
   char reason[160];               /* the packet of the latest stop */
 
-  struct trax_gdb_break breaks[TRAX_GDB_BREAKS];
+  struct trax_gdb_break breaks[TRAX_GDB_BREAKS]; /* in the order of addresses */
   uint32_t break_count;
   struct trax_gdb_watch watches[TRAX_GDB_WATCHES];
   uint32_t watch_count;
@@ -83,6 +85,7 @@ struct trax_gdb {
   unsigned catch_up; /* instructions that the thread must really issue before its next step counts */
   bool step_first;   /* no other thread's event counts before the thread has stepped */
   bool eventful;     /* some thread has an event */
+  bool step_ended;   /* a stepping thread has ended */
   uint32_t range_begin, range_end;
   struct trax_gdb_atomic *atomics; /* [threads * TRAX_NUM_REGISTERS] */
   uint32_t atomic_count;
@@ -110,6 +113,8 @@ const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32
 /* Adds the events of watchpoints that an issue or the arrival of an atomic increment hits. */
 void trax_gdb_note_access(struct trax_gdb *gdb, uint32_t thread, const struct trax_issue *issue);
 void trax_gdb_note_arrival(struct trax_gdb *gdb, uint32_t thread, uint32_t rd);
+/* The same for increments whose arrival is not notified. */
+void trax_gdb_note_changes(struct trax_gdb *gdb);
 
 /* --- predict.c --- */
 /* Predicts the thread's pc after its next instructions, as far as it depends on the thread alone. */

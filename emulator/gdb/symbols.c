@@ -2,7 +2,7 @@
 #include "gdb/dwarf_registers.h"
 #include "gdb/gdb.h"
 #include "gdb/registers.h"
-#include "program/image.h"
+#include "program/program.h"
 #include "trax/output.h"
 
 #include <dwarf.h>
@@ -15,6 +15,7 @@ struct copy {
   uint8_t *bytes;
   size_t size;
   uint8_t map[TRAX_NUM_REGISTERS]; /* to the debugger's numbers */
+  bool has_units;
 };
 
 static trax_status fail(const struct copy *copy, const char *what, trax_error *error) {
@@ -23,10 +24,33 @@ static trax_status fail(const struct copy *copy, const char *what, trax_error *e
 
 /* --- expressions in .debug_info --- */
 
+/* What renumber_attribute is called for. */
+struct entry {
+  const struct copy *copy;
+  Dwarf_Half version; /* of the unit */
+};
+
+/* Whether a value is an expression. Before DWARF 4 these were blocks, as some constants and lists still are. */
+static bool is_expression(Dwarf_Attribute *attribute, Dwarf_Half version) {
+  const unsigned name = dwarf_whatattr(attribute);
+  switch (dwarf_whatform(attribute)) {
+  case DW_FORM_exprloc:
+    return true;
+  case DW_FORM_block:
+  case DW_FORM_block1:
+  case DW_FORM_block2:
+  case DW_FORM_block4:
+    return version < 4 && name != DW_AT_const_value && name != DW_AT_discr_list;
+  default:
+    return false;
+  }
+}
+
 static int renumber_attribute(Dwarf_Attribute *attribute, void *context) {
-  const struct copy *copy = context;
+  const struct entry *entry = context;
+  const struct copy *copy = entry->copy;
   Dwarf_Block block;
-  if (dwarf_whatform(attribute) != DW_FORM_exprloc)
+  if (!is_expression(attribute, entry->version))
     return DWARF_CB_OK;
   if (dwarf_formblock(attribute, &block) != 0)
     return DWARF_CB_ABORT;
@@ -39,56 +63,90 @@ static int renumber_attribute(Dwarf_Attribute *attribute, void *context) {
 
 enum { MAX_DEPTH = 256 }; /* of nested entries */
 
-/* Renumbers an entry and its children. In damaged information, offsets that do not increase could form a cycle. */
-static bool renumber_entry(Dwarf_Die *entry, struct copy *copy, unsigned depth) {
+/* Renumbers an entry and its children. Offsets must increase: in damaged information an entry could be visited twice.
+   *last is that of the entry before. */
+static bool renumber_entry(Dwarf_Die *die, struct entry *entry, Dwarf_Off *last, unsigned depth) {
   Dwarf_Die child;
-  if (depth == MAX_DEPTH || dwarf_getattrs(entry, renumber_attribute, copy, 0) != 1)
+  if (depth == MAX_DEPTH || (depth && dwarf_dieoffset(die) <= *last))
     return false;
-  Dwarf_Off last = dwarf_dieoffset(entry);
-  int more = dwarf_child(entry, &child);
-  for (; more == 0; more = dwarf_siblingof(&child, &child)) {
-    const Dwarf_Off offset = dwarf_dieoffset(&child);
-    if (offset <= last || !renumber_entry(&child, copy, depth + 1))
+  *last = dwarf_dieoffset(die);
+  if (dwarf_getattrs(die, renumber_attribute, entry, 0) != 1)
+    return false;
+  int more = dwarf_child(die, &child);
+  for (; more == 0; more = dwarf_siblingof(&child, &child))
+    if (!renumber_entry(&child, entry, last, depth + 1))
       return false;
-    last = offset;
-  }
   return more == 1;
 }
 
-static bool renumber_units(Elf *elf, struct copy *copy) {
+/* Whether a unit's entries are in another file, which stays as it is (-gsplit-dwarf). */
+static bool is_split(Dwarf_Die *unit, uint8_t type) {
+  Dwarf_Attribute attribute;
+  return type == DW_UT_skeleton || dwarf_attr(unit, DW_AT_GNU_dwo_name, &attribute);
+}
+
+static trax_status renumber_units(Elf *elf, struct copy *copy, trax_error *error) {
   Dwarf *dwarf = dwarf_begin_elf(elf, DWARF_C_READ, NULL);
   if (!dwarf)
-    return true; /* no debug information */
+    return fail(copy, ".debug_info", error);
+  struct entry entry = {.copy = copy};
   Dwarf_CU *unit = NULL;
   Dwarf_Die root;
-  bool good = true;
+  Dwarf_Off last = 0;
+  uint8_t type;
+  bool good = true, split = false;
   int more;
-  while (good && (more = dwarf_get_units(dwarf, unit, &unit, NULL, NULL, &root, NULL)) == 0)
-    good = renumber_entry(&root, copy, 0);
+  while (good && (more = dwarf_get_units(dwarf, unit, &unit, &entry.version, &type, &root, NULL)) == 0) {
+    split = split || is_split(&root, type);
+    good = !split && renumber_entry(&root, &entry, &last, 0);
+  }
   dwarf_end(dwarf);
-  return good && more == 1;
+  if (split)
+    return trax_fail(error, "%s: its debug information is in other files: compile it without -gsplit-dwarf",
+                     copy->path);
+  return good && more == 1 ? TRAX_OK : fail(copy, ".debug_info", error);
 }
 
 /* --- other sections --- */
 
-static trax_status renumber_sections(Elf *elf, struct copy *copy, trax_error *error) {
+static trax_status renumber_section(struct copy *copy, const Elf32_Shdr *header, const char *name, trax_error *error) {
   static const struct {
     const char *name;
     bool (*renumber)(uint8_t *bytes, size_t size, trax_register_map map);
   } kinds[] = {{".debug_frame", trax_dwarf_renumber_frames},
                {".debug_loc", trax_dwarf_renumber_locations},
                {".debug_loclists", trax_dwarf_renumber_lists}};
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+    if (strcmp(name, kinds[i].name) == 0 && /* image.c has checked its range */
+        !kinds[i].renumber(copy->bytes + header->sh_offset, header->sh_size, copy->map))
+      return fail(copy, name, error);
+  return TRAX_OK;
+}
+
+/* Calls visit for each section of debug information. */
+static trax_status visit_sections(Elf *elf, struct copy *copy,
+                                  trax_status (*visit)(struct copy *copy, const Elf32_Shdr *header, const char *name,
+                                                       trax_error *error),
+                                  trax_error *error) {
   size_t names;
+  trax_status status = TRAX_OK;
   if (elf_getshdrstrndx(elf, &names) != 0)
     return TRAX_OK;
-  for (Elf_Scn *section = NULL; (section = elf_nextscn(elf, section));) {
+  for (Elf_Scn *section = NULL; status == TRAX_OK && (section = elf_nextscn(elf, section));) {
     const Elf32_Shdr *header = elf32_getshdr(section);
     const char *name = header ? elf_strptr(elf, names, header->sh_name) : NULL;
-    for (size_t i = 0; name && header->sh_type != SHT_NOBITS && i < sizeof kinds / sizeof *kinds; i++)
-      if (strcmp(name, kinds[i].name) == 0 &&
-          !kinds[i].renumber(copy->bytes + header->sh_offset, header->sh_size, copy->map))
-        return fail(copy, name, error);
+    if (name && header->sh_type != SHT_NOBITS &&
+        (strncmp(name, ".debug_", 7) == 0 || strncmp(name, ".zdebug_", 8) == 0))
+      status = visit(copy, header, name, error);
   }
+  return status;
+}
+
+/* Notes whether there are units. Packed sections cannot be changed in place. */
+static trax_status check_section(struct copy *copy, const Elf32_Shdr *header, const char *name, trax_error *error) {
+  if (header->sh_flags & SHF_COMPRESSED || name[1] == 'z')
+    return trax_fail(error, "%s: %s is compressed: link it without --compress-debug-sections", copy->path, name);
+  copy->has_units |= (strcmp(name, ".debug_info") == 0 || strcmp(name, ".debug_types") == 0) && header->sh_size;
   return TRAX_OK;
 }
 
@@ -101,30 +159,29 @@ static trax_status renumber(struct copy *copy, trax_error *error) {
   Elf *elf = elf_memory((char *)copy->bytes, copy->size);
   if (!elf)
     return trax_fail(error, "%s: %s", copy->path, elf_errmsg(-1));
-  trax_status status = TRAX_OK;
-  if (!renumber_units(elf, copy)) /* precedes the change of location lists, which libdw may read */
-    status = fail(copy, ".debug_info", error);
+  trax_status status = visit_sections(elf, copy, check_section, error);
+  if (status == TRAX_OK && copy->has_units) /* precedes the change of location lists, which libdw may read */
+    status = renumber_units(elf, copy, error);
   if (status == TRAX_OK)
-    status = renumber_sections(elf, copy, error);
+    status = visit_sections(elf, copy, renumber_section, error);
   elf_end(elf);
   return status;
 }
 
-trax_status trax_gdb_write_symbols(const char *executable, const char *path, trax_error *error) {
-  struct copy copy = {.path = executable};
-  trax_image *image = trax_image_open(executable, error); /* checks the headers */
-  if (!image)
-    return TRAX_ERROR;
-  trax_image_close(image);
-  if (trax_image_read(executable, &copy.bytes, &copy.size, error) != TRAX_OK)
-    return TRAX_ERROR;
+trax_status trax_gdb_write_symbols(const trax_machine *machine, const char *path, trax_error *error) {
+  const struct trax_host *host = trax_host_of(machine);
+  struct copy copy = {.path = trax_image_path(host->image)};
+  const uint8_t *bytes = trax_image_bytes(host->image, &copy.size);
+  if (!(copy.bytes = malloc(copy.size)))
+    return trax_fail(error, "%s: out of memory", copy.path);
+  memcpy(copy.bytes, bytes, copy.size);
   trax_output output;
   trax_status status = renumber(&copy, error);
   if (status == TRAX_OK)
     status = trax_output_open(&output, path, error);
   if (status == TRAX_OK) {
-    const uint16_t machine = EM_RISCV;
-    memcpy(copy.bytes + offsetof(Elf32_Ehdr, e_machine), &machine, sizeof machine);
+    const uint16_t riscv = EM_RISCV;
+    memcpy(copy.bytes + offsetof(Elf32_Ehdr, e_machine), &riscv, sizeof riscv);
     fwrite(copy.bytes, 1, copy.size, output.file); /* trax_output_commit reports a failure */
     status = trax_output_commit(&output, error);
   }

@@ -60,11 +60,16 @@ static bool take_checksum(struct trax_gdb_wire *wire, uint8_t byte) {
     return false;
   }
   wire->state = WIRE_IDLE;
-  const bool right = digit >= 0 && wire->sum == wire->announced + digit && !wire->too_long;
+  const bool right = digit >= 0 && wire->sum == wire->announced + digit;
   if (!wire->no_acknowledgement)
     transmit(wire, right ? "+" : "-", 1);
   wire->packet[wire->length] = 0;
-  return right;
+  if (right && wire->too_long) { /* the debugger would wait for a reply, or send the packet for ever */
+    trax_gdb_begin(wire);
+    trax_gdb_add(wire, "E%02x", TRAX_GDB_TOO_LONG);
+    trax_gdb_send(wire);
+  }
+  return right && !wire->too_long;
 }
 
 static enum trax_gdb_event take(struct trax_gdb_wire *wire, uint8_t byte) {

@@ -215,11 +215,6 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   return result;
 }
 
-/* Writes the file of --gdb-symbols. To be called after the program has been loaded, and so checked. */
-static trax_status write_symbols(const struct trax_options *options, trax_error *error) {
-  return options->gdb_symbols ? trax_gdb_write_symbols(options->program, options->gdb_symbols, error) : TRAX_OK;
-}
-
 static trax_status end_explanation(struct trax_shown *shown, trax_machine *machine, struct trax_explain *explain,
                                    trax_error *error) {
   trax_status status = explain ? trax_shown_give(shown, machine, explain, error) : TRAX_OK;
@@ -229,6 +224,10 @@ static trax_status end_explanation(struct trax_shown *shown, trax_machine *machi
     trax_explain_discard(explain);
   trax_shown_release(shown);
   return status;
+}
+
+static void note(const char *text) {
+  trax_message("trax-sim", TRAX_MESSAGE_NOTE, "%s", text);
 }
 
 static int simulate(const trax_config *config, const struct trax_options *options) {
@@ -241,13 +240,14 @@ static int simulate(const trax_config *config, const struct trax_options *option
     return complain(&error);
   struct trax_explain *explain = NULL;
   trax_status status = load(machine, options, &error);
-  if (status == TRAX_OK)
-    status = write_symbols(options, &error);
+  if (status == TRAX_OK && options->gdb_symbols)
+    status = trax_gdb_write_symbols(machine, options->gdb_symbols, &error);
   if (status == TRAX_OK && options->gdb_symbols && !options->gdb) {
     trax_machine_destroy(machine);
     return EXIT_SUCCESS;
   }
   struct trax_explain_options wanted = options->explain;
+  wanted.note = options->quiet ? NULL : note;
   struct trax_shown shown = {0};
   if (status == TRAX_OK)
     status = trax_shown_find(&shown, &wanted, options, machine, &error);

@@ -141,6 +141,14 @@ static trax_status parse_list(void *target, const trax_option *option, const cha
   }
 }
 
+static trax_status parse_source_folder(void *target, const trax_option *option, const char *value,
+                                       trax_error *error) {
+  trax_error reason;
+  return trax_explain_add_source_folder(&((struct trax_options *)target)->explain, value, &reason) == TRAX_OK
+             ? TRAX_OK
+             : trax_fail(error, "--%s: %s", option->name, reason.message);
+}
+
 static trax_status parse_gdb(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_options *options = target;
   options->gdb = true;
@@ -195,6 +203,8 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Explanations of a run"),
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore),
      .meaning = "one page that explains the whole run, for a browser"},
+    {"source-folder", .argument = "DIR", .parse = parse_source_folder,
+     .meaning = "let the page contain sources in DIR, besides those of the program's own folder (repeatable)"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
     {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),
      .meaning = "thread-cycles by call stack, for flame graphs"},
@@ -270,7 +280,7 @@ static const trax_command command = {
     .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
              "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report "
              "nothing but\n"
-             "the program's output is printed; faults and errors go to standard error.",
+             "the program's output is printed; faults, errors and which sources a page contains go to standard error.",
     .column = 27};
 
 /* --- rules about several options --- */
@@ -313,6 +323,8 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
     return trax_fail(error, "--series-interval without --series");
   if (explain->memory_trace_format && !explain->memory_trace)
     return trax_fail(error, "--memory-trace-format without --memory-trace");
+  if (explain->source_folder_count && !explain->explore)
+    return trax_fail(error, "--source-folder without --explore");
   if (explain->item_buffer && !explain->items && !explain->explore)
     return trax_fail(error, "--item-buffer without --items or --explore");
   return TRAX_OK;

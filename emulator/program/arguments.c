@@ -46,17 +46,28 @@ trax_status trax_host_name_program(struct trax_machine *machine, trax_error *err
   return trax_machine_set_arguments(machine, &name, 1, error);
 }
 
+/* Whether an instruction lies at an address. A symbol table may name any other. */
+static bool is_text(const struct trax_machine *machine, uint32_t pc) {
+  for (size_t i = 0; i < machine->space.segment_count; i++) {
+    const struct trax_segment *segment = &machine->space.segments[i];
+    if (segment->permissions & TRAX_PERMIT_EXECUTE && pc % 4 == 0 && pc >= segment->address &&
+        pc - segment->address < segment->bytes / 4 * 4)
+      return true;
+  }
+  return false;
+}
+
 /* Finds the instruction behind the start code's call of main, where a thread ends. */
 static bool find_end(const struct trax_machine *machine, uint32_t *end) {
   const trax_image *image = trax_host_of(machine)->image;
   const struct trax_symbol *start = trax_image_symbol(image, "_start"), *main = trax_image_symbol(image, "main");
   if (!start || !main || start->address != machine->entry)
     return false;
-  for (uint32_t pc = start->address; pc < start->address + start->bytes; pc += 4) {
+  for (uint32_t pc = start->address; pc - start->address < start->bytes && is_text(machine, pc); pc += 4) {
     uint32_t word;
     memcpy(&word, machine->space.bytes + pc, sizeof word);
     const trax_inst inst = trax_decode(word);
-    if (inst.op == TRAX_OP_JAL && pc + (uint32_t)inst.imm == main->address) {
+    if (inst.op == TRAX_OP_JAL && pc + (uint32_t)inst.imm == main->address && is_text(machine, pc + 4)) {
       *end = pc + 4;
       return true;
     }
@@ -75,6 +86,9 @@ trax_status trax_machine_main_on_thread_0(trax_machine *machine, trax_error *err
     if (!waiting)
       return TRAX_ERROR;
     trax_host_store_word(machine, waiting->address, (uint32_t)machine->stats.threads - 1);
+    if (!is_text(machine, others->address))
+      return trax_fail(error, "%s: its start code for other threads is at 0x%08x, where no instruction is",
+                       trax_image_path(host->image), others->address);
     entry = others->address;
   } else if (!find_end(machine, &entry)) {
     return trax_fail(error,

@@ -255,7 +255,7 @@ static trax_status read_symbols(trax_image *image, const Elf32_Ehdr *header, tra
     if (section->sh_type == SHT_SYMTAB && add_symbols(image, i, section, header->e_shnum, error) != TRAX_OK)
       return TRAX_ERROR;
   }
-  return TRAX_OK;
+  return trax_image_order_symbols(image) ? TRAX_OK : trax_fail(error, "%s: out of memory", image->path);
 }
 
 /* The limit of an executable's size: initialised data for all of memory, and as much debug information. */
@@ -367,6 +367,7 @@ void trax_image_close(trax_image *image) {
   trax_image_forget_lines(image);
   elf_end(image->elf);
   free(image->symbols);
+  free(image->names);
   free(image->segments);
   free(image->bytes);
   free(image->path);
@@ -405,38 +406,4 @@ const struct trax_symbol *trax_image_symbol(const trax_image *image, const char 
         found = &image->symbols[i];
     }
   return found;
-}
-
-/* Whether symbol a describes an address better than b, both of which start at or below it: the nearer start is better,
-   then a function or object with a size than a label, then a global symbol than a local one. */
-static bool names_better(const struct trax_symbol *a, const struct trax_symbol *b) {
-  if (a->address != b->address)
-    return a->address > b->address;
-  bool sized_a = a->type != TRAX_SYMBOL_PLAIN && a->bytes, sized_b = b->type != TRAX_SYMBOL_PLAIN && b->bytes;
-  if (sized_a != sized_b)
-    return sized_a;
-  return a->global && !b->global;
-}
-
-const struct trax_symbol *trax_image_symbol_at(const trax_image *image, uint32_t address) {
-  const struct trax_load_segment *segment = NULL;
-  for (size_t i = 0; i < image->segment_count; ++i)
-    if (address >= image->segments[i].address && address - image->segments[i].address < image->segments[i].memory_bytes)
-      segment = &image->segments[i];
-  const struct trax_symbol *best = NULL;
-  for (size_t i = 0; i < image->symbol_count; ++i) {
-    const struct trax_symbol *symbol = &image->symbols[i];
-    bool is_thread_local = symbol->type == TRAX_SYMBOL_THREAD_LOCAL;
-    if (is_thread_local && symbol->address < TRAX_LOCAL_BASE) /* other linkers write an offset, not an address */
-      continue;
-    if (symbol->absolute || address < symbol->address || strncmp(symbol->name, ".L", 2) == 0 ||
-        (symbol->bytes && address - symbol->address >= symbol->bytes))
-      continue;
-    /* A label without a size covers the addresses after it in its segment. */
-    if (!symbol->bytes && (is_thread_local || !segment || symbol->address < segment->address))
-      continue;
-    if (!best || names_better(symbol, best))
-      best = symbol;
-  }
-  return best;
 }

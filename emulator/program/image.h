@@ -60,6 +60,10 @@ struct trax_source_line {
    valid as long as the image. */
 size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line *lines, size_t capacity);
 
+/* Returns how many compilation folders the debug information names, and sets *folders to them. They are as it says, and
+   valid as long as the image. */
+size_t trax_image_folders(trax_image *image, const char *const **folders);
+
 /* Reads an executable up to the end that its headers give, so that a device that never ends is not read for ever.
    *bytes is from malloc. Only trax_image_open checks the contents. */
 trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, trax_error *error);

@@ -17,10 +17,17 @@ struct trax_image {
   size_t segment_count;
   struct trax_symbol *symbols;
   size_t symbol_count;
+  struct trax_name_range *names; /* in the order of addresses; symbols.c */
+  size_t name_count;
   Dwarf *dwarf;     /* opened by the first look-up; NULL: none */
   bool dwarf_tried; /* the first look-up has been made */
+  struct trax_scopes *scopes; /* of dwarf, in lines.c; NULL: none */
 };
 
+/* Makes `names` of the symbols and segments. False: out of memory. */
+bool trax_image_order_symbols(trax_image *image);
+/* Opens the debug information at the first call. NULL: there is none. */
+Dwarf *trax_image_dwarf(trax_image *image);
 void trax_image_forget_lines(trax_image *image);
 
 #endif

@@ -6,14 +6,6 @@
 #include "program/image_internal.h"
 #include "program/program.h"
 
-static Dwarf *dwarf_of(trax_image *image) {
-  if (!image->dwarf_tried) {
-    image->dwarf_tried = true;
-    image->dwarf = dwarf_begin_elf(image->elf, DWARF_C_READ, NULL);
-  }
-  return image->dwarf;
-}
-
 /* Whether a variable is a struct trax_buffer. */
 static bool is_buffer_type(Dwarf_Die *variable) {
   Dwarf_Attribute attribute;
@@ -62,7 +54,7 @@ const char *trax_host_unbound(const struct trax_machine *machine, size_t *from) 
     for (size_t i = 0; i < host->buffer_count; i++)
       bound |= strcmp(host->buffers[i].symbol, symbol->name) == 0;
     if (!bound && may_be_buffer(machine, symbol) &&
-        (!find_variable(dwarf_of(host->image), symbol->name, &variable) || is_buffer_type(&variable)))
+        (!find_variable(trax_image_dwarf(host->image), symbol->name, &variable) || is_buffer_type(&variable)))
       return symbol->name;
   }
   return NULL;

@@ -70,6 +70,8 @@ static bool read_common(trax_dwarf_reader section, uint32_t offset, struct frame
   if (cie.bad || trax_dwarf_fixed(&cie, 4) != DW_CIE_ID_32)
     return false;
   const uint32_t version = trax_dwarf_fixed(&cie, 1);
+  if (version != 1 && version != 3 && version != 4)
+    return false;
   if (trax_dwarf_fixed(&cie, 1) != 0) /* an augmentation, which our compiler does not write */
     return false;
   if (version >= 4)
@@ -88,6 +90,10 @@ static bool find_entry(const trax_image *image, uint32_t pc, struct frame_entry 
   whole = section;
   while (section.at < section.end) {
     trax_dwarf_reader fde = take_entry(&section);
+    if (fde.bad)
+      return false;
+    if (fde.at == fde.end) /* a terminator: the end of an object's entries, or padding */
+      continue;
     const uint32_t common = trax_dwarf_fixed(&fde, 4);
     if (fde.bad)
       return false;

@@ -78,6 +78,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --source are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values && !options->show)
     return trax_fail(error, "--cost without --cost-picture, --cost-values or --show");
+  if (options->explain.source_folder_count && !options->explain.explore)
+    return trax_fail(error, "--source-folder without --explore");
   if (options->explain.memory_trace_format && !options->explain.memory_trace)
     return trax_fail(error, "--memory-trace-format without --memory-trace");
   if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||

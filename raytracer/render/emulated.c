@@ -212,6 +212,10 @@ static void show_run(void *context, const trax_progress *status) {
     live_show(run->live, image);
 }
 
+static void print_note(const char *text) {
+  trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", text);
+}
+
 /* One picture by one program. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_view *view,
@@ -231,7 +235,9 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     struct trax_costs costs = {0};
     struct shown_run shown = {{.line = progress, .step = "rendering"}, options->sampled ? NULL : live, machine};
     char title[512];
-    struct trax_simulated_options run = {.explain = &options->explain,
+    struct trax_explain_options explain = options->explain;
+    explain.note = options->quiet ? NULL : print_note;
+    struct trax_simulated_options run = {.explain = &explain,
                                          .title = describe(title, sizeof title, options, frame),
                                          .is_twin = !options->program && !options->source,
                                          .run = {.output = stderr,

@@ -110,6 +110,8 @@ static const trax_option rows[] = {
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
+    {"source-folder", .argument = "DIR", PARSED(take_source_folder, explain),
+     .meaning = "lets that page contain sources in DIR, besides those of trax and of --source (repeatable)"},
     {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
      .meaning = "every ray with what it found, by the native twin; CSV for FILE.csv, else binary; without\n"
                 "-o nothing is rendered"},
@@ -213,7 +215,12 @@ trax_parsed options_parse(struct options *options, int argc, char **argv, trax_e
   options->mesh_count = (size_t)argc;
   options->frame.smooth = options->build.smooth;
   options->frame.floats = options->frame.floats || (options->output && trax_picture_is_float(options->output));
-  return options_check(options, error) == TRAX_OK ? TRAX_PARSED_RUN : TRAX_PARSED_WRONG;
+  if (options_check(options, error) != TRAX_OK)
+    return TRAX_PARSED_WRONG;
+  if (options->explain.explore && options->source)
+    return trax_explain_add_source_folder(&options->explain, options->source, error) == TRAX_OK ? TRAX_PARSED_RUN
+                                                                                                : TRAX_PARSED_WRONG;
+  return TRAX_PARSED_RUN;
 }
 
 void options_release(struct options *options) {

@@ -130,6 +130,13 @@ trax_status take_setting(void *target, const trax_option *option, const char *va
   return TRAX_OK;
 }
 
+trax_status take_source_folder(void *target, const trax_option *option, const char *value, trax_error *error) {
+  trax_error reason;
+  return trax_explain_add_source_folder(member(target, option), value, &reason) == TRAX_OK
+             ? TRAX_OK
+             : trax_fail(error, "--%s: %s", option->name, reason.message);
+}
+
 trax_status take_cost(void *target, const trax_option *option, const char *value, trax_error *error) {
   unsigned what;
   *(const char **)member(target, option) = value;

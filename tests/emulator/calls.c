@@ -3,7 +3,7 @@
 #include <trax.h>
 
 struct trax_buffer results;
-unsigned next;
+unsigned next[2]; /* two queues, of the even and of the odd items; a TM begins with its own */
 volatile float divisor = 3;
 volatile unsigned table[256];
 
@@ -47,12 +47,13 @@ __attribute__((noinline)) unsigned catcher(unsigned x) {
 static unsigned (*volatile pointer)(unsigned) = divide;
 
 int main(void) {
-  unsigned *out = results.data, slot;
-  while ((slot = trax_atomic_inc(&next)) < results.size / 4) {
-    unsigned value = tail(slot) + recursive(slot & 3) + catcher(slot) + pointer(slot);
-    table[slot & 255] = value;
-    trax_store_nt(&out[slot], value);
-    trax_count_items(1);
-  }
+  unsigned *out = results.data, slot, queue = trax_tm();
+  for (unsigned tried = 0; tried < 2; tried++, queue ^= 1)
+    while ((slot = 2 * trax_atomic_inc(&next[queue]) + queue) < results.size / 4) {
+      unsigned value = tail(slot) + recursive(slot & 3) + catcher(slot) + pointer(slot);
+      table[slot & 255] = value;
+      trax_store_nt(&out[slot], value);
+      trax_count_items(1);
+    }
   return 0;
 }

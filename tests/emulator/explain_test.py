@@ -137,7 +137,7 @@ def check_folded(directory, stats):
     equal(recursive[0], "_start;main;recursive")
     check("_start;main;recursive;recursive" in recursive, "recursion is deeper:", recursive)
     equal({stack for stack in stacks if "recursive" not in stack},
-          {"_start", "_start;main", "_start;main;trax_atomic_inc", "_start;main;trax_store_nt",
+          {"_start", "_start;main", "_start;main;trax_tm", "_start;main;trax_atomic_inc", "_start;main;trax_store_nt",
            "_start;main;trax_count_items", "_start;main;tail", "_start;main;last",  # by a tail call: main called it
            "_start;main;last;leaf", "_start;main;last;inlined", "_start;main;divide", "_start;main;catcher",
            "_start;main;catcher;setjmp", "_start;main;catcher;thrower", "_start;main;catcher;thrower;leaf",
@@ -237,8 +237,8 @@ def check_series(directory, stats):
 
 
 def check_lockstep(directory):
-    """Warps of the items that the trace shows, stepped instruction by instruction."""
-    streams, numbers, items = collections.defaultdict(list), {}, []
+    """Warps of the items that the trace shows, stepped instruction by instruction. A queue is the address of the increments that take its items."""
+    streams, numbers, queues, items = collections.defaultdict(list), {}, {}, []
     for line in read(directory, "trace").splitlines()[1:]:
         match = re.match(r" *\d+ +(\d+) +\S+ +(\w+) ", line)
         thread = match[1]
@@ -246,10 +246,13 @@ def check_lockstep(directory):
             numbers[thread] = int(re.search(r"r\d+=(\w{8})$", line)[1], 16)
             continue
         streams[thread].append(int(match[2], 16))
+        if re.search(r"  ainc ", line):
+            queues[thread] = int(re.search(r"\[(\w+)\]", line)[1], 16)
         if re.search(r"  trap r\d+, items", line):
-            items.append((numbers[thread], streams.pop(thread)))
-    equal(sorted(number for number, _ in items), list(range(RESULTS)), "numbers of the items")
-    ordered = [stream for _, stream in sorted(items)]
+            items.append((queues[thread], numbers[thread], streams.pop(thread)))
+    equal(len({queue for queue, _, _ in items}), 2, "queues")
+    equal(sorted(number for _, number, _ in items), sorted(2 * list(range(RESULTS // 2))), "numbers of the items")
+    ordered = [stream for _, _, stream in sorted(items)]
     for row in rows(directory, "lockstep"):
         width, slots, longest = int(row["width"]), 0, 0
         for first in range(0, len(ordered), width):

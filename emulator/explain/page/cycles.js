@@ -100,7 +100,7 @@ function drawTime({ stats, causes, series }) {
   const choice = byId("time-tm");
   choice.append(element("option", { value: "all" }, "all"), ...stats.tms.map(({ tm }) => element("option", { value: tm }, `TM ${tm}`)));
   const draw = () => {
-    const all = choice.value === "all", rows = series.filter((row) => String(row.tm) === choice.value), end = rows.at(-1).end;
+    const all = choice.value === "all", rows = series.filter((row) => String(row.tm) === choice.value), end = rows.at(-1)?.end ?? 0;
     const threads = all ? stats.threads : stats.configuration.chip.tps_per_tm, share = (row, cause) => 100 * row[cause] / (threads * (row.end - row.begin));
     byId("time-interval").textContent = `in intervals of ${whole(rows[0].end - rows[0].begin)} cycles`;
     byId("time-causes").replaceChildren();

@@ -13,12 +13,12 @@ async function unpack(id) {
 
 // A table as --heat and the like write it: rows as objects; what is a number becomes one.
 function rowsOf(csv) {
-  const lines = csv.trim().split("\n"), heads = lines[0].split(",");
+  const lines = csv.trim().match(/([^"\n]|"([^"]|"")*")+/g), heads = lines[0].split(","); // a quoted name may have any character
   return lines.slice(1).map((line) => {
-    const cells = line.match(/("[^"]*"|[^,]*)(,|$)/g).map((cell) => cell.replace(/,$/, ""));
+    const cells = line.match(/("([^"]|"")*"|[^,]*)(,|$)/g).map((cell) => cell.replace(/,$/, ""));
     return Object.fromEntries(heads.map((head, i) => {
       const cell = cells[i] ?? "";
-      return [head, cell !== "" && !cell.startsWith("\"") && !Number.isNaN(Number(cell)) && !cell.startsWith("0x") ? Number(cell) : cell.replace(/"/g, "")];
+      return [head, cell !== "" && !cell.startsWith("\"") && !Number.isNaN(Number(cell)) && !cell.startsWith("0x") ? Number(cell) : cell.replace(/^"|"$/g, "").replace(/""/g, "\"")];
     }));
   });
 }

@@ -83,11 +83,12 @@ function drawPicture({ stats, run, causes, columns }) {
   const story = (i) => {
     const place = `(${i % width}, ${Math.floor(i / width)})`, thread = columns.thread.values[i] - 1;
     if (thread < 0) { byId("story").replaceChildren(element("h3", {}, `Pixel ${place}`), element("p", {}, "The run ended before this pixel.")); return; }
-    const tps = stats.configuration.chip.tps_per_tm, begin = columns.begin ? columns.begin.values[i] : 0;
+    const tps = stats.configuration.chip.tps_per_tm, begin = columns.begin ? columns.begin.values[i] : 0, more = columns.more ? columns.more.values[i] : 0;
     const facts = [`${whole(cycles[i])} cycles`, beyond(costs, cycles[i]) * pixels >= pixels - 1 ? "the costliest" : `more than ${(Math.floor(1000 * beyond(costs, cycles[i])) / 10).toFixed(1)} % of the pixels`, `mean ${whole(meanOf(cycles))}`];
     const table = element("table", { id: "story-table" }), own = Object.fromEntries(inGroup("causes").map((column) => [column.name, column.values[i]]));
     byId("story").replaceChildren(element("h3", {}, `Pixel ${place}: ${facts.join(", ")}`),
-      element("p", {}, `Thread ${thread} (TM ${Math.floor(thread / tps)}, TP ${thread % tps}), cycles ${whole(begin)} to ${whole(begin + cycles[i])}. `,
+      element("p", {}, more ? `${whole(more + 1)} items, the last one by thread ${thread} (TM ${Math.floor(thread / tps)}, TP ${thread % tps}), which began in cycle ${whole(begin)}. ` :
+        `Thread ${thread} (TM ${Math.floor(thread / tps)}, TP ${thread % tps}), cycles ${whole(begin)} to ${whole(begin + cycles[i])}. `,
         ...[rays ? `${whole(rays[i])} rays${kinds.length > 1 ? ` (${kinds.filter((kind) => kind.values[i]).map((kind) => `${whole(kind.values[i])} ${kind.name}`).join(", ")})` : ""}` : "",
           ...counts.map((count) => `${whole(count.values[i])} ${count.name}`), `${whole(own.issued ?? 0)} instructions`].filter((part) => part).join(", ") + "."),
       stack(causes, own, cycles[i]), element("div", { class: "scroll" }, table));
@@ -125,6 +126,6 @@ function drawPicture({ stats, run, causes, columns }) {
     [element("button", { type: "button", onclick: () => pin(i) }, `(${i % width}, ${Math.floor(i / width)})`), i], [whole(cycles[i]), cycles[i]],
     stack(causes, Object.fromEntries(inGroup("causes").map((column) => [column.name, column.values[i]])), cycles[ranking[0]]), ...counts.map((count) => [whole(count.values[i]), count.values[i]])]));
   const elsewhere = Object.values(run.picture.elsewhere).reduce((total, part) => total + part, 0);
-  byId("picture-sum").textContent = `The pixels took ${whole(stats.thread_cycles - elsewhere)} thread-cycles; ${whole(elsewhere)} belong to no pixel: after a thread's last.`;
+  byId("picture-sum").textContent = `The pixels took ${whole(stats.thread_cycles - elsewhere)} thread-cycles; ${whole(elsewhere)} belong to no pixel: after a thread's last, or of items without a place.`;
   pin(ranking[0]);
 }

@@ -52,9 +52,9 @@ function drawSource({ stats, run, causes, lines }) {
   };
   const show = () => {
     const file = ranked[choice.value]?.[0], own = new Map(lines.filter((line) => line.name ? fileOf(line.name) === file : file === "").map((line) => [line.name ? numberOf(line.name) : 0, line]));
-    const text = run.sources[file], rows = text === undefined ? [...own.keys()].sort((a, b) => a - b).map((number) => rowOf(number, number ? "" : "instructions of no known line", own.get(number))) :
+    const text = file ? run.sources[file] : undefined, rows = text === undefined ? [...own.keys()].sort((a, b) => a - b).map((number) => rowOf(number, number ? "" : "instructions of no known line", own.get(number))) :
       text.replace(/\n$/, "").split("\n").map((line, i) => rowOf(i + 1, line, own.get(i + 1)));
-    byId("source-note").textContent = text === undefined && file ? `${file} could not be read: its lines have numbers only.` : file ?? "";
+    byId("source-note").textContent = text === undefined && file ? `${file} is not in this page: its lines have numbers only.` : file ?? "";
     byId("listing").replaceChildren(element("table", {}, element("thead", {}, element("tr", {}, ...["line", "share", "causes", "instructions", "loads that hit", ""].map((head) => element("th", { class: head === "causes" || !head ? "" : "n" }, head)))), element("tbody", {}, ...rows)));
     return rows;
   };
@@ -71,6 +71,8 @@ function drawSource({ stats, run, causes, lines }) {
     if (row) { row.click(); row.focus({ preventScroll: true }); }
   };
   choice.addEventListener("change", show);
+  byId("source-files").append(element("summary", {}, `${Object.keys(run.sources).length} source files are copied into this page`), element("p", {}, Object.keys(run.sources).join(", ")),
+    run.left_out ? element("p", {}, `Left out, since they do not lie in the program's folder: ${run.left_out}. --source-folder DIR allows others.`) : undefined);
   const first = lines.find((line) => line.name);
   if (first) choice.value = String(ranked.findIndex(([file]) => file === fileOf(first.name)));
   toLine(show(), first ? numberOf(first.name) : 0);

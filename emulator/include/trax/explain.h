@@ -28,6 +28,8 @@ enum trax_memory_trace_format {
 };
 extern const char *const trax_memory_trace_formats[TRAX_MEMORY_TRACE_FORMATS + 1]; /* as options give them; NULL */
 
+enum { TRAX_EXPLAIN_MAX_SOURCE_FOLDERS = 16 };
+
 struct trax_explain_options {
   /* Files to write; NULL: not wanted. "-" is standard output. */
   const char *explore;       /* a page in HTML that explains the whole run */
@@ -60,6 +62,11 @@ struct trax_explain_options {
   const char *title;
   const struct trax_explore_part *parts;
   size_t part_count;
+  /* For the page: folders whose files may be copied into it, besides those that docs/explaining.md names. Added by
+     trax_explain_add_source_folder. */
+  const char *source_folders[TRAX_EXPLAIN_MAX_SOURCE_FOLDERS];
+  unsigned source_folder_count;
+  void (*note)(const char *text); /* receives a sentence about the sources in the page; NULL: nobody */
 };
 
 struct trax_explore_part {
@@ -69,6 +76,8 @@ struct trax_explore_part {
 
 enum { TRAX_SERIES_INTERVAL = 10000 };
 
+/* Error: it is no folder, or one too many. The text must stay valid until the end of the explanation. */
+trax_status trax_explain_add_source_folder(struct trax_explain_options *options, const char *folder, trax_error *error);
 /* Whether the options want any explanation. */
 bool trax_explain_wanted(const struct trax_explain_options *options);
 

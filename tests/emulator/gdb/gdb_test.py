@@ -12,7 +12,13 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 FOUR = ("--set", "chip.tms=2", "--set", "chip.tps_per_tm=2")
 
 # Commands of a session, and what GDB must print for each, in this order: regular expressions.
+VARIABLES = [
+    ("break frame.c:6", "Breakpoint 1 at .*frame.c, line 6"),
+    ("continue", r"Breakpoint 1, scale \(size=3, factor=7\) at .*frame.c:6"),
+    ("print local", r"\$1 = 21"),
+]
 SESSIONS = {
+    **{("frame", f"-O0 -gdwarf-{version}", ()): VARIABLES for version in (2, 3, 4, 5)},
     ("calls", "-O0", ()): [
         ("break walk if depth == 1", "Breakpoint 1 at .*calls.c, line 10"),
         ("continue", r"Breakpoint 1, walk \(p=0xf+[0-9a-f]+, depth=1\) at .*calls.c:10"),
@@ -93,7 +99,7 @@ SESSIONS = {
 
 def session(work, name, level, options, commands):
     elf, symbols, script = (os.path.join(work, name + end) for end in (".elf", ".sym", ".gdb"))
-    subprocess.run([f"{BIN}/clang", "--target=trax", level, "-g", "-o", elf, f"{HERE}/{name}.c"], check=True)
+    subprocess.run([f"{BIN}/clang", "--target=trax", "-g", *level.split(), "-o", elf, f"{HERE}/{name}.c"], check=True)
     sim = subprocess.Popen([f"{BIN}/trax-sim", "--gdb", "0", "--gdb-symbols", symbols, *options, elf],
                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     port = re.search(r"localhost:(\d+)", sim.stderr.readline().decode())[1]

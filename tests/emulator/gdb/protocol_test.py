@@ -27,7 +27,7 @@ def setUpModule():
     global work, symbols
     work = tempfile.TemporaryDirectory()
     symbols = {}
-    for name in ("threads", "calls", "loop", "fault"):
+    for name in ("threads", "calls", "loop", "fault", "increments"):
         elf = path(name)
         subprocess.run([f"{BIN}/clang", "--target=trax", "-O1", "-g", "-o", elf, f"{HERE}/{name}.c"], check=True)
         symbols[name] = read_symbols(elf)
@@ -136,10 +136,10 @@ class Protocol(unittest.TestCase):
         self.assertEqual(thread_of(client.resume()), 0)
         self.assertEqual(client.ask(f"z0,{end:x},4"), "OK")
         while client.ask("T1") == "OK":
-            stop = client.resume("vCont;s:1;c") if client.ask("T1") == "OK" else None
-            if stop[0] == "W":
-                break
-        self.assertEqual(stop[:2], ("W", 0))
+            stop = client.resume("vCont;s:1;c")
+        self.assertEqual(stop[:2], ("T", 5))  # of another thread, since the stepping one will have no stop any more
+        self.assertEqual(client.ask(f"T{thread_of(stop) + 1:x}"), "OK")
+        self.assertEqual(client.resume()[:2], ("W", 0))
 
     def test_registers(self):
         client = self.client("calls")
@@ -318,8 +318,8 @@ class Protocol(unittest.TestCase):
         client = self.client("threads", *FOUR)
         self.assertEqual(client.resume("vCont;s")[:2], ("T", 5))
 
-    def watch(self, client, kind, name, size=4):
-        self.assertEqual(client.ask(f"Z{kind},{symbols['threads'][name]:x},{size:x}"), "OK")
+    def watch(self, client, kind, name, size=4, program="threads"):
+        self.assertEqual(client.ask(f"Z{kind},{symbols[program][name]:x},{size:x}"), "OK")
 
     def test_watch_write(self):
         client = self.client("threads", *FOUR)
@@ -353,6 +353,51 @@ class Protocol(unittest.TestCase):
             self.assertEqual(thread_of(stop), 3)
             seen.append(client.word(symbols["threads"]["mine"]))
         self.assertEqual(seen, [1, 3, 6])
+
+    def test_watch_local_stays(self):
+        """GDB removes and inserts watchpoints at each stop, whichever thread is selected then."""
+        client = self.client("threads", *FOUR)
+        mine, work_at = symbols["threads"]["mine"], symbols["threads"]["work"]
+        client.select(3)
+        self.watch(client, 2, "mine")
+        client.ask(f"Z0,{work_at:x},4")
+        seen = []
+        while (stop := client.resume())[0] == "T":
+            client.select(thread_of(stop))
+            if "watch" in stop[2]:
+                seen.append((thread_of(stop), client.word(mine)))
+            for change in "zZ":
+                self.assertEqual(client.ask(f"{change}2,{mine:x},4"), "OK")
+        self.assertEqual(seen, [(3, 1), (3, 3), (3, 6)])
+
+    def test_watch_removed_for_good(self):
+        """A watchpoint that was away while the run continued is the selected thread's again."""
+        client = self.client("threads", *FOUR)
+        mine, work_at = symbols["threads"]["mine"], symbols["threads"]["work"]
+        client.select(3)
+        self.watch(client, 2, "mine")
+        self.assertEqual(thread_of(client.resume()), 3)
+        client.ask(f"z2,{mine:x},4")
+        client.ask(f"Z0,{work_at:x},4")
+        while thread_of(client.resume()) != 3:
+            pass
+        client.ask(f"z0,{work_at:x},4")
+        client.select(1)
+        self.watch(client, 2, "mine")
+        seen = []
+        while (stop := client.resume())[0] == "T":
+            seen.append(thread_of(stop))
+        self.assertEqual(set(seen), {1})
+
+    def test_watch_increments_without_result(self):
+        """An increment with r0 has no arrival; the word changes."""
+        client = self.client("increments")
+        self.watch(client, 2, "first", program="increments")
+        self.watch(client, 2, "second", program="increments")
+        seen = []
+        while (stop := client.resume())[0] == "T":
+            seen.append((int(stop[2]["watch"], 16) - symbols["increments"]["first"], [client.word(symbols["increments"][name]) for name in ("first", "second")]))
+        self.assertEqual(seen, [(0, [1, 0]), (4, [1, 1]), (0, [2, 1])])
 
     def test_watch_atomic(self):
         client = self.client("threads", *FOUR)
@@ -502,6 +547,26 @@ class Protocol(unittest.TestCase):
         self.assertEqual(client.receive()[:3], "X02")
         self.assertEqual(client.end()[2], -signal.SIGINT)
         self.assertEqual(read_figures(stats)["partial"], True)
+
+    def test_signal_while_nobody_reads(self):
+        """A debugger that asks and does not read does not keep trax-sim from ending."""
+        packet = b"m1000,2000"
+        for _ in range(6):  # how much of a reply waits differs
+            client = self.client("spin")
+            client.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            client.socket.sendall(b"$%b#%02x" % (packet, sum(packet) % 256) * 3000)
+            time.sleep(0.2)
+            client.process.send_signal(signal.SIGINT)
+            self.assertEqual(client.process.wait(timeout=20), -signal.SIGINT)
+            client.process.communicate()
+
+    def test_too_long(self):
+        for acknowledge in (False, True):
+            client = Client(SIM, path("calls"), acknowledge=acknowledge)
+            self.assertEqual(client.ask("m" + "1" * 20000), "E5a")
+            self.assertEqual(client.ask("T1"), "OK")
+            client.send("k")
+            client.end()
 
     def test_signal_while_waiting(self):
         stats = os.path.join(work.name, "never.json")
