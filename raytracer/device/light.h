@@ -30,7 +30,8 @@ static inline struct vector bounded_colour(struct vector colour) {
 
 #define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
 
-/* The way to a point; returns 1 / square of its distance, or 0 if it is too near to have a direction. */
+/* The way to a point; returns 1 / square of its distance, or 0, and changes nothing, if it is too near to have a
+   direction. */
 static inline float aim_at(struct arrival *arrival, struct vector from, struct vector to) {
   struct vector way = minus(to, from);
   if (HITS_ARE_EXACT) {

@@ -79,7 +79,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
         light += lit;
         break;
       }
-      origin = surface.point, direction = way.direction;
+      origin = surface.start, direction = way.direction;
       hit = (struct hit){way.distance_bits, NULL, 0, 0};
       shadow = TRAX_RAYS(TRAX_RAY_SHADOW, 1);
       if (MARKS_RAYS(run))

@@ -47,7 +47,8 @@ struct path {
   struct vector origin, direction;           /* of the ray under way */
   struct vector next_origin, next_direction; /* of the one after the shadow rays, */
   struct vector next_weight;                 /* and its weight */
-  struct vector point, target;               /* where shadow rays start, and where they go */
+  struct vector point, target;               /* which light arrives at, and where it comes from */
+  struct vector start;                       /* of the rays that leave the point */
   struct scatterer at;
   struct hit hit; /* of the ray */
   uint32_t layered;
@@ -107,17 +108,38 @@ static inline void add_to(struct vector *sum, struct vector weight, struct vecto
   *sum = plus(*sum, filtered(weight, light));
 }
 
-/* The light of a surface that shines, found by a ray. A shadow ray might have found it, too. */
+#define MOST_CORRECTION 4.0f
+
+/* The light of a surface that shines, found by a ray; path->point and path->at are still those of the surface that
+   scattered it. A shadow ray might have found it, too: both weights are of the same way, from point to point. The ray
+   began beside its point. On a Lambert surface the light is multiplied by the ratio of the form factors at the point
+   and at the ray's start, so that near lamps are no brighter by chance than by shadow rays. */
 static inline struct vector emission_found(const struct trax_render_params *run, const struct path *path,
-                                           const struct trax_device_material *material, const struct hit *hit) {
+                                           const struct surface *surface, const struct trax_device_material *material,
+                                           const struct hit *hit) {
   struct vector light = load_vector(material->emission);
-  if (!NEEDS(run, PATHS) || float_bits(path->density) == 0 || float_bits(material->emitter_density) == 0)
+  if (!NEEDS(run, PATHS) || float_bits(path->density) == 0)
     return light;
-  float distance = path->travelled + bits_float(hit->distance_bits);
-  float cosine = bits_float(magnitude(dot(path->at.flat, path->direction)));
-  float other =
-      emitter_density(material->emitter_density, distance * distance, cosine, (float)(int32_t)RUN_PATH(run)->choices);
-  return times(path->density / (path->density + other), light);
+  float distance = path->travelled + bits_float(hit->distance_bits), square = distance * distance;
+  float cosine = bits_float(magnitude(dot(surface->normal, path->direction))) * surface->inverse_length;
+  float own = path->density, share = 1;
+  struct vector way = minus(surface->point, path->point);
+  float way_square = dot(way, way);
+  if (float_bits(way_square) >= float_bits(0x1p-80f)) {
+    float inverse = trax_rsqrt(way_square);
+    float facing = bits_float(magnitude(dot(surface->normal, way))) * surface->inverse_length * inverse;
+    if (!(NEEDS(run, GLOSSY) && path->layered)) {
+      float at_start = at_least(own * cosine * way_square, 0x1p-120f);
+      own = at_least(dot(path->at.normal, way) * inverse, 0);
+      share = at_most(own * facing * square / at_start, MOST_CORRECTION);
+    }
+    cosine = facing, square = way_square;
+  }
+  if (float_bits(material->emitter_density) != 0) {
+    float other = emitter_density(material->emitter_density, square, cosine, (float)(int32_t)RUN_PATH(run)->choices);
+    share *= own / at_least(own + other, 0x1p-120f);
+  }
+  return times(share, light);
 }
 
 /* Sets path->at; the normals' lengths become 1. */
@@ -164,7 +186,7 @@ static inline void choose_direction(const struct trax_render_params *run, struct
     weight = times(1 / chance, weight);
   }
   path->next_weight = weight;
-  path->next_origin = path->point;
+  path->next_origin = path->start;
 }
 
 /* The ambient light that a surface sends back where nothing is near it. */
@@ -184,16 +206,17 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
   path->lights_left = 0;
   path->ambient_left = 0;
   bool turned = surface->turned;
-  describe_scatterer(run, path, surface, material, hit, texel);
   if (NEEDS(run, EMISSION))
-    add_to(&path->light, path->weight, emission_found(run, path, material, hit));
+    add_to(&path->light, path->weight, emission_found(run, path, surface, material, hit));
+  describe_scatterer(run, path, surface, material, hit, texel);
   if (path->depth >= RUN_PATH(run)->max_depth)
     return;
   path->point = surface->point;
+  path->start = surface->start;
   path->next_weight = path->weight;
   if (NEEDS(run, REFLECTION) && material->kind == TRAX_MATERIAL_MIRROR) {
     path->next_weight = filtered(path->weight, path->at.specular);
-    path->next_origin = surface->point;
+    path->next_origin = surface->start;
     path->next_direction = mirror_direction(&path->at);
     path->density = 0;
     path->goes_on = TRAX_RAYS(TRAX_RAY_MIRROR, 1);
@@ -203,7 +226,7 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
     bool through;
     float ratio = turned ? material->ior : 1 / material->ior;
     path->next_direction = glass_direction(&path->at, ratio, path_point(run, path, DIMENSION_CHOICE).x, &through);
-    path->next_origin = through ? surface->behind : surface->point;
+    path->next_origin = through ? surface->behind : surface->start;
     if (through)
       path->next_weight = filtered(path->weight, path->at.specular);
     path->density = 0;
@@ -232,13 +255,24 @@ static inline bool next_occlusion(const struct trax_render_params *run, struct p
     if (float_bits(dot(path->at.flat, path->direction)) <= 0)
       continue;
     path->pending = filtered(path->weight, times(more->occlusion_weight, ambient_of(run, path)));
-    path->origin = path->point;
-    path->target = plus(path->point, times(more->occlusion_reach, path->direction));
+    path->origin = path->start;
+    path->target = plus(path->start, times(more->occlusion_reach, path->direction));
     path->distance_bits = float_bits(more->occlusion_reach);
     path->holes = 0, path->travelled = 0;
     return true;
   }
   return false;
+}
+
+/* From origin to path->target, or in a direction if that is no place. */
+static inline void send_shadow_ray(struct path *path, struct vector origin, struct vector direction,
+                                   int32_t distance_bits) {
+  struct arrival arrival = {.direction = direction, .distance_bits = distance_bits};
+  path->origin = origin;
+  if (distance_bits != FARTHEST_BITS)
+    aim_at(&arrival, origin, path->target);
+  path->direction = arrival.direction;
+  path->distance_bits = arrival.distance_bits;
 }
 
 /* Prepares the next shadow ray; false if there is none, or no need of one. */
@@ -273,11 +307,9 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
       scale = cosine / (arrival.density + density);
     path->pending = filtered(path->weight, filtered(times(scale, part), arrival.radiance));
     if (NEEDS(run, SHADOWS)) {
-      path->origin = path->point;
-      path->direction = arrival.direction;
       path->target = arrival.target;
-      path->distance_bits = arrival.distance_bits;
       path->holes = 0, path->travelled = 0;
+      send_shadow_ray(path, path->start, arrival.direction, arrival.distance_bits);
       return true;
     }
     path->light = plus(path->light, path->pending);
@@ -297,13 +329,10 @@ static inline bool pass_hole(const struct trax_render_params *run, struct path *
     hole |= surface->turned && material->kind != TRAX_MATERIAL_GLASS;
   if (!hole || path->holes >= MOST_HOLES)
     return false;
-  path->origin = surface->behind;
-  if (shadow && path->distance_bits != FARTHEST_BITS) { /* towards the light anew: no error adds up before it */
-    struct arrival arrival = {.direction = path->direction, .distance_bits = 0};
-    aim_at(&arrival, path->origin, path->target);
-    path->direction = arrival.direction;
-    path->distance_bits = arrival.distance_bits;
-  }
+  if (shadow) /* towards the light anew: no error adds up before it */
+    send_shadow_ray(path, surface->behind, path->direction, path->distance_bits == FARTHEST_BITS ? FARTHEST_BITS : 0);
+  else
+    path->origin = surface->behind;
   path->travelled += bits_float(hit->distance_bits);
   path->holes++;
   return true;

@@ -12,7 +12,8 @@
 #include <trax.h>
 
 struct surface {
-  struct vector point;  /* where the shadow ray starts */
+  struct vector point;  /* the hit; light arrives here */
+  struct vector start;  /* off the surface; rays that leave on the viewer's side start here */
   struct vector normal; /* towards the viewer; its largest component at most 1 */
   float inverse_length; /* of the normal */
   struct vector behind; /* where a ray that goes on through the surface starts */
@@ -57,7 +58,8 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   sight = plus(sight, inside);
   int32_t far = greatest_magnitude(sight) & 0x7F800000;
   struct vector back = times(at_most(bits_float(0x7E800000 - far) * bound, 1), sight);
-  surface->point = plus(a, plus(inside, minus(out, back)));
+  surface->point = plus(a, inside);
+  surface->start = plus(a, plus(inside, minus(out, back)));
   surface->behind = plus(a, minus(inside, out));
   surface->turned = away != 0;
   surface->normal = n;
@@ -96,7 +98,8 @@ static inline __attribute__((always_inline)) void find_surface_exactly(struct su
   struct vector out = times(bound * surface->inverse_length, n);
   int32_t depth = greatest_magnitude(way) & 0x7F800000;
   struct vector back = times(at_most(bits_float(0x7E800000 - depth) * bound, 1), way);
-  surface->point = plus(base, plus(inside, minus(out, back)));
+  surface->point = plus(base, inside);
+  surface->start = plus(base, plus(inside, minus(out, back)));
   surface->behind = plus(base, minus(inside, out));
   surface->turned = away != 0;
   surface->normal = n;
@@ -137,8 +140,9 @@ static inline struct vector scale_way(struct vector way, int32_t *exponent) {
   return times(bits_float(0x7F000000 - *exponent), way);
 }
 
+/* The cosine is that at the ray's start. A picture in which this shows is left to path.h (TRAX_FEATURE_NEAR_LIGHT). */
 static inline void aim_at_light(struct light *light, const struct surface *surface, const float *position) {
-  struct vector way = minus(load_vector(position), surface->point);
+  struct vector way = minus(load_vector(position), surface->start);
   int32_t exponent = 0;
   if (HITS_ARE_EXACT)
     way = scale_way(way, &exponent);

@@ -117,12 +117,15 @@ trax_status compare(const struct trax_picture *picture, const struct trax_frame 
   trax_picture_compare(&difference, picture, &other, 2);
   const double light = trax_picture_light(picture), other_light = trax_picture_light(&other);
   trax_picture_release(&other);
-  double percent = trax_difference_percent(&difference);
-  printf("reference   %.4f %% of the pixels within 2/255, largest difference %u at (%u, %u)\n", percent,
-         difference.largest, difference.x, difference.y);
+  printf("reference   %.4f %% of the pixels within 2/255, largest difference %u at (%u, %u)\n",
+         trax_difference_percent(&difference), difference.largest, difference.x, difference.y);
+  const double percent = trax_difference_floats_percent(&difference);
+  if (difference.floats)
+    printf("            %.4f %% of the floats within 2/255 of their brightness, largest difference %.3g/255\n", percent,
+           difference.most);
   *agrees = percent >= 99.9;
   if (frame->params->features & TRAX_FEATURE_BIT(PATHS)) { /* of which one in thousands takes another turn */
-    const double deviation = other_light > 0 ? 100 * (light / other_light - 1) : 0;
+    const double deviation = 100 * (other_light > 0 ? light / other_light - 1 : light > 0);
     printf("            light of the whole picture %+.4f %%\n", deviation);
     *agrees = percent >= 99 && deviation > -0.2 && deviation < 0.2;
   }

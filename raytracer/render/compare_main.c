@@ -41,8 +41,10 @@ static const trax_command command = {.name = "trax-compare",
                                      .description =
                                          "Compares two pictures of one size, PNG, PFM or EXR: all four channels as "
                                          "they are seen, of linear floats with gamma\n"
-                                         "2. Prints also the root of the mean square of the differences of R, G and B, "
-                                         "of 255 and, of two pictures of floats,\n"
+                                         "2. Two pictures of floats are judged by their floats: N of 255 is a part of "
+                                         "the root of a value, and at least of that of\n"
+                                         "white. Prints also the root of the mean square of the differences of R, G "
+                                         "and B, of 255 and, of two pictures of floats,\n"
                                          "of their values. Exit status 0: they agree; 1: they do not, or an error.",
                                      .rows = rows,
                                      .column = 22};
@@ -66,7 +68,8 @@ static int compare(const char *path_a, const char *path_b, const struct argument
     fail(error.message);
   } else {
     trax_picture_compare(&difference, &a, &b, arguments->within);
-    double percent = trax_difference_percent(&difference);
+    const double percent = trax_difference_percent(&difference);
+    const double floats_percent = trax_difference_floats_percent(&difference);
     if (!arguments->quiet) {
       printf("%.4f %% of %llu pixels within %u/255, %llu differ", percent, (unsigned long long)difference.pixels,
              arguments->within, (unsigned long long)difference.unequal);
@@ -74,10 +77,11 @@ static int compare(const char *path_a, const char *path_b, const struct argument
         printf(", by up to %u at (%u, %u), RMSE %.4g", difference.largest, difference.x, difference.y, difference.rmse);
       putchar('\n');
       if (difference.floats)
-        printf("RMSE %.6g of linear floats, %llu channels not finite\n", difference.radiance_rmse,
-               (unsigned long long)difference.not_finite);
+        printf("RMSE %.6g of linear floats, %llu channels not finite, %.4f %% of the pixels within %u/255 of their "
+               "brightness\n",
+               difference.radiance_rmse, (unsigned long long)difference.not_finite, floats_percent, arguments->within);
     }
-    exit_status = percent >= arguments->at_least ? 0 : 1;
+    exit_status = floats_percent >= arguments->at_least ? 0 : 1;
   }
   trax_picture_release(&a);
   trax_picture_release(&b);

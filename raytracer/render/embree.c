@@ -1,8 +1,9 @@
 /* The reference pictures: Embree finds the hits, in binary32, or they are found without error (exact.c); binary64
-   shades them. They share the camera's arithmetic with the device program and nothing else of it: neither BVH, nor
-   intersection, nor shading. */
+   shades them. They share two things with the device program: the camera's arithmetic, and the points of the sampler,
+   which tests/render/light_test.c judges. They share neither BVH, intersection, shading nor tables of lights. */
 #include "embree.h"
 
+#include "reach.h"
 #include "rtc_query.h"
 
 #include <stdlib.h>
@@ -50,6 +51,24 @@ bool embree_blocked(const struct embree *embree, struct double3 origin, struct d
   return ray.tfar < 0;
 }
 
+double embree_start_bound(const struct embree *embree, const struct trax_triangle *triangle, struct double3 origin,
+                          struct double3 sight) {
+  const struct double3 v0 = from(triangle->v0);
+  const double edges = fmax(greatest(minus(from(triangle->v1), v0)), greatest(minus(from(triangle->v2), v0)));
+  return embree_needs(embree, TRAX_FEATURE_EXACT)
+             ? trax_exact_start_bound(greatest(v0), edges, greatest(origin), greatest(sight))
+             : trax_start_bound(greatest(v0), edges);
+}
+
+/* Along the normal and back along the sight. */
+struct double3 embree_start(const struct embree *embree, const struct trax_triangle *triangle, struct double3 point,
+                            struct double3 normal, struct double3 origin) {
+  const struct double3 sight = minus(point, origin);
+  const double bound = embree_start_bound(embree, triangle, origin, sight);
+  const double back = fmin(0.5 * bound / exp2(floor(log2(greatest(sight)))), 1);
+  return plus_scaled(plus_scaled(point, bound, normal), -back, sight);
+}
+
 /* The light through a place of a pixel. What the rays meet goes to *seen. */
 static struct double3 trace_sample(const struct embree *embree, struct pixel pixel, struct place place,
                                    struct trax_exact_sample *seen, uint64_t *rays) {
@@ -70,13 +89,8 @@ static struct double3 trace_sample(const struct embree *embree, struct pixel pix
   double length = sqrt(dot(normal, normal));
   double facing = dot(normal, direction) < 0 ? 1 / length : -1 / length;
   normal = (struct double3){facing * normal.x, facing * normal.y, facing * normal.z};
-  struct double3 point = plus_scaled(plus_scaled(v0, hit.u, e), hit.v, f);
-  /* As in device/shade.h: along the normal and back along the sight. */
-  double offset = 0x1p-22 * greatest(v0) + 0x1p-17 * fmax(greatest(e), greatest(f));
-  struct double3 sight = minus(point, from(params->eye));
-  double back = fmin(0.5 * offset / exp2(floor(log2(greatest(sight)))), 1);
-  point = plus_scaled(plus_scaled(point, offset, normal), -back, sight);
-
+  const struct double3 point = plus_scaled(plus_scaled(v0, hit.u, e), hit.v, f);
+  const struct double3 start = embree_start(embree, triangle, point, normal, from(params->eye));
   struct double3 flat = normal;
   if (embree_needs(embree, TRAX_FEATURE_SMOOTH)) {
     const struct trax_triangle_normals *normals = &embree->frame->scene->normals[hit.triangle];
@@ -94,11 +108,14 @@ static struct double3 trace_sample(const struct embree *embree, struct pixel pix
   if (!embree_needs(embree, TRAX_FEATURE_SHADOWS))
     return shade(embree->frame, triangle->material, normal, cosine);
   struct double3 towards = {way.x / distance, way.y / distance, way.z / distance};
-  const bool blocked = embree_blocked(embree, point, towards, distance);
+  const double left = embree_towards(start, from(params->light), &towards);
+  const bool blocked = embree_blocked(embree, start, towards, left);
   ++*rays;
   seen->shadow = blocked ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT;
   return shade(embree->frame, triangle->material, normal, blocked ? 0 : cosine);
 }
+
+#define MOST_LIGHT ((double)TRAX_MAX_RADIANCE) /* of a sample */
 
 static void embree_pixel(struct embree *embree, uint32_t x, uint32_t y, uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
@@ -117,8 +134,10 @@ static void embree_pixel(struct embree *embree, uint32_t x, uint32_t y, uint64_t
     return;
   }
   for (uint32_t sample = 0; sample < params->samples; sample++) {
-    const struct double3 light = path ? embree_path(embree, pixel_at(x, y), sample, &seen, rays)
-                                      : trace_sample(embree, pixel_at(x, y), sample_place(sample), &seen, rays);
+    struct double3 light = path ? embree_path(embree, pixel_at(x, y), sample, &seen, rays)
+                                : trace_sample(embree, pixel_at(x, y), sample_place(sample), &seen, rays);
+    if (path)
+      light = (struct double3){fmin(light.x, MOST_LIGHT), fmin(light.y, MOST_LIGHT), fmin(light.z, MOST_LIGHT)};
     sum = plus_scaled(sum, 1.0 / params->samples, light);
     if (embree->exact && embree->exact->seen)
       embree->exact->seen[index * params->samples + sample] = seen;
@@ -217,8 +236,11 @@ static trax_status run_embree(struct embree *embree, trax_error *error) {
     return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
   embree->scene = rtcNewScene(device);
   trax_status status = build_scene(device, embree, error);
+  if (status == TRAX_OK && !embree_prepare_lights(embree))
+    status = trax_fail(error, "out of memory for the lights of the reference");
   if (status == TRAX_OK)
     status = render(embree, error);
+  free(embree->emitters);
   embree->run->rays = embree->rays;
   rtcReleaseScene(embree->scene);
   rtcReleaseDevice(device);
@@ -236,6 +258,7 @@ trax_status trax_render_embree(struct trax_picture *picture, const struct trax_f
     return trax_fail(error, "out of memory for a picture of %u x %u", frame->params->width, frame->params->height);
   }
   struct embree embree = {.frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
+  embree.exactly = embree_needs(&embree, TRAX_FEATURE_EXACT); /* as the program's hits are */
   status = run_embree(&embree, error);
   if (status != TRAX_OK)
     trax_picture_release(picture);

@@ -10,6 +10,12 @@
 
 #include <pthread.h>
 
+/* A triangle that shadow rays of paths may go to, and the power of those before it. */
+struct embree_emitter {
+  const struct trax_triangle *triangle;
+  double before;
+};
+
 struct embree {
   RTCScene scene;
   const struct trax_frame *frame;
@@ -17,6 +23,12 @@ struct embree {
   struct trax_exact *exact;
   struct trax_hits *hits; /* of one ray a pixel, and nothing is shaded */
   bool exactly;           /* hits are those of exact.h, else Embree's own */
+  struct trax_light lights[TRAX_VIEW_MAX_LIGHTS]; /* those that shine */
+  uint32_t light_count;
+  struct embree_emitter *emitters; /* from malloc */
+  uint32_t emitter_count;
+  double power;     /* of all emitters: area times luminance */
+  uint32_t choices; /* of a path's shadow ray: the lights, and all emitters as one */
   struct trax_render_run *run;
   pthread_mutex_t lock; /* of what follows */
   uint32_t next_row, finished_rows;
@@ -29,6 +41,14 @@ trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_sc
 bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit);
 bool embree_blocked(const struct embree *embree, struct double3 origin, struct double3 direction, double distance);
 
+/* How far off its triangle a ray starts that leaves it, as in device/shade.h: its hit was found by a ray from `origin`,
+   `sight` away. */
+double embree_start_bound(const struct embree *embree, const struct trax_triangle *triangle, struct double3 origin,
+                          struct double3 sight);
+/* A point where rays start on the viewer's side. normal: towards the viewer, of unit length. */
+struct double3 embree_start(const struct embree *embree, const struct trax_triangle *triangle, struct double3 point,
+                            struct double3 normal, struct double3 origin);
+
 static inline bool embree_needs(const struct embree *embree, enum trax_feature feature) {
   return embree->frame->params->features >> feature & 1;
 }
@@ -36,6 +56,27 @@ static inline bool embree_needs(const struct embree *embree, enum trax_feature f
 /* embree_path.c: the light of one sample, linear, of a picture with one of TRAX_PATH_FEATURES. */
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t sample,
                            struct trax_exact_sample *seen, uint64_t *rays);
+
+/* embree_light.c: where the light comes from. */
+struct embree_arrival {
+  struct double3 direction, target; /* towards it; of one that is nowhere, the direction alone */
+  double distance;
+  struct double3 irradiance; /* of a surface at right angles to the direction */
+};
+/* False: out of memory. */
+bool embree_prepare_lights(struct embree *embree);
+/* What arrives from a light, x and y choosing a point of it; false: nothing. */
+bool embree_light_at(const struct embree *embree, uint32_t number, struct double3 point, double x, double y,
+                     struct embree_arrival *arrival);
+/* The emitter of a part, from 0 to 1, of all power. */
+const struct trax_triangle *embree_pick_emitter(const struct embree *embree, double part);
+/* The density in solid angle with which a shadow ray goes to a point of a triangle, so far away in a direction. */
+double embree_emitter_density(const struct embree *embree, const struct trax_triangle *triangle, double distance,
+                              struct double3 direction);
+/* Sets the direction to a point; returns its distance, 0 if it is too near to have one. */
+double embree_towards(struct double3 point, struct double3 target, struct double3 *direction);
+/* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */
+struct double3 embree_winding_normal(const struct trax_triangle *triangle);
 
 /* Of a ray from the eye: the nearest hit that is no hole. */
 bool embree_seen(const struct embree *embree, struct double3 eye, struct double3 direction, struct exact_hit *hit);

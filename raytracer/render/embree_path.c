@@ -6,6 +6,7 @@
 #define PI 3.14159265358979323846
 #define MOST_HOLES 1024
 #define SURE_DEPTH 3
+#define MOST_CORRECTION 4
 
 struct sample {
   const struct embree *embree;
@@ -92,17 +93,12 @@ static struct texel texel_of(const struct trax_scene *scene, const struct trax_m
 struct surface {
   const struct trax_material *material;
   struct exact_hit hit;
-  struct double3 point, behind; /* where rays start */
+  struct double3 point;         /* which light arrives at */
+  struct double3 start, behind; /* where rays start */
   struct texel texel;
   struct embree_surface at;
   bool turned;
 };
-
-/* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */
-static struct double3 winding_normal(const struct trax_triangle *triangle) {
-  const struct double3 a = from(triangle->v0);
-  return embree_unit(cross(minus(from(triangle->v1), a), minus(from(triangle->v2), a)));
-}
 
 static struct double3 smooth_normal(const struct trax_triangle_normals *normals, const struct exact_hit *hit,
                                     struct double3 flat) {
@@ -121,15 +117,12 @@ static void describe(struct surface *surface, const struct sample *sample, const
   surface->material = material;
   surface->hit = *hit;
   surface->texel = texel_of(scene, material, hit);
-  struct double3 normal = winding_normal(triangle);
+  struct double3 normal = embree_winding_normal(triangle);
   surface->turned = dot(normal, direction) > 0;
   normal = surface->turned ? scaled(-1, normal) : normal;
-  /* As in device/shade.h: along the normal and back along the sight. */
-  const double offset = 0x1p-22 * greatest(a) + 0x1p-17 * fmax(greatest(e), greatest(f));
-  const struct double3 sight = minus(on, origin);
-  const double back = fmin(0.5 * offset / exp2(floor(log2(greatest(sight)))), 1);
-  surface->point = plus_scaled(plus_scaled(on, offset, normal), -back, sight);
-  surface->behind = plus_scaled(on, -offset, normal);
+  surface->point = on;
+  surface->start = embree_start(sample->embree, triangle, on, normal, origin);
+  surface->behind = plus_scaled(on, -embree_start_bound(sample->embree, triangle, origin, minus(on, origin)), normal);
 
   struct embree_surface *at = &surface->at;
   const bool scatters = material->kind == TRAX_MATERIAL_LAMBERT || material->kind == TRAX_MATERIAL_GGX;
@@ -191,6 +184,7 @@ bool embree_seen(const struct embree *embree, struct double3 eye, struct double3
   return seen;
 }
 
+/* Behind each hole the ray goes towards the same target again, or where it starts would decide what it meets there. */
 static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
                           double distance) {
   if (!embree_needs(sample->embree, TRAX_FEATURE_SHADOWS))
@@ -201,14 +195,15 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
   for (int holes = 0; passes; holes++) {
     struct surface surface;
     struct exact_hit hit;
-    const double left = isfinite(distance) ? dot(minus(target, origin), direction) : INFINITY;
     ++*sample->rays;
-    if (!embree_hit(sample->embree, origin, direction, &hit) || hit.distance > left * (1 - 0x1p-18))
+    if (!embree_hit(sample->embree, origin, direction, &hit) || hit.distance > distance * (1 - 0x1p-18))
       return true;
     describe(&surface, sample, &hit, origin, direction);
     if (holes == MOST_HOLES || !is_hole(sample, &surface))
       return false;
     origin = surface.behind;
+    if (isfinite(distance))
+      distance = embree_towards(origin, target, &direction);
   }
   ++*sample->rays;
   return !embree_blocked(sample->embree, origin, direction, distance);
@@ -216,109 +211,59 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
 
 /* --- lights --- */
 
-static const void *table(const struct sample *sample, uint32_t offset) {
-  return (const char *)sample->path + offset;
-}
-
-/* Towards a point: its direction and distance. */
-static double towards(struct double3 point, struct double3 target, struct double3 *direction) {
-  const struct double3 way = minus(target, point);
-  const double distance = sqrt(dot(way, way));
-  if (!(distance >= 0x1p-40))
-    return 0;
-  *direction = scaled(1 / distance, way);
-  return distance;
-}
-
-/* The irradiance of a surface at right angles to the light, from a light of the view; false: none. */
-static bool light_at(const struct trax_device_light *light, struct double3 point, struct two place,
-                     struct double3 *direction, double *distance, struct double3 *irradiance) {
-  struct double3 target = from(light->place);
-  double scale = PI;
-  if (light->kind == TRAX_FROM_DIRECTION) {
-    *direction = target;
-    *distance = INFINITY;
-  } else {
-    if (light->kind == TRAX_FROM_RECTANGLE)
-      target = plus_scaled(plus_scaled(target, place.x, from(light->edge[0])), place.y, from(light->edge[1]));
-    *distance = towards(point, target, direction);
-    if (!(*distance > 0))
-      return false;
-    if (light->kind != TRAX_FROM_POINT)
-      scale /= *distance * *distance;
-    if (light->kind == TRAX_FROM_RECTANGLE)
-      scale *= -dot(from(light->normal), *direction);
-  }
-  *irradiance = scaled(scale, from(light->radiance));
-  return scale > 0;
-}
-
-/* The density in solid angle with which a shadow ray from a point goes to a point of an emitter. */
-static double emitter_density(const struct sample *sample, const struct trax_triangle *triangle, double distance,
-                              struct double3 direction) {
-  const struct trax_device_material *material =
-      (const struct trax_device_material *)table(sample, sample->path->materials) + triangle->material;
-  const double cosine = fabs(dot(winding_normal(triangle), direction));
-  return (double)material->emitter_density * distance * distance / (cosine * sample->path->choices);
-}
-
-static const struct trax_triangle *pick_emitter(const struct sample *sample, uint32_t pick) {
-  const struct trax_emitter *emitters = table(sample, sample->path->emitters);
-  uint32_t chosen = sample->path->emitter_count - 1;
-  while (chosen > 0 && emitters[chosen].cumulative > pick)
-    chosen--;
-  return (const struct trax_triangle *)((const char *)sample->embree->frame->scene->bytes + emitters[chosen].triangle);
-}
-
 /* What one light of the view sends to the eye by way of the surface. */
-static struct double3 lit_by(const struct sample *sample, const struct surface *surface,
-                             const struct trax_device_light *light, struct two place) {
+static struct double3 lit_by(const struct sample *sample, const struct surface *surface, uint32_t number,
+                             struct two place) {
   const struct double3 nothing = {0, 0, 0};
-  struct double3 direction, irradiance;
-  double distance, density;
-  if (!light_at(light, surface->point, place, &direction, &distance, &irradiance))
+  struct embree_arrival arrival;
+  double density;
+  if (!embree_light_at(sample->embree, number, surface->point, place.x, place.y, &arrival))
     return nothing;
-  const struct double3 part = embree_evaluate(&surface->at, direction, &density);
-  if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance))
+  const struct double3 part = embree_evaluate(&surface->at, arrival.direction, &density);
+  if (largest_of(part) <= 0)
     return nothing;
-  return times(part, irradiance);
+  if (isfinite(arrival.distance)) /* the ray does not start at the point */
+    arrival.distance = embree_towards(surface->start, arrival.target, &arrival.direction);
+  return light_reaches(sample, surface->start, arrival.direction, arrival.distance) ? times(part, arrival.irradiance)
+                                                                                    : nothing;
 }
 
 /* What an emitter does, weighted by the balance heuristic. */
 static struct double3 lit_by_emitter(const struct sample *sample, const struct surface *surface, uint32_t pick,
                                      struct two place) {
   const struct double3 nothing = {0, 0, 0};
-  const struct trax_triangle *triangle = pick_emitter(sample, pick);
+  const struct trax_triangle *triangle = embree_pick_emitter(sample->embree, pick * 0x1p-32);
   const struct double3 a = from(triangle->v0), b = from(triangle->v1), c = from(triangle->v2);
   const double side = sqrt(place.x), v = side * (1 - place.y), w = side * place.y;
   const struct double3 target = plus_scaled(plus_scaled(scaled(1 - v - w, a), v, b), w, c);
-  struct double3 direction;
+  struct double3 direction = {0, 0, 0}, towards = {0, 0, 0};
   double density;
-  const double distance = towards(surface->point, target, &direction);
-  const double facing = -dot(winding_normal(triangle), direction);
+  const double distance = embree_towards(surface->point, target, &direction);
+  const double facing = -dot(embree_winding_normal(triangle), direction);
   const struct trax_material *material = &sample->embree->frame->scene->materials[triangle->material];
   if (!(distance > 0) || !(fabs(facing) >= 0x1p-20) || (facing < 0 && vanishes_behind(sample, material)))
     return nothing;
   const struct double3 part = embree_evaluate(&surface->at, direction, &density);
-  if (largest_of(part) <= 0 || !light_reaches(sample, surface->point, direction, distance * (1 - 0x1p-18)))
+  const double left = embree_towards(surface->start, target, &towards);
+  if (largest_of(part) <= 0 || !light_reaches(sample, surface->start, towards, left * (1 - 0x1p-18)))
     return nothing;
-  const double chosen = emitter_density(sample, triangle, distance, direction);
+  const double chosen = embree_emitter_density(sample->embree, triangle, distance, direction);
   return scaled(1 / (chosen + density), times(part, from(material->emission)));
 }
 
 /* --- paths --- */
 
 static struct double3 lit_at_random(const struct sample *sample, const struct surface *surface) {
-  if (sample->path->choices == 0)
+  const uint32_t choices = sample->embree->choices;
+  if (choices == 0)
     return (struct double3){0, 0, 0};
   const struct words pick =
       random_words(sample->number, DIMENSION_PICK + DIMENSIONS_OF_SURFACE * sample->depth, sample->key);
   const struct two place = point_for(sample, DIMENSION_LIGHT);
-  const uint32_t number = (uint32_t)((uint64_t)pick.x * sample->path->choices >> 32);
-  const struct trax_device_light *lights = table(sample, sample->path->lights);
-  if (number == sample->path->light_count)
+  const uint32_t number = (uint32_t)((uint64_t)pick.x * choices >> 32);
+  if (number == sample->embree->light_count)
     return lit_by_emitter(sample, surface, pick.y, place);
-  return scaled(sample->path->choices, lit_by(sample, surface, &lights[number], place));
+  return scaled(choices, lit_by(sample, surface, number, place));
 }
 
 /* The part of the ambient light that the rays towards it, cosine-distributed, do not find blocked. */
@@ -332,13 +277,12 @@ static double open_part(const struct sample *sample, const struct surface *surfa
                              DIMENSION_SCATTER + DIMENSIONS_OF_SURFACE * sample->depth, sample->key));
     struct double3 direction;
     open += embree_sample(&diffuse, place.x, place.y, 0, &direction) &&
-            light_reaches(sample, surface->point, direction, (double)sample->path->occlusion_reach);
+            light_reaches(sample, surface->start, direction, (double)sample->path->occlusion_reach);
   }
   return (double)open / sample->path->occlusion_rays;
 }
 
 static struct double3 lit_by_all(const struct sample *sample, const struct surface *surface) {
-  const struct trax_device_light *lights = table(sample, sample->path->lights);
   const struct trax_render_params *params = sample->params;
   struct double3 albedo = surface->at.diffuse;
   if (surface->at.layered)
@@ -346,8 +290,8 @@ static struct double3 lit_by_all(const struct sample *sample, const struct surfa
   struct double3 sum = scaled((double)params->ambient + dot(surface->at.normal, from(params->fill)), albedo);
   if (embree_needs(sample->embree, TRAX_FEATURE_OCCLUSION))
     sum = scaled(open_part(sample, surface), sum);
-  for (uint32_t i = 0; i < sample->path->light_count; i++)
-    sum = plus_scaled(sum, 1, lit_by(sample, surface, &lights[i], point_for(sample, DIMENSION_LIGHT)));
+  for (uint32_t i = 0; i < sample->embree->light_count; i++)
+    sum = plus_scaled(sum, 1, lit_by(sample, surface, i, point_for(sample, DIMENSION_LIGHT)));
   return sum;
 }
 
@@ -379,6 +323,23 @@ static struct double3 deflect(const struct sample *sample, const struct surface 
   return embree_unit(way);
 }
 
+/* The light of an emitter that a ray in `direction` found; scatterer: the surface that scattered it, of the density
+   `density`. On a Lambert surface the ray stands for the way from point to point, which has another form factor. */
+static double share_of_emission(const struct sample *sample, const struct surface *scatterer, double density,
+                                const struct surface *surface, double distance, struct double3 direction) {
+  const struct trax_triangle *triangle = &sample->embree->frame->scene->triangles[surface->hit.triangle];
+  double own = density, share = 1;
+  struct double3 way = direction;
+  const double straight = embree_towards(scatterer->point, surface->point, &way);
+  if (straight > 0 && !scatterer->at.layered) {
+    const double at_start = fabs(dot(surface->at.flat, direction)) / (distance * distance);
+    own = fmax(dot(scatterer->at.normal, way), 0) / PI;
+    share = fmin(own / density * fabs(dot(surface->at.flat, way)) / (straight * straight) / at_start, MOST_CORRECTION);
+  }
+  const double chosen = embree_emitter_density(sample->embree, triangle, straight > 0 ? straight : distance, way);
+  return own > 0 ? share * own / (own + chosen) : 0;
+}
+
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number,
                            struct trax_exact_sample *seen, uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
@@ -393,6 +354,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
   const struct vector camera = camera_direction(params, pixel, place);
   struct double3 origin = from(params->eye), direction = {(double)camera.x, (double)camera.y, (double)camera.z};
   struct double3 light = {0, 0, 0}, weight = {1, 1, 1};
+  struct surface scatterer = {0};
   double density = 0; /* of the direction in solid angle; 0: there was no choice */
   *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
 
@@ -405,10 +367,9 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
       seen->triangle = surface.hit.triangle, seen->distance = distance;
 
     const struct trax_material *material = surface.material;
-    const struct trax_triangle *triangle = &embree->frame->scene->triangles[surface.hit.triangle];
     if (largest_of(from(material->emission)) > 0) {
-      const double chosen = density > 0 ? emitter_density(&sample, triangle, surface.hit.distance, direction) : 0;
-      const double share = density > 0 ? density / (density + chosen) : 1;
+      const double share =
+          density > 0 ? share_of_emission(&sample, &scatterer, density, &surface, distance, direction) : 1;
       light = plus_scaled(light, share, times(weight, from(material->emission)));
     }
     if (sample.depth >= sample.path->max_depth)
@@ -417,7 +378,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
     if (material->kind == TRAX_MATERIAL_MIRROR || material->kind == TRAX_MATERIAL_GLASS) {
       bool through;
       direction = deflect(&sample, &surface, &through);
-      origin = through ? surface.behind : surface.point;
+      origin = through ? surface.behind : surface.start;
       if (through || material->kind == TRAX_MATERIAL_MIRROR)
         weight = times(weight, surface.at.specular);
       density = 0;
@@ -440,6 +401,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
         return light;
       weight = scaled(1 / chance, weight);
     }
-    origin = surface.point;
+    origin = surface.start;
+    scatterer = surface;
   }
 }

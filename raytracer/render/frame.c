@@ -238,6 +238,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
     return trax_fail(error, "out of memory for %u materials", scene->material_count);
   frame->params_size = (uint32_t)size;
   frame->scene = scene;
+  frame->view = *view;
   frame->method = options->method;
 
   struct trax_render_params *params = frame->params;

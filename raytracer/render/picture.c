@@ -236,13 +236,24 @@ trax_status trax_picture_read(struct trax_picture *picture, const char *path, tr
   return status;
 }
 
-/* Of the channels that are numbers in both. */
+/* In parts of 255 of a root as it is seen, gamma 2; above white, in parts of the brighter one. */
+static double float_distance(float a, float b) {
+  const double x = copysign(sqrt(fabs((double)a)), (double)a), y = copysign(sqrt(fabs((double)b)), (double)b);
+  if (memcmp(&a, &b, sizeof a) == 0 || x == y)
+    return 0;
+  return isfinite(x) && isfinite(y) ? 255 * fabs(x - y) / fmax(1, fmax(fabs(x), fabs(y))) : INFINITY;
+}
+
+/* The mean is that of the channels that are numbers in both. */
 static void compare_floats(struct trax_difference *difference, const struct trax_picture *a,
-                           const struct trax_picture *b) {
+                           const struct trax_picture *b, unsigned within) {
   const size_t count = 3 * (size_t)a->width * a->height;
-  double sum = 0;
+  double sum = 0, worst = 0;
   size_t finite = 0;
   for (size_t i = 0; i < count; i++) {
+    worst = fmax(i % 3 ? worst : 0, float_distance(a->radiance[i], b->radiance[i]));
+    difference->most = fmax(difference->most, worst);
+    difference->floats_beyond += i % 3 == 2 && worst > within;
     const double delta = (double)a->radiance[i] - (double)b->radiance[i];
     if (!isfinite(delta)) {
       difference->not_finite++;
@@ -280,19 +291,25 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
   difference->rmse = sqrt(sum / (3 * (double)a->width * a->height));
   difference->floats = a->radiance && b->radiance;
   if (difference->floats)
-    compare_floats(difference, a, b);
+    compare_floats(difference, a, b, within);
 }
 
 double trax_picture_light(const struct trax_picture *picture) {
   double sum = 0;
   for (size_t i = 0; i < (size_t)picture->width * picture->height; i++)
-    for (int shift = 0; shift < 24; shift += 8) {
-      const double value = picture->pixels[i] >> shift & 255;
-      sum += value * value;
+    for (int channel = 0; channel < 3; channel++) {
+      const double value = picture->pixels[i] >> 8 * channel & 255;
+      sum += picture->radiance ? 65025 * (double)picture->radiance[3 * i + (size_t)channel] : value * value;
     }
   return sum / (3 * 65025.0 * picture->width * picture->height);
 }
 
 double trax_difference_percent(const struct trax_difference *difference) {
   return 100.0 * (double)(difference->pixels - difference->beyond) / (double)difference->pixels;
+}
+
+double trax_difference_floats_percent(const struct trax_difference *difference) {
+  if (!difference->floats)
+    return trax_difference_percent(difference);
+  return 100.0 * (double)(difference->pixels - difference->floats_beyond) / (double)difference->pixels;
 }

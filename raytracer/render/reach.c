@@ -46,3 +46,21 @@ bool trax_needs_exact(const struct trax_scene *scene, const float eye[3]) {
   }
   return false;
 }
+
+bool trax_light_is_near(const struct trax_scene *scene, const float eye[3], const float light[3]) {
+  const bool exact = trax_needs_exact(scene, eye);
+  for (uint32_t i = 0; i < scene->triangle_count; i++) {
+    const struct trax_triangle *triangle = &scene->triangles[i];
+    const struct double3 v0 = from(triangle->v0), a = minus(v0, from(light)),
+                         b = minus(from(triangle->v1), from(light)), c = minus(from(triangle->v2), from(light));
+    const double size = fmax(greatest(minus(b, a)), greatest(minus(c, a)));
+    double bound = trax_start_bound(greatest(v0), size);
+    if (greatest(a) > size + TRAX_NEAR_LIGHT * bound)
+      continue; /* as most are */
+    if (exact)
+      bound = trax_exact_start_bound(greatest(v0), size, greatest(from(eye)), greatest(minus(v0, from(eye))) + size);
+    if (square_of_nearest(a, b, c) < TRAX_NEAR_LIGHT * TRAX_NEAR_LIGHT * bound * bound)
+      return true;
+  }
+  return false;
+}

@@ -31,6 +31,7 @@ struct trax_frame {
   struct trax_render_params *params; /* with what render_params.h has behind it; from malloc */
   uint32_t params_size;              /* bytes */
   const struct trax_scene *scene;
+  struct trax_view view; /* the reference's lights are made of it */
   struct trax_method method;
 };
 
@@ -168,16 +169,21 @@ struct trax_difference {
   double rmse;      /* root of the mean square of the differences of R, G and B, 0 to 255 */
   /* Of two pictures with linear floats: */
   bool floats;
-  double radiance_rmse; /* of the channels that are finite in both */
-  uint64_t not_finite;  /* the other channels */
+  double radiance_rmse;   /* of the channels that are finite in both */
+  uint64_t not_finite;    /* the other channels */
+  uint64_t floats_beyond; /* pixels with floats that differ by more than `within` parts in 255 of their root, or of 1 if
+                             that is darker */
+  double most;            /* the largest of these differences, in the same parts */
 };
 
 /* Of two pictures of one size, alpha included. */
 void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,
                           const struct trax_picture *b, unsigned within);
-/* The mean of the light that the pixels show, linear, 0 to 1. */
+/* The mean of the light, linear: of the floats if there are any, else of what the pixels show, 0 to 1. */
 double trax_picture_light(const struct trax_picture *picture);
 double trax_difference_percent(const struct trax_difference *difference); /* of pixels not beyond */
+/* Of pixels whose floats are not beyond; where there are no floats, that of the pixels. */
+double trax_difference_floats_percent(const struct trax_difference *difference);
 
 /* --- renderers --- */
 

@@ -234,7 +234,7 @@ accept "$render" "$box" -o floats.pfm $native --size 33x25
 accept "$render" "$box" -o floats.exr $native --size 33x25
 accept "$render" "$box" -o pixels.png $native --size 33x25
 accept "$compare" floats.pfm floats.exr
-grep -q '^RMSE 0 of linear floats, 0 channels not finite$' "$out" || fail "PFM and EXR: $(cat "$out")"
+grep -q '^RMSE 0 of linear floats, 0 channels not finite, 100.0000 % of the pixels within 0/255 of their brightness$' "$out" || fail "PFM and EXR: $(cat "$out")"
 accept "$compare" pixels.png floats.exr --within 1
 grep -q 'of linear floats' "$out" && fail "a PNG has no floats"
 [ "$(wc -c <floats.pfm)" -eq $((14 + 12 * 33 * 25)) ] || fail "floats.pfm has $(wc -c <floats.pfm) bytes"
@@ -243,6 +243,16 @@ cmp -s floats.exr again.exr || fail "not the same EXR again"
 accept "$render" "$box" -o b.pfm $native --size 33x25 --ambient 0.5
 "$compare" floats.exr b.pfm >"$out" && fail "other ambient light makes no difference to the floats"
 grep -q '^RMSE 0\.[0-9]* of linear floats' "$out" || fail "no RMSE: $(cat "$out")"
+# Floats are judged, not what a display shows of them: 2 and 1.8 are both white.
+for value in '\000\000\000@' 'ff\346?'; do
+  printf 'PF\n1 1\n-1\n%b%b%b' "$value" "$value" "$value"
+done >both.pfm
+head -c 22 both.pfm >two.pfm
+tail -c 22 both.pfm >less.pfm
+"$compare" two.pfm less.pfm --within 2 >"$out" && fail "2 and 1.8 are the same to trax-compare"
+grep -q '^100.0000 % of 1 pixels within 2/255, 1 differ' "$out" || fail "what a display shows: $(cat "$out")"
+grep -q '0.0000 % of the pixels within 2/255 of their brightness$' "$out" || fail "2 and 1.8: $(cat "$out")"
+accept "$compare" two.pfm less.pfm --within 14
 for file in floats.pfm floats.exr; do
   head -c 700 $file >cut
   refuse 'cut: not a readable' "$compare" cut pixels.png

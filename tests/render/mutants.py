@@ -11,11 +11,8 @@ import sys
 
 from mutation import ROOT, command, main
 
-INCLUDE = [f"-I{ROOT / folder}" for folder in ("raytracer/include", "raytracer/render", "emulator", "emulator/include", "isa/include",
-                                               "runtime/include", "tests/render")]
 TESTS = [("render-light-test", "tests/render/light_test.c", []),
          ("render-shading-test", "raytracer/device/main.c", ["-Dmain=trax_twin_watertight", "-DTRAX_TRIANGLE=TRAX_WATERTIGHT"])]
-COMPILE = ["cc", "-std=gnu17", "-O1", "-ffp-contract=off", "-fcommon", "-w", *INCLUDE]
 
 # Name, file of raytracer/device, text, what it becomes.
 MUTANTS = [
@@ -30,7 +27,7 @@ MUTANTS = [
     ("mirror-inwards", "material.h", "return float_bits(dot(at->flat, way)) > 0 ? way : reflected(at->view, at->flat);", "return way;"),
     ("glass-ratio", "path.h", "bool turned = surface->turned;", "bool turned = !surface->turned;"),
     ("glass-tint", "path.h", "    if (through)\n      path->next_weight", "    if (!through)\n      path->next_weight"),
-    ("glass-origin", "path.h", "through ? surface->behind : surface->point", "surface->point"),
+    ("glass-origin", "path.h", "through ? surface->behind : surface->start", "surface->start"),
     ("schlick-power", "material.h", "return square * square * rest;", "return square * square;"),
     ("facets-square", "material.h", "square_roughness / (shape * shape)", "square_roughness / shape"),
     ("masking", "material.h", "0.5f / (cosine * smith_view + view * smith(cosine, square))", "0.25f / (cosine * view)"),
@@ -50,9 +47,12 @@ MUTANTS = [
     ("texture-gamma", "texture.h", "{red * red, green * green, blue * blue}", "{255 * red, 255 * green, 255 * blue}"),
     ("metal-texture", "path.h", "if (metal)", "if (0)"),
     ("hole-distance", "path.h", "path->travelled += bits_float(hit->distance_bits);", ""),
-    ("hole-shadow", "path.h", "    path->distance_bits = arrival.distance_bits;\n  }", "  }"),
+    ("hole-shadow", "path.h", "  path->distance_bits = arrival.distance_bits;\n", ""),
     ("holes-solid", "path.h", "|| path->holes >= MOST_HOLES", "|| path->holes >= 1"),
-    ("balance", "path.h", "path->density / (path->density + other)", "1.0f"),
+    ("balance", "path.h", "share *= own / at_least(own + other, 0x1p-120f);", ""),
+    ("lamp-from-start", "path.h", "pick.y, path->point, place", "pick.y, path->start, place"),
+    ("chance-from-start", "path.h", "minus(surface->point, path->point)", "minus(surface->point, path->start)"),
+    ("chance-uncorrected", "path.h", "share = at_most(own * facing", "share = 1 + 0 * at_most(own * facing"),
     ("balance-shadow", "path.h", "cosine / (arrival.density + density)", "cosine / arrival.density"),
     ("choices", "path.h", "float scale = cosine * choices;", "float scale = cosine;"),
     ("depth", "path.h", "path->depth >= RUN_PATH(run)->max_depth", "path->depth > RUN_PATH(run)->max_depth"),
@@ -68,7 +68,11 @@ def make(folder, build):
     """As ninja links the tests, with what is compiled before the archives, so that it takes the place of what is in these."""
     for test, program, macros in TESTS:
         compiled = folder / f"{test}.o"
-        subprocess.run([*COMPILE, *macros, "-c", folder / program, "-o", compiled], check=True)
+        compile_words = command(build, "tests/render/CMakeFiles/render-light-test.dir/light_test.c.o")
+        compile_words[compile_words.index(str(ROOT / "tests/render/light_test.c"))] = folder / program
+        compile_words[compile_words.index("-MF") + 1] = "/dev/null"
+        compile_words[compile_words.index("-o") + 1] = compiled
+        subprocess.run([*compile_words, *macros, "-ffp-contract=off", "-fcommon", "-w"], check=True, cwd=build)
         words = command(build, f"tests/bin/{test}")
         if test == "render-light-test":
             words = [word for word in words if not word.endswith("light_test.c.o")]

@@ -29,15 +29,33 @@ def changed_copy(folder, tests, mutant):
         source.write_text(source.read_text().replace(text, other))
 
 
+def list_stale(mutants, folder, name_and_text=lambda mutant: mutant[1:3]):
+    """Prints the mutants whose text is not exactly once in their file. Returns whether there are any."""
+    stale = 0
+    for mutant in mutants:
+        name, text = name_and_text(mutant)
+        count = (folder / name).read_text().count(text)
+        stale += count != 1
+        if count != 1:
+            print(f"{mutant[0]}: {name}: {count} times there: {text}")
+    print(f"{stale} of {len(mutants)} mutants are stale")
+    return stale > 0
+
+
 def main(description, tests, mutants, make, said):
     """Tries mutants, tuples (name, file of raytracer/device, text, what it becomes, further values). make(folder, build) compiles the tests, which are in the
     folder of this name, in a changed copy of the tree, and said(folder, further values) gives what they say of the mutant, empty if they do not notice it.
     What they say of a copy that is not changed is an error. The exit status."""
     parser = argparse.ArgumentParser(description=description.split("\n")[0])
-    parser.add_argument("scratch", type=pathlib.Path)
+    parser.add_argument("scratch", type=pathlib.Path, nargs="?")
+    parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
     parser.add_argument("--only", help="the mutant of this name")
     options = parser.parse_args()
+    if options.stale:
+        return list_stale(mutants, ROOT / "raytracer/device")
+    if options.scratch is None:
+        parser.error("SCRATCH is missing")
     chosen = [mutant for mutant in mutants if options.only in (None, mutant[0])]
     if not chosen:
         sys.exit(f"mutants.py: error: no mutant is called {options.only}")

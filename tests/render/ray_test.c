@@ -210,7 +210,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};
     if (dot(way, surface.normal) < 0)
       way.x = -way.x, way.y = -way.y, way.z = -way.z;
-    prepare_ray(&ray, TRAX_NODES_BINARY, surface.point, way, 0, NULL);
+    prepare_ray(&ray, TRAX_NODES_BINARY, surface.start, way, 0, NULL);
     struct hit self = {0x7F000000, 0, 0, 0};
     assert_false(hit_triangle(&ray.triangle, (const char *)&triangle, true, &self));
     tested++;

@@ -29,7 +29,8 @@ enum trax_feature {
 #define TRAX_PATH_FEATURES                                                                                             \
   (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) |     \
    TRAX_FEATURE_BIT(REFLECTION) | TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) |                            \
-   TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) | TRAX_FEATURE_BIT(FLOATS) | TRAX_FEATURE_BIT(OCCLUSION))
+   TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) | TRAX_FEATURE_BIT(FLOATS) | TRAX_FEATURE_BIT(OCCLUSION) |     \
+   TRAX_FEATURE_BIT(NEAR_LIGHT))
 
 /* The grid of quantised nodes (struct trax_scene_grid), for rays. */
 struct trax_ray_grid {

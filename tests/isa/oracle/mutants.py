@@ -2,6 +2,7 @@
 """Show that isa-exhaustive, and the oracle's own test, notice every mistake: each rule of the oracle is broken in turn.
 
     tests/isa/oracle/mutants.py --build build
+    tests/isa/oracle/mutants.py --stale                    only lists texts that are not there
 
 A mutant is oracle.c with one text replaced. isa-exhaustive compares the emulator's arithmetic with it over --count cases of each
 operation, so a mutant that passes would also be a mistake of the emulator that passes. The oracle's test is tried as well, once as a whole
@@ -17,6 +18,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "render"))
+from mutation import list_stale  # noqa: E402
 
 MUTANTS = [  # (what is wrong, text, replacement)
     ("ties to odd", "kept % 2 == 1)", "kept % 2 == 0)"),
@@ -101,7 +104,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--build", type=pathlib.Path, default=HERE / "../../../build", help="the build folder")
     parser.add_argument("--count", type=int, default=1000000, help="isa-exhaustive's cases of each operation (default: 1000000)")
+    parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
     options = parser.parse_args()
+    if options.stale:
+        return list_stale(MUTANTS, HERE, lambda mutant: ("oracle.c", mutant[1]))
     compile_words, objects = flags_and_objects(options.build.resolve())
     source = (HERE / "oracle.c").read_text()
     caught = {"isa-exhaustive": 0, "oracle's test": 0, "hand-worked cases": 0}

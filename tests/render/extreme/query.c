@@ -35,11 +35,11 @@ static inline void answer_query(const char *scene, const struct query_params *pa
     else
       find_surface(&surface, &hit, origin);
     aim_at_light(&way, &surface, params->light);
-    answer->origin[0] = surface.point.x, answer->origin[1] = surface.point.y, answer->origin[2] = surface.point.z;
+    answer->origin[0] = surface.start.x, answer->origin[1] = surface.start.y, answer->origin[2] = surface.start.z;
     answer->light = QUERY_BEHIND;
     if (way.cosine_bits <= 0)
       break;
-    origin = surface.point, direction = way.direction;
+    origin = surface.start, direction = way.direction;
     hit = (struct hit){way.distance_bits, NULL, 0, 0};
     shadow = 1;
   }

@@ -1,0 +1,113 @@
+/* Lights and emitting triangles in binary64, for the reference pictures: from the view and the scene, not from the
+   tables that lighting.c prepares for the device program. */
+#include "embree.h"
+
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+
+/* Rec. 709. */
+static double luminance(const float colour[3]) {
+  return 0.2126 * (double)colour[0] + 0.7152 * (double)colour[1] + 0.0722 * (double)colour[2];
+}
+
+struct double3 embree_winding_normal(const struct trax_triangle *triangle) {
+  const struct double3 a = from(triangle->v0);
+  return embree_unit(cross(minus(from(triangle->v1), a), minus(from(triangle->v2), a)));
+}
+
+double embree_towards(struct double3 point, struct double3 target, struct double3 *direction) {
+  const struct double3 way = minus(target, point);
+  const double distance = sqrt(dot(way, way));
+  if (!(distance >= 0x1p-40))
+    return 0;
+  *direction = (struct double3){way.x / distance, way.y / distance, way.z / distance};
+  return distance;
+}
+
+/* --- lights of the view --- */
+
+static bool shines(const struct trax_light *light) {
+  return (double)light->strength * luminance(light->colour) > 0;
+}
+
+bool embree_light_at(const struct embree *embree, uint32_t number, struct double3 point, double x, double y,
+                     struct embree_arrival *arrival) {
+  const struct trax_light *light = &embree->lights[number];
+  double scale = PI * (double)light->strength;
+  *arrival = (struct embree_arrival){.distance = INFINITY};
+  if (light->kind == TRAX_LIGHT_DIRECTIONAL) {
+    arrival->direction = embree_unit(minus((struct double3){0, 0, 0}, from(light->direction)));
+  } else {
+    const struct double3 edge = from(light->edges[0]), other = from(light->edges[1]), across = cross(edge, other);
+    const bool rectangle = light->kind == TRAX_LIGHT_RECTANGLE;
+    arrival->target = from(light->position);
+    if (rectangle)
+      arrival->target = plus_scaled(plus_scaled(arrival->target, x, edge), y, other);
+    arrival->distance = embree_towards(point, arrival->target, &arrival->direction);
+    if (!(arrival->distance > 0))
+      return false;
+    const double square = arrival->distance * arrival->distance;
+    if (rectangle) /* its area times the cosine */
+      scale *= -dot(across, arrival->direction) / PI / square;
+    else if (light->falloff > 0)
+      scale *= (double)light->falloff * (double)light->falloff / square;
+  }
+  const struct double3 colour = from(light->colour);
+  arrival->irradiance = (struct double3){scale * colour.x, scale * colour.y, scale * colour.z};
+  return scale > 0;
+}
+
+/* --- emitting triangles --- */
+
+/* What has holes is found by chance only. */
+static double power_per_area(const struct trax_material *material) {
+  return material->alpha_cutoff > 0 ? 0 : luminance(material->emission);
+}
+
+static double power(const struct trax_scene *scene, uint32_t number) {
+  const struct trax_triangle *triangle = &scene->triangles[number];
+  const struct double3 a = from(triangle->v0), n = cross(minus(from(triangle->v1), a), minus(from(triangle->v2), a));
+  return 0.5 * sqrt(dot(n, n)) * power_per_area(&scene->materials[triangle->material]);
+}
+
+double embree_emitter_density(const struct embree *embree, const struct trax_triangle *triangle, double distance,
+                              struct double3 direction) {
+  const double cosine = fabs(dot(embree_winding_normal(triangle), direction));
+  const double per_area = power_per_area(&embree->frame->scene->materials[triangle->material]);
+  return per_area > 0 ? per_area / embree->power * distance * distance / (cosine * embree->choices) : 0;
+}
+
+const struct trax_triangle *embree_pick_emitter(const struct embree *embree, double part) {
+  uint32_t chosen = embree->emitter_count - 1;
+  while (chosen > 0 && embree->emitters[chosen].before > part * embree->power)
+    chosen--;
+  return embree->emitters[chosen].triangle;
+}
+
+bool embree_prepare_lights(struct embree *embree) {
+  const struct trax_scene *scene = embree->frame->scene;
+  const struct trax_view *view = &embree->frame->view;
+  const struct trax_light plain = {.colour = {1, 1, 1},
+                                   .strength = embree->frame->params->light_strength,
+                                   .position = {view->light[0], view->light[1], view->light[2]}};
+  if (view->light_count == 0)
+    embree->lights[embree->light_count++] = plain;
+  for (uint32_t i = 0; i < view->light_count; i++)
+    if (shines(&view->lights[i]))
+      embree->lights[embree->light_count++] = view->lights[i];
+  const bool wanted = embree_needs(embree, TRAX_FEATURE_PATHS);
+  for (uint32_t i = 0; wanted && i < scene->triangle_count; i++)
+    embree->emitter_count += power(scene, i) > 0;
+  embree->choices = embree->light_count + (embree->emitter_count > 0);
+  if (embree->emitter_count == 0)
+    return true;
+  struct embree_emitter *emitter = embree->emitters = malloc(embree->emitter_count * sizeof *embree->emitters);
+  for (uint32_t i = 0; emitter && i < scene->triangle_count; i++) {
+    const double own = power(scene, i);
+    if (own > 0)
+      *emitter++ = (struct embree_emitter){&scene->triangles[i], embree->power};
+    embree->power += own;
+  }
+  return emitter;
+}
