@@ -17,6 +17,13 @@ static bool has_letters(const trax_command *command) {
   return false;
 }
 
+static size_t row_count(const trax_command *command) {
+  size_t count = 1; /* the last one, without a name */
+  while (command->rows[count - 1].name)
+    count++;
+  return count;
+}
+
 static bool is_optional(const trax_option *option) {
   return option->argument && strncmp(option->argument, "[=", 2) == 0;
 }
@@ -146,6 +153,7 @@ struct parser {
   void *target;
   int count, next; /* next: the index of the next argument */
   char **arguments;
+  bool *given; /* for each row */
 };
 
 /* value: the text joined to the option ("=VALUE", "-oVALUE"), or NULL; spelled: the option's name in messages. */
@@ -167,6 +175,7 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
     trax_fail(error, "--%s: the value is empty", option->name);
     return TRAX_PARSED_WRONG;
   }
+  parser->given[option - command->rows] = true;
   switch (option->kind) {
   case TRAX_OPTION_SHOW:
     option->show(stdout);
@@ -182,19 +191,32 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
   }
 }
 
-/* What every command has: not in the table, since it is for those who package it. */
-static bool show_page(const trax_command *command, const char *name) {
+/* For programs that pass options on: a line for each that was given before. */
+static void show_given(const struct parser *parser, FILE *out) {
+  fprintf(out, "options of %s:\n", parser->command->name);
+  for (const trax_option *row = parser->command->rows; row->name; row++)
+    if (parser->given[row - parser->command->rows])
+      fprintf(out, "--%s%s\n", row->name,
+              row->file == TRAX_OPTION_OUTPUT || row->file == TRAX_OPTION_WRITTEN ? " writes"
+              : row->file == TRAX_OPTION_INPUT                                    ? " reads"
+                                                                                  : "");
+}
+
+/* What every command has: not in the table, since it is for those who package it or call it from programs. */
+static bool show_page(const struct parser *parser, const char *name) {
   if (strcmp(name, "help-man") == 0)
-    trax_command_man(command, stdout);
+    trax_command_man(parser->command, stdout);
   else if (strcmp(name, "help-completion") == 0)
-    trax_command_completion(command, stdout);
+    trax_command_completion(parser->command, stdout);
+  else if (strcmp(name, "help-given") == 0)
+    show_given(parser, stdout);
   else
     return false;
   return true;
 }
 
 static trax_parsed parse_name(struct parser *parser, const char *text, trax_error *error) {
-  if (show_page(parser->command, text))
+  if (show_page(parser, text))
     return TRAX_PARSED_DONE;
   const char *equals = strchr(text, '=');
   const size_t length = equals ? (size_t)(equals - text) : strlen(text);
@@ -222,7 +244,10 @@ static trax_parsed parse_letters(struct parser *parser, const char *text, trax_e
 
 static trax_parsed parse(const trax_command *command, void *target, int *count, char **arguments, bool to_operand,
                          trax_error *error) {
-  struct parser parser = {.command = command, .target = target, .count = *count, .next = 1, .arguments = arguments};
+  bool given[row_count(command)];
+  memset(given, 0, sizeof given);
+  struct parser parser = {
+      .command = command, .target = target, .count = *count, .next = 1, .arguments = arguments, .given = given};
   int rest = 0;
   for (bool only_names = false; parser.next < parser.count;) {
     char *text = arguments[parser.next++];

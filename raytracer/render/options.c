@@ -12,6 +12,7 @@ static const char *const engines[] = {"fast", "reference", "native", "embree", N
 #define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
 #define PARSED(function, member) .parse = (function), .offset = offsetof(struct options, member)
 #define NUMBER(member, least_, most_) FIELD(member), .least = (least_), .most = (most_)
+#define WRITTEN .file = TRAX_OPTION_WRITTEN
 #define OUTPUT(member, endings_) FIELD(member), .file = TRAX_OPTION_OUTPUT, .endings = (endings_)
 
 /* What the table's texts say in numbers. */
@@ -23,7 +24,7 @@ _Static_assert(TRAX_TEXTURE_MAX_LOG2 == 12 && TRAX_SCENE_MAX_DEPTH == 62 && TRAX
 /* clang-format off */
 static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Picture"),
-    {"output", 'o', .argument = "FILE", FIELD(output),
+    {"output", 'o', .argument = "FILE", FIELD(output), WRITTEN,
      .meaning = "the picture: linear floats for .pfm and .exr, a PNG for .png"},
     {"size", .argument = "WxH", PARSED(take_size, frame),
      .meaning = "its size in pixels, 1x1 to 16384x16384 (default 1280x720)"},
@@ -139,7 +140,7 @@ static const trax_option rows[] = {
     {"error", .argument = "FILE.json", OUTPUT(error, "json"),
      .meaning = "how wrong the picture is, by the emulated program, against exact arithmetic and against\n"
                 "1024 samples a pixel; without -o nothing is rendered"},
-    {"converged", .argument = "DIR", FIELD(converged),
+    {"converged", .argument = "DIR", FIELD(converged), WRITTEN,
      .meaning = "where --error keeps the picture of 1024 samples, for the next run of this view"},
     {"bench-accuracy", .instead = "--error measures one picture, and trax-eval's sweep accuracy those of each method"},
     TRAX_OPTION_GROUP("Program"),
@@ -153,7 +154,7 @@ static const trax_option rows[] = {
     {"source", .argument = "DIR", FIELD(source),
      .meaning = "compiles the source in DIR, with its main.c, instead of the program that comes with trax;\n"
                 "to change a copy of lib/trax/raytracer"},
-    {"cache", .argument = "DIR", FIELD(cache),
+    {"cache", .argument = "DIR", FIELD(cache), WRITTEN,
      .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
                 "or .cache/trax/programs in the home directory)"},
     {"triangle", .argument = "METHOD", FIELD(frame.method.triangle), .choices = trax_triangle_names,
@@ -180,9 +181,9 @@ static const trax_option rows[] = {
     {"sample-warm-up", .argument = "N", NUMBER(sampling.warm_up, 1, 1u << 24),
      .meaning = "pixels before it that are simulated, but not measured (default 4 for each thread)"},
     TRAX_OPTION_GROUP("Files of the run"),
-    {"keep", .argument = "DIR", FIELD(keep),
+    {"keep", .argument = "DIR", FIELD(keep), WRITTEN,
      .meaning = "keeps what the program reads, and a manifest of it that trax-sim runs"},
-    {"prepare", .argument = "DIR", .parse = take_prepare, .meaning = "the same, and renders nothing"},
+    {"prepare", .argument = "DIR", .parse = take_prepare, WRITTEN, .meaning = "the same, and renders nothing"},
     TRAX_OPTION_GROUP("Other"),
     {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
     TRAX_OPTION_HELP('h'),

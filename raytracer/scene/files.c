@@ -3,10 +3,14 @@
 #include "trax/input.h"
 
 #include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
 
 trax_status scene_out_of_memory(trax_error *error, const char *what) {
   return trax_fail(error, "%s: not enough memory", what);
@@ -26,6 +30,32 @@ bool trax_parse_size(const char *text, size_t *bytes) {
   return true;
 }
 
+/* --- the list of what is read --- */
+
+static int list;
+
+void trax_scene_list_files(int descriptor) {
+  list = descriptor;
+}
+
+/* input: NULL if the file cannot be read. Names are escaped as xxhsum escapes them. */
+static trax_status list_file(const char *path, const trax_input *input, trax_error *error) {
+  char digits[33] = "-";
+  if (!list)
+    return TRAX_OK;
+  if (input) {
+    const XXH128_hash_t hash = XXH3_128bits(input->bytes, input->size);
+    snprintf(digits, sizeof digits, "%016" PRIx64 "%016" PRIx64, (uint64_t)hash.high64, (uint64_t)hash.low64);
+  }
+  bool written = dprintf(list, "%s%s  ", strpbrk(path, "\\\n") ? "\\" : "", digits) > 0;
+  for (const char *at = path; *at && written;) {
+    const size_t plain = strcspn(at, "\\\n");
+    written = dprintf(list, "%.*s%s", (int)plain, at, at[plain] == '\n' ? "\\n" : at[plain] ? "\\\\" : "") > 0;
+    at += plain + (at[plain] != '\0');
+  }
+  return written && dprintf(list, "\n") > 0 ? TRAX_OK : trax_fail(error, "the list of files: %s", strerror(errno));
+}
+
 trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
                             trax_error *error) {
   *bytes = (struct scene_bytes){0};
@@ -35,6 +65,10 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
   const size_t limit = input.is_regular || limits.plain < limits.unpacked ? limits.plain : limits.unpacked;
   if (result == TRAX_OK)
     result = trax_input_read(&input, limit + 1, error);
+  if (result == TRAX_OK)
+    result = list_file(path, &input, error);
+  else
+    list_file(path, NULL, NULL);
   if (result == TRAX_OK && input.size > limit)
     result = trax_fail(error, "%s: more than %zu bytes", path, limit);
   if (result == TRAX_OK) {
@@ -71,8 +105,10 @@ char *scene_referred_path(const char *referrer, const char *name) {
 trax_status scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits) {
   struct stat status;
   *bytes = (struct scene_bytes){0};
-  if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+  if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) {
+    list_file(path, NULL, NULL);
     return TRAX_ERROR;
+  }
   return scene_load_file(bytes, path, limits, NULL);
 }
 

@@ -1,16 +1,21 @@
 /* trax-scene: from mesh files to a scene file. */
+#define _GNU_SOURCE /* memfd_create */
 #include "trax_scene.h"
 
+#include "trax/input.h"
 #include "trax/message.h"
 #include "trax/output.h"
 #include "trax/progress.h"
 #include "trax/signals.h"
 
+#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 static void show_step(void *context, const char *step, double fraction) {
   trax_progress_line_show(context, step, fraction, NULL);
@@ -93,6 +98,25 @@ static trax_status check_files(trax_files *files, const struct arguments *argume
                                                    : TRAX_ERROR;
 }
 
+/* A file without a name, to which the importer's processes append. */
+static trax_status begin_list(int *list, const char *path, trax_error *error) {
+  *list = path ? memfd_create("files", MFD_CLOEXEC) : 0;
+  if (*list < 0)
+    return trax_fail(error, "%s: cannot be collected: %s", path, strerror(errno));
+  trax_scene_list_files(*list);
+  return TRAX_OK;
+}
+
+static trax_status write_list(int list, const char *path, trax_error *error) {
+  trax_input input = {.path = path, .descriptor = list};
+  trax_status result = lseek(list, 0, SEEK_SET) == 0 ? trax_input_read(&input, SIZE_MAX - 1, error)
+                                                     : trax_fail(error, "%s: %s", path, strerror(errno));
+  if (result == TRAX_OK)
+    result = trax_write_file(path, input.bytes, input.size, error);
+  trax_input_close(&input);
+  return result;
+}
+
 /* Written aside and renamed, as the scene is. */
 static trax_status write_json(const char *path, const struct statistic *list, size_t count, trax_error *error) {
   json_t *root = json_object();
@@ -151,9 +175,11 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
 static trax_status run(const struct arguments *arguments, trax_progress_line *line, trax_error *error) {
   struct trax_scene scene = {0};
   struct figures figures = {.scene = &scene};
-  trax_status result = arguments->check
-                           ? trax_scene_read_within(&scene, arguments->check, arguments->import.unpack_limit, error)
-                           : import_and_build(&scene, &figures, arguments, error);
+  int files = 0;
+  trax_status result = begin_list(&files, arguments->list_files, error);
+  if (result == TRAX_OK)
+    result = arguments->check ? trax_scene_read_within(&scene, arguments->check, arguments->import.unpack_limit, error)
+                              : import_and_build(&scene, &figures, arguments, error);
   if (result == TRAX_OK && trax_signal)
     result = TRAX_INTERRUPTED;
   if (result == TRAX_OK && arguments->output)
@@ -172,6 +198,8 @@ static trax_status run(const struct arguments *arguments, trax_progress_line *li
     if (arguments->stats_json)
       result = write_json(arguments->stats_json, list, count, error);
   }
+  if (result == TRAX_OK && files)
+    result = write_list(files, arguments->list_files, error);
   trax_scene_release(&scene);
   return result;
 }

@@ -8,7 +8,7 @@
 struct arguments {
   char **meshes; /* into argv */
   size_t mesh_count;
-  const char *output, *check, *stats_json, *write_triangles;
+  const char *output, *check, *stats_json, *list_files, *write_triangles;
   const char *nodes, *splits; /* NULL: not given */
   bool stats, quiet;
   struct trax_import_options import; /* its overrides are released with free */

@@ -41,6 +41,8 @@ static const trax_option rows[] = {
      .meaning = "no import: check a scene file completely"},
     {"stats", FIELD(stats), .meaning = "print what was read and built"},
     {"stats-json", .argument = "FILE", OUTPUT(stats_json), .meaning = "write the same as JSON"},
+    {"list-files", .argument = "FILE", OUTPUT(list_files),
+     .meaning = "write hash and name of every file that was read, as xxhsum -H2 does; -: not there"},
     TRAX_OPTION_GROUP("Meshes"),
     {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import),
      .meaning = "lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or emit:R,G,B, of the\n"

@@ -127,6 +127,16 @@ def scenes():
     outputs_onto(["a.trax"], [option("stats-json")], "trax-scene", "--check", "a.trax")
     pairs_of([option("output"), option("stats-json")], "trax-scene", "-q", "a.obj")
     accepted("trax-scene", "-q", "a.obj", "-o", "/dev/null", "--stats-json", "/dev/null")
+    # The list of what was read, and looked for, by each reader; and a name that has to be escaped.
+    outputs_onto(["a.mtl", "wood.png"], [lambda path: ["-o", "new.trax", "--list-files", path]], "trax-scene", "-q", "a.obj")
+    write("c\\\n.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    accepted("trax-scene", "-q", "a.obj", "b.gltf", "c\\\n.obj", "-o", "new.trax", "--list-files", "list")
+    with open("list") as file:
+        listed = [line.rstrip("\n").split("  ", 1) for line in file]
+    names = [name for _, name in listed]
+    if sorted(set(names)) != sorted(["a.obj", "a.mtl", "wood.png", "mask.png", "b.gltf", "b.bin", "c\\\\\\n.obj", "none.mtl"]) or not all(
+            len(digest) == (1 if name == "none.mtl" else 33 if "\\" in name else 32) for digest, name in listed):
+        fail(f"--list-files wrote {listed}")
 
 
 def renderer():

@@ -144,6 +144,11 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
                              trax_error *error);
 void trax_mesh_release(struct trax_mesh *mesh);
 
+/* From now on each file that is read for an import or a build is listed in the file of this descriptor, by this process
+   and its children: a line as of `xxhsum -H2`, or one that begins with "-" for a file that cannot be read. 0: no more.
+ */
+void trax_scene_list_files(int descriptor);
+
 /* --- scenes --- */
 
 /* The grid of quantised nodes: plane number q of an axis is at origin + q * cell. */

@@ -48,8 +48,8 @@ struct trax_option {
   trax_status (*parse)(void *target, const trax_option *option, const char *value, trax_error *error);
   void (*show)(FILE *out);
   const char *instead; /* of a removed option: what to use instead. --help does not list such a row. */
-  /* Whether the value is the path of a file. */
-  enum { TRAX_OPTION_NO_FILE, TRAX_OPTION_INPUT, TRAX_OPTION_OUTPUT } file;
+  /* Whether the value is a path. WRITTEN: of an output, or a folder of some, that the program checks itself. */
+  enum { TRAX_OPTION_NO_FILE, TRAX_OPTION_INPUT, TRAX_OPTION_OUTPUT, TRAX_OPTION_WRITTEN } file;
   const char *endings; /* of an output: the endings with a writer, as for trax_output_name_check */
 };
 
@@ -96,7 +96,8 @@ trax_parsed trax_command_parse_to_operand(const trax_command *command, void *tar
                                           trax_error *error);
 void trax_command_help(const trax_command *command, FILE *out);
 /* Every command has the options --help-man and --help-completion, too, which print these: its page for man(1), and a
-   script that completes its options in bash. */
+   script that completes its options in bash; and --help-given, which prints the options before it, one a line, by their
+   whole names, with " reads" or " writes" if the value is a file. */
 void trax_command_man(const trax_command *command, FILE *out);
 void trax_command_completion(const trax_command *command, FILE *out);
 
