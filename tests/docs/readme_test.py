@@ -1,7 +1,7 @@
 """README's figures and picture are those of this build: readme_test.py SOURCE BIN [--update]
 
 The forest is made by the program itself, so its row and its picture are rendered again, and must be the same to the digit and the
-pixel. With TRAX_SCENES=DIR the rows of the other scenes are, too. --update writes rows and picture; its right half, what each pixel
+pixel. The command of the picture's caption is run for a small picture. With TRAX_SCENES=DIR the rows of the other scenes are, too. --update writes rows and picture; its right half, what each pixel
 cost, takes a minute of a core."""
 
 import json
@@ -101,6 +101,12 @@ def main():
         if said not in text:
             wrong.append(f"README.md does not say: {said}")
             text = re.sub(r"128 threads: [\d.]+ million cycles", said, text)
+        # As a reader types it, but for the size: the cost of the whole picture takes a minute.
+        caption = re.search(rf"^\(`(trax-render [^`]* --size {SIZE} [^`]*)`\)", text, re.M)
+        words = caption[1].replace(SIZE, "40x22").split() if caption else []
+        done = subprocess.run([binaries / words[0], *words[1:]], cwd=folder, capture_output=True, text=True, check=False) if words else None
+        if not done or done.returncode or {len(row) // 3 for row in read_png(folder / words[-1])} != {40}:
+            wrong.append(f"README.md: the command of the picture's caption {'fails: ' + done.stderr if done else 'is not there'}")
         left = read_png(folder / "picture.png")
         if update:
             write_png(source / PICTURE, [a + b"\xff" * (3 * GAP) + b for a, b in zip(left, read_png(folder / "cost.png"))])
