@@ -194,6 +194,11 @@ class DocsTest(unittest.TestCase):
         self.assertEqual([(series.label, series.line, len(series.points)) for series in figure.series], [(f"{scene}, {chip}", False, 2) for scene in ("cube", "dragon") for chip in ("tiny", "4x32")])
         self.assertIn("set logscale y 10", figure.script())
         self.assertIn("1e-04", figure.text().replace("0.0001", "1e-04"))
+        # No two series of a figure look alike, with scenes, programs and modes in one.
+        results = Results(example.complete())
+        figure = charts.sweep_figure(results, PAPER, results.sweeps[1], "figure")
+        self.assertEqual(len(figure.series), 3 * 4)
+        self.assertEqual(len({(series.style, series.mark) for series in figure.series}), 3 * 4)
 
     def test_descriptions(self):
         for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), ({"values": [{"name": "mrps", "as": "x"}]}, "allowed are"), ({"summary": "mean"}, "allowed are geometric mean, least, greatest"), (3, "table: expected an object or a list of objects"), ([{}, 3], "table: expected an object or a list of objects"),

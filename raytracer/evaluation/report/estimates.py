@@ -4,8 +4,7 @@ import functools
 import itertools
 
 from .results import deviation, mean, ratio
-from .table import Cell, Table, duration, figure, percent, words
-from .table import number as shown_number
+from .table import Cell, Table, between, duration, figure, percent, words
 
 
 class Estimate:
@@ -43,7 +42,7 @@ def every(results):
     for one in found:
         run, interval, holds = one.run, one.interval, one.holds
         rows.append([words(run.mode), *(words(getattr(run, name)) for name in names), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
-                     Cell(f"{shown_number(interval[0])} to {shown_number(interval[1])}" if interval else None), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
+                     Cell(None if interval is None else " to ".join(between(interval)) if run.is_estimate() else "exact"), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
                      Cell(None if holds is None else "yes" if holds else "no", None if holds is None else str(holds)), duration(run.host_seconds), duration(one.exact.host_seconds if one.exact else None)])
     known = [one.holds for one in found if one.holds is not None]
     note = f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known." if known else "No exact run of these jobs is there to compare with."
