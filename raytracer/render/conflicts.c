@@ -4,6 +4,12 @@
 /* The sampler's numbers have 16 bits (device/sampler.h). */
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
+bool options_rendered(const struct options *options) {
+  return options->output || options->show || options->progress_png || options->prepare || options->keep ||
+         options->stats || options->compare || options->cost_picture || options->cost_values ||
+         trax_explain_wanted(&options->explain);
+}
+
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -13,11 +19,12 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (options->prepare && (options->show || options->progress_png))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
-  const bool of_run = options->stats || options->compare || options->keep || options->id_picture || options->sampled ||
-                      options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
-  const bool shown = options->show || options->progress_png;
-  if (!options->output && !options->prepare && !shown && (of_run || !(options->error || options->hits || options->ray_trace)))
-    return trax_fail(error, "no picture given: -o PICTURE.png");
+  if (!options_rendered(options) &&
+      !(options->error || options->hits || options->ray_trace || options->id_picture || options->write_view))
+    return trax_fail(error,
+                     "no picture given: -o PICTURE.png, or another output (--explore, --stats, --cost-picture, ...)");
+  if (options->frames > 1 && !options->output)
+    return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
   if (options->error && (options->engine > ENGINE_REFERENCE || options->program || options->no_specialise))
     return trax_fail(error, "--error is about the program that is compiled for the picture, on the emulator");
   if (options->converged && !options->error)

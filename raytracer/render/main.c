@@ -57,7 +57,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   }
   if (status == TRAX_OK && options->hits)
     status = measure_hits(options->hits, &frame, progress, error);
-  if (status == TRAX_OK && (output || options->prepare || live))
+  if (status == TRAX_OK && options_rendered(options))
     status = options->engine <= ENGINE_REFERENCE
                  ? emulate(&picture, options, &frame, view, progress, live, &trax_signal, error)
                  : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress, live,

@@ -114,8 +114,8 @@ static const trax_option rows[] = {
     {"source-folder", .argument = "DIR", PARSED(take_source_folder, explain),
      .meaning = "lets that page contain sources in DIR, besides those of trax and of --source (repeatable)"},
     {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
-     .meaning = "every ray with what it found, by the native twin; CSV for FILE.csv, else binary; without\n"
-                "-o nothing is rendered"},
+     .meaning = "every ray with what it found, by the native twin; CSV for FILE.csv, else binary; alone,\n"
+                "it renders nothing"},
     {"memory-trace", .argument = "FILE", OUTPUT(explain.memory_trace, NULL),
      .meaning = "every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
     {"memory-trace-format", .argument = "FORMAT", FIELD(explain.memory_trace_format),
@@ -136,10 +136,10 @@ static const trax_option rows[] = {
                 "of the whole picture within 0.2 %)"},
     {"hits", .argument = "FILE.json", OUTPUT(hits, "json"),
      .meaning = "how many pixels hit the nearest triangle, by the native twin, against exact arithmetic and\n"
-                "Embree; without -o nothing is rendered"},
+                "Embree; alone, it renders nothing"},
     {"error", .argument = "FILE.json", OUTPUT(error, "json"),
      .meaning = "how wrong the picture is, by the emulated program, against exact arithmetic and against\n"
-                "1024 samples a pixel; without -o nothing is rendered"},
+                "1024 samples a pixel; alone, it renders nothing"},
     {"converged", .argument = "DIR", FIELD(converged), WRITTEN,
      .meaning = "where --error keeps the picture of 1024 samples, for the next run of this view"},
     {"bench-accuracy", .instead = "--error measures one picture, and trax-eval's sweep accuracy those of each method"},

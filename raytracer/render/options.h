@@ -67,6 +67,8 @@ struct options {
 extern const trax_command render_command;
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error);
+/* Whether the picture is rendered: something is asked for that comes of it, or of the run. */
+bool options_rendered(const struct options *options);
 /* Whether they go together. */
 trax_status options_check(const struct options *options, trax_error *error);
 void options_release(struct options *options);

@@ -1,7 +1,8 @@
 """Commands of the pages: commands_test.py SOURCE BUILD [--update] [PAGE...]
 
 - Blocks of `sh` are run, each page in a folder of its own, and `text` behind one is what it prints (blocks.py has the kinds).
-- Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist.
+- Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist. Those of trax-render are
+  also started, without their files: a file that is not there must be all that is wrong.
 
 Stand-ins (small meshes, small programs) have the names that pages use for files of the reader's. --update writes into the pages
 what the commands print. tests/tutorial does the tutorial's two pages."""
@@ -94,7 +95,7 @@ def help_of(program):
 class Commands:
     def __init__(self, source, build):
         self.source, self.build, self.binaries = source, build, build / "bin"
-        self.checked = 0
+        self.checked = self.started = 0
 
     @functools.cached_property
     def targets(self):
@@ -159,6 +160,18 @@ class Commands:
                 return f"`{command}`: {words[0]} has no {option}"
         return None
 
+    def start(self, command):
+        """What trax-render says of a command before it looks for meshes; None if nothing. Words in capitals stand for values."""
+        if not re.match(r"(build/bin/)?trax-render [^-]", command) or "..." in command:
+            return None
+        words = [re.sub(r"\b(N|SEED)\b", "1", word) for word in shlex.split(command, comments=True)[1:] if word != "--show"]  # no window
+        made = ["missing.obj"] if words[0].startswith("generate:") else []
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([self.binaries / "trax-render", *made, *words], cwd=folder, capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL, timeout=60, check=False)
+        self.started += 1
+        return None if done.returncode == 1 and "No such file" in done.stderr else f"`{command}`: {done.stderr.strip() or done.returncode}"
+
     def of_page(self, text, blocks):
         """What is wrong with the commands of a page that are not run."""
         prose, inside = [], False
@@ -173,7 +186,7 @@ class Commands:
                 joined = block.replace("\\\n", " ")
                 lines = [line[2:] for line in joined.split("\n")[:1]] if words.startswith("console") else joined.split("\n")
                 commands += [part for line in lines for part in re.split(r"\s+(?:&&|\|\||\||;)\s+", line) if part and not part.startswith("#")]
-        return [fault for fault in map(self.check, commands) if fault]
+        return [fault for command in commands for fault in (self.check(command) or self.start(command),) if fault]
 
 
 def main():
@@ -210,8 +223,8 @@ def main():
             wrong.append(f"`{bad}` is not noticed")
     for fault in wrong:
         print(fault)
-    print(f"{ran} blocks ran, {compared} texts compared, {commands.checked} commands whose options were looked up, {len(wrong)} faults")
-    return 1 if wrong or (not words[2:] and (ran < 10 or commands.checked < 100)) else 0
+    print(f"{ran} blocks ran, {compared} texts compared, {commands.checked} commands whose options were looked up, {commands.started} started, {len(wrong)} faults")
+    return 1 if wrong or (not words[2:] and (ran < 10 or commands.checked < 100 or commands.started < 8)) else 0
 
 
 if __name__ == "__main__":

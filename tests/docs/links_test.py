@@ -2,6 +2,7 @@
 
 - Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it.
 - Every `docs/PAGE.md, "Chapter"` in the sources, too.
+- `folder/file` is a file of the sources, `trax_name` a word of them.
 - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
 - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of results and GENERATED
   may have long tables.
@@ -19,11 +20,15 @@ import xml.dom.minidom
 from blocks import kind, pages, read_blocks
 
 LINES = 250
+FOLDERS = ("emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "cmake")
 PICTURE = 300_000  # bytes of a PNG
 GENERATED = {"isa.md": "the manual", "isa-coverage.md": "the suite's cases", "timing-rules.md": "the rules of time", "trax-sim.md": "lists of options"}
 LINK = re.compile(r"!?\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 QUOTED = re.compile(r"\]\(([^)\s#]+\.md)\)(?:,\s+|,? section )((?:\"[^\"]+\"(?:,? and |, )?)+)")
 IN_SOURCES = re.compile(r"\bdocs/([\w/-]+\.md)\b(?:,[\s/*#]*\"([^\"]+)\")?")
+FILE = re.compile(r"`(?:\./)?(\w[\w.+-]*(?:/[\w.+-]+)+\.(?:c|h|cpp|py|td|def|sh|cmake|json|cfg|md|patch|inc|txt))(?::\d+)?`")
+NAME = re.compile(r"`(_*(?:trax|TRAX)_\w+)(?:\([^`]*\))?`")
+OTHERS = ("docs/llvm-releases.md",)  # names files of LLVM
 SOURCES = (".c", ".h", ".cpp", ".py", ".td", ".txt", ".in", ".sh", ".cmake", ".s", ".S", ".inc", ".def")
 
 
@@ -77,6 +82,8 @@ class Pages:
     def __init__(self, source):
         self.source = pathlib.Path(source).resolve()
         self.texts = {page.resolve(): page.read_text(encoding="utf-8") for page in pages(self.source)}
+        self.files = [f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs") for path in (self.source / folder).rglob("*") if path.is_file()]
+        self.words = {word for path, text in self.sources() for word in re.findall(r"\b_*(?:trax|TRAX)_\w+", text)}
 
     def name(self, page):
         return page.relative_to(self.source)
@@ -107,6 +114,14 @@ class Pages:
                     wrong.append(f"{self.name(page)}: {found[1]} has no chapter \"{chapter}\"")
         return wrong, led
 
+    def named(self, page, text):
+        """Files and names in a page that the sources do not have. A word in capitals stands for another, and out/ is the reader's."""
+        wrong = []
+        for found in () if str(self.name(page)) in OTHERS else FILE.finditer(text):
+            if not re.search(r"\b[A-Z]{2,}\b", found[1]) and not found[1].startswith("out/") and not any(name.endswith("/" + found[1]) for name in self.files):
+                wrong.append(f"{self.name(page)}: there is no {found[1]}")
+        return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text) if name not in self.words]
+
     def form(self, page, text):
         name = self.name(page)
         lines = text.split("\n")
@@ -132,7 +147,7 @@ class Pages:
         wrong, led = [], {}
         for page, text in self.texts.items():
             faults, led[page] = self.links(page, text)
-            wrong += faults + self.form(page, text)
+            wrong += faults + self.form(page, text) + self.named(page, text)
         reached, todo = set(), [self.source / "README.md", self.source / "docs/index.md"]
         while todo:
             page = todo.pop()
@@ -179,7 +194,7 @@ class Pages:
         return wrong
 
     def sources(self):
-        for folder in ("emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "cmake"):
+        for folder in FOLDERS:
             for path in sorted((self.source / folder).rglob("*")):
                 if path.suffix in SOURCES and "fuzz-corpus" not in path.parts and path != pathlib.Path(__file__).resolve():
                     yield path.relative_to(self.source), path.read_text(encoding="utf-8", errors="replace")
@@ -193,6 +208,9 @@ class Pages:
         for text in ("Text.\n", "# T\n\n| a |\n", "# T\n\nText.\n" + "x\n" * (LINES + 9), "# T\n\nText.\n\n```\nls\n```\n", "# T\n\nText.\n\n    ls\n"):
             if not self.form(page, text):
                 yield f"a page that begins with {text[:20]!r} is not noticed"
+        for text in ("`emulator/none.c`", "`clang/TraxBuiltins.def`", "`trax_no_such_name`", "`trax_no_such_name(x)`"):
+            if not self.named(page, text):
+                yield f"{text} is not noticed"
         for text in ("docs/none.md", 'docs/isa.md, "No such chapter"'):
             if not self.in_sources("x.c", f"/* {text} */"):
                 yield f"{text} is not noticed"

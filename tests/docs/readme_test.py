@@ -1,9 +1,12 @@
 """README's figures and picture are those of this build: readme_test.py SOURCE BIN [--update]
 
 The forest is made by the program itself, so its row and its picture are rendered again, and must be the same to the digit and the
-pixel. With TRAX_SCENES=DIR the rows of the other scenes are, too. --update writes rows and picture; its right half, what each pixel
-cost, takes a minute of a core."""
+pixel. The command of the picture's caption is run for a small picture. With TRAX_SCENES=DIR the rows of the other scenes are
+rendered, too. The picture of docs/explaining.md is of a run that takes as many cycles as its caption says. --update writes rows
+and pictures; the right half of README's, what each pixel cost, takes a minute of a core."""
 
+import base64
+import importlib
 import json
 import os
 import pathlib
@@ -11,6 +14,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import zlib
 
 SCENES = {"conference": ("conference.ply.xz", "conference"), "crytek-sponza": ("crytek-sponza.ply.xz", "crytek-sponza"),
@@ -60,6 +64,42 @@ def write_png(path, rows):
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
 
 
+# Of a screen: the name of the text chunk in which the PNG has the cycles of the run that it shows, and the part of the page.
+SCREEN, CYCLES, CLIP = "docs/explore.png", b"tEXtcycles\0", {"x": 0, "y": 0, "width": 1400, "height": 1640, "scale": 0.68}
+
+
+def take_screen(page, path, cycles):
+    """The beginning of a page in a browser."""
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "report"))
+    browser = importlib.import_module("browser")
+    with browser.Browser(browser.find_chromium()) as shown:
+        shown.open(page)
+        while shown.run("document.documentElement.dataset.ready") != "yes":
+            time.sleep(0.1)
+        png = base64.b64decode(shown.call("Page.captureScreenshot", captureBeyondViewport=True, clip=CLIP)["data"])
+    content = CYCLES + str(cycles).encode()
+    path.write_bytes(png[:33] + (len(content) - 4).to_bytes(4, "big") + content + zlib.crc32(content).to_bytes(4, "big") + png[33:])
+
+
+def check_screen(source, binaries, folder, update):
+    """What is wrong with the picture of the page that explains a run."""
+    page = source / "docs/explaining.md"
+    text = page.read_text()
+    caption = re.search(r"^\*The beginning of a page: ([\d,]+) cycles\* \(`(trax-render [^`]+)`\)", text, re.M)
+    if not caption:
+        return ["docs/explaining.md: the picture has no caption with its command"]
+    words = caption[2].split()
+    words = words if update else words[:words.index("--explore")]  # the page takes ten times as long as the run
+    subprocess.run([binaries / words[0], *words[1:], "--stats", "screen.json", "--quiet"], cwd=folder, check=True)
+    cycles = json.loads((folder / "screen.json").read_text())["cycles"]
+    if update:
+        page.write_text(text.replace(caption[1], f"{cycles:,}"))
+        take_screen(folder / words[-1], source / SCREEN, cycles)
+    shown = re.search(re.escape(CYCLES) + rb"(\d+)", (source / SCREEN).read_bytes())
+    wrong = [] if caption[1] == f"{cycles:,}" else [f"docs/explaining.md: the page's run takes {cycles:,} cycles"]
+    return wrong + ([] if shown and int(shown[1]) == cycles else [f"{SCREEN}: does not show the run of {cycles:,} cycles"])
+
+
 def digits(value):
     return f"{value:,.0f}" if value >= 999.5 else f"{value:#.3g}".rstrip(".")
 
@@ -101,10 +141,18 @@ def main():
         if said not in text:
             wrong.append(f"README.md does not say: {said}")
             text = re.sub(r"128 threads: [\d.]+ million cycles", said, text)
+        # As a reader types it, but for the size: the cost of the whole picture takes a minute.
+        caption = re.search(rf"^\(`(trax-render [^`]* --size {SIZE} [^`]*)`\)", text, re.M)
+        words = caption[1].replace(SIZE, "40x22").split() if caption else []
+        done = subprocess.run([binaries / words[0], *words[1:]], cwd=folder, capture_output=True, text=True, check=False) if words else None
+        if not done or done.returncode or {len(row) // 3 for row in read_png(folder / words[-1])} != {40}:
+            wrong.append(f"README.md: the command of the picture's caption {'fails: ' + done.stderr if done else 'is not there'}")
+        wrong += [] if update else check_screen(source, binaries, folder, False)
         left = read_png(folder / "picture.png")
         if update:
             write_png(source / PICTURE, [a + b"\xff" * (3 * GAP) + b for a, b in zip(left, read_png(folder / "cost.png"))])
             page.write_text(text)
+            check_screen(source, binaries, folder, True)
             return 0
         both = read_png(source / PICTURE)
         if len(both) != len(left) or any(b[:len(a)] != a or len(b) != 2 * len(a) + 3 * GAP for a, b in zip(left, both)):

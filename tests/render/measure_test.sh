@@ -47,6 +47,23 @@ line="hits        $(value hits.json nearest) of $(value hits.json pixels) pixels
 grep -q "^$line" .out && grep -q "^Embree      $(value hits.json embree) pixels" .out || fail "--hits: $(cat hits.json .out)"
 [ "$(value hits.json pixels)" = 576 ] || fail "--hits: $(cat hits.json)"
 rm -f x.png
+# Any other output does without a picture, and is the same then.
+for words in '--stats x.json' '--explore x.html' '--cost-picture x.png' '--cost-values x.csv' '--memory-trace x.csv' '--id-picture x.png' '--keep x.dir' \
+  '--ray-trace x.csv' '--progress-png x.png' '--write-view x.view' '--sampled --stats x.json'; do
+  file=${words##* }
+  rm -rf x.* with.png
+  measure $words -o with.png || fail "$words: $(cat .err)"
+  [ -s with.png ] && mv $file with.$file || fail "$words: $(ls)"
+  measure $words && [ "$(ls -d x.*)" = "$file" ] || fail "$words without -o: $(cat .err; ls)"
+  for each in $file with.$file; do
+    [ ! -f $each ] || sed -i '/"\(instructions_per_\)*host_second/d' $each
+  done
+  diff -r $file with.$file >/dev/null || fail "$words: differs without -o"
+done
+rm -rf x.* with.*
+measure --compare && grep -q "^$line" .out || fail "--compare alone: $(cat .out .err)"
+measure --error x.json --stats s.json --converged kept && cmp -s whole.json x.json && [ -s s.json ] || fail "--error --stats: $(cat .err)"
+rm -f x.json
 chip=
 measure --hits again.json --engine native && cmp -s hits.json again.json && [ ! -e x.png ] || fail "--hits alone: $(cat .err)"
 measure --source . --engine native -o x.png && fail "--source --engine native"
@@ -62,8 +79,10 @@ refuse() {
   [ $status -eq 1 ] && grep -q -- "error: .*$pattern" .err && [ ! -s .out ] || fail "$*: $status, $(cat .err)"
   [ ! -e x.json ] || fail "$*: left x.json"
 }
-refuse 'no picture given' --error x.json --stats s.json
-refuse 'no picture given' --hits x.json --compare
+for words in -q --sampled --mark-rays "--samples 2"; do
+  refuse 'no picture given' $words
+done
+refuse '--frames needs -o' --frames 2 --progress-png x.png
 refuse 'compiled for the picture' --error x.json --engine native
 refuse 'compiled for the picture' --error x.json --no-specialise
 refuse 'one whole picture' --error x.json -o x.png --sampled

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 
 # A colour of the page as [red, green, blue], 0 to 255.
@@ -47,6 +48,16 @@ def contrast(*colours):
     """Of two colours as a style has them."""
     bright, dark = sorted((luminance([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) for colour in colours), reverse=True)
     return (bright + 0.05) / (dark + 0.05)
+
+
+def first_pixel(png):
+    """[red, green, blue] of the first pixel of a PNG of 8 bits a channel: no filter changes it."""
+    packed, at = b"", 8
+    while at < len(png):
+        size = int.from_bytes(png[at:at + 4], "big")
+        packed += png[at + 8:at + 8 + size] if png[at + 4:at + 8] == b"IDAT" else b""
+        at += 12 + size
+    return list(zlib.decompressobj().decompress(packed)[1:4])
 
 
 class BrowserError(Exception):
@@ -235,11 +246,32 @@ class PageTests:
         self.browser.run("try { localStorage.clear() } catch {}")
         self.browser.call("Emulation.setEmulatedMedia", features=[])
 
+    def edge(self, place):
+        """The brightness at the right edge of a table that scrolls, above its first row, at the beginning and when it is scrolled to the end."""
+        box = self.browser.run(f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect(); return [b.right - 3 + scrollX, b.y + scrollY + 2]; }})({place})")
+        seen = []
+        for end in (0, 100000):
+            self.browser.run(f"{place}.scrollLeft = {end}")
+            clip = {"x": box[0], "y": box[1], "width": 2, "height": 2, "scale": 1}
+            png = base64.b64decode(self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
+            seen.append(first_pixel(png))
+        return seen
+
     def test_narrow(self):
         self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
         for name in self.pages:
             self.load(name)
             self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
+        # What is cut at the edge has a sign of it, and none once it is scrolled to its end.
+        self.load(self.CLOSELY)
+        cut = "Array.from(document.querySelectorAll('.scroll:not(details:not([open]) *)')).filter(e => e.scrollWidth > e.clientWidth + 1)"
+        count = self.browser.run(cut + ".length")
+        self.assertGreater(count, 1)
+        ground = self.ground()
+        for number in range(min(count, 4)):
+            begin, end = self.edge(f"{cut}[{number}]")
+            self.assertGreater(max(abs(a - b) for a, b in zip(begin, ground)), 20, (number, begin))
+            self.assertLess(max(abs(a - b) for a, b in zip(end, ground)), 8, (number, end))
         self.load(self.CLOSELY)
         self.picture("narrow.png", 390)
         self.browser.call("Emulation.clearDeviceMetricsOverride")

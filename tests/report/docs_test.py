@@ -16,7 +16,7 @@ import example
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(FOLDER))
 
-from report import charts, docs, markup, tables  # noqa: E402
+from report import charts, docs, estimates, markup, tables  # noqa: E402
 from report.paper import Paper  # noqa: E402
 from report.results import Results, ResultsError  # noqa: E402
 
@@ -194,6 +194,11 @@ class DocsTest(unittest.TestCase):
         self.assertEqual([(series.label, series.line, len(series.points)) for series in figure.series], [(f"{scene}, {chip}", False, 2) for scene in ("cube", "dragon") for chip in ("tiny", "4x32")])
         self.assertIn("set logscale y 10", figure.script())
         self.assertIn("1e-04", figure.text().replace("0.0001", "1e-04"))
+        # No two series of a figure look alike, with scenes, programs and modes in one.
+        results = Results(example.complete())
+        figure = charts.sweep_figure(results, PAPER, results.sweeps[1], "figure")
+        self.assertEqual(len(figure.series), 3 * 4)
+        self.assertEqual(len({(series.style, series.mark) for series in figure.series}), 3 * 4)
 
     def test_descriptions(self):
         for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"), ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"), ({"values": [{"name": "mrps", "as": "x"}]}, "allowed are"), ({"summary": "mean"}, "allowed are geometric mean, least, greatest"), (3, "table: expected an object or a list of objects"), ([{}, 3], "table: expected an object or a list of objects"),
@@ -283,6 +288,29 @@ class DocsTest(unittest.TestCase):
         rows = rows_of(self.page.read_text())
         self.assertEqual(next(row for row in rows if row[0] == "era"), ["era", "dragon", "2", "1", "6.0 %", "10.0 %", "3.0 %", "2.00 s", "16.0 s", "8.0"])
         self.assertEqual(self.docs("--check", self.page), (0, ""))
+
+    def test_estimates_of_workloads(self):
+        """An estimate stands beside the exact run of its own workload, view, variant and settings, whatever the order of the runs."""
+        made = example.complete()
+        first = next(run for run in made["runs"] if run["program"] == "era" and run["scene"] == "dragon" and run["config"] == "4x32")
+        settings = {"dcache.bytes": 32768}
+        places = ({}, {"workload": "occlusion"}, {"variant": "wide"}, {"view": "other"}, {"set": {**first["set"], **settings}})
+        exact = [{**first, **place, "key": f"exact-{number}", "points": None, "stats": {**first["stats"], "mrps": rate}}
+                 for number, (place, rate) in enumerate(zip(places, (10.0, 3.0, 5.0, 7.0, 9.0)))]
+        quick = [{**one, "key": f"quick-{one['key']}", "mode": "quick", "stats": {**one["stats"], "mrps": 1.01 * one["stats"]["mrps"]},
+                  "values": {"mrps_low": 0.98 * one["stats"]["mrps"], "mrps_high": 1.03 * one["stats"]["mrps"]}} for one in exact]
+        for order in (exact + quick, quick + exact[::-1]):
+            found = estimates.estimates(Results({**made, "runs": order}).runs)
+            self.assertEqual(sorted((one.value, round(one.error, 6), one.holds) for one in found), [(value, 0.01, True) for value in (3.0, 5.0, 7.0, 9.0, 10.0)])
+        self.assertEqual([one.value for one in estimates.estimates(Results({**made, "runs": exact[1:] + quick[:1]}).runs)], [None])
+        self.assertNotIn("0 of 0", estimates.every(Results({**made, "runs": quick})).note)
+        table = estimates.every(Results({**made, "runs": exact[:2] + quick[:2]}))
+        self.assertEqual([title for title, _ in table.columns][:4], ["mode", "program", "scene", "workload"])
+        # The summary of a sweep has a row for each workload.
+        results = Results({**made, "runs": exact[:2] + quick[:2]})
+        table = estimates.of_sweep(results, {"name": "table2"})()
+        self.assertEqual([row[:5] for row in rows_of("\n".join(table.lines(False)))],
+                         [["program", "scene", "workload", "estimates", "intervals that hold the exact figure"], ["era", "dragon", "", "1", "1"], ["era", "dragon", "occlusion", "1", "1"]])
 
     def test_missing(self):
         """A mean with a run that is not there is not a mean of the others."""

@@ -46,11 +46,19 @@ def run(*command, **options):
 
 
 def check_figure(source, text):
-    """The figure's cycles are those of the pages."""
-    figures = re.findall(r">(\d[\d,]+)</text>", (source / "docs/tutorial.svg").read_text())
-    wrong = [figure for figure in figures if not re.search(rf"\b{figure.replace(',', '')}\b", text)]
-    if wrong or len(figures) < 4:
-        raise Failure(f"docs/tutorial.svg has {' '.join(wrong) or 'too few figures'}, which the pages do not print")
+    """The figure's cycles are those of the pages, all of the tutorial's are there, and bars are as long as they say."""
+    bars = re.findall(r'width="(\d+)" height="\d+"/><text [^>]*>(\d[\d,]+)</text>', (source / "docs/tutorial.svg").read_text())
+    figures = {figure.replace(",", ""): int(width) for width, figure in bars}
+    wrong = [figure for figure in figures if not re.search(rf"\b{figure}\b", text)]
+    if wrong or not figures:
+        raise Failure(f"docs/tutorial.svg has {' '.join(wrong) or 'no figures'}, which the pages do not print")
+    printed = re.findall(r"^(?:  cycles +|.*: )(\d+)(?: cycles)?$", (source / PAGES[0]).read_text(), re.M)
+    missing = [cycles for cycles in printed if cycles not in figures]
+    if missing or len(printed) < 5:
+        raise Failure(f"docs/tutorial.svg lacks {' '.join(missing) or 'figures'}, which the tutorial prints")
+    scales = [width / int(figure) for figure, width in figures.items()]
+    if max(scales) > 1.01 * min(scales):
+        raise Failure("docs/tutorial.svg has bars that are not as long as they say")
 
 
 def check_changes(source, build, scratch):

@@ -18,7 +18,8 @@ function rowsOf(csv) {
     const cells = line.match(/("([^"]|"")*"|[^,]*)(,|$)/g).map((cell) => cell.replace(/,$/, ""));
     return Object.fromEntries(heads.map((head, i) => {
       const cell = cells[i] ?? "";
-      return [head, cell !== "" && !cell.startsWith("\"") && !Number.isNaN(Number(cell)) && !cell.startsWith("0x") ? Number(cell) : cell.replace(/^"|"$/g, "").replace(/""/g, "\"")];
+      const isNumber = cell !== "" && !cell.startsWith("\"") && !Number.isNaN(Number(cell)) && !cell.startsWith("0x");
+      return [head, isNumber ? Number(cell) : cell.replace(/^"|"$/g, "").replace(/""/g, "\"")];
     }));
   });
 }
@@ -49,10 +50,12 @@ const figure = (stats, name) => name.split(".").reduce((level, part) => level ==
 // --- numbers as text ---
 
 const whole = (value) => Math.round(value).toLocaleString("en-US");
-const percent = (share) => !Number.isFinite(share) ? "" : share === 0 ? "0 %" : share < 0.0005 ? "< 0.1 %" : `${(100 * share).toFixed(1)} %`;
+const percent = (share) => !Number.isFinite(share) ? "" : share === 0 ? "0 %" : share < 0.0005 ? "< 0.1 %" :
+  `${(100 * share).toFixed(1)} %`;
 function digits(value, places = 3) {
   if (value === 0 || !Number.isFinite(value)) return "0";
-  if (Math.abs(value) >= 1e5 || Math.abs(value) < 1e-4) return value.toExponential(places - 1).replace("e", "\u00a0\u00d7\u00a010^").replace("^+", "^");
+  if (Math.abs(value) >= 1e5 || Math.abs(value) < 1e-4)
+    return value.toExponential(places - 1).replace("e", "\u00a0\u00d7\u00a010^").replace("^+", "^");
   return Number(value.toPrecision(places)).toLocaleString("en-US", { maximumSignificantDigits: places });
 }
 // With a prefix of the SI, as of 2.9e-3 s.
@@ -62,8 +65,10 @@ function scaled(value, unit, places = 3) {
   return `${digits(value / factor, places)} ${prefix}${unit}`;
 }
 const bytesText = (value) => scaled(value, "B");
-const sizeText = (value) => value >= 2 ** 20 ? `${digits(value / 2 ** 20)} MiB` : value >= 1024 ? `${digits(value / 1024)} KiB` : `${value} B`; // of memories
-const valueText = (value, unit) => typeof value !== "number" ? String(value) : unit === "fraction" ? percent(value) : unit === "J" || unit === "W" || unit === "s" ? scaled(value, unit) :
+const sizeText = (value) => // of memories
+  value >= 2 ** 20 ? `${digits(value / 2 ** 20)} MiB` : value >= 1024 ? `${digits(value / 1024)} KiB` : `${value} B`;
+const valueText = (value, unit) => typeof value !== "number" ? String(value) : unit === "fraction" ? percent(value) :
+  unit === "J" || unit === "W" || unit === "s" ? scaled(value, unit) :
   Number.isInteger(value) ? whole(value) : digits(value, 6);
 
 // --- elements ---
@@ -86,7 +91,8 @@ function shape(tag, attributes = {}, ...children) {
   return made;
 }
 
-// columns: [head, n for numbers or another class, what orders it]; rows: arrays of cells, each a text, an element, or [what is shown, its order].
+// columns: [head, n for numbers or another class, what orders it].
+// rows: arrays of cells, each a text, an element, or [what is shown, its order].
 function fillTable(id, title, columns, rows, sortable = true) {
   const table = byId(id), body = element("tbody");
   const heads = columns.map(([head, kind], column) => element("th", { class: kind, scope: "col" },
@@ -94,10 +100,12 @@ function fillTable(id, title, columns, rows, sortable = true) {
   const made = rows.map((cells, number) => ({
     number,
     order: cells.map((cell) => Array.isArray(cell) ? cell[1] : cell),
-    row: element("tr", {}, ...cells.map((cell, column) => element(column ? "td" : "th", { class: columns[column][1], scope: column ? undefined : "row" }, ...(Array.isArray(cell) ? [cell[0]] : [cell])))),
+    row: element("tr", {}, ...cells.map((cell, column) => element(column ? "td" : "th",
+      { class: columns[column][1], scope: column ? undefined : "row" }, ...(Array.isArray(cell) ? [cell[0]] : [cell])))),
   }));
   function sortBy(column) {
-    const descending = heads[column].getAttribute("aria-sort") !== "descending" && columns[column][1] === "n" || heads[column].getAttribute("aria-sort") === "ascending";
+    const descending = heads[column].getAttribute("aria-sort") !== "descending" && columns[column][1] === "n" ||
+      heads[column].getAttribute("aria-sort") === "ascending";
     for (const head of heads) head.removeAttribute("aria-sort");
     heads[column].setAttribute("aria-sort", descending ? "descending" : "ascending");
     const compare = (a, b) => typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en");
@@ -109,7 +117,8 @@ function fillTable(id, title, columns, rows, sortable = true) {
   return made.map((one) => one.row);
 }
 
-const partBar = (share, colour) => element("div", { class: "part", style: `width: ${100 * Math.min(1, share)}%${colour ? `; background: ${colour}` : ""}`, "aria-hidden": "true" });
+const partBar = (share, colour) => element("div", { class: "part",
+  style: `width: ${100 * Math.min(1, share)}%${colour ? `; background: ${colour}` : ""}`, "aria-hidden": "true" });
 
 // --- what is told under the pointer ---
 
@@ -124,29 +133,43 @@ const untell = () => { tip.hidden = true; };
 
 // --- causes ---
 
-// What is behind a cause is its hue; causes of new units are units' too.
-const familyOf = (cause) => cause === "issued" ? "issued" : cause === "halted" ? "ended" : cause.startsWith("icache") ? "fetch" :
-  ["wait_local", "wait_dcache_hit", "dcache_bank_conflict"].includes(cause) ? "cache" : ["wait_memory", "memory_queue_full"].includes(cause) ? "memory" :
-    cause === "wait_atomic" ? "atomic" : cause === "wait_special" || cause.endsWith("_conflict") ? "unit" : "other";
-
-// The names in the order of the statistics, families together; shades from the hue to lighter and darker ones.
-function causesOf(stats, figures) {
-  const order = ["issued", "fetch", "cache", "memory", "unit", "atomic", "other", "ended"], shades = [0, 34, -12, 58, -24];
-  const meanings = new Map(figures.map(([name, , meaning]) => [name, meaning]));
-  const names = Object.keys(stats.causes).filter((name) => stats.causes[name] > 0);
-  names.sort((a, b) => order.indexOf(familyOf(a)) - order.indexOf(familyOf(b)));
-  const seen = {};
-  return names.map((name) => {
-    const family = familyOf(name), shade = shades[(seen[family] = (seen[family] ?? -1) + 1) % shades.length];
-    const colour = shade === 0 ? `var(--${family})` : `color-mix(in oklab, var(--${family}), ${shade > 0 ? "white" : "black"} ${Math.abs(shade)}%)`;
-    return { name, colour, meaning: meanings.get(`causes.${name}`), total: stats.causes[name] };
-  });
+// Each cause has one colour on every page. The hue says what is behind it, the shade which cause it is: per cent of white, or of black
+// below 0. The order is that of the bars.
+const COLOURS = {
+  issued: ["issued", 0], icache_bank_conflict: ["fetch", 0], icache_miss: ["fetch", -24],
+  wait_local: ["cache", 58], wait_dcache_hit: ["cache", 34], dcache_bank_conflict: ["cache", 0],
+  wait_memory: ["memory", 0], memory_queue_full: ["memory", 34],
+  fp_add_conflict: ["unit", 0], fp_mul_conflict: ["unit", 34], int_mul_conflict: ["unit", 58],
+  special_conflict: ["unit", -24], wait_special: ["unit", -40], ray_conflict: ["unit", -12],
+  wait_atomic: ["atomic", 0], wait_other: ["other", 0], branch_bubble: ["other", 34], halted: ["ended", 0],
+};
+// Of a unit that was added to the machine, by its name.
+const shadeOf = (cause) => [46, -32, 20, -48][Array.from(cause).reduce((sum, letter) => sum + letter.charCodeAt(0), 0) % 4];
+const lookOf = (cause) => COLOURS[cause] ?? [cause.endsWith("_conflict") || cause.startsWith("wait_") ? "unit" : "other", shadeOf(cause)];
+function colourOf(cause) {
+  const [family, shade] = lookOf(cause);
+  return shade === 0 ? `var(--${family})` : `color-mix(in oklab, var(--${family}), ${shade > 0 ? "white" : "black"} ${Math.abs(shade)}%)`;
 }
+
+function causesOf(stats, figures) {
+  const order = [...new Set(Object.values(COLOURS).map(([family]) => family))],
+    meanings = new Map(figures.map(([name, , meaning]) => [name, meaning]));
+  const names = Object.keys(stats.causes).filter((name) => stats.causes[name] > 0);
+  names.sort((a, b) => order.indexOf(lookOf(a)[0]) - order.indexOf(lookOf(b)[0]));
+  return names.map((name) => ({ name, colour: colourOf(name), meaning: meanings.get(`causes.${name}`), total: stats.causes[name] }));
+}
+
+// The share of a cache's lookups that hit; of none there is no share.
+const lookups = (cache) => cache.hits + cache.misses + cache.merged;
+const hitShare = (cache) => lookups(cache) ? percent(cache.hits / lookups(cache)) : "\u2013";
 
 // A bar of causes; cycles: by name. whole: what its full width is.
 function stack(causes, cycles, total, kind = "", labels = false, whose = "") {
-  return element("div", { class: `stack ${kind}`, "aria-hidden": "true" }, ...causes.filter(({ name }) => cycles[name] > 0).map(({ name, colour }) => {
+  return element("div", { class: `stack ${kind}`, "aria-hidden": "true" },
+    ...causes.filter(({ name }) => cycles[name] > 0).map(({ name, colour }) => {
     const share = cycles[name] / total, text = `${name} ${percent(share)}`;
-    return element("i", { style: `--c: ${colour}; width: ${100 * share}%`, "data-tip": `${whose}${text}\n${whole(cycles[name])} thread-cycles` }, labels && share > 0.05 ? element("span", {}, share > 0.14 ? text : percent(share)) : undefined);
+    return element("i", { style: `--c: ${colour}; width: ${100 * share}%`,
+      "data-tip": `${whose}${text}\n${whole(cycles[name])} thread-cycles` },
+      labels && share > 0.05 ? element("span", {}, share > 0.14 ? text : percent(share)) : undefined);
   }));
 }

@@ -1,11 +1,13 @@
 // Light and dark: the reader's system decides, until the button does.
 const root = document.documentElement;
 const remembered = (value) => {
-  try { return value ? localStorage.setItem("trax-theme", value) : localStorage.getItem("trax-theme"); } catch { return null; /* a page from a file may have no storage */ }
+  try { return value ? localStorage.setItem("trax-theme", value) : localStorage.getItem("trax-theme"); } catch { return null;
+    /* a page from a file may have no storage */ }
 };
 function drawNavigation() {
   if (["light", "dark"].includes(remembered())) root.dataset.theme = remembered();
-  for (const section of document.querySelectorAll("main > section")) byId("nav").append(element("a", { href: `#${section.id}` }, section.dataset.title));
+  for (const section of document.querySelectorAll("main > section")) byId("nav")
+    .append(element("a", { href: `#${section.id}` }, section.dataset.title));
   byId("nav").append(element("button", { id: "theme", type: "button", onclick: () => {
     const now = root.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     root.dataset.theme = now === "dark" ? "light" : "dark";
@@ -16,14 +18,16 @@ function drawNavigation() {
 async function start() {
   const run = JSON.parse(new TextDecoder().decode(await unpack("data"))), packed = await unpack("pixels");
   const { stats } = run, figures = run.figures.filter((one) => one), causeNames = Object.keys(stats.causes);
-  const all = { run, stats, figures, causes: causesOf(stats, figures), lines: linesOf(run, causeNames), series: rowsOf(run.series), columns: run.picture ? columnsOf(run.picture, packed) : {} };
+  const all = { run, stats, figures, causes: causesOf(stats, figures), lines: linesOf(run, causeNames), series: rowsOf(run.series),
+    columns: run.picture ? columnsOf(run.picture, packed) : {} };
   document.body.append(tip);
   document.addEventListener("pointermove", (event) => {
     const told = event.target.closest?.("[data-tip]");
     if (told) tell(told.dataset.tip, event.clientX, event.clientY);
     else if (!event.target.closest?.("svg, .pictures canvas")) untell();
   });
-  for (const draw of [drawHead, drawCauses, drawTime, drawPicture, drawSource, drawCalls, drawHardware, drawObjects, drawRays, drawStatistics]) draw(all);
+  for (const draw of [drawHead, drawCauses, drawTime, drawPicture, drawSource, drawCalls, drawHardware, drawObjects, drawRays,
+    drawStatistics]) draw(all);
   drawNavigation();
   byId("failure").remove();
   root.dataset.ready = "yes";

@@ -7,10 +7,10 @@ from .plots import Bars, Lines, Series, log_ticks
 from .results import mean, number, ratio
 from .sweeps import Axes, Value, by_kind
 
-# Styles of page.css, each with a mark of its own.
+# Styles of page.css, each with a mark of its own. Scenes and the like begin where programs are rare.
 PAPER = (0, "circle")
-STYLES = [(2, "dot"), (1, "square"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
-OF_PROGRAMS = [(1, "square"), (2, "dot"), (3, "triangle"), (4, "diamond"), (5, "dot"), (6, "square")]
+OF_PROGRAMS = [(1, "square"), (2, "dot"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
+STYLES = OF_PROGRAMS[2:] + OF_PROGRAMS[:2]
 
 # Causes of docs/trax-sim.md, together where the same hardware is behind them.
 CAUSES = [
@@ -28,6 +28,22 @@ CAUSES = [
 
 def style_of(index):
     return OF_PROGRAMS[index % len(OF_PROGRAMS)]
+
+
+def _styles(results, groups, by_scene):
+    """(colour, mark) of each group (scene, program, other parts of its label). On the whole page a program has one colour and one mark, and a scene one colour.
+    Of what differs the first of scene, program and other parts has the colour, the rest the mark."""
+    scenes, programs = results.scenes(), results.programs()
+    others = [*dict.fromkeys(group[2] for group in groups)]
+    several = len({group[1] for group in groups}) > 1
+    marks = [(program, others[0]) for program in programs] + [*dict.fromkeys((program, rest) for _, program, rest in groups if rest != others[0])]
+    for scene, program, rest in groups:
+        other = STYLES[others.index(rest) % len(STYLES)]
+        own = style_of(programs.index(program)) if several else other
+        if by_scene:
+            yield STYLES[scenes.index(scene) % len(STYLES)][0], style_of(marks.index((program, rest)))[1] if several else other[1]
+        else:
+            yield own[0], (other if len(others) > 1 else own)[1]
 
 
 def shares(run):
@@ -106,8 +122,12 @@ def _error_time(results, paper):
                  from_zero=False, x_ticks=ticks)
 
 
+def _label(scene, program, rest):
+    return ", ".join(part for part in (scene, program, *rest) if part)
+
+
 def sweep_figure(results, paper, sweep, identity):
-    """What a sweep's x and y say: a colour for each scene (of rays by kind: for each kind, means of the scenes), a mark for each of what else differs. None
+    """What a sweep's x and y say, a series for each scene (of rays by kind: for each kind, means of the scenes), program and what else differs. None
     if its runs differ in nothing. x may be what a table's rows may be, "threads" or a statistic; if it has one value, what differs is the axis, the variants first."""
     runs, key = results.of_sweep(sweep.get("name")), str(sweep.get("x") or "threads")
     kinds = sweep.get("y") in (None, "mrps") and any(run.kinds() for run in runs)
@@ -126,23 +146,21 @@ def sweep_figure(results, paper, sweep, identity):
     for run in runs:
         x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.get(key) if counted else run.setting(key), value.of(run)
         if x is not None and y is not None:
-            label = tuple(str(part) if axis in ("program", "chip", "workload", "variant", "kind", "size", "mode") else f"{axis}={part}" for axis, part in zip(others, axes.place(run, others)) if part != "")
-            groups.setdefault(("" if kinds or key == "scene" else run.scene, label), []).append((x, y, f"{run.name()}: {y:.4g}"))
+            label = tuple(str(part) if axis in ("chip", "workload", "variant", "kind", "size", "mode") else f"{axis}={part}"
+                          for axis, part in zip(others, axes.place(run, others)) if part != "" and axis != "program")
+            groups.setdefault(("" if kinds or key == "scene" else run.scene, run.program if "program" in others else "", label), []).append((x, y, f"{run.name()}: {y:.4g}"))
     if kinds:
-        groups = {group: [(x, y, f"{', '.join(group[1])}: {y:.4g}, mean of the scenes") for x in {point[0] for point in points} for y in [mean(point[1] for point in points if point[0] == x)]]
+        groups = {group: [(x, y, f"{_label(*group)}: {y:.4g}, mean of the scenes") for x in {point[0] for point in points} for y in [mean(point[1] for point in points if point[0] == x)]]
                   for group, points in groups.items()}
     values = sorted({point[0] for points in groups.values() for point in points})
     if len(values) < 2:
         return None
-    scenes, labels = ([*dict.fromkeys(group[place] for group in groups)] for place in (0, 1))
-    several = not kinds and key != "scene" and (len(scenes) > 1 or len(labels) == 1)
+    several = not kinds and key != "scene" and (len({group[0] for group in groups}) > 1 or len({group[1:] for group in groups}) == 1)
     first = results.programs()[:1]
     series = []
-    for (scene, label), points in groups.items():
-        colour, mark = scenes.index(scene) if several else labels.index(label), labels.index(label)
-        series.append(Series(", ".join([scene] * several + [*label]) or value.title, STYLES[colour % len(STYLES)][0], sorted(points), STYLES[mark % len(STYLES)][1],
-                             line=not named and not counted,
-                             dashed=first != [] and "program" in axes.varying and first[0] not in label))
+    for ((scene, program, rest), points), (colour, mark) in zip(groups.items(), _styles(results, groups, several)):
+        series.append(Series(_label(scene if several else "", program, rest) or value.title, colour, sorted(points), mark, line=not named and not counted,
+                             dashed=first != [] and "program" in axes.varying and program not in first))
     ticks = [(place, text) for place, text in enumerate(named)] or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)
     doubling = not named and len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
     heights = [point[1] for points in groups.values() for point in points if point[1] > 0]
@@ -185,7 +203,7 @@ def _over_time(record, identity):
 
 def _lockstep(results):
     """The values simd_utilisation.WIDTH, a line for each run that has them."""
-    series = []
+    found = []
     for run in results.runs:
         widths = sorted(int(name.split(".")[1]) for name in run.values if name.startswith("simd_utilisation.") and name.split(".")[1].isdecimal())
         points = []
@@ -193,8 +211,9 @@ def _lockstep(results):
             share = run.get(f"values.simd_utilisation.{width}")
             points.append((width, None if share is None else 100 * share, f"{run.name()}: {100 * share:.0f} % of {width} lanes" if share is not None else ""))
         if points:
-            style, mark = STYLES[len(series) % len(STYLES)]
-            series.append(Series(f"{run.scene}, {run.program}", style, points, mark, dashed=len(series) >= len(STYLES)))
+            found.append(((run.scene, run.program, ()), points))
+    styles = _styles(results, [group for group, _ in found], True)
+    series = [Series(_label(*group), colour, points, mark, dashed=group[1] not in results.programs()[:1]) for (group, points), (colour, mark) in zip(found, styles)]
     ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
     return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
 

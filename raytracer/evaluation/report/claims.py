@@ -1,8 +1,9 @@
 """What the paper says, and whether what was measured says the same: a row for each claim, with the rule by which it is judged."""
 
+import copy
 from dataclasses import dataclass
 
-from .assertions import ASSERTIONS
+from .assertions import ASSERTIONS, NOT_MEASURED
 from .results import COLUMNS, deviation, mean, number, ratio
 
 AGREES, DIFFERS, UNKNOWN = "agrees", "differs", "unknown"
@@ -48,9 +49,9 @@ def _near(deviations, cells, what):
     """All of so many figures are within a tenth of the paper's; deviations has None for what was not measured."""
     values = [abs(value) for value in deviations if value is not None]
     if not values:
-        return UNKNOWN, "not measured"
+        return UNKNOWN, NOT_MEASURED
     near = sum(value <= 0.10 for value in values)
-    found = f"{near} of {len(values)} {what} within 10 %; median deviation {100 * median(values):.0f} %, largest {100 * max(values):.0f} %"
+    found = f"{near} of {len(values)} {what if len(values) != 1 else what.removesuffix('s')} within 10 %, median deviation {100 * median(values):.0f} %; largest {100 * max(values):,.0f} %"
     if len(values) < cells:
         found += f"; {cells - len(values)} of {cells} not measured"
     return _judged(near == len(values) if len(values) == cells else (False if near < len(values) else None), found)
@@ -66,7 +67,10 @@ def _gflops(results, paper, program):
 
 
 def _area(results, paper, program):
-    rows = [(results.cell(program, scene, row["name"]), row.get("area_mm2")) for row in paper.table1 if row["name"] in paper.chips for scene in results.papers[:1]]
+    def measured(chip):  # a chip has one area, whatever the scene
+        return next((run for scene in results.papers if (run := results.cell(program, scene, chip)) and run.done), None)
+
+    rows = [(measured(row["name"]), row.get("area_mm2")) for row in paper.table1 if row["name"] in paper.chips]
     verdict, found = _near([deviation(run.get("area_mm2") if run else None, wanted) for run, wanted in rows], len(rows), "chips")
     units = [value for run, wanted in rows if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None]
     return verdict, found + (f"; of the sum of units without wires, {100 * median(units):+.0f} %" if units else "")
@@ -110,8 +114,8 @@ def _scaling(results, paper, program):
         near += sum(of_scene)
         by_scene.append(f"{scene} {sum(of_scene)} of {len(of_scene)}")
     if not known:
-        return UNKNOWN, "not measured"
-    found = f"{near} of {known} speed-ups within 10 % ({', '.join(by_scene)})"
+        return UNKNOWN, NOT_MEASURED
+    found = f"{near} of {known} speed-ups within 10 %; {', '.join(by_scene)}"
     if near < known:
         scene, chip, off = worst
         one, many = (deviation(results.figure("mrps", program, scene, name), results.published(paper, scene, name)) for name in ("1x32", chip))
@@ -141,11 +145,11 @@ def _saturation(results, paper, program):
     dragon, other_view = _views(results)
     chip, gain, whole = _largest_gain(results, paper, program, dragon)
     if gain is None:
-        return UNKNOWN, "not measured"
+        return UNKNOWN, NOT_MEASURED
     found = f"{chip} has {gain:.2f} times the rays of 4x32"
     if gain > 1.10:
         reason = _bytes(results, paper, program, dragon, "4x32")
-        found += f", on which memory does not bind yet: {reason}" if reason else ""
+        found += f"; on 4x32 memory does not bind yet: {reason}" if reason else ""
     other = _largest_gain(results, paper, program, other_view)
     if other[1] is not None:
         found += f"; {other_view}: {other[1]:.2f} times on {other[0]}"
@@ -159,7 +163,7 @@ def _bandwidth(results, paper, program):
     dragon, other_view = _views(results)
     value, other = gain(dragon), gain(other_view)
     if value is None:
-        return UNKNOWN, "not measured"
+        return UNKNOWN, NOT_MEASURED
     found = f"{value:.2f} times"
     if value < 1.6:
         reason = _bytes(results, paper, program, dragon, "8x32", 16.0)
@@ -170,18 +174,18 @@ def _bandwidth(results, paper, program):
 def _mrtp(results, paper, program):
     gain = ratio(results.figure("mrps", program, results.columns["dragon"], "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
     published = ratio(paper.mrps("dragon", "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
-    return (UNKNOWN, "not measured") if gain is None else _judged(abs(gain / published - 1) <= 0.10, f"{gain:.1f} times")
+    return (UNKNOWN, NOT_MEASURED) if gain is None else _judged(abs(gain / published - 1) <= 0.10, f"{gain:.1f} times")
 
 
 def _frames(results, paper, program):
     run = results.cell(program, results.columns["dragon"], "4x32")
     value = run.frames_per_second() if run else None
-    return (UNKNOWN, "not measured") if value is None else _judged(abs(value / 3.4 - 1) <= 0.10, f"{value:.1f} frames/s")
+    return (UNKNOWN, NOT_MEASURED) if value is None else _judged(abs(value / 3.4 - 1) <= 0.10, f"{value:.1f} frames/s")
 
 
 def _power(results, paper, program):
     value = results.mean_of_papers("energy.average_power", program, "4x32")
-    return (UNKNOWN, "not measured") if value is None else _judged(abs(value / 4 - 1) <= 0.25, f"{value:.1f} W, dynamic only")
+    return (UNKNOWN, NOT_MEASURED) if value is None else _judged(abs(value / 4 - 1) <= 0.25, f"{value:.1f} W, dynamic only")
 
 
 def _flops(results, paper, program):
@@ -190,7 +194,7 @@ def _flops(results, paper, program):
 
     value = mean(per_ray(scene) for scene in results.papers)
     published = 1e3 * 9.3 / 7.14
-    return (UNKNOWN, "not measured") if value is None else _judged(abs(value / published - 1) <= 0.10, f"{value:,.0f}")
+    return (UNKNOWN, NOT_MEASURED) if value is None else _judged(abs(value / published - 1) <= 0.10, f"{value:,.0f}")
 
 
 def _staggering(results, paper, program):
@@ -206,7 +210,7 @@ def _staggering(results, paper, program):
         if len(shares) >= 8:
             found.append((shares[0], median(shares[len(shares) // 8:-len(shares) // 8])))
     if not found:
-        return UNKNOWN, "not measured"
+        return UNKNOWN, NOT_MEASURED
     first, later = mean(first for first, _ in found), mean(later for _, later in found)
     text = f"{100 * first:.1f} % of fetches in the first interval, {100 * later:.1f} % later (median)"
     if len(found) > 1:
@@ -226,17 +230,32 @@ _CLAIMS = [
     ("Frames per second at 1280x720", "within 10 %: dragon on 4x32, the scene that gives the paper's figure", "3.4", _frames),
     ("Adds and multiplications a ray", "within 10 %: mean of the scenes on 4x32", "about 1,300 (Table 1 over Table 2)", _flops),
     ("Power of 4x32", "within 25 %: the paper calls its own a rough estimate", "4 W", _power),
-    ("Threads stagger: instruction-bank conflicts are frequent at first", "of the instructions asked for, the share that a conflict refuses in the first interval is above the later ones' median", "described, no figures", _staggering),
+    ("Threads stagger: instruction-bank conflicts are frequent at first", "a conflict refuses a greater share of the fetches in the first interval than in the later ones (median)", "described, no figures", _staggering),
     *ASSERTIONS,
 ]
 
 
+def _of_scenes(results, scenes):
+    """The results with means over these scenes alone."""
+    some = copy.copy(results)
+    some.papers = scenes
+    return some
+
+
+def _verdict(judge, results, paper, program):
+    """What a judge says. Where scenes are missing a claim stays open, and the text says what the others have."""
+    def judged(some):
+        holds, text = judge(some, paper, program)
+        return (holds, text) if holds in (AGREES, DIFFERS, UNKNOWN) else _judged(holds, text)
+
+    verdict, found = judged(results)
+    if verdict != UNKNOWN or found != NOT_MEASURED:
+        return verdict, found
+    known = [scene for scene in results.papers if judged(_of_scenes(results, [scene]))[1] != NOT_MEASURED]
+    if not known:
+        return UNKNOWN, NOT_MEASURED
+    return UNKNOWN, f"measured on {len(known)} of {len(results.papers)} scenes: {judged(_of_scenes(results, known))[1]}"
+
+
 def claims(results, paper, programs):
-    found = []
-    for title, rule, published, judge in _CLAIMS:
-        verdicts = {}
-        for program in programs:
-            holds, text = judge(results, paper, program)
-            verdicts[program] = (holds, text) if holds in (AGREES, DIFFERS, UNKNOWN) else _judged(holds, text)
-        found.append(Claim(title, rule, published, verdicts))
-    return found
+    return [Claim(title, rule, published, {program: _verdict(judge, results, paper, program) for program in programs}) for title, rule, published, judge in _CLAIMS]

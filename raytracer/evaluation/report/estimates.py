@@ -1,10 +1,10 @@
 """Quick runs beside the exact runs of the same jobs."""
 
 import functools
+import itertools
 
 from .results import deviation, mean, ratio
-from .table import Cell, Table, duration, figure, percent, words
-from .table import number as shown_number
+from .table import Cell, Table, between, duration, figure, percent, words
 
 
 class Estimate:
@@ -18,8 +18,14 @@ class Estimate:
 
 
 def _job(run):
+    """What the exact run of the same job has in common with an estimate: all that says what is run."""
     settings = tuple(sorted(str(item) for item in run.set.items() if not item[0].startswith("trax-render --sample-")))
-    return run.program, run.scene, run.config, run.size, settings
+    return run.program, run.scene, run.view, run.workload, run.variant, run.config, run.size, settings
+
+
+def _names(runs):
+    """The columns that tell jobs apart, workloads and variants only where there are any."""
+    return [name for name in ("program", "scene", "workload", "variant") if name in ("program", "scene") or any(getattr(run, name) for run in runs)]
 
 
 def estimates(runs):
@@ -29,34 +35,38 @@ def estimates(runs):
 
 def every(results):
     """A row for each."""
-    columns = [("mode", "t"), ("program", "t"), ("scene", "t"), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"), ("error", "n"),
-               ("inside", "t"), ("host, estimate", "n"), ("host, exact", "n")]
     rows, found = [], estimates(results.runs)
+    names = _names([one.run for one in found])
+    columns = [("mode", "t"), *((name, "t") for name in names), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"),
+               ("error", "n"), ("inside", "t"), ("host, estimate", "n"), ("host, exact", "n")]
     for one in found:
         run, interval, holds = one.run, one.interval, one.holds
-        rows.append([words(run.mode), words(run.program), words(run.scene), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
-                     Cell(f"{shown_number(interval[0])} to {shown_number(interval[1])}" if interval else None), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
+        rows.append([words(run.mode), *(words(getattr(run, name)) for name in names), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
+                     Cell(None if interval is None else " to ".join(between(interval)) if run.is_estimate() else "exact"), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
                      Cell(None if holds is None else "yes" if holds else "no", None if holds is None else str(holds)), duration(run.host_seconds), duration(one.exact.host_seconds if one.exact else None)])
     known = [one.holds for one in found if one.holds is not None]
-    return Table("sampled", "Estimates and their intervals", columns, rows, f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known.") if rows else None
+    note = f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known." if known else "No exact run of these jobs is there to compare with."
+    return Table("sampled", "Estimates and their intervals", columns, rows, note) if rows else None
 
 
 def _summary(name, results, runs):
-    """A row for each program and scene."""
-    groups = {(program, scene): [] for program in results.programs() for scene in results.scenes()}
-    for one in estimates(runs):
-        if one.error is not None:
-            groups[one.run.program, one.run.scene].append(one)
-    columns = [("program", "t"), ("scene", "t"), ("estimates", "n"), ("intervals that hold the exact figure", "n"), ("mean error", "n"), ("greatest error", "n"), ("mean half of the interval", "n"),
+    """A row for each program and scene, and for each workload where there are any."""
+    found = [one for one in estimates(runs) if one.error is not None]
+    names = [name for name in _names([one.run for one in found]) if name != "variant"]
+    order = {"program": results.programs(), "scene": results.scenes(), "workload": ["", *results.named("workloads")]}
+    groups = {place: [] for place in itertools.product(*(order[name] for name in names))}
+    for one in found:
+        groups[tuple(getattr(one.run, name) for name in names)].append(one)
+    columns = [*((name, "t") for name in names), ("estimates", "n"), ("intervals that hold the exact figure", "n"), ("mean error", "n"), ("greatest error", "n"), ("mean half of the interval", "n"),
                ("processor, estimates", "n"), ("processor, exact", "n"), ("exact / estimates", "n")]
     rows = []
-    for (program, scene), found in groups.items():
+    for place, found in groups.items():
         if not found:
             continue
         errors = [abs(one.error) for one in found]
         half = mean(ratio(one.interval[1] - one.interval[0], 2 * one.run.get("mrps")) if one.interval else None for one in found)
         ours, exact = (None if None in times else sum(times) for times in ([one.run.processor_seconds() for one in found], [one.exact.processor_seconds() for one in found]))
-        rows.append([words(program), words(scene), figure(len(found)), figure(sum(bool(one.holds) for one in found)), Cell(percent(mean(errors), digits=1), mean(errors)),
+        rows.append([*map(words, place), figure(len(found)), figure(sum(bool(one.holds) for one in found)), Cell(percent(mean(errors), digits=1), mean(errors)),
                      Cell(percent(max(errors), digits=1), max(errors)), Cell(percent(half, digits=1), half), duration(ours), duration(exact), figure(ratio(exact, ours), 2)])
     return Table(f"estimates-{name}", f"Estimates beside exact runs: {name}", columns, rows)
 

@@ -157,6 +157,11 @@ class Run:
             return None
         return rays * clock / high, rays * clock / low
 
+    def is_estimate(self):
+        """Whether the run may be off: its interval has two ends. A quick run of which all is simulated is exact."""
+        interval = self.interval()
+        return interval is not None and interval[0] != interval[1]
+
     def frames_per_second(self):
         """At 1280x720, whatever the size of the picture: the simulated time a pixel, times as many."""
         seconds = self.get("seconds")

@@ -6,7 +6,7 @@ import itertools
 import math
 
 from .results import ResultsError, deviation, mean, number, ratio
-from .table import Cell, Table, duration, figure, number as shown_number, percent, share
+from .table import Cell, Table, between, duration, figure, percent, share
 
 KEYS = ("id", "title", "each", "rows", "columns", "values", "mean", "where", "only", "relative", "as", "summary")
 AS = ("change", "times", "percent", "figure")
@@ -44,9 +44,14 @@ class Value:
         return share(value, 1 if value and abs(value) < 0.01 else 0, **more) if self.percent else figure(value, self.digits, **more)
 
 
-def interval_text(run):
+def interval_text(run, per=None):
+    """Of a run's rate, divided by `per` as the rate is."""
     interval = run.interval()
-    return f"[{shown_number(interval[0])}, {shown_number(interval[1])}]" if interval else ""
+    if interval and per:
+        interval = tuple(ratio(end, run.get(per)) for end in interval)
+    if not interval or None in interval:
+        return ""
+    return "[{}, {}]".format(*between(interval)) if run.is_estimate() else "exact"
 
 
 def checked(given, where):
@@ -174,7 +179,7 @@ def _build(results, paper, sweep, spec, runs, identity, title):
         if value.compared in ("times", "percent"):
             return relation(value, times(row, column, value))
         quotient = times(row, column, value) if value.compared == "change" else None
-        below = percent(quotient - 1, signed=True, digits=1) if quotient is not None else interval_text(some[0]) if value.name == "mrps" and len(some) == 1 else ""
+        below = percent(quotient - 1, signed=True, digits=1) if quotient is not None else interval_text(some[0], value.per) if value.name == "mrps" and len(some) == 1 else ""
         return value.cell(found(row, column, value), below=below, link=f"#run-{some[0].index}" if len(some) == 1 else "")
 
     def summary(row, value, name):

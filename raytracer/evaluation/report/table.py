@@ -37,6 +37,12 @@ def seconds(value):
     return f"{number(1000 * value)}\u00a0ms"
 
 
+def between(interval):
+    """The two ends of an interval, with as many digits as tell them apart."""
+    digits = next((digits for digits in (3, 4, 5) if len({number(end, digits) for end in interval}) > 1), 6)
+    return [number(end, digits) for end in interval]
+
+
 class Cell:
     """shown: the text, None if nothing was measured; value: what the page sorts by; below: what stands beside it, smaller; links: (text, address);
     style, title, link, identity: of the page alone."""
@@ -67,22 +73,24 @@ EMPTY = Cell("")
 
 
 class Table:
-    """columns: (title, kind), kind "n" for numbers, "t" for text, None where the page does not sort. rows: lists of cells."""
+    """columns: (title, kind), kind "n" for numbers, "t" for text, None where the page does not sort. rows: lists of cells. notes: (of what, text), what is
+    too long for a cell."""
 
-    def __init__(self, identity, title, columns, rows, note=""):
-        self.identity, self.title, self.columns, self.rows, self.note = identity, title, columns, rows, note
+    def __init__(self, identity, title, columns, rows, note="", notes=()):
+        self.identity, self.title, self.columns, self.rows, self.note, self.notes = identity, title, columns, rows, note, notes
 
     def measured(self):
         """Without the rows of which nothing was measured that could be."""
         def is_there(cell):
             return cell.value is not None and cell.style != "paper"
 
-        return Table(self.identity, self.title, self.columns, [row for row in self.rows if any(map(is_there, row[2:])) or all(cell.shown is not None for cell in row)], self.note)
+        return Table(self.identity, self.title, self.columns, [row for row in self.rows if any(map(is_there, row[2:])) or all(cell.shown is not None for cell in row)], self.note,
+                     self.notes)
 
     def without_empty(self):
         """Without the columns in which nothing was measured."""
         kept = [place for place in range(len(self.columns)) if any(row[place].shown for row in self.rows)]
-        return Table(self.identity, self.title, [self.columns[place] for place in kept], [[row[place] for place in kept] for row in self.rows], self.note)
+        return Table(self.identity, self.title, [self.columns[place] for place in kept], [[row[place] for place in kept] for row in self.rows], self.note, self.notes)
 
     def lines(self, padded):
         """Of Markdown; padded: to be read as it stands."""
@@ -99,7 +107,8 @@ class Table:
         return [shown[0], rule, *shown[1:]]
 
     def text(self):
-        return "\n".join([self.title, "", *self.lines(True), *(["", textwrap.fill(self.note, 120)] if self.note else []), "", ""])
+        notes = [f"{what}: {text}" for what, text in self.notes]
+        return "\n".join([self.title, "", *self.lines(True), *(["", *(textwrap.fill(text, 120) for text in [self.note, *notes] if text)] if self.note or notes else []), "", ""])
 
     def markdown(self):
-        return "\n".join([*self.lines(False), ""])
+        return "\n".join([*self.lines(False), "", *(f"- *{what}.* {text}." for what, text in self.notes), *([""] if self.notes else [])])

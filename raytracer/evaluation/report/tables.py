@@ -43,15 +43,18 @@ def measured(run, wanted):
 
 def claims_table(claims, programs):
     columns = [("claim", "t"), ("paper", None)] + [(program, "t") for program in programs] + [("how it is judged", None)]
-    rows = []
+    rows, notes = [], []
     for claim in claims:
-        row = [words(claim.title), Cell(claim.paper)]
+        row, more = [words(claim.title), Cell(claim.paper)], []
         for program in programs:
             verdict, found = claim.verdicts[program]
             text, style = _VERDICTS[verdict]
-            row.append(Cell(text, verdict, found, style))
+            short, _, rest = found.partition("; ")  # the first clause; what explains it stands below the table
+            row.append(Cell(text, verdict, short, style))
+            more += [f"{program}: {rest}"] if rest else []
         rows.append(row + [Cell(claim.rule, style="rule")])
-    return Table("claims", "What the paper says, and what was measured", columns, rows)
+        notes += [(claim.title, ". ".join(more))] if more else []
+    return Table("claims", "What the paper says, and what was measured", columns, rows, notes=notes)
 
 
 def own_machine(results, program):
@@ -111,10 +114,10 @@ def table2(results, paper, program):
         done = [run for run in runs if run and run.done]
         row += [duration(sum(run.get("seconds") or 0 for run in done) or None), duration(sum(run.host_seconds or 0 for run in done) or None)]
         rows.append(row)
-    note = own_machine(results, program) + "Million rays per second. The fairy scene is not to be had; the generated forest stands in for it."
+    note = own_machine(results, program) + "Million rays per second. The fairy scene is not available; the generated forest replaces it."
     times = [run.host_seconds for chip in paper.chips for scene in results.papers if (run := results.cell(program, scene, chip)) and run.host_seconds]
     if times:
-        note += f" The cells took {seconds(sum(times))} of the host together."
+        note += f" The cells took {seconds(sum(times))} of the host's time together."
     return Table(f"table2-{program}", f"Table 2, {results.title('programs', program)}: million rays per second", columns, rows, note)
 
 
