@@ -2,7 +2,7 @@
 """Files of programs against the host: random sequences of operations (sequences.py), performed by one program (operations.c) that is
 compiled for the machine and for the host. Results, error numbers and the folders that are left must be equal.
 
-  files_test.py BIN SOURCE [--count N] [--seed N] [--only PART] [--sim PROGRAM] [--reduce]"""
+  files_test.py BIN SOURCE [--library PROGRAM] [--count N] [--seed N] [--only PART] [--sim PROGRAM] [--reduce]"""
 
 import argparse
 import contextlib
@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 
+import cases
 import harm
 import sequences
 
@@ -43,12 +44,12 @@ class Tools:
             self.failures.append(name)
             print(f"FAILED: {name}: {what}", flush=True)
 
-    def start(self, command, folder, script, limit=None):
+    def start(self, command, folder, script, limit=None, kind=resource.RLIMIT_FSIZE):
         """Starts it with the script as standard input."""
 
         def prepare():
             if limit:
-                resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+                resource.setrlimit(kind, (limit, limit))
             if self.user:
                 os.setgroups([])
                 os.setgid(self.user)
@@ -57,8 +58,8 @@ class Tools:
         with open(script, "rb") as stdin:
             return subprocess.Popen(command, cwd=folder, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare)
 
-    def run(self, command, folder, script, limit=None):
-        with self.start(command, folder, script, limit) as process:
+    def run(self, command, folder, script, limit=None, kind=resource.RLIMIT_FSIZE):
+        with self.start(command, folder, script, limit, kind) as process:
             output, message = process.communicate(timeout=120)
         return process.returncode, output.decode(), message.decode()
 
@@ -162,7 +163,7 @@ def run_sequences(tools, options, kind, perform, label, batch_size=500, share=1)
     count, whole = 0, max(1, options.count // share)
     while count < whole:
         seeds = range(options.seed + count, options.seed + min(count + batch_size, whole))
-        batch = [sequences.Sequence(seed, kind, tools.huge) for seed in seeds]
+        batch = [sequences.Sequence(seed, kind, tools.huge, options.small) for seed in seeds]
         different = compare(tools, batch, perform, label)
         count += len(batch)
         for one in different[:3]:
@@ -264,17 +265,19 @@ def remove_temporaries(folder):
         path.unlink()
 
 
-PARTS = {"sequences": plain, "rights": rights, "checkpoints": pieces, "kills": kills, **harm.PARTS}
+PARTS = {**cases.PARTS, "sequences": plain, "rights": rights, "checkpoints": pieces, "kills": kills, **harm.PARTS}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("--library", metavar="PROGRAM", help="library_input.c, compiled")
     parser.add_argument("--count", type=int, default=1000, metavar="N", help="sequences; a tenth of them with checkpoints")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the first sequence")
     parser.add_argument("--only", choices=PARTS, help="one part")
     parser.add_argument("--sim", metavar="PROGRAM", help="another trax-sim than that in BIN")
+    parser.add_argument("--small", action="store_true", help="no large files and offsets")
     parser.add_argument("--reduce", action="store_true", help="print the shortest sequences that differ")
     options = parser.parse_args()
     begun = time.monotonic()

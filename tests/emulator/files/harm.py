@@ -125,7 +125,7 @@ def disturbed(tools, options):
         (outside / "a").write_text("SECRET" * 2)
         before = listing(outside)
         kind, how = (("all", ["--engine", "functional"]), ("pending", ["--checkpoint", work / "state", "--checkpoint-every", "300000"]))[i % 2]
-        lines = [line for number in range(60 if i % 2 else 200) for line in ["Q q", *sequences.Sequence(1000 * seed + number, kind, tools.huge).lines]]
+        lines = [line for number in range(60 if i % 2 else 200) for line in ["Q q", *sequences.Sequence(1000 * seed + number, kind, tools.huge, options.small).lines]]
         script = tools.write(tools.root / "script", "\n".join([*lines, ""]))
         with subprocess.Popen([tools.host, "DISTURB", "20", str(seed)], cwd=inside) as other:
             try:

@@ -9,14 +9,15 @@ NAMES = ("a", "b", "c", "n", "d/a", "d/b", "d/n", "e/a", "h", "l", "dead", "ll/a
 FOLDERS = ("d", "e", "d/e", "f")
 LONG = ("x" * 248, "y" * 249, "z" * 250, "v" * 255, "w" * 256)
 SIZES = (0, 1, 5, 100, 4095, 4096, 4097, 8191, 8192, 9000, 20000)
-FAR = (2**32 - 1, 2**32, 2**32 - 4096, 2**31, 2**31 - 1, 2**33, 100000)
+FAR = (2**32, 2**32 - 1, 2**32 - 4096, 2**31, 2**31 - 1, 2**33, 100000)
+SMALL = (30000, 60000, 100000)  # for --small instead of these
 HUGE = (2**62, -(2**62), 2**63 - 1, -(2**63), 2**61)
 
 
 class Sequence:
-    def __init__(self, seed, kind="all", huge=True):
+    def __init__(self, seed, kind="all", huge=True, small=False):
         self.random = random.Random(f"{kind} {seed}")
-        self.kind, self.huge = kind, huge
+        self.kind, self.huge, self.far = kind, huge and not small, SMALL if small else FAR
         self.begin, self.lines, self.open = [], [], {}
         self.prepare()
         for _ in range(self.random.randrange(4, 40)):
@@ -40,7 +41,7 @@ class Sequence:
         for name in ("a", "b", "c", "d/a", "d/b", "e/a"):
             if "/" in name and name.rsplit("/", 1)[0] not in made or self.chance(3):
                 continue
-            hole = pick.choice((0, 0, 0, 0, 5000, 2**32 - 30000))
+            hole = pick.choice((0, 0, 0, 0, 5000, self.far[0] - 30000))
             self.begin.append(f"F {name} {pick.choice(SIZES)} {pick.randrange(100)} {pick.choice(('644', '600', '640'))} {hole}")
             made.add(name)
         if "a" in made and self.chance(3):
@@ -111,7 +112,7 @@ class Sequence:
         pick = self.random
         offset = pick.choice((0, 0, 1, -1, 10, 4096, -4096, pick.randrange(-30000, 30000)))
         if self.chance(6):
-            offset = pick.choice(FAR)
+            offset = pick.choice(self.far)
         if self.huge and self.chance(8):
             offset = pick.choice(HUGE)
         slot = self.slot()
@@ -120,7 +121,7 @@ class Sequence:
             self.lines += [f"s {slot} {2**62} 0", f"s {slot} {2**62} 1", f"s {slot} 0 1"]
 
     def do_truncate(self):
-        size = self.random.choice(SIZES + (-1, 50000)) if self.random.randrange(5) else self.random.choice(FAR)
+        size = self.random.choice(SIZES + (-1, 50000)) if self.random.randrange(5) else self.random.choice(self.far)
         self.lines.append(f"t {self.slot()} {size}")
 
     def do_look(self):
