@@ -140,8 +140,8 @@ static int rename_at_once(struct trax_calls *calls, const struct trax_place *fro
   const int failure = look_at_host(calls, from, &on_host);
   if (failure)
     return failure;
-  if (on_host == kind)
-    return rename_host(calls, from, to);
+  if (on_host == kind) /* two names of one file, one of which will get a new one: rename would do nothing */
+    return has_same_file(calls, from, to) ? unlink_host(calls, from) : rename_host(calls, from, to);
   if (!is_named)
     return ENOENT;
   if (from->folder->device != to->folder->device)

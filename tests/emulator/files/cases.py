@@ -44,6 +44,29 @@ def limits(tools, _):
         run_same(tools, f"holes {how[0]}", Case(*ends), *how, limit=1 << 32, kind=resource.RLIMIT_AS)
 
 
+def contents(path):
+    return path.read_bytes() if path.is_file() else None
+
+
+def moved(tools, _):
+    """What cannot be written under its new name stays under its old one: at the end, and at a checkpoint."""
+    begin = "Q q\nF q/a 20000 1 644 0\nF q/b 10 2 644 0\n".replace("q/", "")
+    for label, lines in (("renamed", ["R a c"]), ("exchanged", ["R a c", "R b a", "R c b"]), ("replaced", ["R a c", "o 1 a wct", "w 1 9 1", "c 1"])):
+        folder = tools.fresh("guest-files", begin)
+        path = tools.write(tools.root / "script", "\n".join(["Q q", *lines, ""]))
+        before = contents(folder / NAME)
+        status, _, message = tools.run(tools.simulate("--checkpoint", tools.root / "none"), folder, path, 10000)
+        tools.check(f"{label} without room", status == 1 and "cannot be written" in message and contents(folder / NAME) == before and
+                    (folder / "q" / "b").exists() and len(os.listdir(folder / "q")) == 2, (status, message, os.listdir(folder / "q")))
+    for label, lines in (("open", ["o 1 a b", "R a c"]), ("written", ["o 1 a b", "w 1 5 5", "R a c"])):
+        folder = tools.fresh("guest-files", begin)
+        path = tools.write(tools.root / "script", "\n".join(["Q q", *lines, *1000 * ["f 1"], ""]))
+        status, _, message = tools.run(tools.simulate("--checkpoint", tools.root / "state", "--max-cycles", "400000"), folder, path)
+        tools.check(f"{label} at the checkpoint", status == 124 and contents(folder / NAME) == before, (status, os.listdir(folder / "q")))
+        status, _, message = tools.run(tools.simulate("--resume", tools.root / "state"), folder, path)
+        tools.check(f"{label} after it", status == 0 and contents(folder / NAME) is None and len(contents(folder / "q" / "c") or "") == 20000, message)
+
+
 def put_link(path):
     path.symlink_to("../../outside/a")
 
@@ -99,4 +122,4 @@ def library(tools, options):
         tools.check(f"input by the library: {way}", done == (0, "Q q\no 3\nw 5\nc 0\nS file 5 600\n", ""), done)
 
 
-PARTS = {"limits": limits, "obstacles": obstacles, "library": library}
+PARTS = {"limits": limits, "moved": moved, "obstacles": obstacles, "library": library}

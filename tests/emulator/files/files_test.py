@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Files of programs against the host: random sequences of operations (sequences.py), performed by one program (operations.c) that is
-compiled for the machine and for the host. Results, error numbers and the folders that are left must be equal.
+compiled for the machine and for the host. Results, error numbers and the folders that are left must be equal. A sequence follows from
+its seed. Parts: sequences; rights, by a user who may not write everything; checkpoints, a run in pieces; kills, a run with checkpoints
+that is killed and resumed; killed and limited, where each file is as a whole one of its versions; disturbed, while another process
+changes the folder; limits, moved, obstacles and library, which are fixed cases.
 
   files_test.py BIN SOURCE [--library PROGRAM] [--count N] [--seed N] [--only PART] [--sim PROGRAM] [--reduce]"""
 
@@ -269,7 +272,8 @@ PARTS = {**cases.PARTS, "sequences": plain, "rights": rights, "checkpoints": pie
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0],
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("--library", metavar="PROGRAM", help="library_input.c, compiled")

@@ -179,7 +179,7 @@ static void prepare(char operation, char *words[]) {
     if (pwrite(descriptor, buffer, (size_t)atoi(words[2]), strtoll(words[5], NULL, 10)) < 0 ||
         fchmod(descriptor, (mode_t)strtol(words[4], NULL, 8)) || close(descriptor))
       perror(first);
-  } else if (operation == 'M' ? mkdir(first, 0777)
+  } else if (operation == 'M'   ? mkdir(first, 0777)
              : operation == 'Y' ? symlink(words[2], first)
              : operation == 'H' ? link(in_folder(words[2], second), first)
              : operation == 'P' ? chmod(first, (mode_t)strtol(words[2], NULL, 8))
@@ -320,7 +320,8 @@ int main(int count, char *words[]) {
     disturb(atof(words[2]), (unsigned)atoi(words[3]));
     return 0;
   }
-  const struct rlimit most_bytes = {1LL << 32, 1LL << 32}, most_descriptors = {256, 256}; /* of the machine's programs */
+  const struct rlimit most_bytes = {1LL << 32, 1LL << 32},
+                      most_descriptors = {256, 256}; /* of the machine's programs */
   setrlimit(RLIMIT_FSIZE, &most_bytes);
   setrlimit(RLIMIT_NOFILE, &most_descriptors);
 #endif

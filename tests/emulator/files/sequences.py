@@ -18,7 +18,7 @@ class Sequence:
     def __init__(self, seed, kind="all", huge=True, small=False):
         self.random = random.Random(f"{kind} {seed}")
         self.kind, self.huge, self.far = kind, huge and not small, SMALL if small else FAR
-        self.begin, self.lines, self.open = [], [], {}
+        self.begin, self.lines, self.open, self.closed = [], [], {}, []
         self.prepare()
         for _ in range(self.random.randrange(4, 40)):
             self.step()
@@ -89,13 +89,14 @@ class Sequence:
         flags = self.random.choice(("r", "w", "b", "b")) + "".join(c for c, one in (("c", 2), ("t", 3), ("x", 8), ("a", 5)) if self.chance(one))
         if "x" in flags and "c" not in flags:
             flags = flags.replace("x", "")
-        self.lines.append(f"o {slot} {self.name()} {flags}")
-        self.open[slot] = True
+        name = self.name()
+        self.lines.append(f"o {slot} {name} {flags}")
+        self.open[slot] = name
 
     def do_close(self, slot=None):
         slot = self.slot() if slot is None else slot
         self.lines.append(f"c {slot}")
-        self.open.pop(slot, None)
+        self.closed.append(self.open.pop(slot, "a"))
 
     def do_read(self):
         self.lines.append(f"r {self.slot()} {self.random.choice(SIZES)}")
@@ -137,7 +138,7 @@ class Sequence:
         self.lines.append(f"u {name}")
         if self.chance(3):
             self.lines.append(f"o {self.random.choice([i for i in range(16) if i not in self.open] or [0])} {name} bc")
-            self.open[int(self.lines[-1].split()[1])] = True
+            self.open[int(self.lines[-1].split()[1])] = name
 
     def is_link(self, name):
         """A link itself, which a run with checkpoints does not change; or a folder."""
@@ -146,6 +147,10 @@ class Sequence:
 
     def do_rename(self):
         one, other = self.name(), self.name()
+        if self.open and self.chance(3):
+            one = self.open[self.random.choice(sorted(self.open))]
+        elif self.closed and self.chance(3):
+            one = self.random.choice(self.closed)
         if self.chance(4):
             one, other = self.random.choice(FOLDERS), self.random.choice(FOLDERS + ("a", "d/n", "n", "ll"))
         if self.chance(6):
@@ -153,7 +158,7 @@ class Sequence:
         if self.chance(6):  # the usual way to replace a file
             self.lines += [f"o 15 t {self.random.choice(('wct', 'bc'))}", f"w 15 {self.random.choice(SIZES)} 3"]
             one = "t"
-            self.open[15] = True
+            self.open[15] = "t"
             if self.chance(2):
                 self.do_close(15)
         if self.has_links and self.place(one) != self.place(other):
