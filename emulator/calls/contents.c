@@ -96,13 +96,17 @@ void trax_contents_read(const struct trax_contents *contents, uint64_t offset, u
   }
 }
 
+/* Pages of zeros count as holes: a host need not keep holes. */
 XXH128_hash_t trax_contents_digest(const struct trax_contents *contents) {
   static const uint8_t zeros[PAGE];
   XXH3_state_t state;
   XXH3_128bits_reset(&state);
-  for (uint64_t i = 0; i < pages_of(contents->size); i++) {
-    const uint8_t *page = i < contents->page_count ? contents->pages[i] : NULL;
-    XXH3_128bits_update(&state, page ? page : zeros, least(PAGE, contents->size - i * PAGE));
+  XXH3_128bits_update(&state, &contents->size, sizeof contents->size);
+  for (uint64_t i = 0; i < trax_contents_pages(contents); i++) {
+    if (!contents->pages[i] || memcmp(contents->pages[i], zeros, PAGE) == 0)
+      continue;
+    XXH3_128bits_update(&state, &i, sizeof i);
+    XXH3_128bits_update(&state, contents->pages[i], PAGE);
   }
   return XXH3_128bits_digest(&state);
 }

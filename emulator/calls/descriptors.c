@@ -46,8 +46,6 @@ static FILE *stream_of(const struct trax_calls *calls, uint32_t number, bool *is
 /* Whether a file at the place, of the kind that is there, may be opened so. */
 static int check_open(struct trax_calls *calls, const struct trax_place *place, uint32_t flags, mode_t kind) {
   const bool creates = flags & TRAX_OPEN_CREATE, writes = (flags & 3) != TRAX_OPEN_READ || flags & TRAX_OPEN_TRUNCATE;
-  if (creates && place->slash)
-    return EISDIR;
   if (!kind && !creates)
     return ENOENT;
   if (kind && creates && (flags & TRAX_OPEN_NEW))
@@ -65,10 +63,12 @@ static int find_or_create(struct trax_calls *calls, const struct trax_place *pla
                           struct trax_file **file) {
   const bool writes = (flags & 3) != TRAX_OPEN_READ || flags & TRAX_OPEN_TRUNCATE;
   struct trax_name *name = NULL;
-  mode_t kind = S_IFDIR;
-  int failure = place->last == TRAX_LAST_NAME ? trax_name_look(calls, place, &kind, &name) : 0;
-  if (!failure && place->last != TRAX_LAST_NAME)
-    failure = EISDIR;
+  mode_t kind;
+  if (place->last != TRAX_LAST_NAME)
+    return flags & TRAX_OPEN_CREATE && flags & TRAX_OPEN_NEW ? EEXIST : EISDIR;
+  if (flags & TRAX_OPEN_CREATE && place->slash)
+    return EISDIR;
+  int failure = trax_name_look(calls, place, &kind, &name);
   if (!failure)
     failure = check_open(calls, place, flags, kind);
   if (failure)
@@ -96,7 +96,8 @@ static int find_or_create(struct trax_calls *calls, const struct trax_place *pla
 
 static int32_t open_file(struct trax_calls *calls, const struct trax_host_call *call) {
   const uint32_t flags = call->words[2];
-  const bool is_new = (flags & TRAX_OPEN_CREATE) && (flags & TRAX_OPEN_NEW);
+  const bool creates = flags & TRAX_OPEN_CREATE, is_new = creates && flags & TRAX_OPEN_NEW;
+  const enum trax_follow follow = is_new ? TRAX_FOLLOW_NONE : creates ? TRAX_FOLLOW_NAMES : TRAX_FOLLOW_ALL;
   struct trax_place place;
   struct trax_file *file;
   uint32_t number = TRAX_FIRST_DESCRIPTOR;
@@ -106,7 +107,7 @@ static int32_t open_file(struct trax_calls *calls, const struct trax_host_call *
     return -EMFILE;
   if ((flags & 3) == 3)
     return -EINVAL;
-  int failure = find_place(calls, call, 1, is_new ? TRAX_FOLLOW_NONE : TRAX_FOLLOW_ALL, &place);
+  int failure = find_place(calls, call, 1, follow, &place);
   if (!failure)
     failure = find_or_create(calls, &place, flags, &file);
   if (!failure) {
@@ -147,6 +148,8 @@ static int32_t read_bytes(struct trax_calls *calls, const struct trax_host_call 
   if (is_stream ? number != STDIN_FILENO : !descriptor || (descriptor->flags & 3) == TRAX_OPEN_WRITE)
     return -EBADF;
   uint32_t got = 0;
+  if (!is_stream && descriptor->offset > (uint64_t)INT64_MAX - count)
+    return -EINVAL;
   if (!is_stream && descriptor->offset < descriptor->file->contents.size) {
     const uint64_t left = descriptor->file->contents.size - descriptor->offset;
     got = left < count ? (uint32_t)left : count;
@@ -171,6 +174,8 @@ static int32_t write_file(struct trax_descriptor *descriptor, const uint8_t *byt
   const uint64_t offset = descriptor->flags & TRAX_OPEN_APPEND ? file->contents.size : descriptor->offset;
   if (!count)
     return 0;
+  if (descriptor->offset > (uint64_t)INT64_MAX - count)
+    return -EINVAL;
   if (offset >= trax_contents_most)
     return -EFBIG;
   if (count > trax_contents_most - offset)

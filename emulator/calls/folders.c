@@ -239,6 +239,15 @@ static int enter(struct walk *walk, int here, const char *name) {
   return 0;
 }
 
+/* Whether the user may look things up where the walk is. */
+static int check_search(struct walk *walk) {
+  const int here = trax_folder_descriptor(walk->calls, walk->here);
+  struct stat status;
+  if (here < 0)
+    return -here;
+  return fstatat(here, ".", &status, 0) == 0 ? 0 : errno;
+}
+
 /* A part that is a name. *ends: it is the last one, and not a link to be followed. */
 static int step_by_name(struct walk *walk, enum trax_follow follow, const char *after, const struct trax_place *place,
                         bool *ends) {
@@ -250,7 +259,7 @@ static int step_by_name(struct walk *walk, enum trax_follow follow, const char *
     return -here;
   if (known && !is_last)
     return known->file ? ENOTDIR : ENOENT;
-  if (!known && (!is_last || follow == TRAX_FOLLOW_ALL || (follow == TRAX_FOLLOW_SLASH && *after))) {
+  if (!known && (!is_last || follow == TRAX_FOLLOW_ALL || follow == (*after ? TRAX_FOLLOW_SLASH : TRAX_FOLLOW_NAMES))) {
     const ssize_t got = readlinkat(here, place->name, target, sizeof target - 1);
     if (got >= 0) {
       target[got] = '\0';
@@ -266,10 +275,7 @@ static int step(struct walk *walk, enum trax_follow follow, struct trax_place *p
   const char *part = walk->left + strspn(walk->left, "/"), *left = walk->left;
   const size_t length = strcspn(part, "/");
   const char *after = part + length, *rest = after + strspn(after, "/");
-  if (length > NAME_MAX)
-    return ENAMETOOLONG;
-  memcpy(place->name, part, length);
-  place->name[length] = '\0';
+  snprintf(place->name, sizeof place->name, "%.*s", (int)length, part);
   place->slash = *after == '/';
   place->last = TRAX_LAST_NAME;
   if (length == 0 || strcmp(place->name, ".") == 0)
@@ -277,16 +283,18 @@ static int step(struct walk *walk, enum trax_follow follow, struct trax_place *p
   else if (strcmp(place->name, "..") == 0)
     place->last = TRAX_LAST_ABOVE;
   *ends = !*rest && place->last != TRAX_LAST_NAME;
+  const int denied = length ? check_search(walk) : 0;
+  if (denied)
+    return denied;
   if (place->last == TRAX_LAST_NAME) {
     const int failure = step_by_name(walk, follow, after, place, ends);
     if (failure || walk->left != left) /* a link was followed */
       return failure;
   } else {
-    if (place->last == TRAX_LAST_ABOVE) {
-      if (!walk->here->parent)
-        return EPERM;
+    if (place->last == TRAX_LAST_ABOVE && !walk->here->parent)
+      return EPERM;
+    if (place->last == TRAX_LAST_ABOVE)
       go_to(walk, walk->here->parent);
-    }
     strcpy(place->name, ".");
   }
   memmove(walk->left, rest, strlen(rest) + 1);

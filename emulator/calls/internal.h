@@ -42,12 +42,13 @@ struct trax_place {
   struct trax_folder *folder; /* a reference of the place's own; NULL: released */
   enum trax_last last;        /* a name, "." or ".." */
   bool slash;                 /* after the name: it must be a folder */
-  char name[NAME_MAX + 1];    /* "." for the folder itself */
+  char name[NAME_MAX + 2];    /* "." for the folder itself. What is too long for the host is so here */
 };
 
 enum trax_follow {
   TRAX_FOLLOW_NONE,  /* a link as the last part is not followed */
   TRAX_FOLLOW_SLASH, /* only before a slash */
+  TRAX_FOLLOW_NAMES, /* only without a slash */
   TRAX_FOLLOW_ALL
 };
 

@@ -15,11 +15,6 @@ int trax_folder_check(struct trax_calls *calls, struct trax_folder *folder) {
   return faccessat(descriptor, ".", W_OK, AT_EACCESS) == 0 ? 0 : errno;
 }
 
-static bool has_same_place(const struct trax_place *a, const struct trax_place *b) {
-  return a->folder->device == b->folder->device && a->folder->inode == b->folder->inode &&
-         strcmp(a->name, b->name) == 0;
-}
-
 /* The kind of what the host has at the place; 0: nothing. */
 static int look_at_host(struct trax_calls *calls, const struct trax_place *place, mode_t *kind) {
   struct stat status;
@@ -42,18 +37,18 @@ int trax_name_remove(struct trax_calls *calls, const struct trax_place *place) {
   int failure = place->last == TRAX_LAST_NAME ? trax_name_look(calls, place, &kind, &name) : EISDIR;
   if (!failure && !kind)
     failure = ENOENT;
+  if (!failure && place->slash)
+    failure = S_ISDIR(kind) ? EISDIR : ENOTDIR;
+  if (!failure)
+    failure = trax_folder_check(calls, place->folder);
   if (!failure && S_ISDIR(kind))
     failure = EISDIR;
-  if (!failure && place->slash)
-    failure = ENOTDIR;
   if (!failure && !S_ISREG(kind) && (!S_ISLNK(kind) || calls->deferred))
     failure = EPERM;
   if (failure)
     return failure;
   if (calls->deferred) {
-    failure = trax_folder_check(calls, place->folder);
-    if (!failure)
-      failure = trax_name_take(calls, place, false, &name);
+    failure = trax_name_take(calls, place, false, &name);
   } else {
     failure = look_at_host(calls, place, &on_host);
     if (!failure && on_host == kind) /* else it is a new file, or another process has put something there */
@@ -67,11 +62,32 @@ int trax_name_remove(struct trax_calls *calls, const struct trax_place *place) {
 
 /* --- rename --- */
 
-static int check_rename(const struct trax_place *from, const struct trax_place *to, mode_t kind, mode_t to_kind) {
+/* True if the host's folder at the place is on the way to the other folder. */
+static bool is_above(struct trax_calls *calls, const struct trax_place *place, const struct trax_folder *folder) {
+  struct stat status;
+  if (trax_place_stat(calls, place, &status) != 0)
+    return false;
+  while (folder && (folder->device != status.st_dev || folder->inode != status.st_ino))
+    folder = folder->parent;
+  return folder;
+}
+
+/* Whether the kinds fit, and the user may; `is_same`: nothing is to be done. */
+static int check_rename(struct trax_calls *calls, const struct trax_place *from, const struct trax_place *to,
+                        mode_t kind, mode_t to_kind, bool is_same) {
+  if (!S_ISDIR(kind) && (from->slash || to->slash))
+    return ENOTDIR;
+  if (S_ISDIR(kind) && is_above(calls, from, to->folder))
+    return EINVAL;
+  if (S_ISDIR(to_kind) && is_above(calls, to, from->folder))
+    return ENOTEMPTY;
+  int failure = is_same ? 0 : trax_folder_check(calls, from->folder);
+  if (!failure && !is_same)
+    failure = trax_folder_check(calls, to->folder);
+  if (failure || is_same)
+    return failure;
   if (S_ISDIR(kind))
     return to_kind && !S_ISDIR(to_kind) ? ENOTDIR : 0;
-  if (from->slash || to->slash)
-    return ENOTDIR;
   if (S_ISDIR(to_kind))
     return EISDIR;
   return (S_ISREG(kind) || S_ISLNK(kind)) && (!to_kind || S_ISREG(to_kind) || S_ISLNK(to_kind)) ? 0 : EPERM;
@@ -100,7 +116,7 @@ static int rename_folder(struct trax_calls *calls, const struct trax_place *from
   struct stat status;
   if (calls->deferred)
     return EPERM;
-  int failure = has_same_place(from, to) ? 0 : check_empty(calls, to);
+  int failure = check_empty(calls, to);
   if (!failure)
     failure = trax_place_stat(calls, from, &status);
   if (!failure)
@@ -124,13 +140,13 @@ static int rename_at_once(struct trax_calls *calls, const struct trax_place *fro
   const int failure = look_at_host(calls, from, &on_host);
   if (failure)
     return failure;
-  if (on_host == kind)
-    return rename_host(calls, from, to);
+  if (on_host == kind) /* two names of one file, one of which will get a new one: rename would do nothing */
+    return has_same_file(calls, from, to) ? unlink_host(calls, from) : rename_host(calls, from, to);
   if (!is_named)
     return ENOENT;
   if (from->folder->device != to->folder->device)
     return EXDEV;
-  return S_ISLNK(to_kind) ? unlink_host(calls, to) : trax_folder_check(calls, to->folder);
+  return S_ISLNK(to_kind) ? unlink_host(calls, to) : 0;
 }
 
 /* Reads both files, so that a checkpoint has them. */
@@ -141,11 +157,7 @@ static int rename_later(struct trax_calls *calls, const struct trax_place *from,
     return EPERM;
   if (from->folder->device != to->folder->device)
     return EXDEV;
-  int failure = trax_folder_check(calls, from->folder);
-  if (!failure)
-    failure = trax_folder_check(calls, to->folder);
-  if (!failure)
-    failure = trax_name_take(calls, from, false, name);
+  int failure = trax_name_take(calls, from, false, name);
   if (!failure && to_kind)
     failure = trax_name_take(calls, to, false, &replaced);
   if (!failure)
@@ -177,6 +189,7 @@ static int rename_file(struct trax_calls *calls, const struct trax_place *from, 
 int trax_name_rename(struct trax_calls *calls, const struct trax_place *from, const struct trax_place *to) {
   struct trax_name *name, *to_name;
   mode_t kind, to_kind;
+  bool is_same = false;
   if (from->last != TRAX_LAST_NAME || to->last != TRAX_LAST_NAME)
     return EBUSY;
   int failure = trax_name_look(calls, from, &kind, &name);
@@ -184,9 +197,13 @@ int trax_name_rename(struct trax_calls *calls, const struct trax_place *from, co
     failure = ENOENT;
   if (!failure)
     failure = trax_name_look(calls, to, &to_kind, &to_name);
+  if (!failure && (name || to_name))
+    is_same = name && to_name && name->file == to_name->file;
+  else if (!failure)
+    is_same = kind == to_kind && has_same_file(calls, from, to);
   if (!failure)
-    failure = check_rename(from, to, kind, to_kind);
-  if (!failure)
+    failure = check_rename(calls, from, to, kind, to_kind, is_same);
+  if (!failure && !is_same)
     failure =
         S_ISDIR(kind) ? rename_folder(calls, from, to) : rename_file(calls, from, to, kind, to_kind, name, to_name);
   trax_files_forget(calls);
@@ -214,8 +231,10 @@ int trax_folder_remove(struct trax_calls *calls, const struct trax_place *place)
   if (place->last != TRAX_LAST_NAME)
     return place->last == TRAX_LAST_HERE ? EINVAL : ENOTEMPTY;
   int failure = trax_name_look(calls, place, &kind, &name);
+  if (!failure)
+    failure = kind ? trax_folder_check(calls, place->folder) : ENOENT;
   if (!failure && !S_ISDIR(kind))
-    failure = kind ? ENOTDIR : ENOENT;
+    failure = ENOTDIR;
   if (!failure)
     failure = calls->deferred ? EPERM : check_empty(calls, place);
   if (failure)
