@@ -8,7 +8,7 @@
 const struct trax_config_key *trax_config_find(const char *name, trax_error *error);
 /* Whether `name` is the former name of a policy's key, which was a flag: lru, or not. If so, *name becomes today's. */
 bool trax_config_renamed(const char **name);
-/* Finds a policy by its word. */
+/* Finds a value that is a word: a policy, a model of memory, a mapping of DRAM. */
 trax_status trax_config_parse_word(const struct trax_config_key *key, const char *word, double *value,
                                    trax_error *error);
 /* Checks and stores a value. */

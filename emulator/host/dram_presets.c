@@ -52,10 +52,17 @@ trax_status trax_dram_preset_apply(struct trax_config *config, const char *name,
     if (strcmp(presets[i].name, name) == 0)
       preset = &presets[i];
   if (!preset) {
+    char names[256] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < PRESETS && length < sizeof names; i++)
+      length += (size_t)snprintf(names + length, sizeof names - length, "%s%s",
+                                 i == 0            ? ""
+                                 : i + 1 < PRESETS ? ", "
+                                                   : " and ",
+                                 presets[i].name);
     const char *nearest = trax_nearest_name(name, PRESETS, preset_name, NULL);
-    return trax_fail(error, "%s is \"%.80s\"%s%s%s; allowed are %s, %s and %s", TRAX_DRAM_PRESET, name,
-                     nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "", presets[0].name,
-                     presets[1].name, presets[2].name);
+    return trax_fail(error, "%s is \"%.80s\"%s%s%s; allowed are %s", TRAX_DRAM_PRESET, name,
+                     nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "", names);
   }
   static const struct trax_config initial = TRAX_CONFIG_DEFAULT;
   config->dram = initial.dram;

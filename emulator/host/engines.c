@@ -159,7 +159,7 @@ static trax_status complete(struct trax_machine *machine, trax_error *error) {
   const struct trax_engine *engine = run->run.engine;
   const trax_run_options *options = &run->options;
   machine->stats.cycles = engine->is_timed ? run->run.t : 0;
-  if (machine->status == TRAX_OK && run->slots)
+  if ((machine->status == TRAX_OK || machine->status == TRAX_ERROR) && run->slots)
     machine->status = trax_slots_finish(run->slots, machine->stats.cycles, error);
   if (machine->status == TRAX_ERROR)
     return TRAX_ERROR;

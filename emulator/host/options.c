@@ -56,8 +56,13 @@ ASSIGNMENT_PARSER(parse_alloc, TRAX_ASSIGN_ALLOC)
 static trax_status parse_dump(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_assignment dump = {.kind = TRAX_ASSIGN_DUMP};
   const char *colon = strrchr(value, ':'), *end = colon ? colon : value + strlen(value);
+  unsigned across, down;
+  char rest;
   if (end - value < 4 || strncasecmp(end - 4, ".png", 4) != 0)
-    return add_assignment(target, option, dump, value, error);
+    return colon && sscanf(colon, ":%ux%u%c", &across, &down, &rest) == 2
+               ? trax_option_refuse(option, value, error,
+                                    "has no writer for such pictures: a PNG is SYMBOL=FILE.png:WIDTHxHEIGHT")
+               : add_assignment(target, option, dump, value, error);
   char *after = NULL;
   const unsigned long width = colon && isdigit((unsigned char)colon[1]) ? strtoul(colon + 1, &after, 10) : 0;
   const bool has_height = after && after[0] == 'x' && isdigit((unsigned char)after[1]);

@@ -6,7 +6,7 @@
 
 #include "trax/output.h"
 
-enum { RGB = 2, BITS = 8, HEADER = 13, CHANNELS = 3 };
+enum { RGB = 2, BITS = 8, HEADER = 13, CHANNELS = 3, CHUNK = 1 << 30 };
 
 static void put_32(uint8_t *to, uint32_t value) {
   for (int i = 0; i < 4; ++i)
@@ -52,7 +52,8 @@ trax_status trax_png_write(const char *path, const uint8_t *pixels, uint32_t wid
   if (status == TRAX_OK) {
     fwrite(signature, 1, sizeof signature, output.file);
     write_chunk(output.file, "IHDR", header, sizeof header);
-    write_chunk(output.file, "IDAT", packed, (uint32_t)packed_size);
+    for (uLongf at = 0; at < packed_size; at += CHUNK) /* a chunk's length has 31 bits */
+      write_chunk(output.file, "IDAT", packed + at, (uint32_t)(packed_size - at < CHUNK ? packed_size - at : CHUNK));
     write_chunk(output.file, "IEND", header, 0); /* crc32 takes no NULL */
     status = trax_output_commit(&output, error);
   }

@@ -124,7 +124,7 @@
   COUNT(dram, twr, 12, 1, 1000, "ticks", OURS, "from the end of written data to the precharge")                                            \
   COUNT(dram, trtp, 6, 1, 1000, "ticks", OURS, "from a read to the precharge")                                                             \
   COUNT(dram, tturn, 2, 0, 1000, "ticks", OURS, "between data in different directions or of different ranks")                              \
-  COUNT(dram, trefi, 3120, 0, 1000000, "ticks", OURS, "between refreshes of a rank; 0: there are none")                                    \
+  COUNT(dram, trefi, 3120, 0, 1000000, "ticks", OURS, "between refreshes of a rank, more than dram.trfc; 0: there are none")                                    \
   COUNT(dram, trfc, 104, 1, 10000, "ticks", OURS, "duration of a refresh")                                                                 \
   COUNT(dram, reads, 32, 1, TRAX_DRAM_MAX_QUEUE, "requests", OURS, "reads that a channel chooses from")                                    \
   COUNT(dram, writes, 32, 1, TRAX_DRAM_MAX_QUEUE, "requests", OURS, "writes that a channel collects")                                      \

@@ -15,7 +15,8 @@ struct trax_fast_path {
 
   /* Properties of the whole run. */
   bool observed;        /* every instruction is a burst of its own, and all TMs simulate the same cycle */
-  bool no_epochs;       /* all TMs simulate the same cycle, since the memory latency is too short for an epoch */
+  bool no_epochs; /* all TMs simulate the same cycle, since the latency of memory, or of the second-level cache, is too
+                     short for an epoch */
   bool general_fetch;   /* the banks of the instruction caches are arbitrated one cache after the other */
   bool uneven_units;    /* adders and multipliers are arbitrated one group after the other */
   bool many_data_banks; /* the banks of the data cache are arbitrated four at a time */

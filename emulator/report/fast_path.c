@@ -32,6 +32,13 @@ static const char *hit_reason(const struct trax_config *config, bool in_turn) {
                                                  : "dcache.replacement";
 }
 
+/* Epochs are as long as the least time after which a request affects another TM: of the second-level cache, if there is
+   one, else of memory. */
+static const char *epochs_reason(const struct trax_config *config) {
+  return config->l2.bytes ? "the second-level cache's latency is too short for epochs (l2.latency_cycles)"
+                          : "the memory latency is too short for epochs (memory.latency_cycles)";
+}
+
 void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   const struct trax_fast_path *path = &machine->fast_path;
   const struct trax_config *config = &machine->config;
@@ -54,7 +61,7 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   row(&table, "observed", path->observed ? cycles : 0, cycles, "cycles", "an observer follows every instruction");
   row(&table, "TMs cycle by cycle", path->single_cycles, cycles, "cycles",
       path->observed    ? "an observer follows every instruction"
-      : path->no_epochs ? "the memory latency is too short for epochs (memory.latency_cycles)"
+      : path->no_epochs ? epochs_reason(config)
                         : conflicts);
   row(&table, "fetches bank by bank", path->general_fetch ? cycles : 0, cycles, "cycles", fetch_reason(config));
   row(&table, "adders group by group", path->uneven_units ? cycles : 0, cycles, "cycles",

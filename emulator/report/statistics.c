@@ -28,12 +28,14 @@ struct visitor {
 };
 
 static void emit(const struct visitor *visitor, enum trax_figure_group group, const char *prefix, const char *name,
-                 const char *unit, const char *meaning, double value) {
+                 const char *unit, const char *meaning, long double value) {
   struct trax_figure figure = {.unit = unit,
                                .meaning = meaning,
                                .group = group,
                                .whole = is_count(unit),
-                               .value = isfinite(value) ? value : 0}; /* 0/0 is reported as 0 */
+                               .value = isfinite(value) ? (double)value : 0}; /* 0/0 is reported as 0 */
+  if (figure.whole && isfinite(value) && value > 0)
+    figure.count = (uint64_t)value;
   snprintf(figure.name, sizeof figure.name, "%s%s", prefix, name);
   visitor->visit(visitor->context, &figure);
 }
@@ -49,7 +51,7 @@ static const char *as_key(const char *name, char *key, size_t size) {
 
 static void visit_run(const struct visitor *visitor, const struct trax_stats *S, const struct trax_config *C) {
 #define FIGURE(ID, NAME, UNIT, MEANING, EXPRESSION)                                                                    \
-  emit(visitor, TRAX_GROUP_RUN, "", NAME, UNIT, MEANING, (double)(EXPRESSION));
+  emit(visitor, TRAX_GROUP_RUN, "", NAME, UNIT, MEANING, (long double)(EXPRESSION));
   TRAX_FIGURES(FIGURE)
 #undef FIGURE
 }
@@ -67,7 +69,7 @@ static void visit_tm_shares(const struct visitor *visitor, const struct trax_sta
   const struct trax_config *C = &single;
 #define FIGURE(ID, NAME, UNIT, MEANING, EXPRESSION)                                                                    \
   if (strcmp(UNIT, "fraction") == 0 && strncmp(NAME, "memory.", 7) != 0 && strncmp(NAME, "l2.", 3) != 0)               \
-    emit(visitor, TRAX_GROUP_RUN, "", NAME, UNIT, MEANING, (double)(EXPRESSION));
+    emit(visitor, TRAX_GROUP_RUN, "", NAME, UNIT, MEANING, (long double)(EXPRESSION));
   TRAX_FIGURES(FIGURE)
 #undef FIGURE
 }
@@ -84,19 +86,20 @@ static void visit_instructions(const struct visitor *visitor, const struct trax_
   char key[48];
   for (unsigned unit = 0; unit < TRAX_UNIT_COUNT; ++unit)
     emit(visitor, TRAX_GROUP_UNIT, "instructions_by_unit.", as_key(trax_unit_names[unit], key, sizeof key),
-         "instructions", unit_meaning[unit], (double)by_unit[unit]);
+         "instructions", unit_meaning[unit], (long double)by_unit[unit]);
   for (unsigned op = 1; op < TRAX_OP_COUNT; ++op)
     emit(visitor, TRAX_GROUP_OPERATION, "instructions_by_operation.",
          as_key(trax_op_table[op].mnemonic, key, sizeof key), "instructions", trax_op_table[op].mnemonic,
-         (double)tm->instructions[op]);
+         (long double)tm->instructions[op]);
 }
 
 static void visit_memory(const struct visitor *visitor, const struct trax_memory_stats *memory, bool dram) {
-#define COUNTER(ID, NAME, UNIT, MEANING) emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (double)memory->ID);
+#define COUNTER(ID, NAME, UNIT, MEANING)                                                                               \
+  emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (long double)memory->ID);
   TRAX_MEMORY_COUNTERS(COUNTER)
 #undef COUNTER
 #define COUNTER(ID, NAME, UNIT, MEANING)                                                                               \
-  emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (double)memory->dram.ID);
+  emit(visitor, TRAX_GROUP_MEMORY, "", NAME, UNIT, MEANING, (long double)memory->dram.ID);
   if (dram) {
     TRAX_DRAM_COUNTERS(COUNTER)
   }
@@ -122,7 +125,8 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
   } else {
     visit_tm_shares(&visitor, stats ? stats : &no_stats, tm, config ? config : &no_config);
   }
-#define COUNTER(ID, NAME, UNIT, MEANING) emit(&visitor, TRAX_GROUP_COUNTER, "", NAME, UNIT, MEANING, (double)tm->ID);
+#define COUNTER(ID, NAME, UNIT, MEANING)                                                                               \
+  emit(&visitor, TRAX_GROUP_COUNTER, "", NAME, UNIT, MEANING, (long double)tm->ID);
   TRAX_TM_COUNTERS(COUNTER)
 #undef COUNTER
   double sum = 0;
@@ -130,7 +134,7 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
     sum += (double)tm->cycles[cause];
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
     emit(&visitor, TRAX_GROUP_CAUSE, "causes.", trax_cause_names[cause], "thread-cycles", cause_meanings[cause],
-         (double)tm->cycles[cause]);
+         (long double)tm->cycles[cause]);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
     emit(&visitor, TRAX_GROUP_SHARE, "cause_percent.", trax_cause_names[cause], "per cent", cause_meanings[cause],
          100 * (double)tm->cycles[cause] / sum);
@@ -231,7 +235,7 @@ struct listing {
 
 static void print_value(FILE *out, const struct trax_figure *figure) {
   if (figure->whole)
-    fprintf(out, "%20.0f", figure->value);
+    fprintf(out, "%20" PRIu64, figure->count);
   else
     fprintf(out, "%20.6g", figure->value);
 }

@@ -3,6 +3,8 @@
 #ifndef TRAX_REPORT_STATISTICS_H
 #define TRAX_REPORT_STATISTICS_H
 
+#include <stdint.h>
+
 #include "machine/machine.h"
 
 /* The section of the reports that a figure belongs to. */
@@ -22,6 +24,7 @@ struct trax_figure {
   enum trax_figure_group group;
   bool whole; /* an integer */
   double value;
+  uint64_t count; /* if it is whole: the value, also above 2^53 */
 };
 
 /* Calls visit for every figure in the order of the reports. If stats and config are NULL, the values are 0. tm NULL:

@@ -63,7 +63,7 @@ static void put_figure(void *context, const struct trax_figure *figure) {
   const char *name = figure->name;
   for (const char *dot; (dot = strchr(name, '.')); name = dot + 1)
     object = level(document, object, name, (size_t)(dot - name));
-  put(document, object, name, figure->whole ? json_integer((json_int_t)figure->value) : json_real(figure->value));
+  put(document, object, name, figure->whole ? json_integer((json_int_t)figure->count) : json_real(figure->value));
 }
 
 /* Paths need not be UTF-8: bytes above 127 are replaced by "?" if the text is not valid. */

@@ -16,6 +16,8 @@ struct trax_watchdog {
   uint64_t progress, issued;     /* counts of the latest check */
   struct trax_tp_stats *charges; /* [threads]: of the latest check; after the end, the charges since then */
   uint32_t *pc;                  /* [threads]: at the end of the run */
+  trax_cause *cause;             /* [threads]: the main one of the charges, for the report */
+  const struct trax_symbol **symbol; /* [threads]: at pc; NULL: none */
   bool is_stuck;                 /* the watchdog has ended the run */
   bool asleep;                   /* and no instruction was issued since last_okay */
 };
@@ -31,10 +33,23 @@ static void count(const struct trax_machine *machine, uint64_t *progress, uint64
     }
 }
 
-static void record_pcs(struct trax_watchdog *watchdog, struct trax_run *run) {
+/* Returns the cause, other than ISSUED, to which a thread was charged most; ISSUED if it was charged to no other. */
+static trax_cause main_cause(const uint64_t *cycles) {
+  trax_cause most = TRAX_CAUSE_ISSUED;
+  for (unsigned cause = 1; cause < TRAX_CAUSE_COUNT; cause++)
+    if (cycles[cause] > (most == TRAX_CAUSE_ISSUED ? 0 : cycles[most]))
+      most = (trax_cause)cause;
+  return most;
+}
+
+static void record_threads(struct trax_watchdog *watchdog, struct trax_run *run) {
+  const struct trax_host *host = trax_host_of(watchdog->machine);
   trax_run_export(run);
-  for (uint32_t thread = 0; thread < run->machine->stats.threads; thread++)
+  for (uint32_t thread = 0; thread < run->machine->stats.threads; thread++) {
     watchdog->pc[thread] = trax_run_thread(run, thread).pc;
+    watchdog->cause[thread] = main_cause(watchdog->charges[thread].cycles);
+    watchdog->symbol[thread] = host ? trax_image_symbol_at(host->image, watchdog->pc[thread]) : NULL;
+  }
 }
 
 static trax_status check(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
@@ -43,9 +58,10 @@ static trax_status check(struct trax_watch *watch, struct trax_run *run, uint64_
   const uint64_t cycles = watchdog->cycles, progress = watchdog->progress, issued = watchdog->issued;
   trax_run_settle(run, t);
   count(machine, &watchdog->progress, &watchdog->issued);
-  /* A resumed run has not counted the progress before the checkpoint, but the engine knows its latest cycle. */
-  watchdog->is_stuck =
-      watchdog->progress == progress && t > run->begin && t > cycles && trax_run_progressed(run) <= t - cycles;
+  /* A resumed run has not counted the progress before the checkpoint, but the engine knows its latest cycle. So it ends
+     where the undisturbed run does, also if the checkpoint was written there. */
+  const bool is_first = t == run->begin, is_due = t % cycles == 0 && t > cycles;
+  watchdog->is_stuck = is_due && (is_first || watchdog->progress == progress) && trax_run_progressed(run) <= t - cycles;
   if (!watchdog->is_stuck) {
     memcpy(watchdog->charges, machine->tp_stats, machine->stats.threads * sizeof *watchdog->charges);
     watchdog->last_okay = t;
@@ -53,11 +69,13 @@ static trax_status check(struct trax_watch *watch, struct trax_run *run, uint64_
     return TRAX_OK;
   }
   watchdog->ended = t;
-  watchdog->asleep = watchdog->issued == issued;
+  watchdog->asleep = !is_first && watchdog->issued == issued;
+  if (is_first)
+    watchdog->last_okay = t - cycles;
   for (uint64_t i = 0; i < machine->stats.threads; i++)
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       watchdog->charges[i].cycles[cause] = machine->tp_stats[i].cycles[cause] - watchdog->charges[i].cycles[cause];
-  record_pcs(watchdog, run);
+  record_threads(watchdog, run);
   return TRAX_STUCK;
 }
 
@@ -69,9 +87,11 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
   watchdog->cycles = cycles;
   watchdog->charges = calloc(machine->stats.threads, sizeof *watchdog->charges);
   watchdog->pc = calloc(machine->stats.threads, sizeof *watchdog->pc);
+  watchdog->cause = calloc(machine->stats.threads, sizeof *watchdog->cause);
+  watchdog->symbol = calloc(machine->stats.threads, sizeof *watchdog->symbol);
   watchdog->watch = (struct trax_watch){.inspect = check, .context = watchdog};
   trax_machine_watch(machine, &watchdog->watch);
-  if (watchdog->charges && watchdog->pc)
+  if (watchdog->charges && watchdog->pc && watchdog->cause && watchdog->symbol)
     return watchdog;
   trax_watchdog_end(watchdog);
   return NULL;
@@ -79,23 +99,8 @@ struct trax_watchdog *trax_watchdog_begin(trax_machine *machine, uint64_t cycles
 
 /* --- the report --- */
 
-/* Returns the cause, other than ISSUED, to which a thread was charged most; ISSUED if it was charged to no other. */
-static trax_cause main_cause(const struct trax_watchdog *watchdog, uint64_t thread) {
-  const uint64_t *cycles = watchdog->charges[thread].cycles;
-  trax_cause most = TRAX_CAUSE_ISSUED;
-  for (unsigned cause = 1; cause < TRAX_CAUSE_COUNT; cause++)
-    if (cycles[cause] > (most == TRAX_CAUSE_ISSUED ? 0 : cycles[most]))
-      most = (trax_cause)cause;
-  return most;
-}
-
-static const struct trax_symbol *symbol_of(const struct trax_watchdog *watchdog, uint64_t thread) {
-  const struct trax_host *host = trax_host_of(watchdog->machine);
-  return host ? trax_image_symbol_at(host->image, watchdog->pc[thread]) : NULL;
-}
-
 static bool alike(const struct trax_watchdog *watchdog, uint64_t a, uint64_t b) {
-  return main_cause(watchdog, a) == main_cause(watchdog, b) && symbol_of(watchdog, a) == symbol_of(watchdog, b);
+  return watchdog->cause[a] == watchdog->cause[b] && watchdog->symbol[a] == watchdog->symbol[b];
 }
 
 static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, FILE *out) {
@@ -105,7 +110,7 @@ static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, 
 #undef NAME
   };
   const struct trax_host *host = trax_host_of(watchdog->machine);
-  const trax_cause cause = main_cause(watchdog, first);
+  const trax_cause cause = watchdog->cause[first];
   uint64_t threads = 0, issued = 0, waited = 0, all = 0;
   for (uint64_t i = first; i < watchdog->machine->stats.threads; i++)
     if (alike(watchdog, first, i)) {
@@ -119,7 +124,7 @@ static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, 
           100 * (double)issued / (double)all);
   if (cause != TRAX_CAUSE_ISSUED)
     fprintf(out, ", %s %.0f %%", names[cause], 100 * (double)waited / (double)all);
-  const struct trax_symbol *symbol = symbol_of(watchdog, first);
+  const struct trax_symbol *symbol = watchdog->symbol[first];
   fprintf(out, "; at 0x%08x", watchdog->pc[first]);
   if (symbol)
     fprintf(out, " in %s+0x%x", symbol->name, watchdog->pc[first] - symbol->address);
@@ -151,5 +156,7 @@ void trax_watchdog_end(struct trax_watchdog *watchdog) {
   trax_machine_unwatch(watchdog->machine, &watchdog->watch);
   free(watchdog->charges);
   free(watchdog->pc);
+  free(watchdog->cause);
+  free(watchdog->symbol);
   free(watchdog);
 }

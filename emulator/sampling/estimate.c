@@ -48,12 +48,12 @@ struct trax_estimate trax_estimate_total(const double *ratios, size_t count, dou
   return estimate;
 }
 
-size_t trax_estimate_draws(const double *ratios, size_t count, double relative) {
-  const double mean = mean_of(ratios, count);
-  if (count < 2 || !(mean > 0) || !(relative > 0))
-    return count;
-  const double needed = pow(trax_student_95(count - 1) * spread_of(ratios, count, mean) / (mean * relative), 2);
-  return needed > (double)count ? (size_t)ceil(fmin(needed, 1e9)) : count;
+double trax_estimate_draws(const double *ratios, size_t count, double total_size, double half) {
+  const double spread = spread_of(ratios, count, mean_of(ratios, count));
+  if (count < 2 || spread <= 0)
+    return (double)count;
+  return fmax(ceil(half > 0 ? pow(trax_student_95(count - 1) * spread * total_size / half, 2) : INFINITY),
+              (double)count);
 }
 
 void trax_estimate_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles) {

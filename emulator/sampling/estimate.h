@@ -29,9 +29,9 @@ struct trax_estimate trax_estimate_total(const double *ratios, size_t count, dou
 /* The quantile of Student's distribution: a value lies between minus and plus the result with probability 0.95. */
 double trax_student_95(uint64_t degrees_of_freedom);
 
-/* The number of draws that gives a half width of `relative` times the estimate, if further draws vary as these `count`
-   do; at least `count`. */
-size_t trax_estimate_draws(const double *ratios, size_t count, double relative);
+/* The number of draws that gives this half width of the estimate of trax_estimate_total, if further draws vary as these
+   `count` do; at least `count`. */
+double trax_estimate_draws(const double *ratios, size_t count, double total_size, double half);
 
 /* Rounds a TP's estimated charges, [TRAX_CAUSE_COUNT], to whole numbers whose sum is `cycles`. */
 void trax_estimate_charges(struct trax_tp_stats *stats, const double *charges, uint64_t cycles);

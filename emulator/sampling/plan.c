@@ -136,6 +136,10 @@ static trax_status check(const trax_slot_sampling *asked, const struct trax_mach
     return trax_fail(error, "the fraction of slots to simulate is %g; allowed is above 0 to 1", asked->fraction);
   if (asked->error < 0 || asked->error >= 1 || isnan(asked->error))
     return trax_fail(error, "the error wanted is %g; allowed is 0 to below 1", asked->error);
+  if (asked->error > 0 && asked->error <= TRAX_SAMPLING_BIAS)
+    return trax_fail(error,
+                     "the error wanted is %g %%; no interval is narrower than plus and minus %g %%: simulate all",
+                     100 * asked->error, 100 * TRAX_SAMPLING_BIAS);
   if (asked->costs && !asked->block)
     return trax_fail(error, "costs of slots need the number of slots in a block");
   for (uint32_t i = 0; asked->costs && i * (uint64_t)asked->block < asked->slots; i++)
@@ -146,8 +150,10 @@ static trax_status check(const trax_slot_sampling *asked, const struct trax_mach
 
 /* --- the plan --- */
 
+/* The greatest multiple stands for values beyond it, which are more than all slots. */
 static uint32_t rounded_up(uint64_t value, uint32_t multiple) {
-  return (uint32_t)((value + multiple - 1) / multiple * multiple);
+  const uint64_t rounded = (value + multiple - 1) / multiple * multiple, most = UINT32_MAX / multiple * multiple;
+  return (uint32_t)(rounded < most ? rounded : most);
 }
 
 static bool make_room(struct trax_slot_plan *plan, size_t most) {
@@ -172,7 +178,8 @@ trax_status trax_slot_plan_create(struct trax_slot_plan *plan, const struct trax
   /* The chip is part of the seed, so that estimates for different chips are independent. */
   plan->random = scrambled(asked->seed << 32 | machine->config.chip.tms << 16 | threads);
   plan->first = rounded_up(asked->warm_up > unit ? asked->warm_up : unit, asked->block);
-  const uint64_t end = place_with(asked, asked->warm_up + (uint64_t)threads), ends = plan->first + asked->slots - end;
+  const uint64_t end = place_with(asked, asked->warm_up + (uint64_t)threads);
+  const uint64_t ends = plan->first + (uint64_t)asked->slots - end;
   if (asked->fraction >= 1 || ends >= asked->slots)
     return TRAX_OK;
   const uint32_t units = (uint32_t)((asked->slots - ends) / asked->unit);

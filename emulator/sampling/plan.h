@@ -9,6 +9,9 @@
 
 #include "machine/machine.h"
 
+/* Of the estimate, added to the half width: the caches' error after a warm-up (docs/sampling.md). */
+#define TRAX_SAMPLING_BIAS 0.01
+
 struct trax_slot_plan {
   trax_slot_sampling asked; /* with the defaults filled in */
   uint64_t random;          /* the generator's state */

@@ -20,7 +20,9 @@
 
 enum { LEAST_STEP = 32, MOST_STEP = 2000 }; /* cycles between inspections of the counters */
 
-#define BIAS 0.01 /* of the estimate, added to the half width: the caches' error after a warm-up (docs/sampling.md) */
+__extension__ typedef unsigned __int128 trax_wide;
+
+#define FAR 4 /* times the possible draws: so many will not be too few by the error of the deviations so far */
 
 enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
 
@@ -36,7 +38,8 @@ struct trax_slots {
   struct trax_slot_plan plan;
   double *ratios; /* [done]: of each draw, the measured cycles divided by the expected cost */
   size_t done;    /* draws that have been measured */
-  bool extended;  /* draws were added after the pilot */
+  bool failed;    /* the wanted interval cannot be reached; the reason is in `error` */
+  trax_error error;
 
   enum phase phase;
   uint32_t target;               /* the place that ends the phase */
@@ -112,16 +115,37 @@ static uint32_t read_counters(const struct trax_slots *slots) {
   return sum;
 }
 
-/* After the pilot, adds the draws that the wanted interval needs, as far as there is room for them. */
+/* Half the width of the interval that the draws so far give. */
+static double half_of(const struct trax_estimate *estimate) {
+  return estimate->half + TRAX_SAMPLING_BIAS * estimate->total;
+}
+
+/* Adds the draws that the wanted interval still needs. The end of the run, of which nothing is known yet, only makes it
+   narrower. */
 static void extend(struct trax_slots *slots) {
-  const size_t needed = trax_estimate_draws(slots->ratios, slots->done, slots->plan.asked.error);
-  slots->extended = true;
-  trax_slot_plan_draw(&slots->plan, needed - slots->plan.draw_count);
+  struct trax_slot_plan *plan = &slots->plan;
+  const double size = plan->sizes[plan->units];
+  const struct trax_estimate middle = trax_estimate_total(slots->ratios, slots->done, size);
+  const double wanted = plan->asked.error * (slots->exact_cycles + middle.total);
+  if (half_of(&middle) <= wanted)
+    return;
+  const double needed =
+      trax_estimate_draws(slots->ratios, slots->done, size, wanted - TRAX_SAMPLING_BIAS * middle.total);
+  if (plan->draw_count == plan->most_draws || needed > FAR * (double)plan->most_draws) {
+    slots->failed = true;
+    trax_fail(&slots->error,
+              "%zu ranges give plus and minus %.2f %%, and %.2f %% would take more ranges than there is work for: ask "
+              "for less, for shorter ranges, or simulate all",
+              slots->done, 100 * half_of(&middle) / (slots->exact_cycles + middle.total), 100 * plan->asked.error);
+    return;
+  }
+  const double most = fmin(needed, (double)plan->most_draws);
+  trax_slot_plan_draw(plan, most > (double)plan->draw_count ? (size_t)most - plan->draw_count : 1);
 }
 
 /* Begins the next phase. At time `at` the place was slots->target; in cycle t it is n. */
 static void begin_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t n) {
-  if (slots->done == slots->plan.draw_count && slots->plan.asked.error > 0 && !slots->extended)
+  if (slots->done == slots->plan.draw_count && slots->plan.asked.error > 0)
     extend(slots);
   const bool more = slots->done < slots->plan.draw_count;
   const uint32_t start =
@@ -211,7 +235,7 @@ static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint6
   slots->last_place = n;
   slots->last_cycle = t;
   watch->next = next_inspection(slots, t);
-  return TRAX_OK;
+  return slots->failed ? TRAX_ERROR : TRAX_OK;
 }
 
 /* --- the run --- */
@@ -283,17 +307,47 @@ static void estimate_counts(struct trax_slots *slots, double cycles) {
 #undef ESTIMATE
 }
 
-/* Scales a counter of all TMs so that its sum is `total`, unless that is 0 (unknown). */
-static void set_total(struct trax_slots *slots, size_t offset, uint64_t total) {
-  uint64_t sum = 0, given = 0;
-  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++)
-    sum += ((const uint64_t *)&slots->run->machine->tm_stats[i])[offset];
-  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms && total; i++) {
-    uint64_t *value = &((uint64_t *)&slots->run->machine->tm_stats[i])[offset];
-    *value = i + 1 == slots->run->machine->config.chip.tms
-                 ? total - given
-                 : (uint64_t)((double)*value / (double)(sum ? sum : 1) * (double)total);
-    given += *value;
+/* Scales `kinds` counters of all TMs, at these offsets, so that their sum is `total`. Without a sum, the last one gets
+   it. */
+static void set_total(struct trax_slots *slots, const size_t *offsets, size_t kinds, uint64_t total) {
+  struct trax_machine *machine = slots->run->machine;
+  const uint32_t tms = machine->config.chip.tms;
+  uint64_t sum = 0, passed = 0, given = 0;
+  for (uint32_t i = 0; i < tms; i++)
+    for (size_t kind = 0; kind < kinds; kind++)
+      sum += ((const uint64_t *)&machine->tm_stats[i])[offsets[kind]];
+  for (uint32_t i = 0; i < tms; i++)
+    for (size_t kind = 0; kind < kinds; kind++) {
+      uint64_t *value = &((uint64_t *)&machine->tm_stats[i])[offsets[kind]];
+      passed += *value;
+      const bool last = i + 1 == tms && kind + 1 == kinds;
+      const uint64_t upto = last ? total : sum ? (uint64_t)((trax_wide)total * passed / sum) : 0;
+      *value = upto - given;
+      given = upto;
+    }
+}
+
+#define WORD_OF(member) (offsetof(struct trax_tm_stats, member) / sizeof(uint64_t))
+
+/* Sets the rays that are known. Those of a TM are the sum of its kinds, known or not. */
+static void set_rays(struct trax_slots *slots) {
+#define KIND_WORD(X, ID, NAME, ...) WORD_OF(rays_##NAME),
+  static const size_t offsets[] = {TRAX_RAY_KINDS(KIND_WORD, )};
+#undef KIND_WORD
+  struct trax_machine *machine = slots->run->machine;
+  const trax_slot_sampling *asked = &slots->plan.asked;
+  bool known = asked->kinds != NULL;
+  for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT && known; kind++) /* the program may call its rays otherwise */
+    for (uint32_t i = 0; i < machine->config.chip.tms; i++)
+      known &= asked->kinds[kind] || !((const uint64_t *)&machine->tm_stats[i])[offsets[kind]];
+  for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT && known; kind++)
+    set_total(slots, &offsets[kind], 1, asked->kinds[kind]);
+  if (!known && asked->rays)
+    set_total(slots, offsets, TRAX_RAY_KIND_COUNT, asked->rays);
+  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
+    machine->tm_stats[i].rays = 0;
+    for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
+      machine->tm_stats[i].rays += ((const uint64_t *)&machine->tm_stats[i])[offsets[kind]];
   }
 }
 
@@ -310,9 +364,12 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
       .detailed_slots = slots->plan.asked.slots};
   stats->asked.costs = NULL; /* the caller may release them */
   stats->asked.handed_out = NULL;
+  stats->asked.kinds = NULL;
   for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++)
     for (unsigned op = 0; op < TRAX_OP_COUNT; op++)
       stats->detailed_instructions += machine->tm_stats[i].instructions[op];
+  if (slots->failed)
+    return trax_fail(error, "%s", slots->error.message);
   if (!slots->plan.units)
     return TRAX_OK;
   if (slots->phase != END)
@@ -327,12 +384,13 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
   const double cycles = slots->exact_cycles + middle.total;
   machine->stats.cycles = (uint64_t)llround(cycles);
   stats->windows = slots->done;
-  const double half = middle.half + BIAS * middle.total;
+  const double half = half_of(&middle);
   stats->low = fmax(cycles - half, slots->exact_cycles);
   stats->high = cycles + half;
   stats->detailed_slots -= slots->slots_left_out;
   estimate_counts(slots, (double)machine->stats.cycles);
-  set_total(slots, offsetof(struct trax_tm_stats, rays) / sizeof(uint64_t), slots->plan.asked.rays);
-  set_total(slots, offsetof(struct trax_tm_stats, items) / sizeof(uint64_t), slots->plan.asked.items);
+  set_rays(slots);
+  if (slots->plan.asked.items)
+    set_total(slots, &(const size_t){WORD_OF(items)}, 1, slots->plan.asked.items);
   return TRAX_OK;
 }

@@ -384,6 +384,7 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
     advance(&model, true);
     end_blocks(&model);
     run->rays = model.rays;
+    memcpy(run->kinds, logged.kinds, sizeof run->kinds);
   } else {
     trax_prediction_release(prediction);
   }

@@ -7,6 +7,7 @@
 
 #include "trax/access.h"
 #include "trax/emulator.h"
+#include "trax/ray_kinds.h"
 #include "trax/record.h"
 #include "trax/render_params.h"
 #include "trax/scene.h"
@@ -193,6 +194,7 @@ struct trax_render_run {
   const volatile int *interrupt; /* polled; may be NULL */
   const void *image;             /* out, of the twin, while it runs: what the program has written of its picture */
   uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
+  uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* out, of the twin: the same by kind */
   bool holes;                    /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
 };

@@ -54,6 +54,10 @@ trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, s
   sampling->slots.block = TRAX_PREDICTION_BLOCK;
   /* Another program may trace other rays than the twin, unless it says that it does not. */
   sampling->slots.rays = by_tiles || trax_program_has(machine, "workload_rays") ? run->rays : 0;
+  if (sampling->slots.rays) {
+    memcpy(sampling->kinds, run->kinds, sizeof sampling->kinds);
+    sampling->slots.kinds = sampling->kinds;
+  }
   sampling->slots.items = (uint64_t)frame->params->width * frame->params->height;
   return TRAX_OK;
 }

@@ -35,7 +35,7 @@ struct crew {
   pthread_cond_t changed;
   int (*main)(void);
   unsigned running;
-  uint64_t rays;
+  uint64_t rays, kinds[TRAX_RAY_KIND_COUNT];
 };
 
 static void *work(void *argument) {
@@ -44,6 +44,8 @@ static void *work(void *argument) {
   worker->crew->main();
   pthread_mutex_lock(&worker->crew->lock);
   worker->crew->rays += trax_native.rays;
+  for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
+    worker->crew->kinds[kind] += trax_native.kinds[kind];
   worker->crew->running--;
   pthread_cond_signal(&worker->crew->changed);
   pthread_mutex_unlock(&worker->crew->lock);
@@ -115,6 +117,7 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
   free(workers);
   free(path_bytes);
   run->rays = crew.rays;
+  memcpy(run->kinds, crew.kinds, sizeof run->kinds);
   run->image = NULL;
   trax_status status = interrupted    ? TRAX_INTERRUPTED
                        : started == 0 ? trax_fail(error, "cannot start a thread: %s", strerror(failure))

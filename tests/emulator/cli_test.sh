@@ -82,7 +82,7 @@ refuse "the program has no symbol scene" --scene input.bin copy.elf
 refuse "no buffer output is bound" --dump output=x.bin copy.elf
 refuse "buffer input is bound twice" --alloc input=4 --bind input=input.bin copy.elf
 refuse "does not fit into memory" --alloc input=2000000000 copy.elf
-refuse "nowhere.bin: cannot be read for buffer input" --bind input=nowhere.bin copy.elf
+refuse "buffer input: nowhere.bin: cannot be read" --bind input=nowhere.bin copy.elf
 absent x.bin
 
 # --- statistics
@@ -108,6 +108,9 @@ slow() {
   grep -v host_second reference.json | cmp -s - fast.txt || fail "the engines differ with $*"
 }
 grep -q '^Slow paths' quick.txt || fail "quick.txt"
+slow "TMs cycle by cycle" "(memory.latency_cycles)" --set memory.latency_cycles=10
+slow "TMs cycle by cycle" "(l2.latency_cycles)" --set l2.bytes=524288 --set l2.latency_cycles=15
+slow "TMs cycle by cycle" "(memory.latency_cycles)" --set memory.model=dram --set memory.latency_cycles=9
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.tps_per_cache is not 16" --set icache.tps_per_cache=8
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.ports_per_bank is above 1" --set icache.ports_per_bank=2
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.banks is above 16" --set icache.banks=32
@@ -258,6 +261,8 @@ refuse '--bench-modes has been removed; run with --engine fast and --engine func
 refuse "--quiet takes no value" --quiet=yes hello.elf
 refuse "--set: 'memory.size_mib' is not of the form KEY=VALUE" --set memory.size_mib hello.elf
 refuse "--bind: '=x' is not of the form SYMBOL=FILE" --bind =x hello.elf
+refuse "--dump: 'output=q.jpg:160x90' has no writer for such pictures" --alloc input=4 --alloc output=57600 --dump output=q.jpg:160x90 copy.elf
+refuse "has no writer for such pictures" --alloc input=4 --alloc output=57600 --dump output=q:160x90 copy.elf
 refuse "--alloc: '4x' is not a whole number from 0 to 4294967295" --alloc input=4x copy.elf
 refuse "--alloc: '-1' is not a whole number" --alloc input=-1 copy.elf
 refuse "--alloc: '4294967296' is not a whole number" --alloc input=4294967296 copy.elf

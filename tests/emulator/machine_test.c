@@ -233,6 +233,24 @@ static void collect_name(void *context, const struct trax_figure *figure) {
   strcpy(names->name[names->count++], figure->name);
 }
 
+static void find_rays(void *context, const struct trax_figure *figure) {
+  if (strcmp(figure->name, "rays") == 0)
+    *(uint64_t *)context = figure->count;
+}
+
+/* Also beyond the whole numbers that a double holds. */
+static void test_large_counts(void **state) {
+  (void)state;
+  static struct trax_stats stats = {.cycles = 1, .threads = 1};
+  static const struct trax_config config = TRAX_CONFIG_DEFAULT;
+  for (unsigned bit = 50; bit < 63; bit++) {
+    uint64_t found = 0;
+    stats.total.rays = ((uint64_t)1 << bit) + 1;
+    trax_figures_visit(&stats, NULL, &config, find_rays, &found);
+    assert_int_equal(found, stats.total.rays);
+  }
+}
+
 /* A name is neither twice there nor both a figure and a level above figures. */
 static void test_names_are_a_tree(void **state) {
   (void)state;
@@ -541,6 +559,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_buffers_are_placed_behind_the_image),
       cmocka_unit_test(test_buffers_end_at_guards),
+      cmocka_unit_test(test_large_counts),
       cmocka_unit_test(test_buffers_that_cannot_be),
       cmocka_unit_test(test_files_as_buffers),
       cmocka_unit_test(test_loading_twice_or_too_large),

@@ -34,11 +34,12 @@ static void by_hand(void **state) {
   assert_true(three.has_interval);
   assert_false(trax_estimate_total(ratios, 1, 10).has_interval);
   assert_near(trax_estimate_total(ratios, 1, 10).total, 10);
-  assert_int_equal(trax_estimate_draws(ratios, 3, 0.1), 463); /* (4.303 * 1 / (2 * 0.1))^2 */
-  assert_int_equal(trax_estimate_draws(ratios, 3, 10), 3);
+  assert_true(trax_estimate_draws(ratios, 3, 10, 2) == 463); /* (4.303 * 1 / (2 * 0.1))^2 */
+  assert_true(trax_estimate_draws(ratios, 3, 10, 200) == 3);
+  assert_true(isinf(trax_estimate_draws(ratios, 3, 10, 0)));
   const double same[] = {2, 2, 2, 2};
   assert_true(trax_estimate_total(same, 4, 1).half == 0);
-  assert_int_equal(trax_estimate_draws(same, 4, 0.01), 4);
+  assert_true(trax_estimate_draws(same, 4, 1, 0.02) == 4);
 
   const double sizes[] = {0, 1, 1, 4, 6}; /* the second unit has no size */
   const double places[] = {0, 0.99, 1, 3.99, 4, 5.99, 6};
@@ -265,24 +266,55 @@ static void repeatable(void **state) {
   end(&one);
 }
 
-/* As many draws as an interval takes. */
+/* As many draws as an interval takes: it is as narrow as asked, or the run ends with an error. */
 static void as_asked(void **state) {
   (void)state;
-  uint64_t windows = 0;
-  const double errors[] = {0.2, 0.06};
-  for (unsigned i = 0; i < 2; i++) {
+  const double errors[] = {0.2, 0.1, 0.08, 0.06};
+  enum { ERRORS = sizeof errors / sizeof *errors };
+  unsigned reached = 0, refused = 0, extended = 0;
+  for (unsigned i = 0; i < ERRORS; i++)
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+      trax_slot_sampling asked = some;
+      asked.error = errors[i];
+      asked.warm_up = 16;
+      asked.unit = 32;
+      asked.seed = seed;
+      struct run sampled = sample(&asked, 1);
+      const struct trax_stats *stats = &sampled.bench.machine->stats;
+      if (sampled.bench.status == TRAX_ERROR) {
+        assert_non_null(strstr(sampled.bench.error.message, "would take more ranges than there is work for"));
+        refused++;
+      } else {
+        assert_int_equal(sampled.bench.status, TRAX_OK);
+        assert_true(stats->sampling.high - (double)stats->cycles <= errors[i] * (double)stats->cycles + 1);
+        assert_true(stats->sampling.high > (double)stats->cycles);
+        extended += stats->sampling.windows > 24;
+        reached++;
+      }
+      end(&sampled);
+    }
+  assert_true(reached >= 5 && refused >= 2 && extended >= 1);
+}
+
+/* Sizes near the end of 32 bits are more than all slots: everything is simulated. */
+static void large_sizes(void **state) {
+  (void)state;
+  struct run exact = exact_run();
+  const uint32_t sizes[][2] = {{UINT32_MAX, 0},
+                               {UINT32_MAX, 128},
+                               {64, UINT32_MAX},
+                               {UINT32_MAX, UINT32_MAX},
+                               {UINT32_MAX - 7, UINT32_MAX - 7},
+                               {64, UINT32_MAX - ITEMS}};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
     trax_slot_sampling asked = some;
-    asked.error = errors[i];
-    asked.warm_up = 16;
-    asked.unit = 32;
+    asked.unit = sizes[i][0];
+    asked.warm_up = sizes[i][1];
     struct run sampled = sample(&asked, 1);
-    const struct trax_stats *stats = &sampled.bench.machine->stats;
-    assert_int_equal(sampled.bench.status, TRAX_OK);
-    assert_true(stats->sampling.high - (double)stats->cycles < 1.3 * errors[i] * (double)stats->cycles);
-    assert_true(stats->sampling.windows >= windows);
-    windows = stats->sampling.windows;
+    expect_same(&exact, &sampled);
     end(&sampled);
   }
+  end(&exact);
 }
 
 /* Two queues that are handed out at the pace of what their items take: the longer ones' falls behind. */
@@ -384,9 +416,10 @@ static void refusals(void **state) {
   for (size_t i = 0; i <= ITEMS / BLOCK; i++)
     wrong[i] = (double)i;
   wrong[ITEMS / BLOCK / 2] = 1e9; /* the next one costs less than nothing */
-  trax_slot_sampling cases[8];
-  for (size_t i = 0; i < 8; i++)
+  trax_slot_sampling cases[9];
+  for (size_t i = 0; i < 9; i++)
     cases[i] = some;
+  cases[8].error = 0.01;
   cases[0].counter = ITEM_COUNTER + 2;
   cases[1].counter = 0x7FFFFFFC;
   cases[2].slots = 0;
@@ -395,9 +428,16 @@ static void refusals(void **state) {
   cases[5].error = 1;
   cases[6].block = 0;
   cases[7].costs = wrong;
-  const char *const words[] = {"is not a word",   "is not a word",     "no slots",        "is 0; allowed",
-                               "is 1.5; allowed", "error wanted is 1", "need the number", "not a number of 0 or more"};
-  for (size_t i = 0; i < 8; i++) {
+  const char *const words[] = {"is not a word",
+                               "is not a word",
+                               "no slots",
+                               "is 0; allowed",
+                               "is 1.5; allowed",
+                               "error wanted is 1",
+                               "need the number",
+                               "not a number of 0 or more",
+                               "wanted is 1 %; no interval is narrower"};
+  for (size_t i = 0; i < 9; i++) {
     struct run sampled = sample(&cases[i], 1);
     assert_non_null(strstr(sampled.bench.error.message, words[i]));
     end(&sampled);
@@ -415,7 +455,7 @@ int main(void) {
       cmocka_unit_test(quantiles),          cmocka_unit_test(by_hand),        cmocka_unit_test(coverage),
       cmocka_unit_test(everything),         cmocka_unit_test(some_of_it),     cmocka_unit_test(repeatable),
       cmocka_unit_test(as_asked),           cmocka_unit_test(several_queues), cmocka_unit_test(refusals),
-      cmocka_unit_test(refusals_of_queues),
+      cmocka_unit_test(refusals_of_queues), cmocka_unit_test(large_sizes),
   };
   return cmocka_run_group_tests(tests, guess, NULL);
 }

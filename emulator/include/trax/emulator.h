@@ -142,6 +142,7 @@ typedef struct trax_slot_sampling {
      NULL: the queues advance at the same rate. */
   const uint32_t *handed_out;
   uint64_t rays, items; /* the totals that the whole program reports; 0: unknown, to be estimated */
+  const uint64_t *kinds; /* [kinds of rays, in the order of the statistics]: whose sum `rays` is; NULL: unknown */
 } trax_slot_sampling;
 
 typedef struct trax_run_options {
