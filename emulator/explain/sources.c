@@ -135,9 +135,18 @@ static bool list_files(struct sources *sources) {
   return true;
 }
 
+/* Returns the resolved path of a file, whose name may be relative to one of the compilation folders; NULL: none. */
+static char *resolve(const struct sources *sources, const char *name) {
+  char joined[PATH_MAX], *path = NULL;
+  for (size_t i = 0; name[0] != '/' && !path && i < sources->compiled_count; i++)
+    if (snprintf(joined, sizeof joined, "%s/%s", sources->compiled[i], name) < (int)sizeof joined)
+      path = realpath(joined, NULL);
+  return path ? path : realpath(name, NULL);
+}
+
 /* A file that is missing, too long or no file is left out. */
 static void put_source(struct sources *sources, const char *name, FILE *out) {
-  char *path = realpath(name, NULL);
+  char *path = resolve(sources, name);
   const bool wanted = path && (is_given(sources, path) || is_own(sources, path));
   trax_error ignored;
   trax_input input = {.descriptor = -1};
