@@ -205,7 +205,8 @@ trax_status trax_sources_put(struct trax_explain *explain, FILE *out, trax_error
   for (uint32_t i = 1; complete && i <= sources.files.count; i++)
     put_source(&sources, trax_texts_at(&sources.files, i), out);
   fputs("},\n", out);
-  complete = (!sources.note || fclose(sources.note) == 0) && (!sources.left_out || fclose(sources.left_out) == 0) && complete;
+  complete =
+      (!sources.note || fclose(sources.note) == 0) && (!sources.left_out || fclose(sources.left_out) == 0) && complete;
   if (complete) {
     fputs("\"left_out\": ", out);
     trax_page_quote(out, *left_out ? left_out + 2 : "", *left_out ? strlen(left_out) - 2 : 0);
