@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 from explore_page import unpack  # noqa: E402
@@ -349,6 +350,14 @@ class Sources(Programs):
                     self.assertIn(name, left_out)
                 self.assertEqual(said.count("\n"), 1, said)
                 self.assertRegex(said, "^trax-sim: note: .*x.html contains .*; it lacks .*--source-folder")
+
+    def test_home(self):
+        """A home is no project's folder, for all that a user has is in it."""
+        self.build("-fdebug-compilation-dir=/")
+        for home, expected in (self.folder / "home", 0), (self.folder / "way", 0), (self.folder / "elsewhere", 3):
+            with unittest.mock.patch.dict(os.environ, HOME=str(home)):
+                sources, _, _ = self.page(cwd=self.folder / "home")
+            self.assertEqual(len(sources), expected, home)
 
     def test_compiled_elsewhere(self):
         self.build(f"-fdebug-compilation-dir={self.folder / 'elsewhere'}")
