@@ -11,7 +11,8 @@ enum { THREAD, BEGIN, MORE, CAUSES, RAYS = CAUSES + TRAX_CAUSE_COUNT, COLUMNS = 
 struct trax_pixels {
   size_t places;
   uint64_t *columns;                    /* [COLUMNS][places]; thread: its number + 1, and 0 where no item was */
-  uint64_t elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles of no place: after a thread's last item, of items without one */
+  uint64_t
+      elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles of no place: after a thread's last item, of items without one */
   bool any[COLUMNS];                    /* whether the column has another number than 0 */
 };
 

@@ -12,7 +12,9 @@
 enum {
   STACK_POINTER = 2,
   MAX_DEPTH = 512,
-  MAX_RECORDS = 1 << 18 /* with so many records no new call stack is kept */
+  /* With so many records, or so many calls in all stacks, no new stack is kept. */
+  MAX_RECORDS = 1 << 18,
+  MAX_CALLS = 1 << 22
 };
 
 struct call {
@@ -54,19 +56,20 @@ static bool is_below(uint32_t stack_pointer, uint32_t other) {
   return stack_pointer - 1 < other - 1;
 }
 
-/* Returns the context of a call at `index`; 0: out of memory. */
-static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32_t index) {
+/* Returns the context of a call at `index`, below `depth` others; 0: out of memory. */
+static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32_t index, size_t depth) {
   const uint64_t key = (uint64_t)parent << 32 | index;
   uint32_t context;
   if (trax_table_has(&profile->context_of, key, &context))
     return context;
-  if (profile->record_count >= MAX_RECORDS && profile->first_of[index])
+  if ((profile->record_count >= MAX_RECORDS || profile->call_count >= MAX_CALLS) && profile->first_of[index])
     return profile->first_of[index];
   if (!trax_table_find(&profile->context_of, key, (uint32_t)profile->context_count, &context) ||
       !trax_grow((void **)&profile->contexts, profile->context_count, &profile->context_capacity,
                  sizeof *profile->contexts))
     return 0;
   profile->contexts[profile->context_count++] = (struct trax_profile_context){parent, index};
+  profile->call_count += depth + 1;
   if (!profile->first_of[index])
     profile->first_of[index] = context;
   return context;
@@ -75,7 +78,7 @@ static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32
 static void call(struct trax_profile *profile, struct trax_profile_thread *thread, uint32_t index, uint32_t return_pc) {
   if (thread->depth == MAX_DEPTH || !profile->by_call)
     return;
-  const uint32_t context = context_of(profile, thread->context, index);
+  const uint32_t context = context_of(profile, thread->context, index, thread->depth);
   if (!context || !trax_grow((void **)&thread->calls, thread->depth, &thread->capacity, sizeof *thread->calls)) {
     profile->out_of_memory = true;
     return;

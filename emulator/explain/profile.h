@@ -28,6 +28,7 @@ struct trax_profile {
 
   struct trax_profile_context *contexts;
   size_t context_count, context_capacity;
+  size_t call_count;            /* of all contexts together */
   struct trax_table context_of; /* (parent, index) */
   uint32_t *first_of;           /* [places]: the first context of the call at the instruction; 0: none */
   bool by_call;                 /* a file that is wanted needs contexts; else all is in context 0 */

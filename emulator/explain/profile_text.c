@@ -158,10 +158,10 @@ trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, tr
 /* Stacks with equal texts are one: contexts and instructions may differ in their addresses alone. */
 struct folded {
   const struct trax_profile *profile;
-  struct trax_texts texts;     /* of calls, and of what an instruction adds to them */
-  uint32_t *calls;             /* [contexts]: the text of its calls, the outermost first; of context 0 "" */
-  uint32_t *places;            /* [places]: the instruction's functions and line; 0: not needed yet */
-  struct trax_table stack_of;  /* (calls, place) */
+  struct trax_texts texts;    /* of calls, and of what an instruction adds to them */
+  uint32_t *calls;            /* [contexts]: the text of its calls, the outermost first; of context 0 "" */
+  uint32_t *places;           /* [places]: the instruction's functions and line; 0: not needed yet */
+  struct trax_table stack_of; /* (calls, place) */
   struct folded_stack *stacks;
   size_t count, capacity;
 };
@@ -187,7 +187,8 @@ static void put_frame(FILE *out, const char *name) {
   fputc(';', out);
 }
 
-/* Returns the number of a text: `before`, the functions of a place, and its line if that is wanted; 0: out of memory. */
+/* Returns the number of a text: `before`, the functions of a place, and its line if that is wanted; 0: out of memory.
+ */
 static uint32_t text_of(struct folded *folded, const char *before, uint32_t index, bool with_line) {
   struct trax_places *places = folded->profile->explain->places;
   const struct trax_place *place = trax_places_at(places, index);

@@ -3,8 +3,8 @@
    only if, with links resolved, it lies
 
    - below a folder that the user or trax's installation gives, or
-   - below the program's own folder or the current one, there in no hidden folder, and below one of the folders in which
-     the program was compiled. */
+   - below the program's own folder or the current one, which are neither the root nor the user's home, there in no
+     hidden folder, and below one of the folders in which the program was compiled. */
 #include "explain/page.h"
 #include "explain/places.h"
 #include "explain/texts.h"
@@ -21,7 +21,7 @@ enum { MAX_GIVEN = TRAX_EXPLAIN_MAX_SOURCE_FOLDERS + 1, INSTALLED = TRAX_EXPLAIN
 struct sources {
   struct trax_explain *explain;
   char *given[MAX_GIVEN]; /* resolved paths; NULL: none. The last one is the installation's */
-  char *own[2];           /* the program's folder and the current one */
+  char *own[2];           /* the program's folder and the current one; NULL: no project's */
   char **compiled;        /* the compilation folders */
   size_t compiled_count;
   struct trax_texts files; /* that the lines name */
@@ -63,7 +63,7 @@ static bool is_given(const struct sources *sources, const char *path) {
 static bool is_own(const struct sources *sources, const char *path) {
   bool own = false;
   for (unsigned i = 0; i < 2 && !own; i++) {
-    const char *rest = sources->own[i] && sources->own[i][1] ? below(path, sources->own[i]) : NULL; /* not the root */
+    const char *rest = below(path, sources->own[i]);
     own = rest && rest[0] != '.' && !strstr(rest, "/.");
   }
   for (size_t i = 0; own && i < sources->compiled_count; i++)
@@ -94,6 +94,18 @@ static char *installed_folder(void) {
   return realpath(path, NULL);
 }
 
+/* Returns a folder that may be a project's, else NULL. All that a user has is below the root and the home. */
+static char *unless_shared(char *folder) {
+  const char *named = getenv("HOME");
+  char *home = named ? realpath(named, NULL) : NULL;
+  if (folder && (strcmp(folder, "/") == 0 || (home && strcmp(folder, home) == 0))) {
+    free(folder);
+    folder = NULL;
+  }
+  free(home);
+  return folder;
+}
+
 static bool find_folders(struct sources *sources) {
   const struct trax_explain_options *options = &sources->explain->options;
   const struct trax_host *host = trax_host_of(sources->explain->machine);
@@ -102,8 +114,8 @@ static bool find_folders(struct sources *sources) {
   for (unsigned i = 0; i < options->source_folder_count; i++)
     sources->given[i] = realpath(options->source_folders[i], NULL);
   sources->given[INSTALLED] = installed_folder();
-  sources->own[0] = host ? folder_of(trax_image_path(host->image)) : NULL;
-  sources->own[1] = realpath(".", NULL);
+  sources->own[0] = unless_shared(host ? folder_of(trax_image_path(host->image)) : NULL);
+  sources->own[1] = unless_shared(realpath(".", NULL));
   if (!(sources->compiled = calloc(count + 1, sizeof *sources->compiled)))
     return false;
   for (size_t i = 0; i < count; i++)
@@ -135,9 +147,18 @@ static bool list_files(struct sources *sources) {
   return true;
 }
 
+/* Returns the resolved path of a file, whose name may be relative to one of the compilation folders; NULL: none. */
+static char *resolve(const struct sources *sources, const char *name) {
+  char joined[PATH_MAX], *path = NULL;
+  for (size_t i = 0; name[0] != '/' && !path && i < sources->compiled_count; i++)
+    if (snprintf(joined, sizeof joined, "%s/%s", sources->compiled[i], name) < (int)sizeof joined)
+      path = realpath(joined, NULL);
+  return path ? path : realpath(name, NULL);
+}
+
 /* A file that is missing, too long or no file is left out. */
 static void put_source(struct sources *sources, const char *name, FILE *out) {
-  char *path = realpath(name, NULL);
+  char *path = resolve(sources, name);
   const bool wanted = path && (is_given(sources, path) || is_own(sources, path));
   trax_error ignored;
   trax_input input = {.descriptor = -1};
@@ -196,7 +217,8 @@ trax_status trax_sources_put(struct trax_explain *explain, FILE *out, trax_error
   for (uint32_t i = 1; complete && i <= sources.files.count; i++)
     put_source(&sources, trax_texts_at(&sources.files, i), out);
   fputs("},\n", out);
-  complete = (!sources.note || fclose(sources.note) == 0) && (!sources.left_out || fclose(sources.left_out) == 0) && complete;
+  complete =
+      (!sources.note || fclose(sources.note) == 0) && (!sources.left_out || fclose(sources.left_out) == 0) && complete;
   if (complete) {
     fputs("\"left_out\": ", out);
     trax_page_quote(out, *left_out ? left_out + 2 : "", *left_out ? strlen(left_out) - 2 : 0);

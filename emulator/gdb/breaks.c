@@ -100,8 +100,8 @@ const struct trax_gdb_watch *trax_gdb_watched(const struct trax_gdb *gdb, uint32
   for (uint32_t i = 0; i < gdb->watch_count; i++) {
     const struct trax_gdb_watch *watch = &gdb->watches[i];
     const bool wanted = watch->type == '2' ? writes : watch->type == '3' ? reads : true;
-    if (wanted && !watch->removed && (uint64_t)address + bytes > watch->address && (uint64_t)watch->address + watch->bytes > address &&
-        (address < TRAX_LOCAL_BASE || watch->thread == thread))
+    if (wanted && !watch->removed && (uint64_t)address + bytes > watch->address &&
+        (uint64_t)watch->address + watch->bytes > address && (address < TRAX_LOCAL_BASE || watch->thread == thread))
       return watch;
   }
   return NULL;
@@ -132,8 +132,8 @@ void trax_gdb_note_access(struct trax_gdb *gdb, uint32_t thread, const struct tr
   if (info->flags & TRAX_IS_ATOMIC) { /* the access happens later; see trax_gdb_note_arrival */
     if (gdb->atomic_count < gdb->threads * TRAX_NUM_REGISTERS &&
         trax_gdb_watched(gdb, thread, issue->address, 4, true, true))
-      gdb->atomics[gdb->atomic_count++] = (struct trax_gdb_atomic){thread, trax_decode(issue->word).rd, issue->address,
-                                                                   word_at(gdb, issue->address)};
+      gdb->atomics[gdb->atomic_count++] =
+          (struct trax_gdb_atomic){thread, trax_decode(issue->word).rd, issue->address, word_at(gdb, issue->address)};
     return;
   }
   const bool writes = (info->flags & TRAX_IS_STORE) != 0;

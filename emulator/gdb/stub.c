@@ -27,8 +27,7 @@ static void on_issue(void *context, const struct trax_issue *issue) {
     gdb->catch_up--;
   else if (state->stepping && issue->next_pc - gdb->range_begin >= gdb->range_end - gdb->range_begin)
     state->events |= TRAX_GDB_STEPPED;
-  gdb->step_ended |= 
-      state->stepping && trax_text_at(&gdb->run->text, issue->pc)->resource == TRAX_RESOURCE_END;
+  gdb->step_ended |= state->stepping && trax_text_at(&gdb->run->text, issue->pc)->resource == TRAX_RESOURCE_END;
   if (state->skip_breaks)
     state->skip_breaks--;
   else if (gdb->break_count && trax_gdb_breaks_at(gdb, issue->next_pc))

@@ -64,7 +64,7 @@ static int renumber_attribute(Dwarf_Attribute *attribute, void *context) {
 enum { MAX_DEPTH = 256 }; /* of nested entries */
 
 /* Renumbers an entry and its children. Offsets must increase: in damaged information an entry could be visited twice.
-   *last is that of the entry before. */
+ *last is that of the entry before. */
 static bool renumber_entry(Dwarf_Die *die, struct entry *entry, Dwarf_Off *last, unsigned depth) {
   Dwarf_Die child;
   if (depth == MAX_DEPTH || (depth && dwarf_dieoffset(die) <= *last))

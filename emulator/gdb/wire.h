@@ -15,8 +15,8 @@ struct trax_gdb_link {
   bool (*send)(void *context, const void *bytes, size_t size); /* returns false if the other side has closed it */
 };
 
-enum { TRAX_GDB_PACKET = 0x4000 };  /* limit of a packet's bytes, in both directions */
-enum { TRAX_GDB_TOO_LONG = 90 }; /* the error number of the reply to a longer one: EMSGSIZE */
+enum { TRAX_GDB_PACKET = 0x4000 }; /* limit of a packet's bytes, in both directions */
+enum { TRAX_GDB_TOO_LONG = 90 };   /* the error number of the reply to a longer one: EMSGSIZE */
 
 enum trax_gdb_event { TRAX_GDB_NOTHING, TRAX_GDB_ARRIVED, TRAX_GDB_BREAK, TRAX_GDB_CLOSED };
 

@@ -146,8 +146,7 @@ static trax_status parse_list(void *target, const trax_option *option, const cha
   }
 }
 
-static trax_status parse_source_folder(void *target, const trax_option *option, const char *value,
-                                       trax_error *error) {
+static trax_status parse_source_folder(void *target, const trax_option *option, const char *value, trax_error *error) {
   trax_error reason;
   return trax_explain_add_source_folder(&((struct trax_options *)target)->explain, value, &reason) == TRAX_OK
              ? TRAX_OK
@@ -209,7 +208,7 @@ static const trax_option rows[] = {
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore),
      .meaning = "one page that explains the whole run, for a browser"},
     {"source-folder", .argument = "DIR", .parse = parse_source_folder,
-     .meaning = "let the page contain sources in DIR, besides those of the program's own folder (repeatable)"},
+     .meaning = "let the page contain the sources in DIR, too (repeatable)"},
     {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
     {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),
      .meaning = "thread-cycles by call stack, for flame graphs"},

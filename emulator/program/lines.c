@@ -39,8 +39,8 @@ static uint32_t add_scope(struct trax_scopes *scopes, Dwarf_Die *entry, uint32_t
     return 0;
   for (ptrdiff_t at = 0; (at = dwarf_ranges(entry, at, &base, &begin, &end)) > 0;)
     if (begin < end && end <= (Dwarf_Addr)UINT32_MAX + 1) {
-      if (scopes->range_count == scopes->most_ranges || !trax_grow((void **)&scopes->ranges, scopes->range_count,
-                                                                   &scopes->range_capacity, sizeof *scopes->ranges))
+      if (scopes->range_count == scopes->most_ranges ||
+          !trax_grow((void **)&scopes->ranges, scopes->range_count, &scopes->range_capacity, sizeof *scopes->ranges))
         return 0;
       scopes->ranges[scopes->range_count++] =
           (struct trax_scope_range){parent, (uint32_t)begin, (uint32_t)(end - 1), (uint32_t)scopes->count};

@@ -112,7 +112,7 @@ static const trax_option rows[] = {
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
     {"source-folder", .argument = "DIR", PARSED(take_source_folder, explain),
-     .meaning = "lets that page contain sources in DIR, besides those of trax and of --source (repeatable)"},
+     .meaning = "lets that page contain the sources in DIR, too (repeatable)"},
     {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
      .meaning = "every ray with what it found, by the native twin; CSV for FILE.csv, else binary; alone,\n"
                 "it renders nothing"},

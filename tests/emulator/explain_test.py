@@ -237,7 +237,8 @@ def check_series(directory, stats):
 
 
 def check_lockstep(directory):
-    """Warps of the items that the trace shows, stepped instruction by instruction. A queue is the address of the increments that take its items."""
+    """Warps of the items that the trace shows, stepped instruction by instruction. A queue is the address of its
+    increments."""
     streams, numbers, queues, items = collections.defaultdict(list), {}, {}, []
     for line in read(directory, "trace").splitlines()[1:]:
         match = re.match(r" *\d+ +(\d+) +\S+ +(\w+) ", line)

@@ -87,6 +87,7 @@ CASES = {
     "stats": Case(["stats.json"], statistic("status", "finished"), bad=FILES, twice="b"),
     "report": Case(["report.txt"], file_holds("report.txt", "Thread-cycles by cause"), bad=FILES, twice="b"),
     "explore": Case(["out.txt"], file_holds("out.txt", "<!doctype html>"), bad=FILES, twice="b"),
+    "source-folder": Case([".", "--explore", "out.txt"], file_holds("out.txt", "<!doctype html>"), bad=("none", "hello.elf", "")),
     "profile": Case(["out.txt"], file_holds("out.txt", "outer|mix|_start|[0-9]"), bad=FILES, twice="b"),
     "profile-folded": Case(["out.txt"], file_holds("out.txt", r" \d+\n"), bad=FILES, twice="b"),
     "profile-sample": Case(["out.txt"], file_holds("out.txt", r"^outer:\d+:\d+\n"), "abort.elf", 134, bad=FILES, twice="b"),

@@ -353,6 +353,24 @@ class Page(PageTests, Scratch):
         self.assertEqual(self.browser.run("Array.from(document.querySelectorAll('#statistics-table tbody tr:not([hidden])'), row => row.cells[0].textContent)"), ["dcache.dropped"])
         self.is_quiet()
 
+    def test_without_lines(self):
+        """Instructions without a line are listed, by address; a name with quotation marks and commas is one cell."""
+        (self.folder / "plain.c").write_text('volatile unsigned named[9] __asm__("a\\"b,c");\nint main(void) { for (unsigned i = 0; i < 9; i++) named[i] = i; }\n')
+        subprocess.run([BIN / "clang", "--target=trax", "-O1", "plain.c", "-o", "plain"], cwd=self.folder, check=True)
+        simulate(self.folder, "--explore", "plain.html", "--heat", "plain.csv", "plain")
+        data, _ = unpack(self.folder / "plain.html")
+        self.assertEqual([row["object"] for row in csv.DictReader(io.StringIO(self.text("plain.csv"))) if row["stores"] == "9"], ['a"b,c'])
+        unknown = [one for one in filter(None, data["instructions"]) if not data["names"][one[4][0][1]]]
+        self.assertTrue(unknown)
+        self.pages = {**self.pages, "plain": self.folder / "plain.html"}
+        self.load("plain")
+        self.assertIn('a"b,c', self.browser.run("Array.from(document.querySelectorAll('#objects tbody th'), cell => cell.textContent)"))
+        self.browser.run("(s => { s.value = Array.from(s.options).find(o => o.text.startsWith('(no line is known)')).value; s.dispatchEvent(new Event('change')); })(document.getElementById('source-file'))")
+        self.browser.run("document.querySelector('#listing tbody tr').click()")
+        below = self.browser.run("Array.from(document.querySelectorAll('#listing tr.instruction'), row => row.cells[0].textContent)")
+        self.assertEqual(below, [f"{one[0]:08x}" if one[0] is not None else "" for one in unknown])
+        self.is_quiet()
+
     def test_names_are_text(self):
         self.load("hostile")
         self.assertIn(HOSTILE, self.browser.run("document.querySelector('h1').textContent"))

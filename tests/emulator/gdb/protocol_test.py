@@ -396,7 +396,8 @@ class Protocol(unittest.TestCase):
         self.watch(client, 2, "second", program="increments")
         seen = []
         while (stop := client.resume())[0] == "T":
-            seen.append((int(stop[2]["watch"], 16) - symbols["increments"]["first"], [client.word(symbols["increments"][name]) for name in ("first", "second")]))
+            values = [client.word(symbols["increments"][name]) for name in ("first", "second")]
+            seen.append((int(stop[2]["watch"], 16) - symbols["increments"]["first"], values))
         self.assertEqual(seen, [(0, [1, 0]), (4, [1, 1]), (0, [2, 1])])
 
     def test_watch_atomic(self):
