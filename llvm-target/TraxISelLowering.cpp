@@ -236,7 +236,7 @@ bool TraxTargetLowering::isLegalAddressingMode(const DataLayout &, const AddrMod
 }
 
 bool llvm::isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG) {
-  const bool StackIsLocal = !DAG.getSubtarget<TraxSubtarget>().hasGlobalStack();
+  const bool StackIsLocal = DAG.getSubtarget<TraxSubtarget>().getStack() == TRAX_EF_STACK_LOCAL;
   SDValue Base = N->getBasePtr();
   while (Base.getOpcode() == ISD::ADD || Base.getOpcode() == ISD::OR)
     Base = Base.getOperand(0);

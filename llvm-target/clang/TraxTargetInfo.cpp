@@ -108,7 +108,7 @@ public:
   bool setCPU(const std::string &Name) override { return isValidCPUName(Name); }
   bool isValidFeatureName(StringRef Name) const override {
     unsigned Register;
-    return Name == "global-stack" ||
+    return Name == "global-stack" || Name == "either-stack" ||
            (Name.consume_front("reserve-r") && !Name.getAsInteger(10, Register) && Register >= 4 && Register < 32);
   }
   bool hasFeature(StringRef Name) const override { return Name == "global-stack" && HasGlobalStack; }
